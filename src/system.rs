@@ -94,6 +94,7 @@ mod split_step;
 mod stage_list;
 mod stage_machine;
 mod state;
+mod state_layout;
 mod step_series;
 mod surface;
 mod tangent;

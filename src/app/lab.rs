@@ -167,9 +167,9 @@ impl Lab {
         }
         self.speed_wish = self.speed_wish.filter(|requested| *requested != snapshot.speed);
         self.asked.see(snapshot);
-        let told = self.steady.see(snapshot);
+        let steady = self.steady.see(snapshot);
         let with = |gauges| Arc::new(Snapshot { gauges, ..Snapshot::clone(snapshot) });
-        self.snapshot = Some(told.map_or_else(|| Arc::clone(snapshot), with));
+        self.snapshot = Some(steady.map_or_else(|| Arc::clone(snapshot), with));
         self.answers.stale = true;
         let pending = std::mem::take(&mut self.pending);
         self.pending =
@@ -236,6 +236,7 @@ impl Lab {
     /// Advances the time.
     pub(super) fn tick(&mut self, elapsed: Duration) {
         self.history.tick(elapsed);
+        self.steady.tick(elapsed);
         self.answers.tick(elapsed);
         self.search.tick(elapsed);
         self.equilibria.tick(elapsed);

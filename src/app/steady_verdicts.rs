@@ -1,59 +1,68 @@
-//! The verdicts on drifts as they are told: a word once given changes only when another one has held for some looks, or when
-//! the drift is clearly beyond its limit.
+//! The verdicts on drifts as they are shown: a word changes only when it has not held for some time, or when the drift is clearly
+//! beyond its limit.
 //!
-//! In: snapshots, one after the other. Out: their gauges with the verdicts that are told. Never here: how a verdict is reached
-//! (`analysis`), what it is called (`view`).
+//! In: snapshots, one after the other, and the time between them. Out: their gauges with the verdicts that are shown. Never here:
+//! how a verdict is reached (`analysis`), what it is called (`view`).
 
 use std::sync::Arc;
+use std::time::Duration;
 
 use crate::analysis::{LEFT, Verdict};
 use crate::experiment::{Gauge, Growth, Snapshot};
 
-/// The number of looks at a moving system for which another verdict must hold: two or three seconds.
-const LOOKS: u32 = 90;
+/// How long a verdict on a moving system is shown that no longer holds.
+const HELD: Duration = Duration::from_millis(2500);
 
-/// The verdicts that are told.
+/// The verdicts that are shown.
 #[derive(Clone, Debug, Default)]
 pub(super) struct SteadyVerdicts {
-    told: Vec<Told>,
-    /// The time of the last look.
+    shown: Vec<SteadyVerdict>,
+    /// The motion's time at the last look.
     time: f64,
+    /// The time that has passed since then.
+    elapsed: Duration,
 }
 
-/// What is told of one gauge.
+/// What is shown of one gauge.
 #[derive(Clone, Debug)]
-struct Told {
+struct SteadyVerdict {
     name: String,
     /// When its reference was taken.
     since: f64,
     verdict: Verdict,
-    /// Another verdict, and the number of looks for which it has held.
-    other: Option<(Verdict, u32)>,
+    /// The last verdict of its own, and for how long it has differed from the one that is shown.
+    other: Option<(Verdict, Duration)>,
 }
 
 impl SteadyVerdicts {
-    /// Takes in a snapshot. Returns its gauges with the verdicts that are told, if these differ from its own.
+    /// Advances the time.
+    pub(super) fn tick(&mut self, elapsed: Duration) {
+        self.elapsed = self.elapsed.saturating_add(elapsed);
+    }
+
+    /// Takes in a snapshot. Returns its gauges with the verdicts that are shown, if these differ from its own.
     pub(super) fn see(&mut self, snapshot: &Snapshot) -> Option<Arc<[Gauge]>> {
-        let moved = snapshot.time != self.time;
+        let elapsed = std::mem::take(&mut self.elapsed);
+        let elapsed = (snapshot.time != self.time).then_some(elapsed);
         self.time = snapshot.time;
         let gauges = &snapshot.gauges;
-        self.told.retain(|told| gauges.iter().any(|gauge| told.is_of(gauge)));
+        self.shown.retain(|shown| gauges.iter().any(|gauge| shown.is_of(gauge)));
         let mut differs = false;
-        let told = gauges.iter().map(|gauge| {
-            let Some(told) = self.told.iter_mut().find(|told| told.is_of(gauge)) else {
-                self.told.push(Told::of(gauge));
+        let steady = gauges.iter().map(|gauge| {
+            let Some(shown) = self.shown.iter_mut().find(|shown| shown.is_of(gauge)) else {
+                self.shown.push(SteadyVerdict::of(gauge));
                 return gauge.clone();
             };
-            told.look(gauge, moved);
-            differs |= !is_alike(&told.verdict, &gauge.verdict);
-            Gauge { verdict: told.verdict.clone(), ..gauge.clone() }
+            shown.look(gauge, elapsed);
+            differs |= !is_alike(&shown.verdict, &gauge.verdict);
+            Gauge { verdict: shown.verdict.clone(), ..gauge.clone() }
         });
-        let told = told.collect();
-        differs.then_some(told)
+        let steady = steady.collect();
+        differs.then_some(steady)
     }
 }
 
-impl Told {
+impl SteadyVerdict {
     fn of(gauge: &Gauge) -> Self {
         Self {
             name: gauge.name.clone(),
@@ -67,28 +76,30 @@ impl Told {
         self.name == gauge.name && self.since == gauge.reference_time
     }
 
-    fn look(&mut self, gauge: &Gauge, moved: bool) {
+    /// Looks at the gauge after this time of motion, or without any.
+    fn look(&mut self, gauge: &Gauge, elapsed: Option<Duration>) {
         let new = &gauge.verdict;
-        let last = self.other.as_ref().map_or(&self.verdict, |(other, _)| other);
+        let (last, differed) = match &self.other {
+            Some((other, differed)) => (other, *differed),
+            None => (&self.verdict, Duration::ZERO),
+        };
         // what changes while nothing moves is judged anew, and does not flicker
-        let is_anew = !moved && !is_alike(last, new);
+        let is_anew = elapsed.is_none() && !is_alike(last, new);
         if is_alike(&self.verdict, new) || is_anew || changes_at_once(&self.verdict, gauge) {
             (self.verdict, self.other) = (new.clone(), None);
             return;
         }
-        let held = match &self.other {
-            Some((other, looks)) if is_alike(other, new) => looks + u32::from(moved),
-            _ => 1,
-        };
-        if held < LOOKS {
-            self.other = Some((new.clone(), held));
+        // whichever others there were meanwhile
+        let differed = differed.saturating_add(elapsed.unwrap_or_default());
+        if differed < HELD {
+            self.other = Some((new.clone(), differed));
         } else {
             (self.verdict, self.other) = (new.clone(), None);
         }
     }
 }
 
-/// Whether two verdicts are told in the same words, apart from their numbers.
+/// Whether two verdicts are the same words, apart from their numbers.
 fn is_alike(one: &Verdict, other: &Verdict) -> bool {
     match (one, other) {
         (Verdict::Exact(one), Verdict::Exact(other)) => one == other,
@@ -96,15 +107,16 @@ fn is_alike(one: &Verdict, other: &Verdict) -> bool {
     }
 }
 
-/// Whether the verdict on a gauge is told at once in place of this one.
-fn changes_at_once(told: &Verdict, gauge: &Gauge) -> bool {
+/// Whether the verdict on a gauge is shown at once in place of this one.
+fn changes_at_once(shown: &Verdict, gauge: &Gauge) -> bool {
     let is_final = |verdict: &Verdict| {
         matches!(verdict, Verdict::Lost | Verdict::Broken(_) | Verdict::Unknown(_))
     };
-    let is_beyond = gauge.max_drift > LEFT && !matches!(gauge.verdict, Verdict::Open);
+    let was_near = matches!(shown, Verdict::Exact(_) | Verdict::Open);
+    let is_beyond = gauge.max_drift > LEFT && was_near && gauge.verdict != Verdict::Open;
     // in a short history rounding may seem to grow
-    let is_first = *told == Verdict::Open && gauge.verdict != Verdict::Exact(Growth::Faster);
-    is_first || is_final(told) || is_final(&gauge.verdict) || is_beyond
+    let is_first = *shown == Verdict::Open && gauge.verdict != Verdict::Exact(Growth::Faster);
+    is_first || is_final(shown) || is_final(&gauge.verdict) || is_beyond
 }
 
 #[cfg(test)]
@@ -114,17 +126,18 @@ mod tests {
     const EXACT: Verdict = Verdict::Exact(Growth::Root);
     const GROWS: Verdict = Verdict::Exact(Growth::Faster);
 
-    /// The verdict told after each of these looks, at a gauge of this drift whose reference is as old as the motion.
-    fn told(looks: impl IntoIterator<Item = Verdict>, max_drift: f64) -> Vec<Verdict> {
+    /// The verdict shown after each of these looks, 40 in a second, at a gauge of this drift whose reference is as old as the motion.
+    fn shown(looks: impl IntoIterator<Item = Verdict>, max_drift: f64) -> Vec<Verdict> {
         let mut steady = SteadyVerdicts::default();
-        let tell = |(k, verdict): (usize, Verdict)| {
+        let look = |(k, verdict): (usize, Verdict)| {
             let mut snapshot = Snapshot::empty(0);
             snapshot.time = 1.0 + k as f64;
             snapshot.gauges = Arc::new([gauge(verdict, max_drift)]);
-            let told = steady.see(&snapshot);
-            told.unwrap_or(snapshot.gauges)[0].verdict.clone()
+            steady.tick(Duration::from_millis(25));
+            let shown = steady.see(&snapshot);
+            shown.unwrap_or(snapshot.gauges)[0].verdict.clone()
         };
-        looks.into_iter().enumerate().map(tell).collect()
+        looks.into_iter().enumerate().map(look).collect()
     }
 
     fn gauge(verdict: Verdict, max_drift: f64) -> Gauge {
@@ -148,23 +161,37 @@ mod tests {
     }
 
     #[test]
-    fn a_verdict_that_comes_and_goes_is_not_told() {
+    fn a_verdict_that_comes_and_goes_is_not_shown() {
         let looks = (0..600).map(|k| if k / 20 % 2 == 0 { EXACT } else { GROWS });
-        assert!(told(looks, 1e-14).iter().all(|verdict| *verdict == EXACT));
+        assert!(shown(looks, 1e-14).iter().all(|verdict| *verdict == EXACT));
     }
 
     #[test]
-    fn a_verdict_that_holds_is_told_once_and_for_good() {
+    fn a_verdict_that_holds_is_shown_once_and_for_good() {
         let looks = (0..300).map(|k| if k < 100 { EXACT } else { GROWS });
-        let told = told(looks, 1e-14);
-        let changes = told.windows(2).filter(|pair| pair[0] != pair[1]).count();
-        assert_eq!((changes, &told[0], &told[299]), (1, &EXACT, &GROWS));
+        let shown = shown(looks, 1e-14);
+        let changes = shown.windows(2).filter(|pair| pair[0] != pair[1]).count();
+        assert_eq!((changes, &shown[0], &shown[299]), (1, &EXACT, &GROWS));
+    }
+
+    /// Two that take turns are no reason to keep a third; and beyond the limit a word is kept as well.
+    #[test]
+    fn a_verdict_that_does_not_hold_is_not_kept() {
+        let secular = Verdict::Secular(1e-9);
+        let turns =
+            |k: usize| if (k / 4).is_multiple_of(2) { Verdict::Bounded } else { secular.clone() };
+        let looks = (0..200).map(|k| if k < 20 { EXACT } else { turns(k) });
+        let all = shown(looks, 1e-9);
+        assert!(all[..110].iter().all(|verdict| *verdict == EXACT));
+        assert!(all[130..].iter().all(|verdict| *verdict != EXACT));
+        let looks = (0..200).map(|k| if k < 20 { Verdict::Bounded } else { turns(k) });
+        assert!(shown(looks, 1e-3).iter().all(|verdict| *verdict == Verdict::Bounded));
     }
 
     #[test]
-    fn what_is_beyond_its_limit_or_comes_first_is_told_at_once() {
+    fn what_is_beyond_its_limit_or_comes_first_is_shown_at_once() {
         let secular = |slope| Verdict::Secular(slope);
-        let after = |first: Verdict, second: Verdict, drift| told([first, second], drift).pop();
+        let after = |first: Verdict, second: Verdict, drift| shown([first, second], drift).pop();
         assert_eq!(after(Verdict::Open, EXACT, 1e-15), Some(EXACT));
         assert_eq!(after(Verdict::Open, GROWS, 1e-15), Some(Verdict::Open));
         assert_eq!(after(EXACT, secular(1e-4), 1e-3), Some(secular(1e-4)));

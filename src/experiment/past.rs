@@ -66,8 +66,8 @@ impl Past {
 }
 
 impl Experiment {
-    /// Prepends the recorded past, if the coordinates are the same. A run of this very system is taken up again: its motion
-    /// goes on as it would have, and can be looked at from where it could be.
+    /// Prepends the recorded past, if the coordinates are the same. A run of this very system is resumed: its motion
+    /// continues as it would have, and can be looked at from where it could be.
     pub(super) fn restore_past(&mut self, past: &Past, time: f64, coordinates: &[String]) {
         let own = self.model.coordinates.iter();
         let same =
@@ -77,15 +77,17 @@ impl Experiment {
         }
         let row = past.row(self.motion.system().channels(), time);
         self.recorder.precede(&past.trail, row);
-        if self.fault.is_none() && self.take_up(past, time) {
-            self.occurrences = past.occurrences.clone();
-            self.crossings = past.crossings.clone();
+        if self.fault.is_some() {
+            return;
         }
-    }
-
-    /// Takes up a run again at a time on its way. Returns whether it is still known.
-    fn take_up(&mut self, past: &Past, time: f64) -> bool {
         let limit = time + HORIZON * self.setup.spacing;
-        self.motion.take_up(&past.run, (time, limit), self.setup.start)
+        match self.motion.resume(&past.run, (time, limit), self.setup.start) {
+            Ok(true) => {
+                self.occurrences = past.occurrences.clone();
+                self.crossings = past.crossings.clone();
+            }
+            Ok(false) => {}
+            Err(fault) => self.fault = Some(self.motion.dated(fault).into()),
+        }
     }
 }

@@ -44,23 +44,28 @@ impl ObservedMotion {
         Ok(None)
     }
 
-    /// Takes up a run again at a time on its way, where the motion now is. Returns whether the run is still known;
+    /// Resumes a run at a time on its way, where the motion now is. Returns whether the run is still known;
     /// otherwise the motion stays as it is.
-    pub(super) fn take_up(&mut self, run: &RunToken, times: (f64, f64), start: f64) -> bool {
+    pub(super) fn resume(
+        &mut self,
+        run: &RunToken,
+        times: (f64, f64),
+        start: f64,
+    ) -> Result<bool, MotionError> {
         let here = self.inner.state().clone();
-        if !self.log.take_up(run) {
-            return false;
+        if !self.log.resume(run) {
+            return Ok(false);
         }
         let steps = self.inner.steps();
         let taken = matches!(self.back_to(times, start), Ok(None));
         if !taken {
             let released = self.released();
             self.log.clear();
-            let _ = self.inner.go_back(&here, start, &released);
+            self.inner.go_back(&here, start, &released)?;
             self.inner.set_steps(steps);
             self.log.push(&here, steps);
         }
-        taken
+        Ok(taken)
     }
 
     /// The indices of the released constraints.

@@ -69,8 +69,8 @@ impl StepLog {
         self.run.clone()
     }
 
-    /// Takes up a run before again. Returns whether it is still known.
-    pub(super) fn take_up(&mut self, run: &RunToken) -> bool {
+    /// Resumes an earlier run. Returns whether it is still known.
+    pub(super) fn resume(&mut self, run: &RunToken) -> bool {
         let is_wanted = |released: &ReleasedToken| released.held().as_ref() == Some(run);
         let Some(at) = self.earlier.iter().position(|(released, _)| is_wanted(released)) else {
             return false;

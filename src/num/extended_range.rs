@@ -4,7 +4,7 @@
 //!
 //! In and out: [`Real`]. It is slower than both other precisions and meant for what they cannot do.
 
-use std::ops::{Add, Div, Mul, Neg, Sub};
+mod arithmetic;
 
 use super::convolution::LANES;
 use super::double_double::DoubleDouble;
@@ -144,66 +144,6 @@ fn quotient_by_ln_2(x: DoubleDouble) -> DoubleDouble {
 /// 2¹⁰⁰.
 const FAR_EXPONENT: i128 = 100;
 const FAR_UNIT: f64 = (1_i128 << FAR_EXPONENT) as f64;
-
-impl Add for ExtendedRange {
-    type Output = ExtendedRange;
-    fn add(self, other: ExtendedRange) -> ExtendedRange {
-        let (a, b) = (self.mantissa.high, other.mantissa.high);
-        if !a.is_finite() || !b.is_finite() {
-            return ExtendedRange::moderate(DoubleDouble::from(a + b));
-        }
-        if a == 0.0 && b == 0.0 {
-            return ExtendedRange::ZERO;
-        }
-        let larger = self.larger(other);
-        ExtendedRange::new(self.in_units_of(larger) + other.in_units_of(larger), larger.exponent)
-    }
-}
-
-impl Sub for ExtendedRange {
-    type Output = ExtendedRange;
-    fn sub(self, other: ExtendedRange) -> ExtendedRange {
-        self + -other
-    }
-}
-
-impl Neg for ExtendedRange {
-    type Output = ExtendedRange;
-    fn neg(self) -> ExtendedRange {
-        ExtendedRange { mantissa: -self.mantissa, exponent: self.exponent }
-    }
-}
-
-impl Mul for ExtendedRange {
-    type Output = ExtendedRange;
-    fn mul(self, other: ExtendedRange) -> ExtendedRange {
-        ExtendedRange::new(self.mantissa * other.mantissa, self.exponent.plus(other.exponent))
-    }
-}
-
-impl Div for ExtendedRange {
-    type Output = ExtendedRange;
-    fn div(self, other: ExtendedRange) -> ExtendedRange {
-        if other.mantissa.high.is_infinite() && self.mantissa.high.is_finite() {
-            return ExtendedRange::ZERO;
-        }
-        ExtendedRange::new(self.mantissa / other.mantissa, self.exponent.minus(other.exponent))
-    }
-}
-
-impl Mul<f64> for ExtendedRange {
-    type Output = ExtendedRange;
-    fn mul(self, other: f64) -> ExtendedRange {
-        self * ExtendedRange::of(DoubleDouble::from(other))
-    }
-}
-
-impl Div<f64> for ExtendedRange {
-    type Output = ExtendedRange;
-    fn div(self, other: f64) -> ExtendedRange {
-        self / ExtendedRange::of(DoubleDouble::from(other))
-    }
-}
 
 impl Real for ExtendedRange {
     const UNBOUNDED: bool = true;

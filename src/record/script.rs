@@ -4,6 +4,7 @@
 //! word that a line may begin with; README and the suggestions come from it. Never here: what a name of the script
 //! means in a system, or playing it.
 
+mod claim;
 mod command;
 mod line;
 
@@ -21,7 +22,8 @@ use crate::view::theme::Theme;
 
 use super::clock::{Micros, SECOND};
 
-pub use command::{CLAIMS, COMMANDS, CommandRow, read_size};
+pub use claim::CLAIMS;
+pub use command::{COMMANDS, CommandRow, read_size};
 pub use line::LineText;
 use line::ScriptLine;
 

@@ -40,8 +40,8 @@ pub struct System {
 pub(super) struct Shared {
     native: Form,
     /// The number of coordinates or variables.
-    degrees: usize,
-    quadratures: Quadratures,
+    pub(super) degrees: usize,
+    pub(super) quadratures: Quadratures,
     motion: MotionPrograms,
     watch: Observables,
     terms: Terms,
@@ -49,7 +49,7 @@ pub(super) struct Shared {
     inertia: Option<Inertia>,
     legendre: Arc<Program>,
     /// The index, among the auxiliary numbers, at which an attitude begins.
-    attitude: Option<usize>,
+    pub(super) attitude: Option<usize>,
     /// Initial values of the auxiliary numbers, as functions of a state in the native form.
     pub(super) auxiliary: Arc<Program>,
     /// Initial coordinates, rates and periods (zero for none), as functions of the parameters
@@ -226,34 +226,6 @@ impl System {
         })
     }
 
-    /// The number of coordinates, or of the variables of a Poisson system.
-    pub fn degrees(&self) -> usize {
-        self.shared.degrees
-    }
-
-    /// The number of dynamical variables of a state: coordinates and as many rates, or the
-    /// variables of a Poisson system.
-    pub fn moving(&self) -> usize {
-        if self.form() == Form::Variables { self.degrees() } else { 2 * self.degrees() }
-    }
-
-    /// The number of dynamical variables and auxiliary numbers: everything that the rates of the
-    /// motion depend on.
-    pub fn motion_len(&self) -> usize {
-        self.moving() + self.shared.auxiliary.outputs()
-    }
-
-    /// The number of dynamical variables, auxiliary numbers and components of tangent vectors:
-    /// everything that the rates of change depend on.
-    pub fn driven_len(&self) -> usize {
-        self.motion_len() + self.tangents() * self.moving()
-    }
-
-    /// The length of a state: the numbers that rates depend on, and the integrals.
-    pub fn state_len(&self) -> usize {
-        self.driven_len() + self.shared.quadratures.count()
-    }
-
     /// Whether the rates of change have kinks or jumps, from `abs`, `sign`, `min` or `max`.
     pub fn has_kinks(&self) -> bool {
         self.shared.motion.native.switches() > 0
@@ -315,23 +287,6 @@ impl System {
                 next += 1;
             }
         }
-    }
-
-    /// Whether a state carries the action and the work, in this order.
-    pub(super) fn carries(&self) -> [bool; 2] {
-        let quadratures = self.quadratures();
-        [quadratures.action, quadratures.work]
-    }
-
-    /// The index in a state of the nine entries of an attitude, in row-major order.
-    pub(crate) fn attitude_place(&self) -> Option<usize> {
-        self.shared.attitude.map(|place| self.moving() + place)
-    }
-
-    /// The index in a state of the work done on it.
-    pub(super) fn work_place(&self) -> Option<usize> {
-        let quadratures = self.quadratures();
-        quadratures.work.then(|| self.driven_len() + usize::from(quadratures.action))
     }
 
     /// The energy of a state in the system's native form.

@@ -4,7 +4,7 @@
 
 use super::companions;
 use super::gauges::{finding, in_full};
-use super::header_footer::status_words;
+use super::header::status_words;
 use super::number::{brief, drift, readable};
 use super::quantity::Quantities;
 use super::text_page::TextPage;

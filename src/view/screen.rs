@@ -7,7 +7,6 @@ use ratatui::layout::Rect;
 
 use super::canvas::{Canvas, row};
 use super::equations;
-use super::header_footer;
 use super::help;
 use super::kept::Kept;
 use super::lab_page;
@@ -25,6 +24,7 @@ use super::text_page::{TextPage, measure};
 use super::theme::Role;
 use super::workbench;
 use super::wrap;
+use super::{footer, header};
 use crate::app::{App, Drawn, HitTarget, KeyHints, Lab, Overlay, Page};
 
 /// Draws the whole screen over a blank area, and returns how far its page of text can be scrolled.
@@ -79,7 +79,7 @@ pub(super) fn paint(canvas: &mut Canvas<'_>, app: &App, area: Rect) -> Drawn {
         let (above, below) = split_rows(area, area.height - field);
         let drawn = if above.height < LOWEST { Drawn::default() } else { body(canvas, above, app) };
         if field > 0 {
-            header_footer::footer(canvas, below, app);
+            footer::footer(canvas, below, app);
         }
         return drawn;
     }
@@ -88,11 +88,11 @@ pub(super) fn paint(canvas: &mut Canvas<'_>, app: &App, area: Rect) -> Drawn {
     // A value is typed in the footer.
     let footer = app.footer || matches!(app.overlay, Some(Overlay::Field(_)));
     let screen = ScreenLayout::of(area, status && app.footer, footer);
-    header_footer::header(canvas, screen.header, app);
+    header::header(canvas, screen.header, app);
     let drawn = body(canvas, screen.body, app);
-    header_footer::notice(canvas, screen.body, app);
-    header_footer::status(canvas, screen.status, app);
-    header_footer::footer(canvas, screen.footer, app);
+    footer::notice(canvas, screen.body, app);
+    header::status(canvas, screen.status, app);
+    footer::footer(canvas, screen.footer, app);
     drawn
 }
 

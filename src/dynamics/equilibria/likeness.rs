@@ -1,6 +1,6 @@
 //! When two places that a search finds are one equilibrium.
 //!
-//! In: two places at which the rates vanish. Out: whether rounding alone tells them apart. Never here: families, whose members are
+//! In: two places at which the rates vanish. Out: whether they differ by rounding alone. Never here: families, whose members are
 //! equilibria each.
 
 use nalgebra::DVector;
@@ -10,10 +10,13 @@ use crate::dynamics::equilibrium::Equilibrium;
 use crate::dynamics::linear;
 use crate::dynamics::small_oscillation::Kind;
 
-/// Two energies are the same up to this part of their size plus 1.
+/// Two energies are the same up to this part of what V changes by in the next unit beyond the two places, on the line through them.
 const SAME_ENERGY: f64 = 1e-7;
 
-/// Places nearer to each other than this, in their size, may be told apart by rounding alone: where the rates between them are no more
+/// The rounding error of an energy, as a part of it.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
+
+/// Places nearer to each other than this, in their size, may differ by rounding alone: where the rates between them are no more
 /// than this multiple of their rounding error, and the places no farther apart than it leaves them uncertain. It is seen in so many
 /// places that are the same as one.
 const NEAR: f64 = 1e-3;
@@ -24,24 +27,27 @@ const NOISE_SAMPLES: u32 = 8;
 const SAME: f64 = 1e-7;
 
 impl EquilibriumSearch<'_> {
-    /// Whether two equilibria at which V changes by less than a square are told apart by rounding alone: V is the same between them.
+    /// Whether two equilibria at which V changes by less than a square differ by rounding alone: V is the same between them.
     pub(super) fn is_flat_between(&self, known: &Equilibrium, one: &Equilibrium) -> bool {
         let degenerate = |one: &Equilibrium| one.kind == Some(Kind::Degenerate);
-        let energies = [1.0, 0.75, 0.5, 0.25].map(|part| {
+        if !degenerate(known) || !degenerate(one) {
+            return false;
+        }
+        let energy = |part: f64| {
             let pairs = known.variables.iter().zip(&one.variables);
             let variables: Vec<f64> = pairs.map(|(a, b)| a + part * (b - a)).collect();
             let state = self.space.state_at(self.start, &variables);
             self.space.system().energy(&state, self.space.parameters()).ok()
-        });
-        let same = |energy: Option<f64>| {
-            energy.is_some_and(|energy| {
-                (energy - known.energy).abs() <= SAME_ENERGY * (known.energy.abs() + 1.0)
-            })
         };
-        degenerate(known) && degenerate(one) && energies.into_iter().all(same)
+        let change = |part: f64| energy(part).map(|energy| (energy - known.energy).abs());
+        let pairs = self.in_units(&known.variables).into_iter().zip(self.in_units(&one.variables));
+        let apart = pairs.map(|(a, b)| (a - b).abs()).fold(f64::MIN_POSITIVE, f64::max);
+        let beyond = [-1.0 / apart, 1.0 + 1.0 / apart].map(|part| change(part).unwrap_or(0.0));
+        let within = SAME_ENERGY * beyond[0].max(beyond[1]) + ROUNDING * known.energy.abs();
+        [1.0, 0.75, 0.5, 0.25].into_iter().all(|part| change(part).is_some_and(|x| x <= within))
     }
 
-    /// Whether two places near each other, at which the rates vanish to rounding, are told apart by rounding alone: the rates between
+    /// Whether two places near each other, at which the rates vanish to rounding, differ by rounding alone: the rates between
     /// them are no more than what rounding leaves of them.
     pub(super) fn is_lost_between(&mut self, known: &[f64], one: &[f64]) -> bool {
         let size = self.in_units(known).iter().fold(1.0, |most: f64, x| most.max(x.abs()));

@@ -85,7 +85,7 @@ impl<'a> EquilibriumSearch<'a> {
             let mut units = coordinate_units(space, &middle[..degrees]);
             units.extend(middle[degrees..].iter().map(|v| if *v == 0.0 { 1.0 } else { v.abs() }));
             let law = LawAtRest::Constrained(Box::new(balance));
-            let casimirs = Vec::new();
+            let (casimirs, has_many_momenta) = (Vec::new(), false);
             return Ok(Self {
                 space,
                 start,
@@ -96,7 +96,7 @@ impl<'a> EquilibriumSearch<'a> {
                 degrees,
                 units,
                 casimirs,
-                has_many_momenta: false,
+                has_many_momenta,
             });
         }
         let unknowns =

@@ -665,6 +665,25 @@ fn the_equilibria_of_brackets_are_those_on_their_casimirs() {
     }
 }
 
+/// Two minima of fourth order are two, however small V is and whatever constant it has.
+#[test]
+fn flat_minima_are_told_apart_in_any_unit_of_energy() {
+    for (unit, constant) in [("1", "0"), ("1e-18", "0"), ("1", "1e9"), ("1e12", "0")] {
+        let text = format!(
+            "title = \"t\"\n[coordinates]\nx = {{ initial = 0.3, velocity = 0 }}\n[lagrangian]\n\
+             L = \"1/2*{unit}*x'^2 - {unit}*(x^2 - 1)^4 - {constant}\"\n"
+        );
+        let mut places: Vec<f64> =
+            of(&file(&text, &[])).iter().map(|one| one.variables[0]).collect();
+        places.sort_by(f64::total_cmp);
+        let expected = [-1.0, 0.0, 1.0];
+        assert_eq!(places.len(), 3, "{unit}, {constant}: {places:?}");
+        for (place, x) in places.iter().zip(expected) {
+            close(*place, x, 1e-3);
+        }
+    }
+}
+
 /// A Casimir given three times is one: u runs away with any v, whatever is declared.
 #[test]
 fn casimirs_that_depend_on_each_other_are_one() {

@@ -1,18 +1,16 @@
-//! The lines above and below every page: tabs, status, and the meaning of the focused item or the key hints.
+//! The last line of every page: input, a notification, the meaning of the focused item, and the key hints.
 //!
-//! In: the application. Out: three rows of cells. Never here: the body between them.
+//! In: the application. Out: a row of cells, and the box of a notification that is longer. Never here: the lines above (`header`).
 
 use ratatui::layout::Rect;
 use ratatui::symbols::border;
 
 use super::canvas::{Canvas, Span, columns, row};
-use super::gauges::{departed, finding};
-use super::glyphs::{Glyphs, TextWidth};
+use super::gauges::finding;
+use super::glyphs::TextWidth;
 use super::help::keys;
-use super::number::{brief, fitted, rounded};
-use super::quantity::Quantities;
+use super::number::brief;
 use super::theme::Role;
-use super::timeline;
 use super::values::typing;
 use super::wrap::words_in;
 use crate::app::keymap::{Binding, KEYS, Place};
@@ -20,194 +18,6 @@ use crate::app::{
     Action, App, HitTarget, InputField, KeyHints, Lab, Overlay, Page, Pane, Purpose, ValueId,
 };
 use crate::experiment::{Snapshot, Status};
-
-/// The pages of a loaded system and their keys.
-const PAGES: [(&str, &str, Page); 5] = [
-    ("1", "Lab", Page::Lab),
-    ("2", "Equations", Page::Equations),
-    ("3", "Notes", Page::Notes),
-    ("4", "Numbers", Page::Numbers),
-    ("9", "Plain", Page::Plain),
-];
-
-const NAME: &str = "phaselab";
-
-/// Draws the program's name, the system's name, and the pages.
-pub(super) fn header(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
-    let area = columns(area, 1, area.width.saturating_sub(2));
-    let title = match (&app.lab, app.page) {
-        (_, Page::Picker) | (None, _) => "a laboratory for analytical mechanics",
-        (Some(lab), _) => &lab.loaded.model.info.title,
-    };
-    let tabs = |gap: &str| {
-        let none = app.page == Page::Picker || app.lab.is_none();
-        if none { Vec::new() } else { tabs(canvas, app, gap) }
-    };
-    let width = |tabs: &[Span]| tabs.iter().map(|(text, _)| text.width()).sum::<usize>();
-    let fits = |tabs: &[Span], others: usize| others + 2 + width(tabs) <= usize::from(area.width);
-    // The title has priority over the gaps between the pages and over the program's name.
-    let both = NAME.len() + 2 + title.width();
-    let wide_tabs = tabs("   ");
-    let tabs = if fits(&wide_tabs, both) { wide_tabs } else { tabs("  ") };
-    let wide = width(&tabs);
-    let paged = usize::from(area.width) > wide;
-    let room = if paged { area.width.saturating_sub(wide as u16 + 2) } else { area.width };
-    let alone = !tabs.is_empty() && both > usize::from(room) && room > 12;
-    let mut used = 0;
-    if !alone && room >= NAME.len() as u16 {
-        used = canvas.left(area, Role::Accent, NAME);
-        used += canvas.left(columns(area, used, 2), Role::Dim, "  ");
-    }
-    if room > used + 8 {
-        canvas.left(columns(area, used, room - used), Role::Title, title);
-    }
-    if paged {
-        let mut from = area.width - wide as u16;
-        canvas.spans(columns(area, from, area.width), &tabs);
-        // Each tab is a key and a name.
-        for (pair, (_, _, page)) in tabs.chunks(2).zip(PAGES) {
-            let long = pair.iter().map(|(text, _)| text.width()).sum::<usize>() as u16;
-            canvas.target(columns(area, from, long), HitTarget::Page(page));
-            from += long;
-        }
-    }
-}
-
-fn tabs(canvas: &Canvas<'_>, app: &App, gap: &str) -> Vec<Span> {
-    let mut spans = Vec::new();
-    for (index, (key, name, page)) in PAGES.iter().enumerate() {
-        let here = *page == app.page;
-        let gap = if index == 0 { "" } else { gap };
-        spans.push(canvas.span(Role::Accent, format!("{gap}{key} ")));
-        spans.push(canvas.span(if here { Role::Title } else { Role::Dim }, *name));
-    }
-    spans
-}
-
-/// Draws the time, the speed, the method and the rate of computation.
-pub(super) fn status(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
-    let area = columns(area, 1, area.width.saturating_sub(2));
-    let Some(snapshot) = app.snapshot().filter(|_| app.page != Page::Picker) else { return };
-    let glyphs = canvas.look.glyphs;
-    let waits = app.lab.as_ref().is_some_and(Lab::waits_for_law);
-    let (sign, word, role) = match &snapshot.status {
-        Status::Running if waits => (glyphs.pick("‖", "="), "waiting", Role::Warn),
-        Status::Running if !app.held && snapshot.backwards => {
-            (glyphs.pick("◀", "<"), "back   ", Role::Warn)
-        }
-        Status::Running if !app.held => (glyphs.pick("▶", ">"), "running", Role::Good),
-        Status::Running | Status::Paused => (glyphs.pick("‖", "="), "paused ", Role::Warn),
-        Status::Ended(_) => (glyphs.pick("■", "#"), "ended  ", Role::Warn),
-        Status::Failed(_) => (glyphs.pick("■", "#"), "stopped", Role::Bad),
-    };
-    let rate = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), short);
-    // The pieces are in order of importance; those that do not fit are dropped from the end.
-    let mut pieces: Vec<Vec<Span>> =
-        vec![
-            vec![canvas.span(
-                role,
-                if area.width < 100 { sign.to_owned() } else { format!("{sign} {word}") },
-            )],
-            vec![
-                canvas.span(Role::Dim, "t "),
-                canvas.span(Role::Accent, format!("{:<8}", fitted(snapshot.time, 6, 8, glyphs))),
-            ],
-            vec![
-                canvas.span(Role::Dim, "speed "),
-                canvas.span(Role::Text, format!("{:<5}", speed(snapshot, glyphs))),
-            ],
-            vec![canvas.span(Role::Text, method(snapshot, canvas))],
-        ];
-    if let Some((role, text)) = departed(snapshot, glyphs) {
-        pieces.insert(1, vec![canvas.span(role, text)]);
-    }
-    if app.recording {
-        let mark = canvas.span(Role::Bad, format!("{} rec", glyphs.pick("●", "o")));
-        pieces.insert(1, vec![mark]);
-    }
-    pieces.push(vec![
-        canvas.span(Role::Text, format!("{:>5}", rate(app.meter.steps))),
-        canvas.span(Role::Dim, " steps/s"),
-    ]);
-    pieces.push(vec![
-        canvas.span(Role::Text, format!("{:>3}", rate(app.meter.frames))),
-        canvas.span(
-            Role::Dim,
-            if area.width < 100 { " fps".to_owned() } else { format!("/{} fps", app.meter.asked) },
-        ),
-    ]);
-    let timed = app.lab.as_ref().filter(|lab| timeline::is_shown(lab, snapshot));
-    // the rates are of no use while nothing runs
-    let room =
-        if timed.is_some() { area.width.saturating_sub(timeline::LEAST) } else { area.width };
-    let mut used = 0;
-    for piece in pieces {
-        let wide: usize = piece.iter().map(|(text, _)| text.width()).sum();
-        if used + wide as u16 > room {
-            break;
-        }
-        used += canvas.spans(columns(area, used, area.width), &piece) + 2;
-    }
-    if let Some(lab) = timed {
-        timeline::draw(canvas, columns(area, used, area.width.saturating_sub(used)), lab, snapshot);
-    }
-}
-
-fn speed(snapshot: &Snapshot, glyphs: Glyphs) -> String {
-    if snapshot.speed.is_infinite() {
-        "flat out".to_owned()
-    } else {
-        // below ten two digits say how fast it is
-        format!("×{}", brief(snapshot.speed, if snapshot.speed < 10.0 { 2 } else { 3 }, glyphs))
-    }
-}
-
-/// Returns the status as a sentence.
-pub(super) fn status_words(q: &Quantities<'_>) -> String {
-    let (snapshot, glyphs) = (q.snapshot, q.look.glyphs);
-    let status = match &snapshot.status {
-        Status::Running if q.lab.waits_for_law() => "waiting until the law is rebuilt".to_owned(),
-        Status::Running => "running".to_owned(),
-        Status::Paused => "paused".to_owned(),
-        Status::Ended(event) => format!("ended by {event}"),
-        Status::Failed(fault) => format!("stopped: {}", fault.message),
-    };
-    let unit = q.lab.loaded.model.time_unit();
-    let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
-    let tolerance = snapshot.method.tolerance;
-    let tolerance =
-        tolerance.map_or_else(String::new, |t| format!(", tolerance {}", brief(t, 2, glyphs)));
-    format!(
-        "Time {}{unit}, {status}, speed {}, method {}{tolerance}, step {}.",
-        brief(snapshot.time, 6, glyphs),
-        speed(snapshot, glyphs),
-        snapshot.method.name,
-        brief(rounded(snapshot.method.step, 3), 3, glyphs),
-    )
-}
-
-/// Formats a count in five columns: `940`, `12k`, `3.4M`.
-fn short(value: f64) -> String {
-    match value {
-        v if v < 9_950.0 => format!("{v:.0}"),
-        v if v < 999_500.0 => format!("{:.0}k", v / 1e3),
-        v => format!("{:.1}M", v / 1e6),
-    }
-}
-
-/// The method with its step and tolerance, in a constant width.
-fn method(snapshot: &Snapshot, canvas: &Canvas<'_>) -> String {
-    let glyphs = canvas.look.glyphs;
-    // Before the first step there is no length of one.
-    let step = match snapshot.method.step {
-        0.0 => glyphs.pick("–", "-").to_owned(),
-        step => fitted(rounded(step, 2), 2, 7, glyphs),
-    };
-    let tolerance = snapshot.method.tolerance.map_or_else(String::new, |tolerance| {
-        format!(" {} {}", glyphs.pick("ε", "tol"), brief(tolerance, 2, glyphs))
-    });
-    format!("{}{tolerance} h {step:<7}", snapshot.method.name)
-}
 
 /// Draws the input, the notification or the meaning of the focused item, and at the right the most useful keys.
 pub(super) fn footer(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
