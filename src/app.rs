@@ -87,7 +87,7 @@ pub use lab::Lab;
 pub use loaded::{LoadError, Loaded};
 pub use menu::{Choice, Choosing, Item, Menu};
 pub use notification::Notification;
-pub use page::Page;
+pub use page::{EquationsSection, Page};
 pub use pane::{Pane, Selection};
 pub use picker::{Above, Picker};
 pub use prediction::{PredictedAxis, Prediction};

@@ -14,6 +14,7 @@ mod course;
 mod deviation;
 mod drift_watch;
 mod echo;
+mod energy_jump;
 mod event_log;
 mod execute;
 mod export;

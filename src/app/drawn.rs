@@ -7,6 +7,8 @@
 pub struct Drawn {
     /// The number of rows of the text page beyond the screen when it is scrolled to its start.
     pub beyond: u16,
+    /// The number of rows by which it was scrolled, where a section of it is to be in view.
+    pub scroll: Option<u16>,
     /// The number of its rows that fit on the screen.
     pub rows: u16,
     /// The number of columns of an edited text that fit.

@@ -405,7 +405,10 @@ impl App {
                 }
                 let waits = |lab: &Lab| lab.awaited.is_some() || lab.held.is_some();
                 let resumes = self.lab.as_ref().is_some_and(waits);
-                if !resumes && !matches!(self.overlay, Some(Overlay::Workbench)) {
+                // a quantity typed for an axis or a section is no change of the text
+                let is_quantity = self.typed_axis.is_some() || self.new_section.is_some();
+                let is_open = matches!(self.overlay, Some(Overlay::Workbench));
+                if !resumes && !is_open && !is_quantity {
                     let title = &loaded.document.path;
                     let time = took.map(|took| format!(" in {:.0} ms", took.as_secs_f64() * 1e3));
                     let time = time.unwrap_or_default();

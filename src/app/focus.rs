@@ -23,6 +23,13 @@ impl App {
         names
     }
 
+    /// Where there is room for one pane only, shows the parameters.
+    pub fn show_parameters(&mut self) {
+        if let Some(lab) = self.lab.as_mut().filter(|lab| lab.drawn.single) {
+            (lab.focus, lab.untouched) = (Pane::Parameters, false);
+        }
+    }
+
     /// Focuses a pane by its name, a picture by its kind, and brings it into view. Returns whether it is there.
     pub fn focus_on(&mut self, name: &str) -> bool {
         let Some(lab) = &mut self.lab else { return false };

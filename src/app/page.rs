@@ -4,6 +4,15 @@
 
 use serde::{Deserialize, Serialize};
 
+/// A section of the page of equations that a key asks for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EquationsSection {
+    /// What is conserved.
+    Constants,
+    /// The brackets of the constants.
+    Brackets,
+}
+
 /// A whole screen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]

@@ -395,6 +395,7 @@ impl App {
     }
 
     fn roll(&mut self, by: isize) {
+        self.section = None;
         let rows = usize::from(self.scroll).saturating_add_signed(by);
         self.scroll = rows.min(usize::from(self.drawn.beyond)) as u16;
     }

@@ -37,6 +37,9 @@ pub struct Saved {
     /// The times that are marked.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub marks: Vec<f64>,
+    /// The pictures that were focused, the last one first.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub in_front: Vec<usize>,
     /// The pictures.
     pub plots: Vec<SavedPlot>,
     /// The state of the motion.

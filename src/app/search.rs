@@ -9,7 +9,7 @@ use std::time::Duration;
 
 use super::computation::{Asker, Computation};
 use super::findings::{Findings, SearchUnderWay, followed, search};
-use super::{App, Effect, Lab, Page};
+use super::{App, Effect, EquationsSection, Lab, Page};
 use crate::experiment::{Command, FoundConstant};
 use crate::expr::Expr;
 use crate::instrument::Answer;
@@ -136,6 +136,7 @@ impl App {
         if self.page != Page::Equations {
             self.go(Page::Equations);
         }
+        self.section = Some(EquationsSection::Constants);
         Vec::new()
     }
 
@@ -149,6 +150,8 @@ impl App {
             }
             self.go(Page::Equations);
         }
+        let is_open = self.lab.as_ref().is_some_and(|lab| lab.search.brackets);
+        self.section = is_open.then_some(EquationsSection::Brackets);
         Vec::new()
     }
 

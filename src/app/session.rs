@@ -38,6 +38,7 @@ impl Saved {
             plots: lab.plots.iter().map(|plot| SavedPlot::of(plot, lab.loaded.physics())).collect(),
             time_unit: model.time_unit().to_owned(),
             marks: lab.marks.clone(),
+            in_front: lab.focused_before().collect(),
             moment: checkpoint,
         })
     }
@@ -51,6 +52,8 @@ impl Lab {
         // If the quantities differ, the default pictures are better.
         if plots.len() == saved.plots.len() {
             self.plots = plots;
+            let mut pictures = saved.in_front.iter().copied();
+            (self.front, self.earlier) = (pictures.next(), pictures.collect());
         }
         if self.panes().any(|pane| pane == saved.focus) {
             (self.focus, self.zoomed) = (saved.focus, saved.zoomed);

@@ -15,7 +15,7 @@ use super::loaded::LoadError;
 use super::menu::{Choice, Menu};
 use super::notification;
 use super::notification::Notification;
-use super::page::Page;
+use super::page::{EquationsSection, Page};
 use super::pane::Pane;
 use super::pending::TypedAxis;
 use super::picker::Picker;
@@ -50,6 +50,8 @@ pub struct App {
     pub recording: bool,
     /// The number of rows by which the page of text is scrolled.
     pub scroll: u16,
+    /// The section of the page of equations that is kept in view until the page is scrolled.
+    pub section: Option<EquationsSection>,
     /// The files being edited, also while the editor is closed.
     pub workbench: Workbench,
     /// Whether the status and the keys are shown below the panes, which demos may leave out.
@@ -137,6 +139,7 @@ impl App {
             held: false,
             recording: false,
             scroll: 0,
+            section: None,
             workbench: Workbench::default(),
             footer: true,
             hints: KeyHints::Lab,

@@ -109,8 +109,12 @@ fn is_alike(one: &Verdict, other: &Verdict) -> bool {
 
 /// Whether the verdict on a gauge is shown at once in place of this one.
 fn changes_at_once(shown: &Verdict, gauge: &Gauge) -> bool {
+    // what is no estimate from a history
     let is_final = |verdict: &Verdict| {
-        matches!(verdict, Verdict::Lost | Verdict::Broken(_) | Verdict::Unknown(_))
+        matches!(
+            verdict,
+            Verdict::Lost | Verdict::Broken(_) | Verdict::Unknown(_) | Verdict::OtherBranch
+        )
     };
     let was_near = matches!(shown, Verdict::Exact(_) | Verdict::Open);
     let is_beyond = gauge.max_drift > LEFT && was_near && gauge.verdict != Verdict::Open;
@@ -197,6 +201,8 @@ mod tests {
         assert_eq!(after(EXACT, secular(1e-4), 1e-3), Some(secular(1e-4)));
         assert_eq!(after(EXACT, secular(1e-14), 1e-12), Some(EXACT));
         assert_eq!(after(EXACT, Verdict::Lost, 0.5), Some(Verdict::Lost));
+        assert_eq!(after(EXACT, Verdict::OtherBranch, f64::NAN), Some(Verdict::OtherBranch));
+        assert_eq!(after(Verdict::OtherBranch, EXACT, 1e-15), Some(EXACT));
         // the numbers of a verdict are those of the last look
         assert_eq!(after(secular(1e-4), secular(2e-4), 1e-3), Some(secular(2e-4)));
     }

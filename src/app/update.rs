@@ -116,7 +116,7 @@ impl App {
                     lab.take_drawn(panes);
                 }
                 self.follow_cursor();
-                self.scroll = self.scroll.min(drawn.beyond);
+                self.scroll = drawn.scroll.unwrap_or(self.scroll).min(drawn.beyond);
                 Vec::new()
             }
         }
@@ -292,7 +292,7 @@ impl App {
             self.notice = None;
             self.notifications.clear();
         }
-        (self.page, self.overlay, self.scroll) = (page, None, 0);
+        (self.page, self.overlay, self.scroll, self.section) = (page, None, 0, None);
         if page == Page::Plain {
             self.read();
         }

@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use super::companions::Companions;
 use super::echo::Echo;
+use super::energy_jump::EnergyJump;
 use super::event_log::EventLog;
 use super::gauges::{GaugeInputs, Gauges};
 use super::hull::Hulls;
@@ -40,6 +41,8 @@ pub struct Experiment {
     pub(super) began: f64,
     /// Where the law was changed last, if it was since the restart.
     pub(super) changed: Option<Arc<LastChange>>,
+    /// The jump of the energy where a parameter was changed last.
+    pub(super) jump: Option<EnergyJump>,
     /// The run before time was reversed.
     pub(super) echo: Option<Box<Echo>>,
     /// The time in the past that is looked at.
@@ -85,6 +88,7 @@ impl Experiment {
             other_way: None,
             began: setup.start,
             changed: None,
+            jump: None,
             echo: None,
             scrubbed: None,
             initial: Arc::default(),
@@ -286,6 +290,7 @@ impl Experiment {
         self.scrubbed = None;
         self.began = self.setup.start;
         self.changed = None;
+        self.jump = None;
         self.fault = None;
         self.ended = None;
         self.occurrences.clear();

@@ -5,6 +5,7 @@
 
 use std::sync::Arc;
 
+use super::energy_jump::EnergyJump;
 use super::gauges::Gauges;
 use super::last_change::LastChange;
 use super::setup::{choose_method, with_override};
@@ -138,9 +139,7 @@ impl Experiment {
         self.pass_parameters();
         self.gauge(Gauges::refer);
         let jump = self.energy() - before;
-        if jump.abs() > 1e-12 * before.abs() {
-            self.report_jump(&format!("{name}: energy jumped by"), jump);
-        }
+        self.report_jump(index, jump, 1e-12 * before.abs());
     }
 
     /// From here on the motion follows another law, unless it still stands in its first state.
@@ -160,18 +159,28 @@ impl Experiment {
         self.changed = Some(Arc::new(LastChange { what, state }));
     }
 
-    /// Reports a jump in energy, and what did not jump; a parameter that is changed repeatedly is reported once.
-    fn report_jump(&mut self, lead: &str, jump: f64) {
-        if self.notices.last().is_some_and(|last| last.starts_with(lead)) {
+    /// Reports a jump in energy beyond its rounding, and what did not jump. The steps in which a parameter is changed
+    /// are one jump.
+    fn report_jump(&mut self, index: usize, jump: f64, rounding: f64) {
+        let second = self.frame() / FRAME;
+        let whole = EnergyJump { parameter: index, clock: self.clock(), by: jump };
+        let whole = self.jump.map_or(whole, |earlier| whole.after(&earlier, second));
+        self.jump = Some(whole);
+        let by = whole.by;
+        let lead = format!("{}: energy jumped by", self.model.parameters[index].shown);
+        if self.notices.last().is_some_and(|last| last.starts_with(&lead)) {
             self.notices.pop();
         }
-        let sign = if jump < 0.0 { '−' } else { '+' };
-        let jump = short(jump.abs());
+        if by.abs() <= rounding {
+            return;
+        }
+        let sign = if by < 0.0 { '−' } else { '+' };
+        let by = short(by.abs());
         let kept = match self.motion.state().form {
             Form::Variables => "the state is",
             Form::Velocity | Form::Momentum => "q and p are",
         };
-        self.tell(format!("{lead} {sign}{jump}; {kept} kept, gauges begin anew; r restarts"));
+        self.tell(format!("{lead} {sign}{by}; {kept} kept, gauges begin anew; r restarts"));
     }
 
     fn energy(&self) -> f64 {

@@ -94,6 +94,7 @@ impl Experiment {
 
     /// Restores where the law was changed last: here, if it is another one than before.
     fn restore_change(&mut self, here: Option<String>, present: &MotionState) {
+        self.jump = None;
         match here {
             Some(what) => self.changed_here(what),
             None => {

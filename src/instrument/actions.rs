@@ -417,7 +417,7 @@ fn sentences(present: &Present<'_>, answer: Option<&Answer>) -> Vec<String> {
         let late = Some(computed.course.state.time).filter(|_| computed.is_behind(present.time));
         let at = late.map_or_else(String::new, |time| format!(" at t = {}", short(time)));
         // a low plot has room for the first lines only
-        lines.insert(0, format!("{}{at}: ΔJ/J = {}", verdict([action, height]), signed(action)));
+        lines.insert(0, format!("ΔJ/J = {}: {}{at}", signed(action), verdict([action, height])));
         lines.push(format!("since t = {}: ΔE/(E − V₀) = {}", short(since), signed(height)));
     }
     if let Some(last) = computed.replaced.last()

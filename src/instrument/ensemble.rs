@@ -106,9 +106,9 @@ impl Instrument for Ensemble {
             layers.push((CURVE, Layer::Line(frame.curve.to_vec(), Ink::Curve(1).into())));
             layers.push((CLOUD, Layer::Cloud(Arc::clone(&frame.cloud))));
         }
-        // a cloud that is behind is drawn with the motion where it was then
-        let then = is_late(present, answer).then(|| shown(present, answer).map(|frame| frame.own));
-        let then = then.flatten().filter(|at| at.iter().all(|x| x.is_finite()));
+        // a cloud is drawn with the motion where it was then: its last frame is a little behind, or a lot
+        let then = shown(present, answer).map(|frame| frame.own);
+        let then = then.filter(|at| at.iter().all(|x| x.is_finite()));
         let now = then.unwrap_or_else(|| channels.map(|channel| present.value(channel)));
         layers.push((NOW, Layer::Point(now, MarkerShape::Disc, Ink::Accent)));
         let words = [sentence(present, answer), outside_in_words(plot, present, answer)].concat();
@@ -178,8 +178,8 @@ impl Instrument for Ensemble {
         let origin = match known.or(other) {
             Some(known) => known.origin.clone(),
             None => match CloudOrigin::of(&starts, present, conditions.seeds.last().copied()) {
-                // an ensemble that a parameter has changed the law of keeps its size
-                Some(origin) => match before {
+                // an ensemble that a parameter has changed the law of keeps its size, also where the change is undone
+                Some(origin) => match cloud(answer) {
                     Some(known) if known.conditions.differ_in_parameters_alone(&conditions) => {
                         origin.laid_again(&known.origin)
                     }

@@ -274,9 +274,10 @@ fn sentences(physics: Physics<'_>, answer: Option<&Answer>) -> Vec<String> {
     {
         all.push(format!("Ω = {}{unit}, the drive", short(drive)));
     }
-    // the most important comes first: a small pane has no room for all
+    // after the first line, since a small pane has no room for all
+    let second = all.len().min(1);
     all.splice(
-        0..0,
+        second..second,
         drift(answer).map(|drift| {
             let [apart, error] = [drift.relative(), drift.relative_error()];
             let [apart, error] = [apart, error].map(|x| significant(x, 1, 1.0..10.0));

@@ -247,8 +247,7 @@ impl Lesson {
         {
             *since = since.min(now);
         }
-        let waits = !self.is_moving() && !matches!(self.stage, LessonStage::Ended);
-        self.runner.hold(waits);
+        self.runner.hold(!self.is_moving());
         Ok(())
     }
 
@@ -299,6 +298,7 @@ impl Lesson {
             }
             LessonStep::Task { text, hint, claim } => {
                 self.said = vec![paragraph(ParagraphKind::Text, text)];
+                self.runner.lab.app.show_parameters();
                 self.enter(LessonStage::Task { place, hint, claim, hinted: false });
             }
             LessonStep::Free(text) => {

@@ -81,6 +81,7 @@ impl Lesson {
                 }
                 KeyCode::Enter => match number(text) {
                     Some(number) => self.commit(GivenAnswer::Number(number)),
+                    None if text.is_empty() => *wrong = Some("Type a number first.".into()),
                     None => *wrong = Some("This is not a number; write it as 1.5 or 3/2.".into()),
                 },
                 KeyCode::Tab | KeyCode::BackTab => {

@@ -254,6 +254,7 @@ mod tests {
             law: Some("0123456789abcdef".to_owned()),
             time_unit: "s".to_owned(),
             marks: vec![0.5],
+            in_front: vec![1],
             plots: Vec::new(),
             moment: Checkpoint {
                 parameters: vec![g],

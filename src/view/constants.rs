@@ -13,6 +13,10 @@ use crate::integrability::Proof;
 /// Formulas with more nodes than this are not written out.
 const MOST: u64 = 600;
 
+/// The headings.
+pub(super) const CONSTANTS: &str = "Further constants of the motion";
+pub(super) const BRACKETS: &str = "Brackets";
+
 /// Adds the verdict in a line.
 pub(super) fn verdict(lab: &Lab, page: &mut TextPage) {
     if let Some(status) = lab.search.status() {
@@ -47,7 +51,7 @@ pub(super) fn found(lab: &Lab, look: &RenderStyle, page: &mut TextPage) {
             _ => pool.unicode(e),
         }
     };
-    page.heading("Further constants of the motion");
+    page.heading(CONSTANTS);
     if invariants.found.is_empty() && !invariants.is_exhausted() {
         page.words(Role::Dim, "None was found.");
     }
@@ -124,7 +128,7 @@ fn brackets(
     page: &mut TextPage,
     write: &dyn Fn(Expr) -> String,
 ) {
-    page.heading("Brackets");
+    page.heading(BRACKETS);
     if !findings.hamiltonian {
         page.words(
             Role::Dim,

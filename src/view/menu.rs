@@ -74,14 +74,8 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, menu: &Menu) {
         canvas.left(columns(row(list, 0), 2, list.width), Role::Dim, text);
     }
     if let Some((_, item)) = menu.current() {
-        let (role, text) = match &item.unavailable {
-            Some(reason) => (Role::Warn, format!("{}: {reason}", capitalised(refused(item)))),
-            None => (Role::Text, item.about.clone()),
-        };
-        // A label that is cut in its row is shown here in full.
-        let whole = canvas.text(&item.label).width() <= columns_of.room(canvas, item).into();
-        let text = if whole { text } else { format!("{}. {text}", capitalised(&item.label)) };
-        let text = canvas.text(&text);
+        let role = if item.unavailable.is_some() { Role::Warn } else { Role::Text };
+        let text = meaning(canvas, item, &columns_of);
         let room = usize::from(below.height.saturating_sub(1));
         for (index, line) in words_in(&text, inner.width.into(), room).iter().enumerate() {
             canvas.left(row(below, index + 1), role, line);
@@ -105,11 +99,27 @@ fn width(canvas: &Canvas<'_>, menu: &Menu) -> u16 {
     widest + 3 * GAP + 2
 }
 
+/// What an item means, or why it cannot be selected; a label that is cut in its row comes first, in full.
+fn meaning(canvas: &Canvas<'_>, item: &Item, columns_of: &MenuColumns) -> String {
+    let text = match &item.unavailable {
+        Some(reason) => format!("{}: {reason}", capitalised(refused(item))),
+        None => item.about.clone(),
+    };
+    let whole = canvas.text(&item.label).width() <= columns_of.room(canvas, item).into();
+    let label = match item.choice {
+        // it begins with a symbol
+        Choice::Equilibrium(_) | Choice::Mode(..) => item.label.trim_start().to_owned(),
+        _ => capitalised(&item.label),
+    };
+    canvas.text(&if whole { text } else { format!("{label}. {text}") })
+}
+
 /// Rows for the meaning of the selected item, the same for all items: as many as the longest needs, if there is room.
 fn about(canvas: &Canvas<'_>, menu: &Menu, (width, height): (u16, u16)) -> u16 {
     let most = if height > 14 { 6 } else { 2 };
-    let inner = usize::from(width.saturating_sub(4));
-    let needs = |item: &Item| words(&canvas.text(&item.about), inner).len() as u16;
+    let inner = width.saturating_sub(4);
+    let columns_of = MenuColumns::of(canvas, menu, inner);
+    let needs = |item: &Item| words(&meaning(canvas, item, &columns_of), inner.into()).len() as u16;
     menu.items.iter().map(needs).max().unwrap_or(0).saturating_add(1).clamp(2, most)
 }
 

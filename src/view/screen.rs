@@ -6,6 +6,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
 use super::canvas::{Canvas, row};
+use super::constants;
 use super::equations;
 use super::help;
 use super::kept::Kept;
@@ -25,7 +26,7 @@ use super::theme::Role;
 use super::workbench;
 use super::wrap;
 use super::{footer, header};
-use crate::app::{App, Drawn, HitTarget, KeyHints, Lab, Overlay, Page};
+use crate::app::{App, Drawn, EquationsSection, HitTarget, KeyHints, Lab, Overlay, Page};
 
 /// Draws the whole screen over a blank area, and returns how far its page of text can be scrolled.
 pub fn draw(app: &App, look: &RenderStyle, area: Rect, buffer: &mut Buffer) -> Drawn {
@@ -154,7 +155,13 @@ fn text_page(canvas: &mut Canvas<'_>, area: Rect, (app, lab): (&App, &Lab), page
         return document.read(canvas, area, app.reading.line);
     }
     let (title, document) = match page {
-        Page::Equations => ("Equations", equations::document(lab, look)),
+        Page::Equations => {
+            let section = app.section.map(|section| match section {
+                EquationsSection::Constants => constants::CONSTANTS,
+                EquationsSection::Brackets => constants::BRACKETS,
+            });
+            ("Equations", equations::document(lab, look).from(section))
+        }
         Page::Notes => ("Notes", notes::document(lab, look)),
         _ => {
             let numbers = Quantities::of(lab, look).map(|q| numbers::document(&q).balanced());

@@ -442,7 +442,7 @@ impl ScenePainter<'_> {
             Some(projection.of(seen))
         });
         let series = self.beside.map_or_else(|| self.colour(point), companions::series);
-        let ramp = self.q.look.theme.trail(series);
+        let ramp = colours::ramp(self.q, &self.colours, point, series);
         let since = kept::since(rows, ramp.len());
         let ages = Ages { since: &since, ramp, layer: TRACK, behind: Some((&self.depth, near)) };
         drawn.draw(&mut self.raster, ages, present);

@@ -38,6 +38,8 @@ pub(super) struct TextPage {
     blocks: Vec<TextBlock>,
     /// Whether two columns are of equal length, even if one has room for everything.
     balanced: bool,
+    /// The heading with which the rows that are drawn begin, where the page has it: its last place.
+    from: Option<&'static str>,
 }
 
 enum TextBlock {
@@ -112,23 +114,39 @@ impl TextPage {
         Self { balanced: true, ..self }
     }
 
+    /// The same page, drawn from a section on, if there is one.
+    pub(super) fn from(self, heading: Option<&'static str>) -> Self {
+        Self { from: heading, ..self }
+    }
+
+    /// The row at which the section to be in view begins.
+    fn section(&self, canvas: &Canvas<'_>, lines: &[Vec<Span>]) -> Option<u16> {
+        let heading = canvas.span(Role::Title, self.from?);
+        let row = lines.iter().rposition(|line| matches!(&line[..], [only] if *only == heading))?;
+        Some(row.min(usize::from(u16::MAX)) as u16)
+    }
+
     /// Draws the rows from `scroll` on.
     pub(super) fn draw(self, canvas: &mut Canvas<'_>, area: Rect, scroll: u16) -> Drawn {
         let rows = self.laid_out(canvas, area.width);
         draw_rows(canvas, area, scroll, &rows)
     }
 
-    /// Draws the rows from `scroll` on, in two columns where the area is wide and the page is longer than one.
+    /// Draws the rows from `scroll` on, or from the section to be in view, in two columns where the area is wide and the
+    /// page is longer than one.
     pub(super) fn draw_in_columns(self, canvas: &mut Canvas<'_>, area: Rect, scroll: u16) -> Drawn {
         let half = area.width.saturating_sub(BETWEEN) / 2;
         let height = usize::from(area.height);
         let whole = self.laid_out(canvas, area.width);
         if area.width < TWO_COLUMNS || whole.len() <= height && !self.balanced {
-            return draw_rows(canvas, area, scroll, &whole);
+            let section = self.section(canvas, &whole);
+            let drawn = draw_rows(canvas, area, section.unwrap_or(scroll), &whole);
+            return Drawn { scroll: section, ..drawn };
         }
         let lines = self.laid_out(canvas, half);
         let beyond = lines.len().saturating_sub(2 * height);
-        let first = usize::from(scroll).min(beyond);
+        let section = self.section(canvas, &lines);
+        let first = usize::from(section.unwrap_or(scroll)).min(beyond);
         // A page that fits is parted at a gap, so that no section is torn; the lower the better, or nearest the middle.
         let mut gaps = (lines.len().saturating_sub(height)..=height)
             .filter(|at| lines.get(*at).is_some_and(Vec::is_empty));
@@ -152,7 +170,8 @@ impl TextPage {
             scroll_bar(canvas, area, first, lines.len() - height);
         }
         let rows = area.height.saturating_mul(2);
-        Drawn { beyond: beyond.min(usize::from(u16::MAX)) as u16, rows, ..Drawn::default() }
+        let beyond = beyond.min(usize::from(u16::MAX)) as u16;
+        Drawn { beyond, rows, scroll: section, ..Drawn::default() }
     }
 
     /// The rows of the page in an area of this width.
@@ -334,8 +353,12 @@ fn value(
     let tail: usize = unit.0.width() + rest.iter().map(|(text, _)| text.width()).sum::<usize>();
     let beside = 2 + NAME + NUMBER;
     if beside + tail <= width || beside + MARGIN <= width {
-        let gap = " ".repeat((NAME + 2).saturating_sub(name.width()));
-        let head = canvas.span(Role::Text, format!("{name}{gap}"));
+        // a long name takes the columns that the number leaves
+        let gap = (NAME + 2).saturating_sub(name.width());
+        let taken = (name.width() + gap).saturating_sub(NAME + 2);
+        let padding = NUMBER.saturating_sub(value.width() + taken).max(usize::from(taken > 0));
+        let number = canvas.span(Role::Accent, format!("{}{value}", " ".repeat(padding)));
+        let head = canvas.span(Role::Text, format!("{name}{}", " ".repeat(gap)));
         let mut used = beside + unit.0.width();
         let mut lines = vec![vec![head, number, unit]];
         // What has no room stands below, whole.

@@ -83,7 +83,8 @@ fn a_slow_change_leaves_the_action_and_a_fast_one_does_not() {
     near(slow.value("action"), PI, 1e-4);
     assert!(slow.value("change").abs() < 1e-4);
     // first of all, so that a low plot has it too
-    assert!(slow.legend().starts_with("adiabatic: ΔJ/J = "), "{}", slow.legend());
+    assert!(slow.legend().starts_with("ΔJ/J = "), "{}", slow.legend());
+    assert!(slow.legend().contains(": adiabatic"), "{}", slow.legend());
     assert!(slow.legend().contains("since t = 0: ΔE/(E − V₀) = +1"), "{}", slow.legend());
     // the curve is that of the law held at this instant, J = 2π E/ω with ω = 2
     let [line] = &slow.curves()[..] else { panic!("one curve") };
@@ -102,7 +103,7 @@ fn a_slow_change_leaves_the_action_and_a_fast_one_does_not() {
     let mut begun = Course::showing("actions", &tightened("60", RAMP));
     begun.go(0.0);
     begun.go(4.0);
-    assert!(begun.legend().starts_with("undecided so far: ΔJ/J = "), "{}", begun.legend());
+    assert!(begun.legend().contains(": undecided so far"), "{}", begun.legend());
     // nor is the other word true at any time of a slow ramp: J swings at its beginning, by the rate of ω
     for time in [9.0, 10.0, 11.5, 12.0, 14.0, 20.0, 35.0, 65.0] {
         begun.go(time);
@@ -115,7 +116,7 @@ fn a_slow_change_leaves_the_action_and_a_fast_one_does_not() {
     // q and p stay: E = 2 at ω = 2 where the ramp began at cos² 2
     let energy = |w: f64| 0.5 * (2.0_f64.sin().powi(2) + (w * 2.0_f64.cos()).powi(2));
     near(fast.value("action"), PI * energy(2.0), 2e-2);
-    assert!(fast.legend().starts_with("not adiabatic: ΔJ/J = "), "{}", fast.legend());
+    assert!(fast.legend().contains(": not adiabatic"), "{}", fast.legend());
 }
 
 /// A parameter that enters by the initial values alone changes the motion at the reset, not before; the answer follows.
@@ -146,11 +147,11 @@ fn a_reset_and_a_stroke_have_their_own_action() {
 fn a_change_is_counted_from_the_start_however_late_one_looks() {
     let mut late = Course::showing("actions", &tightened("60", RAMP));
     late.go(65.0);
-    assert!(late.legend().starts_with("adiabatic"), "{}", late.legend());
+    assert!(late.legend().contains(": adiabatic"), "{}", late.legend());
     near(late.value("change"), 0.0, 1e-4);
     late.experiment.execute(Command::Reset);
     late.go(70.0);
-    assert!(late.legend().starts_with("adiabatic"), "{}", late.legend());
+    assert!(late.legend().contains(": adiabatic"), "{}", late.legend());
 }
 
 /// Beside an abyss a well has its curve up to its edge: V = ½q² − 0.075 q⁴ is highest at 5/6.

@@ -5,17 +5,13 @@
 use crate::expr::{Expr, Symbol};
 use crate::instrument::CameraPose;
 use crate::model::{Point, Shape};
-use crate::view::quantity::{Quantities, QuantitySource};
+use crate::view::quantity::Quantities;
+use crate::view::theme::Shade;
 
 /// The points of the masses and of the traces of other points, in the order of their colours: what moves comes first,
 /// and the second colour, an amber, is left to the first mass whose place is fixed by numbers and parameters.
 pub(super) fn colours(q: &Quantities<'_>, eye: CameraPose) -> Vec<Point> {
-    let loaded = &q.lab.loaded;
-    let parameters: Vec<Symbol> = loaded.model.parameters.iter().map(|p| p.symbol).collect();
-    let constant = |e: Expr| {
-        loaded.equations.pool.symbols_of(e).iter().all(|symbol| parameters.contains(symbol))
-    };
-    let stays = |at: &Point| at.iter().all(|e| constant(*e));
+    let stays = |at: &Point| at.iter().all(|e| is_constant(q, *e));
     let shapes = || q.lab.shapes(eye).map(|(shape, _)| shape);
     let masses: Vec<Point> = shapes()
         .filter_map(|shape| match shape {
@@ -46,9 +42,28 @@ pub(super) fn colour(q: &Quantities<'_>, points: &[Point], at: &Point) -> usize 
     own.or_else(shadow).unwrap_or(points.len())
 }
 
+/// The shades of the trace of a point, from its oldest part to its newest: those of a shadow are the dim ones.
+pub(super) fn ramp<'a>(
+    q: &Quantities<'a>,
+    points: &[Point],
+    at: &Point,
+    series: usize,
+) -> &'a [Shade] {
+    let ramp = q.look.theme.trail(series);
+    let is_dim = !points.contains(at) && points.iter().any(|mass| is_shadow(q, at, mass));
+    if is_dim { &ramp[..(ramp.len() / 3).max(1)] } else { ramp }
+}
+
 /// Whether a point is another one seen in a plane across an axis: on the floor below it, say.
 fn is_shadow(q: &Quantities<'_>, at: &Point, mass: &Point) -> bool {
     let apart: Vec<usize> = (0..3).filter(|&k| at[k] != mass[k]).collect();
-    let moves = |e| !matches!(q.place(e), QuantitySource::Number(_));
-    matches!(apart[..], [k] if !moves(at[k])) && mass.iter().any(|e| moves(*e))
+    matches!(apart[..], [k] if is_constant(q, at[k])) && !mass.iter().all(|e| is_constant(q, *e))
+}
+
+/// Whether a coordinate is fixed by numbers and parameters.
+fn is_constant(q: &Quantities<'_>, e: Expr) -> bool {
+    let loaded = &q.lab.loaded;
+    let is_parameter =
+        |symbol: &Symbol| loaded.model.parameters.iter().any(|p| p.symbol == *symbol);
+    loaded.equations.pool.symbols_of(e).iter().all(is_parameter)
 }

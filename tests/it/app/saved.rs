@@ -35,6 +35,11 @@ fn what_was_looked_at_is_looked_at_again() {
     let (lab, before) = (again.lab.as_ref().unwrap(), app.lab.as_ref().unwrap());
     assert_eq!(lab.plots, before.plots);
     assert_eq!((lab.focus, lab.zoomed, lab.selection), (before.focus, true, before.selection));
+    // what was in front of other pictures is so again, wherever the focus is
+    press(&mut app, "Tab Tab Tab");
+    let in_front = |app: &App| app.lab.as_ref().unwrap().focused_before().collect::<Vec<_>>();
+    assert!(!in_front(&app).is_empty());
+    assert_eq!(in_front(&resumed(kept(&app)).0), in_front(&app));
     assert_eq!(effects, [Effect::Tell(Command::Restore(Box::new(saved.moment)))]);
     press(&mut app, "2");
     assert_eq!(resumed(kept(&app)).0.page, Page::Equations);

@@ -66,6 +66,28 @@ fn a_parameter_turned_on_and_on_is_reported_once() {
 }
 
 #[test]
+fn the_jump_of_energy_is_that_of_all_steps_of_a_parameter() {
+    let mut pendulum = shipped("pendulum");
+    run(&mut pendulum, 1.0);
+    let height = -value(&pendulum, "theta").cos();
+    let before = pendulum.model().parameters[parameter(&pendulum, "g")].value;
+    for g in [10.0, 11.0, 12.0] {
+        set(&mut pendulum, "g", g);
+    }
+    let notice = pendulum.snapshot().notices.last().cloned().expect("the jump is reported");
+    let by = phaselab::num::short((height * (12.0 - before)).abs());
+    assert!(notice.contains(&by), "m l = 1, so {by} is expected: {notice}");
+    set(&mut pendulum, "g", before);
+    assert!(pendulum.snapshot().notices.is_empty(), "it is as it was");
+    set(&mut pendulum, "g", 10.0);
+    run(&mut pendulum, 6.0);
+    let height = -value(&pendulum, "theta").cos();
+    set(&mut pendulum, "g", 11.0);
+    let notice = pendulum.snapshot().notices.last().cloned().expect("the jump is reported");
+    assert!(notice.contains(&phaselab::num::short(height.abs())), "much later: {notice}");
+}
+
+#[test]
 fn a_parameter_and_back_changes_nothing() {
     let mut one = shipped("double-pendulum");
     let mut other = shipped("double-pendulum");

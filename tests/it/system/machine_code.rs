@@ -110,15 +110,12 @@ fn a_root_of_zero_and_a_kink_are_left_to_the_jet() {
         let mut series = system.series(12, 0);
         series.set_parameters(&system.inputs(&model.parameter_values()));
         let state = State::new(0.0, system.form(), vec![0.0, 0.5, 0.0, 0.0]);
-        for _ in 0..70 {
-            // a root of zero may have no series; then nothing is compared
-            let _ = series.build(&state);
-        }
+        (0..70).for_each(|_| series.build(&state).expect("a motion in the plane of symmetry"));
         series.is_compiled()
     };
-    assert!(!at_zero("x^2*sqrt(x^2*y^2)"));
+    assert!(!at_zero("(x^2 + x^2*y^2)^(5/2)"));
     assert!(!at_zero("abs(y - 1)"));
-    assert!(at_zero("x^2*sqrt(1 + x^2*y^2)"));
+    assert!(at_zero("(1 + x^2*y^2)^(5/2)"));
 }
 
 /// The bits of the states of an orbit after each step.
