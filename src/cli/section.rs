@@ -226,7 +226,7 @@ fn shell(arguments: &Arguments, model: &Model) -> Result<Option<EnergyShell>, Co
         );
         return Err(CommandError::WrongUse(message));
     }
-    Ok(Some(EnergyShell { energy, by, root }))
+    Ok(Some(EnergyShell { energy, by, root, about: 0.0 }))
 }
 
 /// The parts between commas that stand in no parentheses.
