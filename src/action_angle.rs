@@ -10,6 +10,7 @@ mod effective_potential;
 mod held;
 mod moment;
 mod row;
+mod sampled_extrema;
 mod separatrix;
 
 pub use angle::angle;

@@ -19,8 +19,8 @@ mod template;
 mod toml_errors;
 
 pub use catalog::{
-    Catalog, CatalogEntry, NotFound, PresetOrigin, demo, demos, find, find_beside, is_path, lesson,
-    lessons,
+    Catalog, CatalogEntry, NotFound, PresetOrigin, demo, demos, file_here, find, find_beside,
+    is_path, lesson, lessons,
 };
 pub use law_digest::law_digest;
 pub use new_surface::{NewSurface, NewZero, SurfaceView};

@@ -3,6 +3,9 @@
 //!
 //! In: a system, a start, a coordinate. Out: regions and tops at an energy. Never here: times, actions.
 
+mod rest;
+
+use super::sampled_extrema::{resolved, turns};
 use crate::ensemble::{EnergyShell, NotOnShell, Root, Start};
 use crate::num::math;
 use crate::system::{ChannelKind, Form, InitialOverride, MotionError, Observer, System};
@@ -14,16 +17,10 @@ const PLACES: usize = 4001;
 const REACH: f64 = 12.0;
 
 /// Energies that differ by less than this part are the same to rounding.
-const NOISE: f64 = 1e-11;
+pub(super) const NOISE: f64 = 1e-11;
 
 /// A top or a bottom that is greater by this factor than what is around it is a pole.
 const POLE: f64 = 1e12;
-
-/// So many bottoms and tops in succession without a place between them are an oscillation that is too fast for the places.
-const UNRESOLVED: usize = 8;
-
-/// The most tops on one side of the start that are given.
-const MOST_TOPS: usize = 8;
 
 /// Halvings of an interval, and sections by the golden ratio.
 const HALVINGS: usize = 200;
@@ -43,6 +40,8 @@ pub struct EffectivePotential<'a> {
     /// The greatest size of an energy at a bottom or a top: beyond them a potential may fall without end.
     height: f64,
     period: Option<f64>,
+    /// The momentum of rest at the last place, where that is not zero everywhere, as with terms odd in p.
+    rest_elsewhere: Option<f64>,
     /// Between which places its tops are given.
     resolved: [f64; 2],
 }
@@ -89,6 +88,7 @@ impl<'a> EffectivePotential<'a> {
             tops,
             height: 0.0,
             period,
+            rest_elsewhere: None,
             resolved: [f64::NEG_INFINITY, f64::INFINITY],
         };
         potential.look_around(at);
@@ -100,22 +100,6 @@ impl<'a> EffectivePotential<'a> {
         self.period
     }
 
-    /// The start with the coordinate at rest at a place.
-    pub fn at_rest(&mut self, place: f64) -> Start {
-        let mut start = self.base.clone();
-        start.replace(InitialOverride::Position(self.coordinate, place));
-        if self.system.form() == Form::Momentum {
-            // in most systems rest is where the momentum vanishes, and no velocity has to be solved for
-            start.replace(InitialOverride::Momentum(self.coordinate, 0.0));
-            let velocity = self.observed(&start, ChannelKind::Velocity(self.coordinate));
-            if velocity.is_ok_and(|velocity| velocity == 0.0) {
-                return start;
-            }
-        }
-        start.replace(InitialOverride::Velocity(self.coordinate, 0.0));
-        start
-    }
-
     /// Between which places its tops are given: of a coordinate without its period there may be any number of them, and those far
     /// away may be too narrow to be seen.
     pub fn resolved(&self) -> [f64; 2] {
@@ -124,8 +108,18 @@ impl<'a> EffectivePotential<'a> {
 
     /// The energy with the coordinate at rest; infinite where there is none.
     pub fn at(&mut self, place: f64) -> f64 {
-        let start = self.at_rest(place);
-        let energy = self.observed(&start, ChannelKind::Energy);
+        let energy = match self.rest_elsewhere {
+            Some(_) => self.resting(place).and_then(|momentum| {
+                let mut start = self.base.clone();
+                start.replace(InitialOverride::Position(self.coordinate, place));
+                start.replace(InitialOverride::Momentum(self.coordinate, momentum));
+                self.observed(&start, ChannelKind::Energy)
+            }),
+            None => {
+                let start = self.at_rest(place);
+                self.observed(&start, ChannelKind::Energy)
+            }
+        };
         energy.ok().filter(|energy| !energy.is_nan()).unwrap_or(f64::INFINITY)
     }
 
@@ -149,13 +143,24 @@ impl<'a> EffectivePotential<'a> {
     /// # Errors
     /// Returns an error if the energy forbids the place.
     pub fn moving(&mut self, place: f64, energy: f64, root: Root) -> Result<Start, NotOnShell> {
+        let about = self.resting(place)?;
+        self.moving_about(about, place, energy, root)
+    }
+
+    fn moving_about(
+        &mut self,
+        about: f64,
+        place: f64,
+        energy: f64,
+        root: Root,
+    ) -> Result<Start, NotOnShell> {
         let mut start = self.base.clone();
         start.replace(InitialOverride::Position(self.coordinate, place));
         let by = match self.system.form() {
             Form::Momentum => InitialOverride::Momentum(self.coordinate, 0.0),
             Form::Velocity | Form::Variables => InitialOverride::Velocity(self.coordinate, 0.0),
         };
-        EnergyShell { energy, by, root }.complete_by(
+        EnergyShell { energy, by, root, about }.complete_by(
             self.system,
             &mut self.observer,
             &mut start,
@@ -171,7 +176,8 @@ impl<'a> EffectivePotential<'a> {
 
     /// p to the right less p to the left at a place, zero where the energy forbids it by rounding.
     pub(super) fn width(&mut self, place: f64, energy: f64) -> Result<f64, NotOnShell> {
-        let momentum = |own: &mut Self, root| match own.moving(place, energy, root) {
+        let about = self.resting(place)?;
+        let momentum = |own: &mut Self, root| match own.moving_about(about, place, energy, root) {
             Ok(start) => Ok(Some(own.observed(&start, ChannelKind::Momentum(own.coordinate))?)),
             Err(NotOnShell::Forbidden { .. } | NotOnShell::NotFound { .. }) => Ok(None),
             Err(why) => Err(why),
@@ -396,55 +402,4 @@ impl<'a> EffectivePotential<'a> {
 /// The column of a channel.
 fn column(system: &System, kind: ChannelKind) -> usize {
     system.channels().iter().position(|channel| channel.kind == kind).unwrap_or(0)
-}
-
-/// The places around `at` beyond which extrema follow each other from one sample to the next, or there are too many tops.
-fn resolved(turns: &[[f64; 3]], at: f64) -> [f64; 2] {
-    // two extrema have a sample between them where the second begins behind the first
-    let is_fast = |pairs: &[[f64; 3]]| pairs.windows(2).all(|two| two[1][0] < two[0][2]);
-    let mut limits = [f64::NEG_INFINITY, f64::INFINITY];
-    for fast in turns.windows(UNRESOLVED).filter(|some| is_fast(some)) {
-        let [first, last] = [fast[0], fast[UNRESOLVED - 1]];
-        if first[0] >= at {
-            limits[1] = limits[1].min(first[0]);
-        } else if last[2] <= at {
-            limits[0] = limits[0].max(last[2]);
-        }
-    }
-    let tops = |side: &dyn Fn(&[f64; 3]) -> bool| {
-        turns.iter().filter(|turn| turn[1] > 0.0 && side(turn)).copied().collect::<Vec<_>>()
-    };
-    if let Some(beyond) = tops(&|turn| turn[0] >= at).get(MOST_TOPS) {
-        limits[1] = limits[1].min(beyond[0]);
-    }
-    if let Some(beyond) = tops(&|turn| turn[2] <= at).iter().rev().nth(MOST_TOPS) {
-        limits[0] = limits[0].max(beyond[2]);
-    }
-    limits
-}
-
-/// The extrema of a sampled function beyond rounding: the places on both sides, with +1 for a maximum, −1 for a minimum.
-fn turns(nodes: &[[f64; 2]]) -> Vec<[f64; 3]> {
-    // values that are the same to rounding are one node, from the first of them to the last
-    let mut runs: Vec<[f64; 3]> = Vec::new();
-    for &[place, value] in nodes.iter().filter(|node| node[1].is_finite()) {
-        match runs.last_mut() {
-            Some([_, last, level]) if (value - *level).abs() <= NOISE * level.abs() => {
-                *last = place;
-            }
-            _ => runs.push([place, place, value]),
-        }
-    }
-    let turn = |three: &[[f64; 3]]| {
-        let [before, here, after] = [three[0][2], three[1][2], three[2][2]];
-        let kind = if here > before && here > after {
-            1.0
-        } else if here < before && here < after {
-            -1.0
-        } else {
-            return None;
-        };
-        Some([three[0][1], kind, three[2][0]])
-    };
-    runs.windows(3).filter_map(turn).collect()
 }

@@ -108,6 +108,22 @@ pub enum NoAction {
         /// Where the next place beyond which the energy does not allow it was seen.
         expected: f64,
     },
+    /// It turns where the energy is no more than that of another momentum.
+    #[error(
+        "the coordinate turned at {} with the momentum {}, not that of rest, {}: the energy does not grow on both sides of one \
+         momentum, and no effective potential has its turning points",
+        short(*.place),
+        short(*.momentum),
+        short(*.rest)
+    )]
+    SeveralRests {
+        /// Where it turned.
+        place: f64,
+        /// With which momentum.
+        momentum: f64,
+        /// That at which it begins at rest.
+        rest: f64,
+    },
     /// The motion came to no return.
     #[error("{0}")]
     NoReturn(String),
@@ -121,6 +137,9 @@ const RETURNS: f64 = 1e-7;
 
 /// A zero of q̇ at which the momentum is off by more than this part of its typical size is a multiple one.
 const MULTIPLE_ZERO: f64 = 1e-9;
+
+/// Two states of rest at a place have energies that differ by more than this part of the depth of the well.
+const OTHER_REST: f64 = 1e-3;
 
 /// The distance over which a slope of the potential is taken, as a part of the width of the region.
 const SLOPE_STEP: f64 = 1e-5;
@@ -180,11 +199,11 @@ fn libration(
     for (row, expected) in found.iter().zip([other, from]) {
         let place = row[systems.column];
         if (place - expected).abs() > RETURNS * (right - left) {
-            return Err(if one {
-                NoAction::NarrowWells { found: place, expected }
-            } else {
-                NoAction::NotSeparable { found: place, expected }
-            });
+            if !one {
+                return Err(NoAction::NotSeparable { found: place, expected });
+            }
+            let several = other_rest(potential, systems, [left, right], (row, energy));
+            return Err(several.unwrap_or(NoAction::NarrowWells { found: place, expected }));
         }
     }
     let (located, carried) = end(&found);
@@ -197,6 +216,23 @@ fn libration(
     let turning_points = vec![left, right];
     let kind = RegionKind::Libration;
     Ok(ActionRow { energy, kind, turning_points, action, period, mean_rate: None })
+}
+
+/// The error if the only coordinate has turned where at rest it would have another energy: with another momentum.
+fn other_rest(
+    potential: &mut EffectivePotential<'_>,
+    systems: &ActionSystems<'_>,
+    ends: [f64; 2],
+    (row, energy): (&[f64], f64),
+) -> Option<NoAction> {
+    let kind = potential.momentum();
+    let column = systems.turning.channels().iter().position(|channel| channel.kind == kind)?;
+    let (place, momentum) = (row[systems.column], row[1 + column]);
+    let depth = energy - potential.bottom_between(ends)?;
+    let start = potential.at_rest(place);
+    let rest = potential.observed(&start, kind).ok()?;
+    let differs = (potential.at(place) - energy).abs() > OTHER_REST * depth;
+    differs.then_some(NoAction::SeveralRests { place, momentum, rest })
 }
 
 /// How much later than located the return is. Where q̇ vanishes as a power of p − p₀, as in H = p⁴ + V, its zero is a multiple

@@ -120,7 +120,14 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         return Err(CommandError::Signal(signal));
     }
     if rows.is_empty() {
-        return Err(could_not(format!("{name} cannot move at that energy")));
+        let rest = potential.at(own.place);
+        let is_below = own.energy < rest && !potential.is_same_energy(own.energy, rest);
+        let why = if arguments.energy.is_none() && is_below {
+            "has less energy at the start than at rest there: its motion follows from no effective potential"
+        } else {
+            "cannot move at that energy"
+        };
+        return Err(could_not(format!("{name} {why}")));
     }
     let [first, last] = potential.resolved();
     let range = match (first.is_finite(), last.is_finite()) {

@@ -80,14 +80,14 @@ pub(super) fn number(text: &str) -> Result<f64, String> {
 }
 
 fn first_error(scope: &Scope) -> String {
-    let diagnostic = scope.diagnostics.first().map(|diagnostic| diagnostic.message.clone());
-    diagnostic.map_or_else(
-        || "it is not a number".to_owned(),
-        |why| {
-            let why = printable::shortened(&why, LONGEST_REASON);
-            printable::line(&why).into_owned()
-        },
-    )
+    let Some(diagnostic) = scope.diagnostics.first() else {
+        return "it is not a number".to_owned();
+    };
+    // the command line has no tables to add anything to
+    let help = diagnostic.help.iter().filter(|help| !help.contains('['));
+    let parts = std::iter::once(&diagnostic.message).chain(help);
+    let parts = parts.map(|part| printable::shortened(part, LONGEST_REASON));
+    printable::line(&parts.collect::<Vec<_>>().join("; ")).into_owned()
 }
 
 /// The parameters: the file's values, with those set by the user.

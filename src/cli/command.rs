@@ -4,13 +4,14 @@
 
 use std::ffi::OsString;
 use std::io::{self, Write};
-use std::path::Path;
 use std::process::ExitCode;
 
+use clap::error::{ContextKind, ContextValue};
 use clap::parser::ValueSource;
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use super::actions;
+use super::assignment::number;
 use super::bracket;
 use super::check;
 use super::completions;
@@ -47,7 +48,7 @@ use super::sweep;
 use super::symmetries;
 use super::theme;
 use crate::diagnostic::nearest;
-use crate::preset::{Catalog, is_path};
+use crate::preset::{Catalog, file_here, is_path};
 use crate::printable;
 use crate::shell::Options;
 use crate::shell::options::{Words, with_defaults};
@@ -320,7 +321,30 @@ fn refused(words: &[OsString], error: &clap::Error) -> ExitCode {
     } else {
         stderr::show(&shown);
     }
+    if let Some(hint) = assigned(words, error) {
+        stderr::tell(&hint);
+    }
     ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(exit::WRONG_USE))
+}
+
+/// How a parameter is set, where words try to set one in another way: `l=2` or `--l 2`.
+fn assigned(words: &[OsString], error: &clap::Error) -> Option<String> {
+    if error.kind() != clap::error::ErrorKind::UnknownArgument {
+        return None;
+    }
+    let ContextValue::String(given) = error.get(ContextKind::InvalidArg)? else { return None };
+    let (name, value) = match (given.strip_prefix("--"), given.split_once('=')) {
+        (Some(option), _) => {
+            let at = words.iter().position(|word| word.to_str() == Some(given))?;
+            (option, words.get(at + 1)?.to_str()?)
+        }
+        (None, assigned) => assigned?,
+    };
+    number(value).ok()?;
+    let [name, value] = [name, value].map(printable::quoted);
+    Some(format!(
+        "a parameter is set by `--set {name}={value}`, an initial value by `--init {name}={value}`"
+    ))
 }
 
 /// Makes a message about the words of a command line safe to display, and limits its length.
@@ -372,14 +396,11 @@ fn unknown(word: &str) -> Option<String> {
     }
     let command = Arguments::command();
     let commands: Vec<&str> = command.get_subcommands().map(clap::Command::get_name).collect();
-    let file = format!("./{word}.toml");
-    let help = match nearest(word, commands.iter().copied().chain(presets())) {
-        // `phaselab new x` writes x.toml
-        _ if Path::new(&file).is_file() => {
-            format!("did you mean the file `{}`?", printable::quoted(&file))
-        }
-        Some(near) => format!("did you mean `{}`?", printable::line(near)),
-        None => {
+    let file = file_here(word);
+    let help = match (file, nearest(word, commands.iter().copied().chain(presets()))) {
+        (Some(file), _) => format!("did you mean the file `{}`?", printable::quoted(&file)),
+        (None, Some(near)) => format!("did you mean `{}`?", printable::line(near)),
+        (None, None) => {
             format!("the commands are {}; `phaselab list` has the presets", commands.join(", "))
         }
     };

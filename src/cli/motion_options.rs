@@ -17,7 +17,7 @@ use crate::ensemble::Start;
 use crate::experiment::{Derived, choose_method};
 use crate::integrate::{Method, Settings};
 use crate::mechanics::Equations;
-use crate::model::Model;
+use crate::model::{Direction, Model};
 use crate::system::System;
 
 /// A system, its start and its method.
@@ -50,6 +50,8 @@ pub(super) struct ModelReading {
     pub(super) document: Document,
     pub(super) model: Model,
     pub(super) start: Start,
+    /// The first surface of section of the file's views, as it is written, and its direction.
+    pub(super) surface: Option<(String, Direction)>,
     settings: Settings,
 }
 
@@ -68,6 +70,7 @@ impl MotionOptions {
     pub(super) fn read(&self) -> Result<ModelReading, CommandError> {
         let document = open::find(&self.name)?;
         let mut model = open::read(&document)?;
+        let surface = surface(&model);
         model.leave_views_out();
         let parameters = assignment::parameters(&model, &self.set)?;
         model.parameters.iter_mut().zip(&parameters).for_each(|(p, &value)| p.value = value);
@@ -81,7 +84,7 @@ impl MotionOptions {
             return Err(open::refuse(&document, &[diagnostic]));
         }
         let start = Start { time: model.run.start, parameters, overrides };
-        Ok(ModelReading { document, model, start, settings })
+        Ok(ModelReading { document, model, start, surface, settings })
     }
 
     /// Derives and compiles a model, with further columns, each `EXPR` or `NAME=EXPR`, of the option `called`.
@@ -92,7 +95,7 @@ impl MotionOptions {
         called: &str,
         interrupt: &Interrupt,
     ) -> Result<Laid, CommandError> {
-        let ModelReading { document, model, start, settings } = reading;
+        let ModelReading { document, model, start, settings, .. } = reading;
         let mut derived = open::derive(&document, model)?;
         let Derived { model, equations } = &mut derived;
         equations.pool.set_cancel(interrupt.cancel().clone());
@@ -129,4 +132,13 @@ impl Laid {
     pub(super) fn header(&self) -> Header {
         header(&self.model, &self.system, &self.start.parameters, self.method, self.settings)
     }
+}
+
+/// The first surface of section of a file's views, which a view has as its last axis.
+fn surface(model: &Model) -> Option<(String, Direction)> {
+    model.views.iter().find_map(|view| {
+        let section = model.sections.get(view.section?)?;
+        let written = view.axes.last()?.first()?.written.clone();
+        Some((written, section.direction))
+    })
 }

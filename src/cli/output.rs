@@ -23,6 +23,33 @@ pub(super) enum OutputForm {
     Json,
 }
 
+impl OutputForm {
+    fn word(self) -> &'static str {
+        match self {
+            OutputForm::Json => "JSON",
+            OutputForm::Text | OutputForm::Coloured => "text",
+        }
+    }
+}
+
+/// What a file's name says that is not what will be in it.
+fn other_format(path: &Path, form: OutputForm) -> Option<String> {
+    const BINARY: [&str; 14] = [
+        "xlsx", "xls", "ods", "numbers", "parquet", "feather", "h5", "hdf5", "npy", "npz", "mat",
+        "png", "jpg", "pdf",
+    ];
+    let ending = path.extension()?.to_str()?.to_ascii_lowercase();
+    if BINARY.contains(&ending.as_str()) {
+        return Some(format!("which is not the format that .{ending} names"));
+    }
+    let is_json = matches!(ending.as_str(), "json" | "jsonl");
+    match form {
+        OutputForm::Json if ending == "csv" => Some("whatever .csv says".to_owned()),
+        OutputForm::Text if is_json => Some(format!("not as JSON: see --format {ending}")),
+        _ => None,
+    }
+}
+
 /// A destination for data.
 #[derive(Debug)]
 pub(super) struct Output {
@@ -53,6 +80,10 @@ impl Output {
             return Err(CommandError::WrongUse(format!(
                 "{name} describes a system, and is not replaced; give the output another name"
             )));
+        }
+        if let Some(other) = other_format(path, form) {
+            let name = printable::path(path);
+            stderr::tell(&format!("{name} is written as {}, {other}", form.word()));
         }
         Output::rewrite(path, form)
     }

@@ -212,8 +212,9 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let cannot_start = || claims::undefined_start(&model, &equations, &system, &begun);
     let cannot_start = &cannot_start;
     let asked = experiment.snapshot().setup.clone();
-    let ends_before = || overstepped::end_of_motion((&model, &equations, &system), &asked);
-    let ends_before: Option<&dyn Fn() -> Option<String>> =
+    let ends_before =
+        |steps| overstepped::end_of_motion((&model, &equations, &system), &asked, steps);
+    let ends_before: Option<&dyn Fn(u64) -> Option<String>> =
         if method.stepping == Stepping::Fixed { Some(&ends_before) } else { None };
     let run = Run {
         experiment,

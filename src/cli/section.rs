@@ -36,7 +36,7 @@ use crate::system::InitialOverride;
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
-  phaselab section henon-heiles --on x --count 200 --columns y,p_y > section.csv
+  phaselab section henon-heiles --count 200 --columns y,p_y > section.csv
   phaselab section henon-heiles --on x --orbits starts.csv --energy 1/8 --solve p_x
   phaselab section duffing --on 'sin(w*t)' --count 5000 --columns \"x,x'\" -o attractor.csv
   phaselab section kicked-rotor --on 'sin(2*pi*t/T - pi)' --until 1000 --format json
@@ -45,12 +45,12 @@ Examples:
 pub(super) struct Arguments {
     #[command(flatten)]
     motion: MotionOptions,
-    /// The expression that vanishes on the surface.
+    /// The expression that vanishes on the surface; by default that of the file's first view of kind `section`.
     #[arg(long, value_name = "EXPR", allow_hyphen_values = true)]
-    on: String,
-    /// Which crossings count.
-    #[arg(long, value_enum, default_value_t = Sense::Rising)]
-    direction: Sense,
+    on: Option<String>,
+    /// Which crossings count: by default the rising ones, or those of the file's own surface.
+    #[arg(long, value_enum)]
+    direction: Option<Sense>,
     /// The number of crossings after which an orbit ends; 100 where there is no --until either.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=MOST))]
     count: Option<u64>,
@@ -114,6 +114,14 @@ impl Sense {
         }
     }
 
+    fn of(direction: Direction) -> Sense {
+        match direction {
+            Direction::Rising => Sense::Rising,
+            Direction::Falling => Sense::Falling,
+            Direction::Either => Sense::Either,
+        }
+    }
+
     fn word(self) -> &'static str {
         match self {
             Sense::Rising => "rising",
@@ -125,8 +133,17 @@ impl Sense {
 
 pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
     let mut reading = arguments.motion.read()?;
-    let on = surface(&mut reading.model, &arguments.on, "--on")?;
-    let event = add_section(&mut reading.model, on, arguments.direction.direction());
+    let (on, sense) = match (&arguments.on, reading.surface.take()) {
+        (Some(on), _) => (on.clone(), Sense::Rising),
+        (None, Some((on, direction))) => (on, Sense::of(direction)),
+        (None, None) => {
+            let message = "the file has no surface of section; --on says where, as `--on x`";
+            return Err(CommandError::WrongUse(message.to_owned()));
+        }
+    };
+    let sense = arguments.direction.unwrap_or(sense);
+    let surface = surface(&mut reading.model, &on, "--on")?;
+    let event = add_section(&mut reading.model, surface, sense.direction());
     let wanted = arguments.columns.as_deref().map(split);
     let rotation_names = arguments.rotation.as_deref().map(split);
     let named: Vec<String> = wanted.iter().chain(&rotation_names).flatten().cloned().collect();
@@ -167,8 +184,8 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     interrupt.prepares();
     let section = SectionReport {
         laid: &laid,
-        on: &arguments.on,
-        direction: arguments.direction.word(),
+        on: &on,
+        direction: sense.word(),
         format: arguments.format,
         orbits: &orbits,
         shown: &shown,
@@ -226,7 +243,7 @@ fn shell(arguments: &Arguments, model: &Model) -> Result<Option<EnergyShell>, Co
         );
         return Err(CommandError::WrongUse(message));
     }
-    Ok(Some(EnergyShell { energy, by, root }))
+    Ok(Some(EnergyShell { energy, by, root, about: 0.0 }))
 }
 
 /// The parts between commas that stand in no parentheses.

@@ -13,6 +13,7 @@ use super::error::DynamicsError;
 use super::first_return::{difference, return_near};
 use super::linear;
 use super::newton::{CLOSED, Fixed, Newton, NewtonIterate};
+use super::orbit_stability::none_is_outside;
 use super::orbit_units::OrbitUnits;
 use super::phase_space::PhaseSpace;
 use super::resonance::along_resonance;
@@ -20,7 +21,7 @@ use super::search_budget::SearchBudget;
 use super::transverse::{self, Removed};
 use super::unclosed_motion::explained;
 use crate::integrate::{Method, Settings};
-use crate::num::{math, short};
+use crate::num::short;
 use crate::system::State;
 
 /// The returns at which a search begins, one after the other.
@@ -75,7 +76,7 @@ pub struct Orbit {
     pub levels: Vec<String>,
     /// What rounding may leave of the entries of `transverse`, at most; `None` under constraints.
     pub rounding: Option<f64>,
-    /// Whether no multiplier lies outside the unit circle.
+    /// Whether no multiplier lies outside the unit circle, as far as rounding lets it be known.
     pub stable: bool,
     /// The step or tolerance used.
     pub settings: Settings,
@@ -121,7 +122,7 @@ impl Orbit {
             let turned = newton.units.map(&circuit.monodromy).abs() * frame;
             error.amax() + DIRECTIONS * turned.amax()
         });
-        let stable = multipliers.iter().all(|z| math::hypot(z[0], z[1]) <= 1.0 + ON_CIRCLE);
+        let stable = none_is_outside(&multipliers, rounding.unwrap_or(0.0).max(f64::EPSILON));
         let size = newton.size(&closed.state);
         Ok(Orbit {
             period: closed.period,

@@ -2,7 +2,7 @@
 //!
 //! In: its multipliers. Out: one of four kinds. Never here: how multipliers are found, what is printed of them.
 
-use super::orbit::Orbit;
+use super::orbit::{ON_CIRCLE, Orbit};
 use crate::num::math;
 
 /// An error that rounding leaves of the matrix of the multipliers is mentioned if it may show in their digits.
@@ -45,6 +45,16 @@ fn is_one([re, im]: [f64; 2], rounding: f64) -> bool {
     math::hypot(re - 1.0, im) <= (TIMES * rounding).sqrt().min(NEAR_ONE)
 }
 
+/// Whether no multiplier lies outside the unit circle but by what rounding of the matrix makes of 1.
+pub(super) fn none_is_outside(multipliers: &[[f64; 2]], rounding: f64) -> bool {
+    multipliers.iter().all(|&z| !is_outside(z) || is_one(z, rounding))
+}
+
+/// Whether a multiplier lies outside the unit circle.
+fn is_outside([re, im]: [f64; 2]) -> bool {
+    math::hypot(re, im) > 1.0 + ON_CIRCLE
+}
+
 /// Whether two multipliers of product 1 lie on the unit circle, by the trace of their matrix and its error; `None` where
 /// the trace is ±2 within it.
 fn is_elliptic(trace: f64, error: f64) -> Option<bool> {
@@ -68,6 +78,8 @@ impl Orbit {
                 let error = 2.0 * self.rounding.unwrap_or(0.0).max(f64::EPSILON);
                 match self.residue() {
                     Some(_) => is_elliptic(self.transverse.trace(), error),
+                    // beside others a multiplier that rounding may have moved off the circle leaves it open
+                    None if self.stable && self.multipliers.iter().any(|&z| is_outside(z)) => None,
                     None => Some(self.stable),
                 }
             }
@@ -103,6 +115,16 @@ mod tests {
                 assert!(!is_one(at(beyond), rounding), "{rounding} {re} {im}");
             }
         }
+    }
+
+    /// Those of a proton in crossed fields, all of which are 1: √(1.2e-11) = 3.4e-6.
+    #[test]
+    fn what_rounding_makes_of_one_is_not_outside() {
+        let off = [1.000_001_721_803_657, 1.261_323_960_354_561e-7];
+        let multipliers = [off, [off[0], -off[1]], [1.0, 0.0], [0.999_998_278_194_624_4, 0.0]];
+        assert!(none_is_outside(&multipliers, 1.176e-11));
+        assert!(!none_is_outside(&multipliers, 1e-15));
+        assert!(!none_is_outside(&[[1.001, 0.0], [1.0 / 1.001, 0.0]], 1.176e-11));
     }
 
     #[test]

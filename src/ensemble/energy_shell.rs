@@ -5,8 +5,8 @@
 //!
 //! The energy as a function of one rate v is a quadratic a v² + b v + c for every system whose L or H is quadratic in
 //! the rates. It is measured at three places, tested at two more, solved, and the root corrected by Newton's method on
-//! the energy itself. Where it is not a quadratic (a relativistic particle) the root is bracketed from v = 0 outwards
-//! and bisected.
+//! the energy itself. Where it is not a quadratic (a relativistic particle) the root is bracketed from where the energy
+//! is extremal outwards and bisected.
 
 use super::Start;
 use crate::num::short;
@@ -30,6 +30,8 @@ pub struct EnergyShell {
     pub by: InitialOverride,
     /// Which root it is.
     pub root: Root,
+    /// Where an energy that is no quadratic is least, or greatest: its roots lie on both sides.
+    pub about: f64,
 }
 
 /// Why a start cannot be completed.
@@ -79,6 +81,13 @@ const HALVINGS: u32 = 200;
 
 /// The smallest value looked at, relative to one.
 const INNERMOST: f64 = 1e-30;
+
+/// Where the energy has changed by less than this part of what is missing, the next value is as many times farther out.
+const FLAT: f64 = 1e-6;
+const FAR: f64 = 32.0;
+
+/// Between values as near as this Newton's method finds the last digits.
+const CLOSE: f64 = 1e-14;
 
 impl EnergyShell {
     /// Completes a start.
@@ -155,26 +164,28 @@ impl EnergyShell {
         })
     }
 
-    /// The root next to zero on its side, for an energy that is no quadratic.
+    /// The root next to the extremum on its side, for an energy that is no quadratic.
     fn bracketed(&self, energies: &mut Energies<'_>, by: &str) -> Result<f64, NotOnShell> {
         let (sign, side) = match self.root {
             Root::Positive => (1.0, "positive"),
             Root::Negative => (-1.0, "negative"),
         };
-        let missing = energies.at(0.0)? - self.energy;
+        let missing = energies.at(self.about)? - self.energy;
         if missing == 0.0 {
-            return Ok(0.0);
+            return Ok(self.about);
         }
-        let (mut inner, mut outer) = (0.0, INNERMOST);
+        let (mut inner, mut outer) = ((0.0, missing), INNERMOST);
         for _ in 0..DOUBLINGS {
-            let found = energies.at(sign * outer)? - self.energy;
+            let found = energies.at(self.about + sign * outer)? - self.energy;
             if found == 0.0 || (found > 0.0) != (missing > 0.0) {
-                return bisected(inner, outer, |v| {
-                    Ok((energies.at(sign * v)? - self.energy > 0.0) == (missing > 0.0))
-                })
-                .map(|v| sign * v);
+                let within = (inner, (outer, found));
+                let energy = |v: f64| Ok(energies.at(self.about + sign * v)? - self.energy);
+                return located(within, energy).map(|v| self.about + sign * v);
             }
-            (inner, outer) = (outer, 2.0 * outer);
+            // next to the extremum nothing happens
+            let is_flat = (found - missing).abs() < FLAT * missing.abs();
+            inner = (outer, found);
+            outer *= if is_flat { FAR } else { 2.0 };
         }
         Err(NotOnShell::NotFound { energy: self.energy, by: by.to_owned(), side })
     }
@@ -191,7 +202,7 @@ impl EnergyShell {
             let width = 1e-4 * rate.abs();
             let slope = (energies.at(rate + width)? - energies.at(rate - width)?) / (2.0 * width);
             let next = rate - missing / slope;
-            if !next.is_finite() || (next < 0.0) != (rate < 0.0) {
+            if !next.is_finite() || (next < self.about) != (rate < self.about) {
                 break;
             }
             let distance = (energies.at(next)? - self.energy).abs();
@@ -204,24 +215,41 @@ impl EnergyShell {
     }
 }
 
-/// The place between two where a property ends.
-fn bisected(
-    mut inner: f64,
-    mut outer: f64,
-    mut holds: impl FnMut(f64) -> Result<bool, NotOnShell>,
+/// The zero of a function between two places, with its values there of opposite signs: by secants whose value at an end that stays is
+/// halved (the Illinois algorithm: M. Dowell, P. Jarratt, BIT 11 (1971) 168), and halves where these are slow.
+fn located(
+    (mut inner, mut outer): ((f64, f64), (f64, f64)),
+    mut value: impl FnMut(f64) -> Result<f64, NotOnShell>,
 ) -> Result<f64, NotOnShell> {
-    for _ in 0..HALVINGS {
-        let middle = f64::midpoint(inner, outer);
-        if middle <= inner || middle >= outer {
+    let mut last = 0;
+    for round in 0..HALVINGS {
+        let middle = f64::midpoint(inner.0, outer.0);
+        if middle <= inner.0 || middle >= outer.0 {
             break;
         }
-        if holds(middle)? {
-            inner = middle;
+        let secant = inner.0 - inner.1 * (outer.0 - inner.0) / (outer.1 - inner.1);
+        let is_inside = secant > inner.0 && secant < outer.0;
+        let place = if is_inside && round % 4 != 3 { secant } else { middle };
+        let found = value(place)?;
+        if found == 0.0 {
+            return Ok(place);
+        }
+        if (found > 0.0) == (inner.1 > 0.0) {
+            if last == 1 {
+                outer.1 *= 0.5;
+            }
+            (inner, last) = ((place, found), 1);
         } else {
-            outer = middle;
+            if last == -1 {
+                inner.1 *= 0.5;
+            }
+            (outer, last) = ((place, found), -1);
+        }
+        if outer.0 - inner.0 <= CLOSE * outer.0 {
+            break;
         }
     }
-    Ok(outer)
+    Ok(outer.0)
 }
 
 /// The energy as a function of one number of a start.

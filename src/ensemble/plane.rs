@@ -140,7 +140,8 @@ impl SectionPlane {
         let start = self.given(at);
         match self.surface {
             Surface::Place { solved, energy, .. } => {
-                let shell = EnergyShell { energy, by: solved, root: Root::Positive };
+                let root = Root::Positive;
+                let shell = EnergyShell { energy, by: solved, root, about: 0.0 };
                 shell.allows(system, observer, &start)
             }
             Surface::Stroboscope { .. } => start.state(system).is_ok(),
@@ -169,7 +170,7 @@ impl SectionPlane {
         };
         for root in [Root::Positive, Root::Negative] {
             let mut start = given.clone();
-            let shell = EnergyShell { energy, by: solved, root };
+            let shell = EnergyShell { energy, by: solved, root, about: 0.0 };
             shell.complete_by(system, observer, &mut start)?;
             let rising = (velocity(system, observer, &start, coordinate)? >= 0.0) == grows;
             let wanted = match self.direction {

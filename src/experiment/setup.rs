@@ -86,7 +86,13 @@ pub enum MethodNotFound {
 }
 
 fn help(near: Option<&str>) -> String {
-    near.map_or(String::new(), |name| format!("; did you mean `{name}`?"))
+    match near {
+        Some(name) => format!("; did you mean `{name}`?"),
+        None => {
+            let names: Vec<&str> = METHODS.iter().map(|method| method.name).collect();
+            format!("; there are auto, {}", names.join(", "))
+        }
+    }
 }
 
 /// Finds the method of a name and checks that it suits the system; `auto` selects the first suitable one in the

@@ -126,6 +126,8 @@ pub struct Failure {
     pub time: f64,
     /// What happened, where, and what may help, in a sentence or two.
     pub message: String,
+    /// Whether the motion itself ends there, not only what its method can follow.
+    pub ends_motion: bool,
 }
 
 /// A monitored invariant.
@@ -189,7 +191,8 @@ pub struct MethodFact {
 
 impl From<crate::system::MotionError> for Failure {
     fn from(fault: crate::system::MotionError) -> Failure {
-        Failure { time: fault.time, message: fault.to_string() }
+        let ends_motion = fault.kind.ends_motion();
+        Failure { time: fault.time, message: fault.to_string(), ends_motion }
     }
 }
 

@@ -17,7 +17,7 @@ use super::evaluator::ResidueEvaluator;
 use super::explicit_motion::{ExplicitMotion, accelerations};
 use super::formula::{cleared, content};
 use super::naming::name_of;
-use super::noether::{DEGREE, MOST, SPARE, Symmetries, words};
+use super::noether::{DEGREE, MOST, RAN_OUT, SPARE, Symmetries, words};
 use super::ramps;
 use super::random::Random;
 use super::stand_in;
@@ -98,12 +98,7 @@ pub fn point_symmetries(
         return Err(Unsupported("the equations of motion have kinks".to_owned()));
     }
     let generators = generators_of(pool, law, time, &positions, &velocities);
-    let mut degree = DEGREE;
-    let mut monomials = products(pool, &generators, degree);
-    while degree > 1 && monomials.len() * (positions.len() + 2) > MOST {
-        degree -= 1;
-        monomials = products(pool, &generators, degree);
-    }
+    let monomials = products(pool, &generators, DEGREE, MOST / (positions.len() + 2));
     let first: Vec<(Expr, Vec<Expr>)> = noether
         .iter()
         .flat_map(|known| &known.found)
@@ -136,6 +131,9 @@ pub fn point_symmetries(
         });
     }
     for vector in solved {
+        if is_over() {
+            return Err(Unsupported(RAN_OUT.to_owned()));
+        }
         let Some((xi, eta)) = problem.exact(pool, &vector) else {
             complete = false;
             continue;
@@ -231,7 +229,7 @@ impl LieProblem {
         while idle < SPARE || points.len() < COMPARED {
             tries += 1;
             if is_over() || tries > 100 * MOST {
-                return Err(Unsupported("the time allowed ran out".to_owned()));
+                return Err(Unsupported(RAN_OUT.to_owned()));
             }
             let Some((values, rows, known)) =
                 self.rows(&evaluator, &moved, first, self.field, &mut random)
@@ -258,6 +256,9 @@ impl LieProblem {
         let basis = echelon.null_space();
         let mut all: Vec<Vec<Residue>> = Vec::new();
         for order in orders(width, 6) {
+            if is_over() {
+                return Err(Unsupported(RAN_OUT.to_owned()));
+            }
             all.extend(reduced(self.field, &basis, &order));
         }
         all.sort_by_key(|v| v.iter().filter(|x| !x.is_zero()).count());

@@ -32,6 +32,9 @@ pub(super) const DEGREE: u32 = 3;
 /// The largest number of unknown coefficients.
 pub(super) const MOST: usize = 1_500;
 
+/// The reason where the budget of time is spent.
+pub(super) const RAN_OUT: &str = "the time allowed ran out";
+
 /// Rows beyond the rank that have to add nothing.
 pub(super) const SPARE: usize = 12;
 
@@ -115,6 +118,9 @@ pub fn symmetries(
     // the same changes with the parameters' names, where they are symmetries for all their values
     let named = (symbolic != lagrangian).then(|| problem.with(pool, symbolic));
     for vector in vectors {
+        if is_over() {
+            return refused(RAN_OUT);
+        }
         let by_name = named.as_ref().and_then(|named| named.exact(pool, &vector));
         let by_name = by_name.filter(|symmetry| symmetry.proved);
         let here = |pool: &mut Pool| {
@@ -171,12 +177,7 @@ impl NoetherProblem {
     ) -> NoetherProblem {
         let slopes = slopes_of(pool, lagrangian, time, &positions, &velocities);
         let generators = generators_of(pool, lagrangian, time, &positions, &velocities);
-        let mut degree = DEGREE;
-        let mut monomials = products(pool, &generators, degree);
-        while degree > 1 && monomials.len() * (positions.len() + 2) > MOST {
-            degree -= 1;
-            monomials = products(pool, &generators, degree);
-        }
+        let monomials = products(pool, &generators, DEGREE, MOST / (positions.len() + 2));
         NoetherProblem {
             time,
             positions,
@@ -235,7 +236,7 @@ impl NoetherProblem {
         while idle < SPARE {
             tries += 1;
             if is_over() || tries > 100 * MOST {
-                return Err(Unsupported("the time allowed ran out".to_owned()));
+                return Err(Unsupported(RAN_OUT.to_owned()));
             }
             let Some((values, row)) = self.row(&evaluator, self.field, &mut random) else {
                 continue;
@@ -260,6 +261,9 @@ impl NoetherProblem {
         let mut best: Vec<Vec<Residue>> = Vec::new();
         let mut all: Vec<Vec<Residue>> = Vec::new();
         for order in orders(m * (n + 2), 6) {
+            if is_over() {
+                return Err(Unsupported(RAN_OUT.to_owned()));
+            }
             all.extend(reduced(self.field, &basis, &order));
         }
         all.sort_by_key(|v| v.iter().filter(|x| !x.is_zero()).count());

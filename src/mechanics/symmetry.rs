@@ -1,5 +1,5 @@
 //! Symmetries that move several coordinates at once. Candidates are chosen by name: common
-//! translations of `x1, x2, …`, and common rotations of all Cartesian pairs `(x…, y…)`. Each one is
+//! translations of `x1, x2, …` or `x, X`, and common rotations of all Cartesian pairs `(x…, y…)`, `(X…, Y…)`. Each one is
 //! proved: the rate of its generator vanishes symbolically.
 //! Source: *The Principles of Dynamics*, §§ 1.1.2, 1.4.2.
 
@@ -13,7 +13,9 @@ use crate::num::Number;
 /// Adds total momenta and angular momenta to the conserved quantities. `rates` are the ṗ.
 pub(super) fn find(equations: &mut Equations, model: &Model, rates: &[Expr]) {
     for (stem, members) in families(model) {
-        if members.iter().all(|i| equations.cyclic.contains(i)) {
+        let name = format!("total p_{stem}");
+        let is_known = equations.conserved.iter().any(|known| known.name == name);
+        if is_known || members.iter().all(|i| equations.cyclic.contains(i)) {
             continue;
         }
         let momenta: Vec<Expr> = members.iter().map(|&i| equations.momenta[i]).collect();
@@ -32,27 +34,34 @@ pub(super) fn find(equations: &mut Equations, model: &Model, rates: &[Expr]) {
                 Reason::Translation(shown)
             };
             equations.conserved.push(Conserved {
-                name: format!("total p_{stem}"),
+                name,
                 expression: equations.pool.sum(&momenta),
                 reason,
             });
         }
     }
     for (first, second, axis) in [('x', 'y', 'z'), ('y', 'z', 'x'), ('z', 'x', 'y')] {
-        let pairs = pairs(model, first, second);
-        let angles =
-            pairs.iter().any(|&(i, j)| [i, j].iter().any(|&k| is_angle(&model.coordinates[k])));
-        if pairs.is_empty() || angles || !covers(model, first, second, pairs.len()) {
-            continue;
-        }
-        let (momentum, rate) = angular_momentum(equations, &pairs, rates);
-        if equations.pool.is_zero(rate) == Zero::Proved {
+        let capital = |letter: char| letter.to_ascii_uppercase();
+        let small = pairs(model, &[(first, second)]);
+        let all = pairs(model, &[(first, second), (capital(first), capital(second))]);
+        let is_larger = all.len() > small.len();
+        for pairs in [Some(small), is_larger.then_some(all)].into_iter().flatten() {
+            let angles =
+                pairs.iter().any(|&(i, j)| [i, j].iter().any(|&k| is_angle(&model.coordinates[k])));
+            if pairs.is_empty() || angles || !covers(model, first, second, &pairs) {
+                continue;
+            }
+            let (momentum, rate) = angular_momentum(equations, &pairs, rates);
+            if equations.pool.is_zero(rate) != Zero::Proved {
+                continue;
+            }
             let driven = pairs.iter().any(|&(i, j)| is_driven(model, i) || is_driven(model, j));
             equations.conserved.push(Conserved {
                 name: format!("L_{axis}"),
                 expression: equations.pool.simplify_terms(momentum),
                 reason: if driven { Reason::Proved } else { Reason::Rotation(axis) },
             });
+            break;
         }
     }
 }
@@ -69,41 +78,45 @@ fn is_angle(coordinate: &Coordinate) -> bool {
     coordinate.period.is_some() || ["rad", "deg", "°"].contains(&coordinate.unit.as_str())
 }
 
-/// Groups of two or more coordinates whose names differ only in a trailing number.
+/// Groups of two or more coordinates whose names differ only in a trailing number, then those that differ in that or in
+/// being capital letters.
 fn families(model: &Model) -> Vec<(String, Vec<usize>)> {
-    let mut families: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
+    let (mut numbered, mut all): (BTreeMap<&str, Vec<usize>>, BTreeMap<String, Vec<usize>>) =
+        Default::default();
     for (i, c) in model.coordinates.iter().enumerate() {
         let stem = c.name.trim_end_matches(|d: char| d.is_ascii_digit());
-        if stem.len() < c.name.len() && !stem.is_empty() {
-            families.entry(stem).or_default().push(i);
+        if stem.is_empty() {
+            continue;
         }
+        if stem.len() < c.name.len() {
+            numbered.entry(stem).or_default().push(i);
+        }
+        all.entry(stem.to_lowercase()).or_default().push(i);
     }
-    families
-        .into_iter()
-        .filter(|(_, members)| members.len() > 1)
-        .map(|(stem, members)| (stem.to_owned(), members))
-        .collect()
+    let numbered = numbered.into_iter().map(|(stem, members)| (stem.to_owned(), members));
+    numbered.chain(all).filter(|(_, members)| members.len() > 1).collect()
 }
 
-/// Cartesian pairs: each `x…` with the `y…` of the same ending.
-fn pairs(model: &Model, first: char, second: char) -> Vec<(usize, usize)> {
+/// Cartesian pairs: each `x…` with the `y…` of the same ending, for these letters.
+fn pairs(model: &Model, letters: &[(char, char)]) -> Vec<(usize, usize)> {
     let partner = |name: &str| {
-        let ending = name.strip_prefix(first)?;
-        model.coordinate(&format!("{second}{ending}"))
+        letters.iter().find_map(|&(first, second)| {
+            let ending = name.strip_prefix(first)?;
+            model.coordinate(&format!("{second}{ending}"))
+        })
     };
     model.coordinates.iter().enumerate().filter_map(|(i, c)| Some((i, partner(&c.name)?))).collect()
 }
 
 /// Returns whether every coordinate that begins with either letter is in a pair.
-fn covers(model: &Model, first: char, second: char, pairs: usize) -> bool {
-    let cartesian = |letter: char| {
-        let one = |name: &str| {
-            name.strip_prefix(letter)
-                .is_some_and(|ending| ending.bytes().all(|b| b.is_ascii_digit()))
-        };
-        model.coordinates.iter().filter(|c| one(&c.name)).count()
-    };
-    cartesian(first) == pairs && cartesian(second) == pairs
+fn covers(model: &Model, first: char, second: char, pairs: &[(usize, usize)]) -> bool {
+    model.coordinates.iter().enumerate().all(|(i, c)| {
+        let is_cartesian = [first, second].iter().any(|&letter| {
+            let ending = c.name.strip_prefix(letter);
+            ending.is_some_and(|ending| ending.bytes().all(|b| b.is_ascii_digit()))
+        });
+        !is_cartesian || pairs.iter().any(|&(a, b)| a == i || b == i)
+    })
 }
 
 /// Σ x p_y − y p_x and its rate Σ ẋ p_y + x ṗ_y − ẏ p_x − y ṗ_x.

@@ -33,12 +33,14 @@ pub struct Catalog {
 #[derive(Debug, thiserror::Error)]
 pub enum NotFound {
     /// No preset of that name.
-    #[error("there is no preset `{}`{}", printable::quoted(.name), .near.as_ref().map_or(String::new(), |n| format!("; did you mean `{}`?", printable::line(n))))]
+    #[error("there is no preset `{}`{}", printable::quoted(.name), meant(.file.as_deref(), .near.as_deref()))]
     Name {
         /// The requested name.
         name: String,
         /// The nearest existing name.
         near: Option<String>,
+        /// The file of that name in the working folder, if there is one.
+        file: Option<String>,
     },
     /// The file cannot be read.
     #[error("cannot read {}: {}", printable::path(.path), printable::why(.reason))]
@@ -48,6 +50,21 @@ pub enum NotFound {
         /// The system's error.
         reason: io::Error,
     },
+}
+
+/// What may have been meant by a name that no preset has.
+fn meant(file: Option<&str>, near: Option<&str>) -> String {
+    match (file, near) {
+        (Some(file), _) => format!("; did you mean the file `{}`?", printable::quoted(file)),
+        (None, Some(near)) => format!("; did you mean `{}`?", printable::line(near)),
+        (None, None) => String::new(),
+    }
+}
+
+/// `./x.toml` for the name `x`, if there is such a file: `phaselab new x` writes it.
+pub fn file_here(name: &str) -> Option<String> {
+    let file = format!("./{name}.toml");
+    Path::new(&file).is_file().then_some(file)
 }
 
 impl Catalog {
@@ -115,7 +132,8 @@ impl Catalog {
                 let name = printable::os(wanted);
                 let names = self.entries.iter().map(|entry| entry.name.as_str());
                 let near = nearest(&name, names).map(str::to_owned);
-                Err(NotFound::Name { name, near })
+                let file = file_here(&name);
+                Err(NotFound::Name { name, near, file })
             }
         }
     }

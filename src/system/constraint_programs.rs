@@ -75,8 +75,8 @@ fn integral(builder: &mut ProgramBuilder<'_>, k: usize) -> Option<(Expr, Expr)> 
     Some((f, pool.simplify(g)))
 }
 
-/// By how much an f jumps where the angle of a point in it begins a new turn; zero where there is none, or several. There the
-/// motion goes on, since the slopes of f do.
+/// By how much an f jumps where angles of points in it begin new turns: the greatest number of which the jumps of all are
+/// multiples. Zero where there is no angle, or no such number. There the motion goes on, since the slopes of f do.
 fn turn(builder: &mut ProgramBuilder<'_>, f: Expr) -> Expr {
     let equations = builder.equations;
     let pool = &mut builder.pool;
@@ -93,17 +93,43 @@ fn turn(builder: &mut ProgramBuilder<'_>, f: Expr) -> Expr {
         _ => None,
     };
     let angles: Vec<(Expr, i64)> = varying.filter_map(half_turns).collect();
-    let [(angle, half_turns)] = angles[..] else { return Expr::ZERO };
-    let symbol = pool.symbol("the angle of a constraint");
-    let variable = pool.variable(symbol);
-    let function = pool.replace(f, angle, variable);
-    let slope = pool.derivative(function, symbol);
-    if pool.depends(slope, symbol) || pool.depends_on_any(slope, &moving) {
-        return Expr::ZERO;
+    let (mut function, mut symbols) = (f, Vec::new());
+    for (k, &(angle, _)) in angles.iter().enumerate() {
+        let symbol = pool.symbol(&format!("the angle {k} of a constraint"));
+        let variable = pool.variable(symbol);
+        function = pool.replace(function, angle, variable);
+        symbols.push(symbol);
     }
-    let (pi, count) = (pool.pi(), pool.integer(half_turns));
-    let half_turns = pool.mul(pi, count);
-    pool.mul(slope, half_turns)
+    let held = [&moving[..], &symbols].concat();
+    let (mut unit, mut multiple) = (Expr::ZERO, Number::ZERO);
+    for (&symbol, &(_, half_turns)) in symbols.iter().zip(&angles) {
+        let slope = pool.derivative(function, symbol);
+        // an angle within another one has no slope
+        if slope == Expr::ZERO || pool.depends_on_any(slope, &held) {
+            return Expr::ZERO;
+        }
+        let jump = pool.monomial(Number::integer(half_turns), &[(slope, Number::ONE)]);
+        if unit == Expr::ZERO {
+            (unit, multiple) = (jump, Number::ONE);
+            continue;
+        }
+        let ratio = pool.div(jump, unit);
+        let ratio = pool.simplify(ratio);
+        let Some(Number::Rational(n, d)) = pool.as_number(ratio) else { return Expr::ZERO };
+        let Number::Rational(m, e) = multiple else { return Expr::ZERO };
+        let [n, d, m, e] = [n, d, m, e].map(i128::from);
+        multiple = Number::ratio(common_divisor(n * e, m * d), d * e);
+    }
+    let (pi, multiple) = (pool.pi(), pool.number(multiple));
+    pool.product(&[unit, multiple, pi])
+}
+
+fn common_divisor(a: i128, b: i128) -> i128 {
+    let (mut a, mut b) = (a.abs(), b.abs());
+    while b != 0 {
+        (a, b) = (b, a % b);
+    }
+    a
 }
 
 /// Whether an expression is smooth everywhere and has one value: an angle of a point jumps, and a

@@ -111,6 +111,28 @@ pub enum MotionErrorKind {
     Sticks,
 }
 
+impl MotionErrorKind {
+    /// Whether no motion continues from there, whatever follows it: not where another method passes, and not where only the
+    /// method, the clock or the number of steps is at its end.
+    pub fn ends_motion(&self) -> bool {
+        matches!(
+            self,
+            MotionErrorKind::SingularMass
+                | MotionErrorKind::NoMass
+                | MotionErrorKind::SingularConstraints(None)
+                | MotionErrorKind::ConstraintLost(_)
+                | MotionErrorKind::NotFinite(_)
+                | MotionErrorKind::OutOfRange(_)
+                | MotionErrorKind::BlowsUp(_)
+                | MotionErrorKind::NoVelocities
+                | MotionErrorKind::BranchLeft
+                | MotionErrorKind::LogarithmLeft
+                | MotionErrorKind::StepUnderflow(_)
+                | MotionErrorKind::Rough
+        )
+    }
+}
+
 impl fmt::Display for MotionError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let time = printable::number(self.time);

@@ -192,7 +192,7 @@ impl WorkerLoop<'_> {
         let message = format!(
             "the integrator was stopped by a bug in phaselab ({reason}); load the system again"
         );
-        let status = Status::Failed(Failure { time: last.time, message });
+        let status = Status::Failed(Failure { time: last.time, message, ends_motion: false });
         self.slot.store(Some(Arc::new(Snapshot { status, ..last })));
     }
 }

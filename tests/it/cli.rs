@@ -174,3 +174,50 @@ fn a_users_preset_comes_before_a_shipped_one() {
     assert_eq!(listed.lines().filter(named).count(), 1, "{listed}");
     assert!(listed.contains("A pendulum (your own)"), "{listed}");
 }
+
+/// What is typed in another notation is answered with what to write here.
+#[test]
+fn another_notation_on_the_command_line_gets_the_right_one() {
+    let init = |value: &str| phaselab(&["run", "pendulum", "--init", value]);
+    init("theta=1,5").fails(2, &["theta=1,5", "a decimal fraction is written with a point"]);
+    init("theta=90°").fails(2, &["angles are in radians", "30*pi/180"]);
+    init("theta=90deg").fails(2, &["angles are in radians", "30*pi/180"]);
+    phaselab(&["run", "pendulum", "--until", "1,5"]).fails(2, &["written with a point"]);
+    // no table of a file is of use to the command line
+    let unknown = phaselab(&["run", "pendulum", "--until", "2*T"]);
+    assert!(unknown.stderr.contains("`T`") && !unknown.stderr.contains("[parameters]"));
+    phaselab(&["run", "pendulum", "l=2"]).fails(2, &["`--set l=2`", "`--init l=2`"]);
+    phaselab(&["run", "pendulum", "--l", "2"]).fails(2, &["`--set l=2`"]);
+    phaselab(&["run", "pendulum", "--method", "euler"]).fails(2, &["taylor", "leapfrog", "rk4"]);
+}
+
+/// `phaselab new spring` writes ./spring.toml, and `run spring` asks for a preset.
+#[test]
+fn a_file_in_the_folder_is_meant_by_its_name() {
+    let home = tempfile::tempdir().expect("a temporary folder");
+    std::fs::write(home.path().join("spring.toml"), PENDULUM).expect("it can be written");
+    for command in ["run", "check", "derive"] {
+        let asked = done(program(home.path()).args([command, "spring"]));
+        asked.fails(2, &["there is no preset `spring`; did you mean the file `./spring.toml`?"]);
+    }
+}
+
+/// A name that promises another format than the rows have is remarked upon; the usual ones are not.
+#[test]
+fn an_output_named_after_another_format_is_remarked_upon() {
+    let written = |name: &str, format: &str| {
+        let rows = ["run", "pendulum", "--until", "0.1", "--format", format, "-o", name];
+        let done = phaselab(&rows);
+        assert_eq!(done.code, 0, "{}", done.stderr);
+        done.stderr
+    };
+    for (name, format, word) in
+        [("a.xlsx", "csv", ".xlsx"), ("a.json", "csv", "--format json"), ("a.csv", "json", "JSON")]
+    {
+        assert!(written(name, format).contains(word), "{name}");
+    }
+    for (name, format) in [("a.csv", "csv"), ("a.dat", "csv"), ("a", "json"), ("a.jsonl", "jsonl")]
+    {
+        assert_eq!(written(name, format), "", "{name}");
+    }
+}

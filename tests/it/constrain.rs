@@ -453,6 +453,44 @@ fn an_angle_that_jumps_stops_no_motion() {
     assert!(across.abs() < 1e-15, "{across:e}");
 }
 
+/// A thread that two points wind up, twice and three times as fast as their angles turn; they pass their cuts at other times. The
+/// reference are their polar coordinates.
+#[test]
+fn a_constraint_goes_on_where_one_of_several_angles_begins_a_new_turn() {
+    let wound = "[coordinates]\nx = { initial = 1.0, velocity = 0.0 }\ny = { initial = 0.0, velocity = 1.0 }\n\
+                 X = { initial = 1.0, velocity = 0.1 }\nY = { initial = 0.0, velocity = 0.7 }\n\
+                 s = { initial = 0.5, velocity = 4.1 }\n[lagrangian]\n\
+                 L = \"1/2*(x'^2 + y'^2 + X'^2 + Y'^2 + s'^2) - 1/2*(x^2 + y^2 - 1)^2 - 1/2*(X^2 + Y^2 - 1)^2\"\n\
+                 [[constraints]]\nname = \"thread\"\nexpression = \"s - 0.5 - 2*atan2(y, x) - 3*atan2(Y, X)\"\n";
+    let polar = "[coordinates]\nr = { initial = 1.0, velocity = 0.0 }\nphi = { initial = 0.0, velocity = 1.0 }\n\
+                 R = { initial = 1.0, velocity = 0.1 }\nPhi = { initial = 0.0, velocity = 0.7 }\n[lagrangian]\n\
+                 L = \"1/2*(r'^2 + r^2*phi'^2 + R'^2 + R^2*Phi'^2 + (2*phi' + 3*Phi')^2) - 1/2*(r^2 - 1)^2 - 1/2*(R^2 - 1)^2\"\n";
+    let mut free = build(polar, |_| ());
+    run(&mut free, 20.0);
+    let [r, phi, far, turned] = ["r", "phi", "R", "Phi"].map(|name| value(&free, name));
+    assert!(phi.abs() > 7.0 || turned.abs() > 7.0, "{phi} {turned}");
+    let wanted = [
+        ("x", r * phi.cos()),
+        ("y", r * phi.sin()),
+        ("X", far * turned.cos()),
+        ("Y", far * turned.sin()),
+        ("s", 0.5 + 2.0 * phi + 3.0 * turned),
+    ];
+    for (method, step, within) in
+        [("taylor", None, 1e-11), ("dop853", None, 1e-9), ("rk4", Some(0.01), 1e-6)]
+    {
+        let mut motion = build(wound, |setup| {
+            method.clone_into(&mut setup.method);
+            setup.settings.step = step;
+        });
+        run(&mut motion, 20.0);
+        for (name, expected) in wanted {
+            let found = value(&motion, name);
+            assert!((found - expected).abs() < within, "{method}: {name} = {found}, {expected}");
+        }
+    }
+}
+
 /// A thread that is wound up by the angle of a point, over several turns: the motion of its polar coordinates.
 #[test]
 fn a_constraint_goes_on_where_an_angle_in_it_begins_a_new_turn() {

@@ -223,6 +223,19 @@ fn bars_in_line_are_told_whether_they_are_passed_or_not() {
 
 /// The dense output of a method keeps the constraints to its tolerance only, and seems to turn their directions fast where they
 /// are reversed.
+/// x (z' − 0.2) = 0.1 x' z on a circle, falling to its bottom, where x and z vanish and with them the row of the constraint: the
+/// circle itself is met there.
+#[test]
+fn a_constraint_whose_row_vanishes_is_singular_and_no_other_is_lost() {
+    let text = "[coordinates]\nx = { initial = 0.6 }\ny = { initial = -0.8 }\nz = { initial = 0.3, velocity = 0.2 }\n\
+                [lagrangian]\nL = \"1/2*(x'^2 + y'^2 + z'^2) - 9.81*y - z^2\"\n\
+                [[constraints]]\nname = 'circle'\nexpression = 'x^2 + y^2 - 1'\n\
+                [[constraints]]\nname = 'again'\nexpression = \"2*x*x' + 2*y*y'\"\n\
+                [[constraints]]\nname = 'row'\nexpression = \"x*z' - 0.1*x'*z - 0.2*x\"\n";
+    let why = fault(file(text), 1.0);
+    assert!(why.contains("singular configuration") && why.contains("t = 0.672"), "{why}");
+}
+
 #[test]
 fn bars_in_line_are_told_at_every_tolerance() {
     for tolerance in ["1e-4", "1e-6", "1e-9", "1e-13"] {

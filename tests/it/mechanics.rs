@@ -193,6 +193,16 @@ fn common_translations_and_rotations_are_found() {
     assert_eq!(names(&free), ["energy", "total p_x", "total p_y", "L_z"]);
     let pulled = lagrangian(&q, &["m", "k"], &format!("{l} + x1"));
     assert_eq!(names(&pulled), ["energy", "total p_y"]);
+    // two bodies are as often called x, y and X, Y
+    let other = l.replace("x1", "x").replace("y1", "y").replace("x2", "X").replace("y2", "Y");
+    let capital = lagrangian(&["x", "y", "X", "Y"], &["m", "k"], &other);
+    assert_eq!(names(&capital), names(&free));
+    let pulled = lagrangian(&["x", "y", "X", "Y"], &["m", "k"], &format!("{other} + X"));
+    assert_eq!(names(&pulled), ["energy", "total p_y"]);
+    // X turns round by itself, beside a pair that does
+    let apart = "1/2*(x'^2 + y'^2 + X'^2 + Y'^2) - (x^2 + y^2)^2 - X^2 - 2*Y^2";
+    let apart = lagrangian(&["x", "y", "X", "Y"], &[], apart);
+    assert_eq!(names(&apart), ["energy", "L_z"]);
     let central = hamiltonian(&["x", "y"], &["k"], "1/2*(p_x^2+p_y^2) - k/sqrt(x^2+y^2)");
     assert_eq!(names(&central), ["energy", "L_z"]);
     let oblate = hamiltonian(&["x", "y"], &["k"], "1/2*(p_x^2+p_y^2) - k/sqrt(x^2+2*y^2)");

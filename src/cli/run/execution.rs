@@ -19,7 +19,7 @@ use super::progress::Bar;
 use super::times::Times;
 use super::{cautions, invariants};
 use crate::analysis::Verdict;
-use crate::experiment::{self, AdvanceOutcome, Experiment};
+use crate::experiment::{self, AdvanceOutcome, Experiment, Gauge};
 use crate::printable;
 use crate::system::{State, System};
 
@@ -44,8 +44,8 @@ pub(super) struct Run<'i> {
     pub(super) adiabatic: Option<(Adiabatic, Arc<State>, System)>,
     /// Why the motion cannot start, as a check of the file says it.
     pub(super) cannot_start: &'i dyn Fn() -> Option<String>,
-    /// Where steps are all alike, why the motion ends before the run does, if it does.
-    pub(super) ends_before: Option<&'i dyn Fn() -> Option<String>>,
+    /// Where steps are all alike, why the motion ends before the run of so many steps does, if it does.
+    pub(super) ends_before: Option<&'i dyn Fn(u64) -> Option<String>>,
 }
 
 /// Why a run ended early.
@@ -136,15 +136,21 @@ impl Run<'_> {
         }
         let departure = Departure::of(&snapshot.gauges, &snapshot.method);
         let refused = self.strict && departure.as_ref().is_some_and(|departure| departure.proved);
-        let line = departure.map(|departure| departure.line).unwrap_or_default();
+        let (drift, line) =
+            departure.map(|departure| (departure.drift, departure.line)).unwrap_or_default();
         let cut_short = matches!(end, Some(EarlyEnd::Fault(_) | EarlyEnd::Signal(_)));
-        let is_lost = snapshot.gauges.iter().any(|g| g.proved && g.verdict == Verdict::Lost);
-        if is_lost
-            && end.is_none()
-            && let Some(why) = self.ends_before.and_then(|ends_before| ends_before())
+        let has_drifted = |gauge: &Gauge| {
+            let drifts = matches!(gauge.verdict, Verdict::Secular(_) | Verdict::Lost);
+            gauge.proved && (drifts || gauge.left.is_some())
+        };
+        let steps = snapshot.method.steps;
+        if end.is_none()
+            && snapshot.gauges.iter().any(has_drifted)
+            && let Some(why) = self.ends_before.and_then(|ends_before| ends_before(steps))
         {
-            stderr::tell(&line);
-            let method = self.experiment.snapshot().method.name;
+            // smaller steps are no advice where there is no motion
+            stderr::tell(&drift);
+            let method = snapshot.method.name;
             return Err(CommandError::CouldNot(format!(
                 "{method} has stepped over the end of the motion, and what follows is none: {why}"
             )));
@@ -177,7 +183,11 @@ impl Run<'_> {
             self.write_row(time, table)?;
             last = time;
         }
-        let reached = self.reach(end, &mut bar, &mut outlook);
+        let mut reached = self.reach(end, &mut bar, &mut outlook);
+        // an event may end the motion just when the run ends
+        if reached.is_ok() && matches!(self.experiment.status(), experiment::Status::Ended(_)) {
+            reached = Err(EarlyEnd::Event);
+        }
         self.end_at_event(&reached, last, table)?;
         reached
     }
@@ -234,7 +244,8 @@ impl Run<'_> {
             if self.gives_up
                 && let Some(message) = outlook.see(time, steps)
             {
-                return Err(EarlyEnd::Fault(experiment::Failure { time, message }));
+                let fault = experiment::Failure { time, message, ends_motion: false };
+                return Err(EarlyEnd::Fault(fault));
             }
         }
     }

@@ -22,6 +22,8 @@ pub(super) fn of(gauges: &[Gauge]) -> Vec<Invariant> {
 /// A conserved quantity that has drifted, with advice, on one line.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) struct Departure {
+    /// What has drifted, without advice.
+    pub(super) drift: String,
     pub(super) line: String,
     /// Whether it is conserved by the law of motion, so that the computed motion violates the law.
     pub(super) proved: bool,
@@ -37,17 +39,15 @@ impl Departure {
                 1 => ", and so does another invariant".to_owned(),
                 n => format!(", and so do {n} others"),
             };
-            let line = format!(
-                "{}{others}; {}",
-                description(worst, ""),
-                advice(method.name, Some(method.step), method.tolerance)
-            );
-            return Some(Departure { line, proved: true });
+            let drift = format!("{}{others}", description(worst, ""));
+            let advice = advice(method.name, Some(method.step), method.tolerance);
+            let line = format!("{drift}; {advice}");
+            return Some(Departure { drift, line, proved: true });
         }
         let contradicted = gauges.iter().filter(|g| g.left.is_some());
         let worst = contradicted.max_by(|a, b| a.max_drift.total_cmp(&b.max_drift))?;
         let line = description(worst, &format!(" ({})", worst.reason));
-        Some(Departure { line, proved: false })
+        Some(Departure { drift: line.clone(), line, proved: false })
     }
 }
 

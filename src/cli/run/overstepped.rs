@@ -1,6 +1,6 @@
 //! Whether equal steps have passed over a place where the motion ends, such as a pole of a force.
 //!
-//! In: the setup of a run in which a conserved quantity was lost. Out: why the motion by series ends before the run does. Never here:
+//! In: the setup of a run in which a conserved quantity has drifted. Out: why the motion by series ends before the run does. Never here:
 //! rows.
 
 use std::sync::Arc;
@@ -14,13 +14,18 @@ use crate::system::System;
 /// The method that finds where a motion ends.
 const BY_SERIES: &str = "taylor";
 
-/// It is followed for at most so many steps.
+/// It is followed for as many steps as the run has taken, since each of its own leads farther, and for so many more to a
+/// singularity, …
+const MORE_STEPS: u64 = 2000;
+
+/// … but for at most so many.
 const MOST_STEPS: u64 = 20_000;
 
 /// Why the motion ends before the time that the setup asks for; `None` if it does not, or not within some number of steps.
 pub(super) fn end_of_motion(
     (model, equations, system): (&Arc<Model>, &Arc<Equations>, &System),
     setup: &Setup,
+    steps: u64,
 ) -> Option<String> {
     let end = setup.end?;
     let settings = Settings { step: None, tolerance: None };
@@ -28,11 +33,12 @@ pub(super) fn end_of_motion(
     let mut motion = Experiment::new(model, equations, system, by_series).ok()?;
     motion.forget_past();
     motion.only_count_occurrences();
-    if motion.advance(end, MOST_STEPS) != AdvanceOutcome::Stuck {
+    let most = (steps + MORE_STEPS).min(MOST_STEPS);
+    if motion.advance(end, most) != AdvanceOutcome::Stuck {
         return None;
     }
     match motion.status() {
-        Status::Failed(fault) if fault.time < end => Some(fault.message),
+        Status::Failed(fault) if fault.time < end && fault.ends_motion => Some(fault.message),
         _ => None,
     }
 }

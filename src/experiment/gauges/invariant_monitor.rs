@@ -20,8 +20,7 @@ const UNRESOLVED: &str = "it cannot resolve the motion";
 /// The energy among the quantities of a [`TermWatch`].
 const ENERGY: usize = 0;
 
-/// Constant terms are large from this multiple of the others on: the value, in `f64`, has three digits fewer then than
-/// the sum of the others has.
+/// Constant terms are large from this multiple of the others on: the value has three digits fewer than their sum.
 const LARGE: f64 = 1e3;
 
 /// What moves by less than this multiple of the error that rounding explains, and all of it away from the reference, is
@@ -371,6 +370,8 @@ impl InvariantMonitor {
             (None, None) if beyond && max_drift > LOST => Verdict::Lost,
             (None, None) => match Verdict::of(&self.distances, self.farthest, rounding, errors) {
                 Verdict::Secular(slope) => Verdict::Secular(slope / scale),
+                // less than the last digit of its terms
+                Verdict::Exact(_) if self.farthest < f64::EPSILON * self.rounding => Verdict::LEVEL,
                 other => other,
             },
         };

@@ -159,7 +159,7 @@ impl CloudOrigin {
                 start.replace(given.with_value(range[0] + share * (range[1] - range[0])));
             }
             let root = if index.is_multiple_of(2) { Root::Positive } else { Root::Negative };
-            let shell = EnergyShell { energy, by, root };
+            let shell = EnergyShell { energy, by, root, about: 0.0 };
             shell.complete_by(system, &mut observer, &mut start).ok()?;
             start.state(system).ok()
         };

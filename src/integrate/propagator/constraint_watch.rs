@@ -28,11 +28,10 @@ const BLURRED: f64 = 100.0;
 /// Numbers and times above this have left all that a motion is about: they overflow soon after.
 const VAST: f64 = 1e100;
 
-/// A step shorter than this part of the regular ones does not count as regular, …
+/// A step shorter than this part of the regular ones is not regular, …
 const REGULAR: f64 = 0.1;
 
-/// … though the reference shrinks by this factor with each step, since a motion may become faster
-/// permanently.
+/// … though the reference shrinks by this factor with each step, as a motion may become faster for good.
 const FORGETTING: f64 = 0.9999;
 
 /// A method that may pass a singular configuration is tried with about this many steps to it, …
@@ -174,8 +173,11 @@ impl Propagator {
         }
         let is_singular = self.projector.as_mut().is_some_and(|projector| {
             let state = self.stepper.state();
+            // steps follow a row that vanishes slowly
+            let is_lost = matches!(fault.kind, MotionErrorKind::ConstraintLost(_));
             matches!(fault.kind, MotionErrorKind::SingularConstraints(_))
                 || projector.is_nearly_singular(state, self.watch.regular.as_ref())
+                || is_lost && projector.is_nearly_singular(state, self.watch.begun.as_ref())
         });
         if is_singular {
             let passage = if self.method.stepping == Stepping::Fixed {

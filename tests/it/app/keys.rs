@@ -475,7 +475,11 @@ fn a_notice_goes_by_itself() {
 fn a_fault_is_answered_by_a_reset_and_not_by_play() {
     let mut app = in_lab();
     let mut faulted = snapshot(&pendulum(), 2.0);
-    let fault = phaselab::experiment::Failure { time: 2.0, message: "collision".to_owned() };
+    let fault = phaselab::experiment::Failure {
+        time: 2.0,
+        message: "collision".to_owned(),
+        ends_motion: true,
+    };
     faulted.status = Status::Failed(fault);
     app.update(Event::Snapshot(Arc::new(faulted)));
     assert!(press(&mut app, "Space").is_empty());

@@ -474,3 +474,45 @@ fn a_period_next_to_a_separatrix_is_that_of_its_energy() {
         near(&row["period"], 23.495_854_574_308_083, 1e-11);
     }
 }
+
+/// H = p⁴/4 + p²/2 + 0.3 x p + x⁴: rest is not where p vanishes. With p = −s x the separatrix through the origin is
+/// x² = (0.3 s − s²/2)/(1 + s⁴/4), and the area of a lobe ½ ∫ x² ds over 0 ≤ s ≤ 0.6.
+#[test]
+fn lobes_that_lie_off_the_line_of_no_momentum_have_their_area() {
+    let file = "title = \"Odd in p\"\n[coordinates]\nx = { initial = 0.7, momentum = 0.2 }\n\
+                [hamiltonian]\nH = \"p_x^4/4 + p_x^2/2 + 0.3*x*p_x + x^4\"\n";
+    let square = |s: f64| (0.3 * s - 0.5 * s * s) / (1.0 + s.powi(4) / 4.0);
+    let (count, step) = (600, 1e-3);
+    let simpson = |i: u32| if i % 2 == 0 { 2.0 } else { 4.0 };
+    let inside = (1..count).map(|i| simpson(i) * square(f64::from(i) * step)).sum::<f64>();
+    let area = 0.5 * inside * step / 3.0;
+    let object = actions(file, &["--energy=0"]);
+    let lobes = &object["separatrices"][0];
+    near(&lobes["energy"], 0.0, 1e-15);
+    for lobe in 0..2 {
+        near(&lobes["actions"][lobe], area, 1e-10);
+    }
+}
+
+/// Where the energy is least, or stationary, at several momenta, no effective potential has the turning points: that is the
+/// reason that is given.
+#[test]
+fn an_energy_with_several_momenta_of_rest_is_told_as_such() {
+    let file = |h: &str, momentum: f64| {
+        format!(
+            "title = \"Rest\"\n[coordinates]\nx = {{ initial = 0.5, momentum = {momentum} }}\n\
+             [hamiltonian]\nH = \"{h}\"\n"
+        )
+    };
+    // of two minima in p, the start lies beside one
+    let below = with_file(&file("p_x^4 - p_x^2 + 1/2*x^2", 0.9), &["actions", "system.toml"]);
+    assert_eq!(below.code, 1);
+    assert!(below.stderr.contains("less energy at the start than at rest"), "{}", below.stderr);
+    // in a band of energies, E < 1 − cos 0 …, x turns where p = π
+    for (h, energy) in [("-cos(p_x) + 1/2*x^2", "1.5"), ("p_x^4 - p_x^2 + 1/2*x^2", "0.2")] {
+        let turned = ["actions", "system.toml", "--energy", energy];
+        let turned = with_file(&file(h, 0.0), &turned);
+        assert_eq!(turned.code, 1, "{}", turned.stdout);
+        assert!(turned.stderr.contains("not that of rest"), "{}", turned.stderr);
+    }
+}

@@ -514,6 +514,65 @@ fn equal_steps_over_the_end_of_a_motion_are_an_error() {
     assert_eq!((with("0.4").code, with("0.4").stderr.as_str()), (0, ""));
 }
 
+/// The poles of friction at which energy is not lost by much: a force of 10 leads on, or the pole is weak. A larger force
+/// or friction without a pole ends nothing, and no shorter step is recommended where there is no motion.
+#[test]
+fn equal_steps_over_a_weak_pole_of_friction_are_an_error() {
+    let file = |law: &str, force: &str| {
+        format!(
+            "title = 'pole'\n[coordinates]\nx = {{ initial = 1, velocity = 1 }}\n\
+             [lagrangian]\nL = \"{law}\"\nforces = {{ x = \"{force}\" }}\n"
+        )
+    };
+    // x'' = −10 − 1/x' ends where x' = 0: t = ∫₀¹ v dv/(10 v + 1) = 1/10 − ln(11)/100 = 0.0760210;
+    // v = 1 + 0.02 ln(1 − (x − 1)/0.37) … has no bound below at x = 1.37, and stops where v = 0, beside it
+    let poles = [
+        (file("1/2*x'^2 - 10*x", "-1/x'"), "t = 0.0760210"),
+        (file("1/2*x'^2", "-0.02*x'/(x - 1.37)"), "t = 0.36287"),
+    ];
+    for (text, end) in &poles {
+        for step in ["0.01", "0.1", "0.3"] {
+            let fixed = ["run", "system.toml", "--method", "rk4", "--step", step, "--until", "20"];
+            let past = with_file(text, &fixed);
+            assert_eq!(past.code, 1, "{}", past.stderr);
+            assert!(
+                past.stderr.contains("has stepped over the end of the motion"),
+                "{}",
+                past.stderr
+            );
+            assert!(past.stderr.contains(end), "{}", past.stderr);
+            assert!(!past.stderr.contains("--step below"), "{}", past.stderr);
+        }
+    }
+    let drifting = file("1/2*x'^2 - 1/2*x^2", "-0.02*x'/(2 + x)");
+    let fixed = ["run", "system.toml", "--method", "rk4", "--step", "0.3", "--until", "20"];
+    let whole = with_file(&drifting, &fixed);
+    assert_eq!(whole.code, 0, "{}", whole.stderr);
+    assert!(whole.stderr.contains("try a --step below 0.3"), "{}", whole.stderr);
+}
+
+/// An event that ends the motion exactly at the end of the run leaves its state as the last row, as a moment earlier; so has
+/// one whose impulse acts there.
+#[test]
+fn what_happens_exactly_at_the_end_of_a_run_has_its_row() {
+    let file = "title = 'wall'\n[coordinates]\nx = { initial = 0, velocity = 1 }\n\
+                [lagrangian]\nL = \"1/2*x'^2\"\n[[impulses]]\nname = 'turn'\nchange = { p_x = \"-2*x'\" }\n\
+                [[events]]\nname = 'wall'\nwhen = 'x - 0.55'\naction = 'stop'\n";
+    for until in ["0.55", "0.6"] {
+        let run = ["run", "system.toml", "--until", until, "--every", "0.5"];
+        let ended = with_file(file, &run);
+        let rows = csv(&ended.stdout);
+        assert_eq!(rows.len(), 3, "{}", ended.stdout);
+        assert_eq!(rows[2][..2], [0.55, 0.55]);
+    }
+    let bounce = file.replace("'stop'", "'impulse:turn'");
+    let run = ["run", "system.toml", "--until", "0.55", "--every", "0.55", "--format", "json"];
+    let read: serde_json::Value =
+        serde_json::from_str(&with_file(&bounce, &run).stdout).expect("JSON");
+    assert_eq!(read["events"].as_array().map(Vec::len), Some(1));
+    assert_eq!(read["rows"][1].as_array().map(|row| row[2].clone()), Some((-1.0).into()));
+}
+
 /// A ball whose bounce leaves it at rest on the floor falls on: that is said. One that bounces, a push or a brake on the way and a
 /// ball that a ceiling stops are nothing to speak of.
 #[test]

@@ -393,3 +393,19 @@ fn what_never_crosses_is_said() {
         assert!(still.stderr.contains(words), "{}", still.stderr);
     }
 }
+
+/// Without --on the surface is that of the file's own view, with its direction; a file without one has to be told.
+#[test]
+fn a_section_without_a_surface_is_the_one_of_the_file() {
+    for (name, on, direction) in
+        [("henon-heiles", "x", "rising"), ("kicked-rotor", "sin(2*pi*t/T)", "falling")]
+    {
+        let own = section(&[name, "--count", "3"]);
+        assert_eq!((own["on"].as_str(), own["direction"].as_str()), (Some(on), Some(direction)));
+        let told = section(&[name, "--on", on, "--direction", direction, "--count", "3"]);
+        assert_eq!(own["rows"], told["rows"]);
+    }
+    let other = section(&["kicked-rotor", "--direction", "rising", "--count", "1"]);
+    assert_eq!(other["direction"], "rising");
+    phaselab(&["section", "pendulum"]).fails(2, &["no surface of section", "--on x"]);
+}

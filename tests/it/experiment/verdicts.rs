@@ -5,6 +5,7 @@
 //! step without trend, and angular momenta are conserved; Gauss methods conserve quadratic invariants (§ IV.2). A
 //! Taylor series to the last digit conserves everything.
 
+use phaselab::analysis::{Growth, Verdict};
 use phaselab::experiment::Experiment;
 use phaselab::integrate::Settings;
 
@@ -349,4 +350,21 @@ fn what_a_gauge_loses_is_a_part_of_what_moves() {
     for text in [shifted(0.0), shifted(1e3), shifted(1e6), field(1e4), rotor.to_owned()] {
         assert_eq!(word(&text), "exact", "{text}");
     }
+}
+
+/// The total momentum of Toda's ring moves by less than a digit of its terms: in no `f64` is that seen to grow.
+#[test]
+fn what_moves_by_less_than_a_digit_of_its_terms_does_not_grow() {
+    let mut experiment = super::shipped("toda");
+    let mut seen = Vec::new();
+    for time in 1..60 {
+        run(&mut experiment, f64::from(time));
+        let momentum = gauge(&experiment.snapshot(), "P");
+        if momentum.verdict != Verdict::Open {
+            assert!(momentum.farthest < 1e-18, "{}", momentum.farthest);
+            seen.push(momentum.verdict);
+        }
+    }
+    assert!(seen.len() > 20, "{seen:?}");
+    assert!(seen.iter().all(|verdict| *verdict == Verdict::Exact(Growth::Level)), "{seen:?}");
 }

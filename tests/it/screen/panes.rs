@@ -342,7 +342,8 @@ fn status_and_fault_are_reported() {
     app.update(Event::Snapshot(Arc::new(seen.clone())));
     assert!(find(&screen(&app, &rich(), (120, 40)), "paused").is_some());
     let message = "the bob left the world".to_owned();
-    seen.status = Status::Failed(phaselab::experiment::Failure { time: 2.0, message });
+    seen.status =
+        Status::Failed(phaselab::experiment::Failure { time: 2.0, message, ends_motion: true });
     app.update(Event::Snapshot(Arc::new(seen)));
     let buffer = screen(&app, &rich(), (120, 40));
     for text in

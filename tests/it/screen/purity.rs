@@ -68,7 +68,11 @@ fn all_states() -> Vec<App> {
 fn stopped() -> App {
     let mut app = in_lab();
     let mut odd = snapshot(&pendulum(), 2.0);
-    odd.status = Status::Failed(Failure { time: 2.0, message: "the step became too small".into() });
+    odd.status = Status::Failed(Failure {
+        time: 2.0,
+        message: "the step became too small".into(),
+        ends_motion: true,
+    });
     odd.time = f64::NAN;
     odd.values = odd.values.iter().map(|_| f64::NAN).collect();
     odd.bounds = odd.bounds.iter().map(|_| (f64::NEG_INFINITY, f64::INFINITY)).collect();
