@@ -8,8 +8,10 @@ mod bracket;
 mod break_down;
 mod canonical;
 mod canonical_verdict;
+mod chain;
 mod chart;
 mod closed_forms;
+mod collected;
 mod conservation;
 mod constrain;
 mod derive;
@@ -58,7 +60,9 @@ mod symplectic_inverse;
 mod vakonomic;
 mod valuation;
 
-pub use bracket::{ChainRule, Recognised, bracket, in_phase_space, rate_by_bracket, recognise};
+pub use bracket::{
+    ChainRule, Recognised, bracket, in_phase_space, rate_by_bracket, recognise, unreduced_bracket,
+};
 pub use canonical::PhaseMap;
 pub use canonical_verdict::{CanonicalVerdict, FailingBracket};
 pub use chart::ChartBracket;

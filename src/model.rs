@@ -35,6 +35,6 @@ pub use ramp::{Ramp, RampRefused, replace_by_ramps};
 pub use ramped::{NamedRamp, RampForm, RampPart, RampProgress, Ramped};
 pub use scope::{Allowed, Scope};
 pub use transformation::{
-    CompleteIntegral, GeneratingType, Generator, IntegralConstant, Transformation,
+    ChainPart, CompleteIntegral, GeneratingType, Generator, IntegralConstant, Transformation,
     TransformationLaw,
 };

@@ -70,7 +70,10 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     let start = BracketPoint { parameters, given };
     let value = match &expression {
         Ok(e) => start.value(&derived, *e),
-        Err(_) => start.value_by_chain_rule(&mut derived, f, g),
+        Err(_) => match mechanics::unreduced_bracket(model, equations, f, g) {
+            Ok(e) => start.value(&derived, e),
+            Err(_) => start.value_by_chain_rule(&mut derived, f, g),
+        },
     };
     let Derived { model, equations } = &mut derived;
     let charts = ChartBracket::all(model, equations, [f, g]);

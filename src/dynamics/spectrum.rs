@@ -37,7 +37,8 @@ const DEGREE: usize = 3;
 /// Lines that make fewer turns in the whole time than this may be parts of a slow change, and are none where one is fitted.
 const SLOW: f64 = 3.0;
 
-/// A slow change is one that leaves no more than this part of what lines alone leave.
+/// A slow change is one that leaves no more than this part of what lines alone leave, and beside which lines are more than what they
+/// leave of it: of a change that is no polynomial some is left.
 const BETTER: f64 = 0.5;
 
 /// The lines of a signal.
@@ -131,7 +132,7 @@ pub fn driven_spectrum(
     // what changes slowly would hide the lines beside it
     let detrended = fitted(signal, spacing, wanted, (DEGREE, SLOW), look).spectrum;
     let is_better = !detrended.lines.is_empty()
-        && !detrended.is_continuous()
+        && detrended.part_left() < BETTER
         && detrended.left < BETTER * plain.spectrum.left;
     Some(if is_better { detrended } else { plain.spectrum })
 }

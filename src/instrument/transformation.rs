@@ -275,10 +275,17 @@ impl Instrument for TransformationPlot {
             let known = place.zip(axes).and_then(|(place, axes)| {
                 let mut own = (*equations).clone();
                 own.pool.set_cancel(progress.token().clone());
-                let map = relations_of(&model, &mut own, place).filter(|map| map.new.len() == 2)?;
-                Branches::around((Arc::new(own), map), &at, (new, periods), axes)
+                let map = relations_of(&model, &mut own, place)?;
+                if map.new.len() == 2 {
+                    let found = Branches::around((Arc::new(own), map), &at, (new, periods), axes)?;
+                    return Some((found.0, Some(found.1)));
+                }
+                // of maps one after the other the branch on which the start is
+                let at = (model.coordinates.len() == 1).then(|| own.with_images(at.clone()))?;
+                Some((grid::solved(&own.pool, &map, &at, (new, axes)).0, None))
             });
             let (solved, branches) = known.unzip();
+            let branches = branches.flatten();
             let grid = match (written, axes) {
                 (Some(images), Some(old)) => grid::written(&equations.pool, &at, images, old),
                 _ => solved.unwrap_or_default(),

@@ -31,14 +31,27 @@ pub fn bracket(
     f: Expr,
     g: Expr,
 ) -> Result<Expr, NoClosedForm> {
-    let f = in_phase_space(equations, f)?;
-    let g = in_phase_space(equations, g)?;
-    let seeds = flow_of(model, equations, g)?;
-    let sum = equations.derivation(f, &seeds)?;
+    let sum = unreduced_bracket(model, equations, f, g)?;
     let sum = equations.in_generating_variables(sum)?;
     let pool = &mut equations.pool;
     let sum = zero_if_proved(pool, sum);
     Ok(pool.simplify(sum))
+}
+
+/// The same for its values: new variables of maps without a closed form, on the branch that is followed, stay in it.
+///
+/// # Errors
+/// Returns an error if f or g is not known as a function of (q, p, t).
+pub fn unreduced_bracket(
+    model: &Model,
+    equations: &mut Equations,
+    f: Expr,
+    g: Expr,
+) -> Result<Expr, NoClosedForm> {
+    let f = in_phase_space(equations, f)?;
+    let g = in_phase_space(equations, g)?;
+    let seeds = flow_of(model, equations, g)?;
+    equations.derivation(f, &seeds)
 }
 
 /// df/dt = \[f, H\] + ∂f/∂t, which is valid if neither forces nor constraints act.

@@ -33,13 +33,16 @@ pub struct PhaseMap {
     pub old: Vec<Symbol>,
     /// The relations between them and the new variables.
     pub implicit: ImplicitMap,
-    /// ∂F/∂t at fixed variables of the generating function; `None` if the map is explicit.
+    /// ∂F/∂t at fixed variables of the generating function; `None` if the map is explicit, or a chain with a part of which it is
+    /// not known.
     pub function_rate: Option<Expr>,
     /// The new variables as functions of the old and t, if they can be written down.
     pub forwards: Option<Solution>,
     /// The pairs whose generating function has an old and a new variable of different kinds, F2 or F3: they may be near the
     /// identity.
-    near_identity: Vec<bool>,
+    pub(super) near_identity: Vec<bool>,
+    /// Those that it is made of one after the other, if it cannot be written as one, and whether they are inverted.
+    pub(super) parts: Vec<(PhaseMap, bool)>,
     pub(super) by_old: Vec<Vec<Expr>>,
 }
 
@@ -55,6 +58,9 @@ impl PhaseMap {
             .map(|c| c.position)
             .chain(model.coordinates.iter().map(|c| c.momentum))
             .collect();
+        if let TransformationLaw::Chain(parts) = &given.law {
+            return PhaseMap::chain(pool, model, given, parts);
+        }
         let mut relations = Vec::new();
         let mut all_own = Vec::new();
         let mut function_rate = None;
@@ -68,7 +74,9 @@ impl PhaseMap {
                 }
             }
             // made of others: its law is looked up before
-            TransformationLaw::Inverse(_) | TransformationLaw::Composition(_) => {}
+            TransformationLaw::Inverse(_)
+            | TransformationLaw::Composition(_)
+            | TransformationLaw::Chain(_) => {}
             TransformationLaw::Generating { types, function } => {
                 for ((c, &[position, momentum]), of) in pairs.zip(types) {
                     // the two that F does not depend on are its slopes, with a sign
@@ -111,13 +119,19 @@ impl PhaseMap {
             function_rate,
             forwards: None,
             near_identity,
+            parts: Vec::new(),
             by_old,
         }
     }
 
     /// Whether the map is given by the new variables themselves.
     pub fn is_explicit(&self) -> bool {
-        self.function_rate.is_none()
+        self.function_rate.is_none() && self.parts.is_empty()
+    }
+
+    /// Q…, then P….
+    pub fn new_variables(&self) -> &[Symbol] {
+        &self.implicit.new[..self.old.len()]
     }
 
     /// Finds the new variables as functions of the old ones, if they can be written down.
@@ -126,6 +140,9 @@ impl PhaseMap {
         model: &Model,
         equations: &mut Equations,
     ) -> Option<Solution> {
+        if !self.parts.is_empty() {
+            return None;
+        }
         let points: Vec<Valuation> =
             (0..LOOKED_AT).map(|n| Valuation::near_start(model, equations, n)).collect();
         // of a map that may be near the identity the branch that is nearest to it comes first
@@ -202,6 +219,9 @@ impl PhaseMap {
 
     /// The old variables as functions of the new ones and t, if they can be written down.
     pub fn backwards(&self, model: &Model, equations: &mut Equations) -> Option<Solution> {
+        if !self.parts.is_empty() {
+            return None;
+        }
         let images = self.images(model, equations, WITNESSES);
         let accept = |pool: &mut Pool, found: &Solution, strict: bool| {
             let back = |at: &Valuation| {
@@ -243,6 +263,9 @@ impl PhaseMap {
                 return Some(self.implicit.newton(pool, at.clone()).unwrap_or(at));
             }
         }
+        if !self.parts.is_empty() {
+            return self.image_by_parts(pool, point);
+        }
         let same = self.old.iter().map(|&s| point.at(s)).collect();
         self.implicit.search(pool, point, same)
     }
@@ -251,6 +274,8 @@ impl PhaseMap {
     pub fn tangent(&self, pool: &Pool, at: &Valuation) -> Option<DMatrix<f64>> {
         let by_old = matrix_at(pool, &self.by_old, at);
         let tangent = -matrix_at(pool, &self.implicit.by_new, at).full_piv_lu().solve(&by_old)?;
+        // what lies between the parts of a chain is solved for as well
+        let tangent = tangent.rows(0, self.old.len()).into_owned();
         tangent.iter().all(|x| x.is_finite()).then_some(tangent)
     }
 

@@ -8,10 +8,11 @@ use nalgebra::DMatrix;
 
 use super::canonical::PhaseMap;
 use super::equations::Equations;
-use super::implicit_map::departure;
+use super::generating::singular;
+use super::implicit_map::{departure, guesses};
 use super::sampling::{FAR_POINTS, POINTS};
 use super::valuation::Valuation;
-use crate::expr::{Expr, Node, Pool, Symbol, Zero};
+use crate::expr::{Expr, FunctionId, Node, Pool, Symbol, Zero};
 use crate::model::Model;
 use crate::num::Number;
 
@@ -105,36 +106,66 @@ impl PhaseMap {
             only_here: Vec::new(),
             why: None,
         };
-        if self.is_explicit() {
+        if !self.parts.is_empty() {
+            self.by_parts(model, equations, &mut verdict);
+        } else if self.is_explicit() {
             if verdict.canonical {
                 self.look_far_away(model, equations, &mut verdict);
             }
             self.by_brackets(equations, &mut verdict);
         } else if residual.is_none() {
-            verdict.why = Some(self.no_map(&mut equations.pool));
+            verdict.why = Some(self.no_map(model, equations));
         } else {
             verdict.proved = verdict.canonical;
         }
         verdict
     }
 
-    /// Why a generating function gives no map.
-    fn no_map(&self, pool: &mut Pool) -> String {
-        let matrix = self.implicit.by_new.clone();
-        let right = vec![Expr::ZERO; matrix.len()];
-        match super::linear::solve(pool, &matrix, &right) {
-            Err(_) => "its equations cannot be solved: the determinant of ∂²F/∂old∂new vanishes \
-                       everywhere"
-                .to_owned(),
-            Ok(_) => "no point of its domain was found near the start".to_owned(),
+    /// Judges maps one after the other: they are canonical where all of them are.
+    fn by_parts(&self, model: &Model, equations: &mut Equations, verdict: &mut CanonicalVerdict) {
+        let all: Vec<CanonicalVerdict> =
+            self.parts.iter().map(|(map, _)| map.verdict(model, equations)).collect();
+        let names = self.parts.iter().map(|(map, _)| map.name.as_str()).zip(&all);
+        let wrong: Vec<&str> =
+            names.filter(|(_, of)| !of.canonical).map(|(name, _)| name).collect();
+        let pool = &mut equations.pool;
+        let mut valence = Some(Expr::ONE);
+        for (of, (_, inverted)) in all.iter().zip(&self.parts) {
+            let own = of.valence.or(of.canonical.then_some(Expr::ONE));
+            valence = valence.zip(own).map(|(valence, own)| {
+                if *inverted { pool.div(valence, own) } else { pool.mul(valence, own) }
+            });
+        }
+        verdict.valence = valence.filter(|&valence| valence != Expr::ONE);
+        if verdict.residual.is_none() {
+            verdict.why = Some("no point with an image was found near the start".to_owned());
+        } else if verdict.canonical {
+            verdict.proved = wrong.is_empty() && all.iter().all(|of| of.proved);
+        } else {
+            let names: Vec<String> = wrong.iter().map(|name| format!("`{name}`")).collect();
+            let is = if names.len() == 1 { "is" } else { "are" };
+            verdict.why = Some(format!("{} {is} not canonical", names.join(" and ")));
         }
     }
 
-    /// Compares the brackets of an explicit map with those of canonical variables.
-    fn by_brackets(&self, equations: &mut Equations, verdict: &mut CanonicalVerdict) {
+    /// Why a generating function gives no map.
+    fn no_map(&self, model: &Model, equations: &Equations) -> String {
+        let new = &self.implicit.new;
+        let points = guesses(new.len()).zip(0..).map(|(guess, n)| {
+            Valuation::near_start(model, equations, n).with(new.iter().copied().zip(guess))
+        });
+        if singular(&equations.pool, &self.implicit.by_new, &points.collect::<Vec<_>>()) {
+            "its equations cannot be solved: the determinant of ∂²F/∂old∂new vanishes everywhere"
+        } else {
+            "no point of its domain was found near the start"
+        }
+        .to_owned()
+    }
+
+    /// The brackets of the new variables of an explicit map, as functions of the old ones.
+    fn brackets(&self, pool: &mut Pool) -> Vec<FailingBracket> {
         let n = self.implicit.new.len() / 2;
-        let pool = &mut equations.pool;
-        let mut all: Vec<(FailingBracket, Zero)> = Vec::new();
+        let mut all = Vec::new();
         for i in 0..2 * n {
             for j in i + 1..2 * n {
                 // the relation is Q − Q(q, p, t)
@@ -149,11 +180,36 @@ impl PhaseMap {
                 let is = pool.simplify(is);
                 let is = pool.divided_out(is);
                 let expected = if j == i + n { Expr::ONE } else { Expr::ZERO };
-                let difference = pool.sub(is, expected);
-                let zero = pool.is_zero(difference);
                 let pair = [self.implicit.new[i], self.implicit.new[j]];
-                all.push((FailingBracket { pair, is, expected }, zero));
+                all.push(FailingBracket { pair, is, expected });
             }
+        }
+        all
+    }
+
+    /// The largest entry of |M 𝕁 Mᵀ − 𝕁| of an explicit map, as a function of the old variables and t.
+    pub(super) fn largest_residual(&self, pool: &mut Pool) -> Expr {
+        let mut largest = Expr::ZERO;
+        for FailingBracket { is, expected, .. } in self.brackets(pool) {
+            let difference = pool.sub(is, expected);
+            let difference = pool.simplify(difference);
+            let size = pool.call(FunctionId::Abs, &[difference]);
+            largest = match largest {
+                Expr::ZERO => size,
+                _ => pool.call(FunctionId::Max, &[largest, size]),
+            };
+        }
+        largest
+    }
+
+    /// Compares the brackets of an explicit map with those of canonical variables.
+    fn by_brackets(&self, equations: &mut Equations, verdict: &mut CanonicalVerdict) {
+        let pool = &mut equations.pool;
+        let mut all: Vec<(FailingBracket, Zero)> = Vec::new();
+        for bracket in self.brackets(pool) {
+            let difference = pool.sub(bracket.is, bracket.expected);
+            let zero = pool.is_zero(difference);
+            all.push((bracket, zero));
         }
         let proved = all.iter().all(|(_, zero)| *zero == Zero::Proved);
         let refuted = all.iter().any(|(_, zero)| *zero == Zero::No);
@@ -163,6 +219,8 @@ impl PhaseMap {
         }
         verdict.valence = self.valence(pool, &all);
         if verdict.canonical {
+            // a number that is one to rounding is no scale
+            verdict.valence.take_if(|c| matches!(pool.node(*c), Node::Number(_)));
             // at these values of the parameters; a number that is nearly one has no others
             let other = all.into_iter().filter(|(bracket, zero)| {
                 *zero == Zero::No && !matches!(pool.node(bracket.is), Node::Number(_))

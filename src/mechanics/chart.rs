@@ -58,7 +58,7 @@ impl ChartBracket {
             }
         }
         let bracket = written(model, equations, &map, sides);
-        let (name, variables) = (map.name.clone(), map.implicit.new.clone());
+        let (name, variables) = (map.name.clone(), map.new_variables().to_vec());
         let mut found = ChartBracket { name, variables, bracket, map, slopes };
         if let Ok(e) = found.bracket
             && !found.agrees(model, equations, e)
@@ -111,7 +111,7 @@ fn written(
     map: &PhaseMap,
     sides: [Expr; 2],
 ) -> Result<Expr, NoClosedForm> {
-    let new = &map.implicit.new;
+    let new = map.new_variables();
     let mut kept = equations.supplements.new_variables.clone();
     std::mem::swap(&mut kept, &mut equations.supplements.new_variables);
     equations.supplements.new_variables.retain(|(symbol, _)| !new.contains(symbol));
@@ -132,7 +132,8 @@ fn written(
         (f, g) = (eliminated(f)?, eliminated(g)?);
     }
     let others = equations.supplements.implicit_maps.iter().flat_map(|(other, _)| &other.new);
-    let others: Vec<Symbol> = others.copied().filter(|symbol| !new.contains(symbol)).collect();
+    let own = &map.implicit.new;
+    let others: Vec<Symbol> = others.copied().filter(|symbol| !own.contains(symbol)).collect();
     let pool = &mut equations.pool;
     if pool.depends_on_any(f, &others) || pool.depends_on_any(g, &others) {
         let why = "it contains new variables of another map without a closed form";

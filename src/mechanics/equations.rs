@@ -76,14 +76,14 @@ pub struct Equations {
 /// A transformation as relations between the old and the new variables.
 #[derive(Clone, Debug)]
 pub struct ImplicitMap {
-    /// Q…, then P….
+    /// Q…, then P…; of maps one after the other then what lies between them.
     pub new: Vec<Symbol>,
-    /// Expressions of (q, p, Q, P, t) that vanish, as many as there are new variables.
+    /// Expressions of (q, p, t) and these that vanish, as many as there are of these.
     pub relations: Vec<Expr>,
     /// Their derivatives with respect to the new variables, a row for each relation.
     pub by_new: Vec<Vec<Expr>>,
     /// The variable that each relation gives, as itself less the relation, in terms of those of the generating function; of
-    /// an explicit map the new variables.
+    /// an explicit map the new variables; of maps one after the other none.
     pub own: Vec<Symbol>,
 }
 

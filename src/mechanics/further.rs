@@ -87,7 +87,7 @@ impl TransformationReport {
 
     /// What is said of a canonical map of which no generating functions were found.
     pub fn without_functions(&self) -> &'static str {
-        if self.map.is_explicit() {
+        if self.map.is_explicit() || !self.map.parts.is_empty() {
             "Its generating functions are not known in closed form."
         } else {
             "Of its generating functions only that of the file is known in closed form."

@@ -116,7 +116,7 @@ fn variables_of(types: &[GeneratingType]) -> String {
 
 /// Whether the determinant of a square matrix vanishes at all points where it has a value: to rounding of the terms of its
 /// entries, each row relative to its largest.
-fn singular(pool: &Pool, matrix: &[Vec<Expr>], points: &[Valuation]) -> bool {
+pub(super) fn singular(pool: &Pool, matrix: &[Vec<Expr>], points: &[Valuation]) -> bool {
     let n = matrix.len();
     let determinants = points.iter().map(|at| {
         let entry = |i: usize, j: usize| {

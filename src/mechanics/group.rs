@@ -16,12 +16,13 @@ use super::sampling::{FAR_POINTS, POINTS};
 use super::structure_error::StructureError;
 use super::valuation::Valuation;
 use crate::expr::{Expr, Symbol};
-use crate::model::{GeneratingType, Model, Transformation, TransformationLaw};
+use crate::model::{ChainPart, GeneratingType, Model, Transformation, TransformationLaw};
 
 /// Finds the transformations of a model.
 pub(super) fn find(equations: &mut Equations, model: &Model) {
     let shared: Vec<Symbol> = model.new_variables().into_iter().map(|(_, s)| s).collect();
     let mut all: Vec<Option<Solution>> = Vec::new();
+    let mut residuals = Solution::new();
     for given in &model.transformations {
         let before = equations.supplements.transformation_laws.clone();
         let law = resolved(model, equations, given, &before, &all);
@@ -54,6 +55,12 @@ pub(super) fn find(equations: &mut Equations, model: &Model) {
                 equations.supplements.implicit_maps.push((map.implicit, image));
             }
         }
+        if let (Some(symbol), Ok(law)) = (given.residual, &law) {
+            let written = Transformation { law: law.clone(), ..given.clone() };
+            let map = PhaseMap::relations(&mut equations.pool, model, &written);
+            let residual = map.largest_residual(&mut equations.pool);
+            residuals.push((symbol, residual));
+        }
         equations.supplements.transformation_laws.push(law);
         all.push(forwards);
     }
@@ -62,6 +69,7 @@ pub(super) fn find(equations: &mut Equations, model: &Model) {
     let known = all.iter().flatten().flatten().copied();
     equations.supplements.new_variables =
         known.filter(|(symbol, _)| shared.contains(symbol) && !solved.contains(symbol)).collect();
+    equations.supplements.new_variables.extend(residuals);
     equations.supplements.transformations = all;
 }
 
@@ -92,9 +100,9 @@ pub fn phase_maps(model: &Model, equations: &mut Equations) -> Vec<PhaseMap> {
 /// The relations of the transformation at a place of the file; `None` if it is explicit, or cannot be written down.
 pub fn relations_of(model: &Model, equations: &mut Equations, place: usize) -> Option<ImplicitMap> {
     let law = equations.supplements.transformation_laws.get(place)?.clone().ok()?;
-    let generated = matches!(law, TransformationLaw::Generating { .. });
+    let solved = matches!(law, TransformationLaw::Generating { .. } | TransformationLaw::Chain(_));
     let given = Transformation { law, ..model.transformations.get(place)?.clone() };
-    generated.then(|| PhaseMap::relations(&mut equations.pool, model, &given).implicit)
+    solved.then(|| PhaseMap::relations(&mut equations.pool, model, &given).implicit)
 }
 
 /// The law of a transformation, given those before it and their new variables as functions of the old ones.
@@ -108,20 +116,22 @@ pub(super) fn resolved(
     match &given.law {
         TransformationLaw::Inverse(k) => {
             let law = before[*k].clone()?;
+            if let TransformationLaw::Chain(parts) = law {
+                let back = parts.into_iter().rev();
+                let back = back.map(|part| ChainPart { inverted: !part.inverted, ..part });
+                return Ok(TransformationLaw::Chain(back.collect()));
+            }
             let of = Transformation { law, ..model.transformations[*k].clone() };
             inverse(model, equations, given, &of)
         }
         TransformationLaw::Composition(parts) => {
-            let mut known = Vec::new();
-            for &k in parts {
-                let of = &model.transformations[k];
-                let Some(solution) = &forwards[k] else {
-                    let name = &of.name;
-                    let why = format!("the new variables of `{name}` are not known in closed form");
-                    return Err(NoClosedForm(why));
-                };
-                known.push((of.new.concat(), solution.clone()));
-            }
+            let known = |&k: &usize| {
+                let solution = forwards[k].clone()?;
+                Some((model.transformations[k].new.concat(), solution))
+            };
+            let Some(known) = parts.iter().map(known).collect::<Option<Vec<_>>>() else {
+                return chain(model, parts, before);
+            };
             Ok(composition(model, equations, given, &known))
         }
         law => Ok(law.clone()),
@@ -134,7 +144,7 @@ fn old_variables(model: &Model) -> Vec<Symbol> {
 }
 
 /// New variables in the order Q…, P….
-fn in_order(new: &[[Symbol; 2]]) -> Vec<Symbol> {
+pub(super) fn in_order(new: &[[Symbol; 2]]) -> Vec<Symbol> {
     [0, 1].iter().flat_map(|&half| new.iter().map(move |pair| pair[half])).collect()
 }
 
@@ -233,6 +243,25 @@ fn written_inverse(
         if held { right += 1 } else { wrong += 1 }
     }
     (right > 0 && wrong == 0).then_some(found)
+}
+
+/// The parts one after the other where the new variables of some are not known in closed form.
+fn chain(
+    model: &Model,
+    parts: &[usize],
+    before: &[Result<TransformationLaw, NoClosedForm>],
+) -> Result<TransformationLaw, NoClosedForm> {
+    let mut all = Vec::new();
+    for &k in parts {
+        match before[k].clone()? {
+            TransformationLaw::Chain(parts) => all.extend(parts),
+            law => {
+                let of = Transformation { law, ..model.transformations[k].clone() };
+                all.push(ChainPart { of, inverted: false });
+            }
+        }
+    }
+    Ok(TransformationLaw::Chain(all))
 }
 
 /// The parts one after the other, the first one first.

@@ -7,13 +7,14 @@
 use std::collections::HashMap;
 
 use super::equations::{Equations, NoClosedForm};
+use super::generating::singular;
 use super::isolate::{self, Solution, tidy};
-use super::linear;
 use super::sampling::{FAR_POINTS, POINTS};
 use super::slope::{self, tidy_derivative};
 use super::valuation::Valuation;
 use crate::expr::{Expr, Pool, Symbol, Zero};
 use crate::model::{CompleteIntegral, Model};
+use crate::num::significant;
 
 /// What is left of the equation counts as zero below this, relative to its terms.
 const SOLVES: f64 = 1e-10;
@@ -102,19 +103,27 @@ impl HamiltonJacobi {
             integral.constants.iter().map(|c| tidy_derivative(pool, s, c.symbol)).collect();
         let (residual, mut why) = match remainder(model, equations, s, &momenta) {
             Ok(Remainder { value, solves }) => {
-                let unsolved = "S does not solve H(q, ∂S/∂q, t) + ∂S/∂t = 0".to_owned();
+                let unsolved = |value: f64| {
+                    let value = significant(value, 3, 1e-3..1e4);
+                    format!(
+                        "S does not solve H(q, ∂S/∂q, t) + ∂S/∂t = 0, of which up to {value} is left"
+                    )
+                };
                 let unknown = "S has no value at the points tried".to_owned();
                 let why = match value {
                     None => Some(unknown),
-                    Some(_) => (!solves).then_some(unsolved),
+                    Some(value) => (!solves).then(|| unsolved(value)),
                 };
                 (value, why)
             }
             Err(no) => (None, Some(format!("H is not known: {no}"))),
         };
-        if why.is_none() {
-            why = not_complete(model, equations, integral, &momenta);
-        }
+        // what S has too many or too few of is said beside what it does not solve
+        let lacks = not_complete(model, equations, integral, (&momenta, &beta));
+        why = match (why, lacks) {
+            (Some(why), Some(lacks)) => Some(format!("{why}; {lacks}")),
+            (why, lacks) => why.or(lacks),
+        };
         let shown = |equations: &mut Equations, all: Vec<Expr>| {
             all.into_iter().map(|e| with_common_roots(model, equations, e)).collect()
         };
@@ -171,9 +180,6 @@ fn remainder(
     if pool.is_zero(left) == Zero::Proved {
         return Ok(Remainder { value: Some(0.0), solves: true });
     }
-    let constants = model.complete_integral.iter().flat_map(|s| &s.constants);
-    let constants: Vec<Symbol> = constants.map(|c| c.symbol).collect();
-    let known = equations.supplements.new_variables.clone();
     let (mut largest, mut relative, mut seen) = (0.0_f64, 0.0_f64, 0);
     // what solves the equation near the start may not do so far from it, beyond a kink
     let near = (0..200).map(|n| (false, n));
@@ -186,16 +192,7 @@ fn remainder(
         } else {
             Valuation::near_start(model, equations, n)
         };
-        let scale = point.value(&equations.pool, hamiltonian).abs().max(0.1);
-        let tried = (0..TRIED.len()).map(|k| {
-            let values = constants.iter().enumerate().map(|(i, &c)| {
-                let own = known.iter().find(|(s, _)| *s == c).filter(|_| k == 0);
-                let own = own.map(|&(_, e)| point.value(&equations.pool, e));
-                (c, own.unwrap_or(TRIED[(k + i) % TRIED.len()] * scale / (1.0 + i as f64)))
-            });
-            point.clone().with(values.collect::<Vec<_>>())
-        });
-        for at in tried {
+        for at in with_constants(model, equations, &point, hamiltonian) {
             let (value, size) = equations.pool.evaluate_with_size(left, &|s| at.at(s));
             if value.is_finite() {
                 let part = value.abs() / size.max(f64::MIN_POSITIVE);
@@ -213,35 +210,70 @@ fn remainder(
     Ok(Remainder { value, solves: relative < SOLVES })
 }
 
-/// Why a solution is not a complete one.
+/// A point with numbers for the constants: those that its motion has, and others.
+fn with_constants(
+    model: &Model,
+    equations: &Equations,
+    point: &Valuation,
+    hamiltonian: Expr,
+) -> Vec<Valuation> {
+    let (pool, known) = (&equations.pool, &equations.supplements.new_variables);
+    let constants = model.complete_integral.iter().flat_map(|s| &s.constants);
+    let constants: Vec<Symbol> = constants.map(|c| c.symbol).collect();
+    let scale = point.value(pool, hamiltonian).abs().max(0.1);
+    // with more constants than coordinates some follow from the equation that is to be checked
+    let has_own = constants.len() == model.coordinates.len();
+    let tried = (0..TRIED.len()).map(|k| {
+        let values = constants.iter().enumerate().map(|(i, &c)| {
+            let own = known.iter().find(|(s, _)| *s == c).filter(|_| k == 0 && has_own);
+            let own = own.map(|&(_, e)| point.value(pool, e));
+            (c, own.unwrap_or(TRIED[(k + i) % TRIED.len()] * scale / (1.0 + i as f64)))
+        });
+        point.clone().with(values.collect::<Vec<_>>())
+    });
+    tried.collect()
+}
+
+/// Why a function S is not complete, whether it solves the equation or not.
 fn not_complete(
     model: &Model,
     equations: &mut Equations,
     integral: &CompleteIntegral,
-    momenta: &[Expr],
+    (momenta, beta): (&[Expr], &[Expr]),
 ) -> Option<String> {
-    let pool = &mut equations.pool;
-    let mut matrix = Vec::new();
-    for constant in &integral.constants {
-        let row: Vec<Expr> =
-            momenta.iter().map(|&p| tidy_derivative(pool, p, constant.symbol)).collect();
-        if row.iter().all(|&e| e == Expr::ZERO) {
-            return Some(format!(
-                "`{}` is an additive constant: no momentum ∂S/∂q depends on it",
-                constant.name
-            ));
-        }
-        matrix.push(row);
-    }
-    let (constants, coordinates) = (matrix.len(), model.coordinates.len());
+    let (constants, coordinates) = (integral.constants.len(), model.coordinates.len());
     if constants != coordinates {
         return Some(format!(
             "a complete integral has as many constants as coordinates: {coordinates}, not \
              {constants}"
         ));
     }
-    let right = vec![Expr::ZERO; constants];
-    linear::solve(pool, &matrix, &right).err().map(|_| {
+    let hamiltonian = equations.hamiltonian().clone().unwrap_or(Expr::ZERO);
+    let pool = &mut equations.pool;
+    let mut variables: Vec<Symbol> = model.coordinates.iter().map(|c| c.position).collect();
+    variables.push(model.symbols.time);
+    let mut matrix = Vec::new();
+    for (constant, &beta) in integral.constants.iter().zip(beta) {
+        let row: Vec<Expr> =
+            momenta.iter().map(|&p| tidy_derivative(pool, p, constant.symbol)).collect();
+        let name = &constant.name;
+        if !pool.depends_on_any(beta, &variables) {
+            return Some(format!(
+                "`{name}` is an additive constant: ∂S/∂{name} is the same everywhere"
+            ));
+        }
+        if row.iter().all(|&e| e == Expr::ZERO) {
+            return Some(format!("no momentum ∂S/∂q depends on `{name}`"));
+        }
+        matrix.push(row);
+    }
+    let points: Vec<Valuation> = (0..POINTS as u64)
+        .flat_map(|n| {
+            let point = Valuation::near_start(model, equations, n);
+            with_constants(model, equations, &point, hamiltonian)
+        })
+        .collect();
+    singular(&equations.pool, &matrix, &points).then(|| {
         "the determinant of ∂²S/∂q∂α vanishes: the constants are not independent".to_owned()
     })
 }

@@ -8,6 +8,7 @@
 
 use std::collections::HashMap;
 
+use super::chain::image_of_part;
 use super::equations::{Equations, ImplicitMap, NoClosedForm};
 use super::linear;
 use super::valuation::Valuation;
@@ -37,6 +38,10 @@ impl Equations {
     ) -> Result<Expr, NoClosedForm> {
         let mut seeds = seeds.to_vec();
         for map in self.implicit_maps_of(e) {
+            if map.own.is_empty() {
+                self.rates_by_parts(&map, &mut seeds)?;
+                continue;
+            }
             let (sought, given): (Vec<Symbol>, Vec<Symbol>) =
                 map.new.iter().copied().partition(|symbol| !map.own.contains(symbol));
             let relation_of = |own: &Symbol| map.own.iter().position(|known| known == own);
@@ -44,33 +49,40 @@ impl Equations {
             let rows: Vec<usize> =
                 (0..map.own.len()).filter(|&row| !map.new.contains(&map.own[row])).collect();
             let pool = &mut self.pool;
-            let minus_change = |pool: &mut Pool, row: usize, seeds: &[(Symbol, Expr)]| {
-                let change = pool.derivation(map.relations[row], seeds);
-                pool.neg(change)
-            };
-            let mut matrix = Vec::new();
-            for &row in &rows {
-                let relation = map.relations[row];
-                matrix.push(sought.iter().map(|&s| pool.derivative(relation, s)).collect());
-            }
-            let right: Vec<Expr> =
-                rows.iter().map(|&row| minus_change(pool, row, &seeds)).collect();
-            let rates = linear::solve(pool, &matrix, &right)?.x?;
+            let relations: Vec<Expr> = rows.iter().map(|&row| map.relations[row]).collect();
+            let rates = rates_of(pool, &relations, &sought, &seeds)?;
             seeds.extend(sought.into_iter().zip(rates));
             // and the others give the rest of the new variables one by one
             let known = seeds.clone();
             for symbol in given {
                 if let Some(row) = relation_of(&symbol) {
-                    seeds.push((symbol, minus_change(pool, row, &known)));
+                    let change = pool.derivation(map.relations[row], &known);
+                    seeds.push((symbol, pool.neg(change)));
                 }
             }
         }
         Ok(self.pool.derivation(e, &seeds))
     }
 
+    /// The rates of the new variables of maps one after the other, and of what lies between them.
+    fn rates_by_parts(
+        &mut self,
+        map: &ImplicitMap,
+        seeds: &mut Vec<(Symbol, Expr)>,
+    ) -> Result<(), NoClosedForm> {
+        let size = 2 * self.coordinates.len();
+        let count = map.relations.len() / size;
+        for (part, relations) in map.relations.chunks(size).enumerate() {
+            let sought = &map.new[image_of_part(part, count, size)];
+            let rates = rates_of(&mut self.pool, relations, sought, seeds)?;
+            seeds.extend(sought.iter().copied().zip(rates));
+        }
+        Ok(())
+    }
+
     /// A point of (q, p, t) with the images of the maps without a closed form, each on the branch of its image near the start
     /// if that leads there.
-    pub(super) fn with_images(&self, mut point: Valuation) -> Valuation {
+    pub fn with_images(&self, mut point: Valuation) -> Valuation {
         for (map, near_start) in &self.supplements.implicit_maps {
             if let Some(image) = map.search(&self.pool, &point, near_start.clone()) {
                 point = point.with(map.new.iter().map(|&symbol| (symbol, image.at(symbol))));
@@ -104,6 +116,10 @@ impl Equations {
         let maps = self.implicit_maps_of(e);
         let map = match &maps[..] {
             [] => return Ok(e),
+            [map] if map.own.is_empty() => {
+                let why = "it contains new variables of a composition without a closed form";
+                return Err(NoClosedForm(why.to_owned()));
+            }
             [map] => map,
             _ => {
                 let why = "it contains new variables of several maps without a closed form";
@@ -119,4 +135,20 @@ impl Equations {
         let e = pool.substitute(e, &given);
         Ok(pool.simplify(e))
     }
+}
+
+/// The rates of unknowns in relations that keep holding, where those of all else that changes are given.
+fn rates_of(
+    pool: &mut Pool,
+    relations: &[Expr],
+    sought: &[Symbol],
+    seeds: &[(Symbol, Expr)],
+) -> Result<Vec<Expr>, NoClosedForm> {
+    let (mut matrix, mut right) = (Vec::new(), Vec::new());
+    for &relation in relations {
+        matrix.push(sought.iter().map(|&s| pool.derivative(relation, s)).collect());
+        let change = pool.derivation(relation, seeds);
+        right.push(pool.neg(change));
+    }
+    linear::solve(pool, &matrix, &right)?.x
 }

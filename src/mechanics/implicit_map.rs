@@ -198,7 +198,8 @@ impl ImplicitMap {
 
 /// The values of the entries of a matrix.
 pub(super) fn matrix_at(pool: &Pool, of: &[Vec<Expr>], at: &Valuation) -> DMatrix<f64> {
-    DMatrix::from_fn(of.len(), of.len(), |i, j| at.value(pool, of[i][j]))
+    let columns = of.first().map_or(0, Vec::len);
+    DMatrix::from_fn(of.len(), columns, |i, j| at.value(pool, of[i][j]))
 }
 
 /// The largest entry of |M 𝕁 Mᵀ − 𝕁|.

@@ -9,12 +9,14 @@ use std::collections::HashMap;
 
 use super::canonical::{PhaseMap, free_of};
 use super::canonical_verdict::CanonicalVerdict;
+use super::collected::collected;
 use super::equations::{CLOSED_FORM_LIMIT, Equations, NoClosedForm};
+use super::group::phase_maps;
 use super::isolate::Solution;
 use super::slope::with_common_roots;
 use super::valuation::Valuation;
 use crate::expr::{Expr, Pool, Symbol, Zero};
-use crate::model::Model;
+use crate::model::{Model, TransformationLaw};
 use crate::num::Number;
 
 /// The greatest degree in the old variables of what follows from an explicit map with time.
@@ -37,16 +39,95 @@ impl PhaseMap {
         verdict: &CanonicalVerdict,
         backwards: Option<&Solution>,
     ) -> Result<Expr, NoClosedForm> {
+        if !verdict.canonical && verdict.valence.is_none() {
+            return Err(NoClosedForm("the transformation is not canonical".to_owned()));
+        }
+        let hamiltonian = equations.hamiltonian().clone()?;
+        let found = self.transformed(model, equations, (hamiltonian, verdict), backwards);
+        // by one part after the other less is to be eliminated at once
+        match (self.hamiltonian_by_parts(model, equations, hamiltonian), found) {
+            (Some(parts), Ok(e)) if equations.pool.weight(e) <= equations.pool.weight(parts) => {
+                Ok(e)
+            }
+            (Some(parts), _) => Ok(parts),
+            (None, found) => found,
+        }
+    }
+
+    /// K of a map that is made of others, as the new Hamiltonian of each of them in turn, where the values agree.
+    fn hamiltonian_by_parts(
+        &self,
+        model: &Model,
+        equations: &mut Equations,
+        hamiltonian: Expr,
+    ) -> Option<Expr> {
+        let own = model.transformations.iter().find(|given| given.name == self.name)?;
+        let TransformationLaw::Composition(parts) = &own.law else { return None };
+        let maps = phase_maps(model, equations);
+        let parts: Vec<&PhaseMap> = parts
+            .iter()
+            .map(|&k| maps.iter().find(|map| map.name == model.transformations[k].name))
+            .collect::<Option<_>>()?;
+        let renamed = |pool: &mut Pool, e: Expr, from: &[Symbol], to: &[Symbol]| {
+            let pairs = from.iter().zip(to);
+            let map = pairs.map(|(&from, &to)| (from, pool.variable(to))).collect();
+            pool.substitute(e, &map)
+        };
+        let points: Vec<Valuation> =
+            (0..LOOKED_AT as u64).map(|n| Valuation::near_start(model, equations, n)).collect();
+        let mut values: Vec<Option<(Valuation, f64)>> = points
+            .iter()
+            .map(|at| Some((at.clone(), at.value(&equations.pool, hamiltonian))))
+            .collect();
+        let mut e = hamiltonian;
+        for map in parts {
+            let verdict = map.verdict(model, equations);
+            let backwards = map.backwards(model, equations)?;
+            e = map.transformed(model, equations, (e, &verdict), Some(&backwards)).ok()?;
+            let pool = &mut equations.pool;
+            e = renamed(pool, e, &map.implicit.new, &map.old);
+            let rate = match map.function_rate {
+                Some(rate) => rate,
+                None => map.rate_of_explicit(pool, model.symbols.time).ok()?,
+            };
+            let valence = verdict.valence.unwrap_or(Expr::ONE);
+            for known in &mut values {
+                *known = known.take().and_then(|(at, value)| {
+                    let image = map.image(pool, &at)?;
+                    let value = at.value(pool, valence) * value + image.value(pool, rate);
+                    let new = map.implicit.new.iter().map(|&s| image.at(s));
+                    let next = map.old.iter().copied().zip(new).collect::<Vec<_>>();
+                    Some((at.with(next), value))
+                });
+            }
+        }
+        let pool = &mut equations.pool;
+        let known = values.iter().flatten().map(|(at, value)| (at.value(pool, e), *value));
+        let known: Vec<(f64, f64)> = known.filter(|(found, _)| found.is_finite()).collect();
+        let agrees =
+            |&(found, value): &(f64, f64)| (found - value).abs() <= SAME * (1.0 + value.abs());
+        let agrees = !known.is_empty() && known.iter().all(agrees);
+        agrees.then(|| renamed(pool, e, &self.old, &self.implicit.new))
+    }
+
+    /// A Hamiltonian of the old variables as a function of the new ones and t.
+    fn transformed(
+        &self,
+        model: &Model,
+        equations: &mut Equations,
+        (hamiltonian, verdict): (Expr, &CanonicalVerdict),
+        backwards: Option<&Solution>,
+    ) -> Result<Expr, NoClosedForm> {
         let no = |why: &str| Err(NoClosedForm(why.to_owned()));
         if !verdict.canonical && verdict.valence.is_none() {
             return no("the transformation is not canonical");
         }
-        let hamiltonian = equations.hamiltonian().clone()?;
         let time = model.symbols.time;
         let pool = &mut equations.pool;
         let rate = match self.function_rate {
             Some(rate) => rate,
-            None => self.rate_of_explicit(pool, time)?,
+            None if self.parts.is_empty() => self.rate_of_explicit(pool, time)?,
+            None => return no("∂F/∂t of one of its parts is not known"),
         };
         let valence = verdict.valence.unwrap_or(Expr::ONE);
         let scaled = pool.mul(valence, hamiltonian);
@@ -65,23 +146,29 @@ impl PhaseMap {
         };
         let pool = &mut equations.pool;
         let e = pool.simplify_terms(e);
+        let e = collected(pool, e, &self.implicit.new);
         if pool.weight(e) > CLOSED_FORM_LIMIT {
             return Err(NoClosedForm(format!("K has more than {CLOSED_FORM_LIMIT} nodes")));
         }
         Ok(e)
     }
 
-    /// K as a function of the old variables and t: c H + R of a map that is given explicitly, which needs no inverse.
+    /// K as a function of the old variables and t, which needs no inverse: c H + R of a map that is given explicitly, H + ∂F/∂t
+    /// of another where no new variable is in ∂F/∂t.
     pub fn hamiltonian_in_old(
         &self,
         model: &Model,
         equations: &mut Equations,
         verdict: &CanonicalVerdict,
     ) -> Option<Expr> {
-        let known = self.is_explicit() && (verdict.canonical || verdict.valence.is_some());
+        let known = verdict.canonical || verdict.valence.is_some();
         let hamiltonian = equations.hamiltonian().clone().ok().filter(|_| known)?;
         let pool = &mut equations.pool;
-        let rate = self.rate_of_explicit(pool, model.symbols.time).ok()?;
+        let rate = match self.function_rate {
+            Some(rate) => Some(rate).filter(|&rate| !pool.depends_on_any(rate, &self.implicit.new)),
+            None if self.parts.is_empty() => self.rate_of_explicit(pool, model.symbols.time).ok(),
+            None => None,
+        }?;
         let scaled = pool.mul(verdict.valence.unwrap_or(Expr::ONE), hamiltonian);
         let e = pool.add(scaled, rate);
         let e = pool.simplify_terms(e);
@@ -96,7 +183,7 @@ impl PhaseMap {
         equations: &mut Equations,
         hamiltonian: Expr,
     ) -> Option<Expr> {
-        let rate = self.function_rate?;
+        let rate = self.function_rate.filter(|_| self.parts.is_empty())?;
         let images = self.images(model, equations, LOOKED_AT);
         let pool = &mut equations.pool;
         let slopes = self.implicit.relations.iter().zip(&self.implicit.own);
@@ -137,7 +224,11 @@ impl PhaseMap {
 
     /// R(q, p, t): its slopes by the old variables are w = Σ (∂Q_i/∂t ∂P_i − ∂P_i/∂t ∂Q_i), and
     /// R = ∫₀¹ w(s η)·η ds, which is written down where w is a polynomial.
-    fn rate_of_explicit(&self, pool: &mut Pool, time: Symbol) -> Result<Expr, NoClosedForm> {
+    pub(super) fn rate_of_explicit(
+        &self,
+        pool: &mut Pool,
+        time: Symbol,
+    ) -> Result<Expr, NoClosedForm> {
         let n = self.implicit.new.len() / 2;
         // the relations are Q − Q(q, p, t)
         let rates: Vec<Expr> =

@@ -321,15 +321,16 @@ impl Model {
     }
 
     /// The new variables that other expressions may use, by name: those that belong to one
-    /// transformation only, and the constants of the complete integral.
+    /// transformation only, what transformations lack of being canonical, and the constants of the complete integral.
     pub fn new_variables(&self) -> Vec<(String, Symbol)> {
         let all: Vec<Symbol> = self.transformations.iter().flat_map(|t| t.new.concat()).collect();
         let once = all.iter().filter(|s| all.iter().filter(|other| other == s).count() == 1);
         let named = once.map(|&s| (self.pool.symbol_info(s).name.clone(), s));
         let constants = self.complete_integral.iter().flat_map(|s| &s.constants);
         let constants = constants.flat_map(|c| [c.symbol, c.conjugate]);
-        let constants = constants.map(|s| (self.pool.symbol_info(s).name.clone(), s));
-        named.chain(constants).collect()
+        let others = constants.chain(self.transformations.iter().filter_map(|t| t.residual));
+        let others = others.map(|s| (self.pool.symbol_info(s).name.clone(), s));
+        named.chain(others).collect()
     }
 
     /// The name of a new variable of a transformation: with that of the transformation where others have the same variable.

@@ -12,6 +12,8 @@ pub struct Transformation {
     pub law: TransformationLaw,
     /// Q and P of each pair, in the order of the coordinates.
     pub new: Vec<[Symbol; 2]>,
+    /// The largest entry of |M 𝕁 Mᵀ − 𝕁|, if it has a name.
+    pub residual: Option<Symbol>,
     /// The place of its law in the file.
     pub place: SourceRange,
 }
@@ -37,6 +39,17 @@ pub enum TransformationLaw {
     Inverse(usize),
     /// Those with these indices, which stand before it, one after the other.
     Composition(Vec<usize>),
+    /// Several one after the other that cannot be written as one, each with a law of its own.
+    Chain(Vec<ChainPart>),
+}
+
+/// One of several transformations that are applied one after the other.
+#[derive(Clone, Debug)]
+pub struct ChainPart {
+    /// The transformation.
+    pub of: Transformation,
+    /// Whether its inverse is applied.
+    pub inverted: bool,
 }
 
 /// Which variables of a pair a generating function depends on.

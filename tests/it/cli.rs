@@ -27,6 +27,7 @@ mod section;
 mod signals;
 mod sweep;
 mod transformations;
+mod transformations_composed;
 mod transformations_made;
 mod write;
 

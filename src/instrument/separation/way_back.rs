@@ -105,7 +105,7 @@ pub(super) fn picture(
     mut range: Option<[f64; 2]>,
 ) -> Picture {
     let all = returned.gone[1];
-    let mut name = match returned.distance {
+    let name = match returned.distance {
         Some(0.0) => "ln d   identical, to the last bit".to_owned(),
         _ => "ln d from the run before".to_owned(),
     };
@@ -123,7 +123,8 @@ pub(super) fn picture(
         layers.push((LINE, Layer::Line(line, stroke)));
         let now = expected(returned, answer, returned.gone[0]);
         let now = now.map(|value| format!(" = {}", significant(value, 2, 1e-4..1e4)));
-        name = format!("ln d   expected {}{}", law(returned), now.unwrap_or_default());
+        let words = format!("dotted: expected {}{}", law(returned), now.unwrap_or_default());
+        layers.push((LINE, Layer::Legend(vec![words])));
     }
     let upwards = Upwards::Named(name, range.unwrap_or([-40.0, 0.0]));
     Picture::Axes { upwards, layers, occurrences: None }

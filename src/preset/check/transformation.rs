@@ -41,7 +41,8 @@ impl Check<'_> {
             let name = written.name.as_ref().map_or("", |name| name.get_ref()).to_owned();
             let law = TransformationLaw::Explicit { positions: Vec::new(), momenta: Vec::new() };
             let place = written.place.clone();
-            self.model.transformations.push(Transformation { name, law, new, place });
+            let residual = self.residual_of(written, names);
+            self.model.transformations.push(Transformation { name, law, new, residual, place });
         }
         if let Some(written) = &draft.integral {
             let mut constants = Vec::new();
@@ -60,6 +61,20 @@ impl Check<'_> {
             let (function, place) = (Expr::ZERO, 0..0);
             self.model.complete_integral = Some(CompleteIntegral { function, constants, place });
         }
+    }
+
+    /// The name of what an explicit transformation lacks of being canonical.
+    fn residual_of(&mut self, written: &DraftTransformation, names: &mut Names) -> Option<Symbol> {
+        let name = written.residual.as_ref()?;
+        if written.positions.is_none() && written.momenta.is_none() {
+            let message = "`residual` is that of an explicit transformation";
+            let help = "a generating function gives a canonical one: `derive` prints what rounding leaves of it";
+            self.diagnostics.push(Diagnostic::error(name.span(), message).with_help(help));
+            return None;
+        }
+        let known =
+            names.word(name, "what a transformation lacks of being canonical", self.diagnostics);
+        known.then(|| self.introduce(name.get_ref(), Rank::Constant))
     }
 
     /// The new variables of a transformation: Q and P of each pair.

@@ -18,6 +18,8 @@ pub(in crate::preset) struct DraftTransformation {
     pub(in crate::preset) positions: Option<Vec<NamedFormula>>,
     pub(in crate::preset) momenta: Option<Vec<NamedFormula>>,
     pub(in crate::preset) new: Vec<Spanned<String>>,
+    /// The name of its largest entry of |M 𝕁 Mᵀ − 𝕁|.
+    pub(in crate::preset) residual: Option<Spanned<String>>,
     /// The range of the entry.
     pub(in crate::preset) place: SourceRange,
 }
@@ -52,9 +54,21 @@ fn transformation(mut table: Table<'_>, diagnostics: &mut Diagnostics) -> DraftT
     let function = table.formula("F", diagnostics);
     let [positions, momenta] = ["Q", "P"].map(|key| named(&mut table, key, diagnostics));
     let new = names(&mut table, "new", "a new variable", diagnostics);
+    let residual = table.text("residual", diagnostics);
     let place = table.place.clone();
     table.finish(diagnostics);
-    DraftTransformation { name, kind, types, of, function, positions, momenta, new, place }
+    DraftTransformation {
+        name,
+        kind,
+        types,
+        of,
+        function,
+        positions,
+        momenta,
+        new,
+        residual,
+        place,
+    }
 }
 
 /// A list of texts.

@@ -23,6 +23,11 @@ pub(super) const TRANSFORMATION: SchemaTable = SchemaTable {
         key("Q", Names, "the new coordinates as functions of q, p, t, where it is explicit"),
         key("P", Names, "the new momenta"),
         key("new", Texts, "other names for the new coordinates, then for the new momenta"),
+        key(
+            "residual",
+            Text,
+            "a name for the greatest entry of M 𝕁 Mᵀ − 𝕁 of an explicit one, in size and by its derivatives: zero where it is canonical",
+        ),
     ],
 };
 

@@ -349,6 +349,13 @@ fn a_complete_integral_is_checked() {
             falls.replace("- alpha*t", "- c*t + alpha").replace("alpha -", "c -"),
             "additive constant",
         ),
+        (falls.replace("(alpha -", "(c -"), "no momentum ∂S/∂q depends on `alpha`"),
+        (
+            falls
+                .replace("\"alpha\"]", "\"alpha\", \"b\"]")
+                .replace("- alpha*t", "- alpha*t + b*q"),
+            "is left; a complete integral has as many constants as coordinates: 1, not 2",
+        ),
     ] {
         let head = if wrong.contains("asin") { OSCILLATOR } else { &fall };
         let found = &derived(head, &wrong)["hamilton_jacobi"];

@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use super::{phaselab, with_file};
 use crate::build::{names, read, sample};
 
-const FREE: &str = "title = \"T\"\n[coordinates]\nq = { initial = 1.0, momentum = 0.3 }\n\
+pub(super) const FREE: &str = "title = \"T\"\n[coordinates]\nq = { initial = 1.0, momentum = 0.3 }\n\
                     [parameters]\nm = 1.3\nc = 2.0\n[hamiltonian]\nH = \"p_q^2/(2*m) + q^4\"\n";
 
 fn derived(rest: &[&str]) -> Vec<Value> {
@@ -15,12 +15,12 @@ fn derived(rest: &[&str]) -> Vec<Value> {
     found["transformations"].as_array().expect("a list").clone()
 }
 
-const SHEAR: &str = "[[transformations]]\nname = \"shear\"\nkind = \"explicit\"\n\
+pub(super) const SHEAR: &str = "[[transformations]]\nname = \"shear\"\nkind = \"explicit\"\n\
                      Q = { A = \"q + p_q^2\" }\nP = { B = \"p_q\" }";
 const SWAP: &str =
     "[[transformations]]\nname = \"swap\"\nkind = \"F1\"\nF = \"q*C\"\nnew = [\"C\", \"D\"]";
 
-fn made(name: &str, kind: &str, of: &str, new: &str) -> String {
+pub(super) fn made(name: &str, kind: &str, of: &str, new: &str) -> String {
     format!("[[transformations]]\nname = \"{name}\"\nkind = \"{kind}\"\nof = [{of}]\nnew = [{new}]")
 }
 

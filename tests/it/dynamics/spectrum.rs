@@ -129,6 +129,16 @@ fn lines_are_found_beside_a_mean_that_changes() {
     assert!(escapes.lines.is_empty() && escapes.turns.is_some(), "{escapes:?}");
 }
 
+/// A mean that decays is no polynomial, and what a cubic leaves of it does not hide a strong line; how much that is stays said.
+#[test]
+fn a_line_is_found_beside_a_mean_that_decays() {
+    let found = lines(&|t: f64| 3.0 * t.cos() - 50.0 * (-t / 50.0).exp(), 0.2, 2);
+    let [line, ..] = &found.lines[..] else { panic!("{found:?}") };
+    assert!((line.frequency - 1.0).abs() < line.error && line.error < 1e-2, "{line:?}");
+    assert!((line.amplitude - 3.0).abs() < 1e-2, "{line:?}");
+    assert!(found.is_continuous() && found.part_left() < 0.5, "{} of {}", found.left, found.size);
+}
+
 #[test]
 fn what_is_no_combination_is_not_named_one() {
     let found = lines(&known, 0.25, 2);

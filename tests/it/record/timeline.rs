@@ -21,6 +21,7 @@ Wait 2s
 Assert status paused
 Assert t = 0 within 1e-300
 Assert separation.error < 1e-13
+Assert screen "dotted: expected"
 Assert theta = theta0 within 1e-12
 Press Space
 Wait 1s
