@@ -38,6 +38,10 @@ const STEPS: u64 = 120;
 const REGULAR: f64 = 2.8;
 const CHAOTIC: f64 = 5.0;
 
+/// Beyond the first, MEGNO of regular motion has not grown by the second since half of the time; of chaotic motion it doubles.
+const SETTLED: f64 = 2.2;
+const RISING: f64 = 1.5;
+
 /// A chaotic motion has grown by this many powers of e.
 const GROWTH: f64 = 8.0;
 
@@ -244,7 +248,7 @@ fn result(
     let largest = |time| if count > 0 { growth.plain(0, begin, time) } else { 0.0 };
     let curve: Vec<(f64, f64)> = curve.map(|time| (time, largest(time))).collect();
     let mean = megno.mean();
-    let judged = judged(carrier, growth, (&exponents, &uncertainty), mean);
+    let judged = judged(carrier, growth, (&exponents, &uncertainty), megno);
     // what ends is not followed for as long as one wishes
     let (verdict, reason) = match (&failure, judged) {
         (Some(why), (Chaos::Regular, _)) if !why.is_cancelled() => {
@@ -281,8 +285,9 @@ fn judged(
     carrier: &Carrier,
     growth: &TangentGrowth,
     (exponents, uncertainty): (&[f64], &[f64]),
-    megno: f64,
+    mean_growth: &Megno,
 ) -> (Chaos, String) {
+    let megno = mean_growth.mean();
     if growth.logarithms[0].is_empty() {
         let reason =
             "a motion of one degree of freedom with conserved energy has no exponent but 0";
@@ -304,7 +309,8 @@ fn judged(
         );
         return (Chaos::Chaotic, reason);
     }
-    if megno <= REGULAR && grown < GROWTH + math::ln(carrier.steps() as f64) {
+    let rises = megno > SETTLED && mean_growth.growth() > RISING;
+    if !rises && megno <= REGULAR && grown < GROWTH + math::ln(carrier.steps() as f64) {
         let reason = format!(
             "neighbouring motions part no faster than in proportion to time: MEGNO is \
              {megno:.2}, and chaotic motion exceeds {CHAOTIC}"
@@ -312,7 +318,12 @@ fn judged(
         return (Chaos::Regular, reason);
     }
     let between = megno > REGULAR && megno < CHAOTIC;
-    let reason = if between {
+    let reason = if rises && megno <= REGULAR {
+        format!(
+            "MEGNO is {megno:.2} (regular up to {REGULAR}, chaotic from {CHAOTIC}), but rises in proportion to time, and λ is \
+             known to ± {off:.1e}: a longer time may tell"
+        )
+    } else if between {
         format!(
             "neighbouring motions part by e^{grown:.1} in a time of {time} and MEGNO is {megno:.1}, between regular (up to \
              {REGULAR}) and chaotic (from {CHAOTIC}): a longer time may tell"

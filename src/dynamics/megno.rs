@@ -16,11 +16,17 @@ pub(super) struct Megno {
     moment: f64,
     sum: f64,
     last: f64,
+    /// The mean at times that grow by a factor.
+    course: Vec<(f64, f64)>,
 }
+
+/// The factor by which these times grow.
+const APART: f64 = 1.05;
 
 impl Megno {
     pub(super) fn new(start: f64) -> Megno {
-        Megno { start, time: start, logarithm: 0.0, taken: 0.0, moment: 0.0, sum: 0.0, last: 0.0 }
+        let (time, course) = (start, Vec::new());
+        Megno { start, time, logarithm: 0.0, taken: 0.0, moment: 0.0, sum: 0.0, last: 0.0, course }
     }
 
     pub(super) fn add(&mut self, time: f64, logarithm: f64) {
@@ -30,6 +36,10 @@ impl Megno {
         let now = 2.0 * self.moment / (time - self.start);
         self.sum += 0.5 * (now + self.last) * (time - self.time);
         (self.time, self.logarithm, self.last) = (time, logarithm, now);
+        let after = time - self.start;
+        if self.course.last().is_none_or(|(last, _)| after >= APART * last) {
+            self.course.push((after, self.mean()));
+        }
     }
 
     pub(super) fn rescale(&mut self, length: f64) {
@@ -38,6 +48,13 @@ impl Megno {
 
     pub(super) fn mean(&self) -> f64 {
         self.sum / (self.time - self.start)
+    }
+
+    /// By how many times it has grown since half of the time; of chaotic motion it doubles.
+    pub(super) fn growth(&self) -> f64 {
+        let half = 0.5 * (self.time - self.start);
+        let before = self.course.iter().rfind(|(after, _)| *after <= half);
+        before.map_or(1.0, |(_, mean)| self.mean() / mean)
     }
 }
 
@@ -59,5 +76,8 @@ mod tests {
             2.0 - 2.0 / end * (log * log / 2.0 + math::powi(std::f64::consts::PI, 2) / 6.0);
         assert!((linear.mean() - wanted).abs() < 2e-5, "{} {wanted}", linear.mean());
         assert!((exponential.mean() - 0.05 * 2000.0).abs() < 0.1, "{}", exponential.mean());
+        assert!((1.0..1.05).contains(&linear.growth()), "{}", linear.growth());
+        // by up to 5 % more than from the middle
+        assert!((2.0..2.11).contains(&exponential.growth()), "{}", exponential.growth());
     }
 }

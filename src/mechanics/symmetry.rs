@@ -81,8 +81,8 @@ fn is_angle(coordinate: &Coordinate) -> bool {
 /// Groups of two or more coordinates whose names differ only in a trailing number, then those that differ in that or in
 /// being capital letters.
 fn families(model: &Model) -> Vec<(String, Vec<usize>)> {
-    let (mut numbered, mut all): (BTreeMap<&str, Vec<usize>>, BTreeMap<String, Vec<usize>>) =
-        Default::default();
+    let mut numbered: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
+    let mut all: BTreeMap<String, Vec<usize>> = BTreeMap::new();
     for (i, c) in model.coordinates.iter().enumerate() {
         let stem = c.name.trim_end_matches(|d: char| d.is_ascii_digit());
         if stem.is_empty() {

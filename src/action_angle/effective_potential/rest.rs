@@ -30,10 +30,7 @@ impl EffectivePotential<'_> {
     /// The momentum with which the coordinate rests at a place, or the velocity where that is given.
     pub(super) fn resting(&mut self, place: f64) -> Result<f64, MotionError> {
         let momentum = ChannelKind::Momentum(self.coordinate);
-        let last = match self.rest_elsewhere {
-            None => return Ok(0.0),
-            Some(last) => last,
-        };
+        let Some(last) = self.rest_elsewhere else { return Ok(0.0) };
         let found = match self.secant(place, last)? {
             Some(found) => found,
             None => {

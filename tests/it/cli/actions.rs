@@ -483,7 +483,7 @@ fn lobes_that_lie_off_the_line_of_no_momentum_have_their_area() {
                 [hamiltonian]\nH = \"p_x^4/4 + p_x^2/2 + 0.3*x*p_x + x^4\"\n";
     let square = |s: f64| (0.3 * s - 0.5 * s * s) / (1.0 + s.powi(4) / 4.0);
     let (count, step) = (600, 1e-3);
-    let simpson = |i: u32| if i % 2 == 0 { 2.0 } else { 4.0 };
+    let simpson = |i: u32| if i.is_multiple_of(2) { 2.0 } else { 4.0 };
     let inside = (1..count).map(|i| simpson(i) * square(f64::from(i) * step)).sum::<f64>();
     let area = 0.5 * inside * step / 3.0;
     let object = actions(file, &["--energy=0"]);

@@ -117,6 +117,22 @@ fn a_motion_in_atomic_units_is_no_rest() {
     assert_eq!(of(&file(rest, &[]), 20.0).removed, Removed::Nothing);
 }
 
+/// Two magnetic needles: to t = 100 MEGNO is below what regular motion may have, and has doubled since 50; neighbours part by
+/// e^28 until 200.
+#[test]
+fn a_megno_that_doubles_is_not_that_of_regular_motion() {
+    let text = "title = \"needles\"\n[coordinates]\na = { initial = 0.6, velocity = 0.3 }\nf = { initial = 0.1, velocity = 0.5 }\n\
+                b = { initial = 1.9, velocity = -0.2 }\ng = { initial = 1.3, velocity = 0.4 }\n[lagrangian]\n\
+                L = \"1/2*(a'^2 + sin(a)^2*f'^2) + 0.35*(b'^2 + sin(b)^2*g'^2) \
+                - sin(a)*sin(b)*cos(f - g) + 2*cos(a)*cos(b)\"\n";
+    let case = file(text, &[]);
+    let early = of(&case, 100.0);
+    assert!((2.2..2.8).contains(&early.megno), "{}", early.megno);
+    assert_eq!(early.verdict, Chaos::Undecided, "{}", early.reason);
+    assert!(early.reason.contains("rises in proportion to time"), "{}", early.reason);
+    assert_eq!(of(&case, 200.0).verdict, Chaos::Chaotic);
+}
+
 /// On the invariant plane y = 0 neighbours part as e^{kt} exactly, and MEGNO is kt/2: at kt = 7.7 that is too much for a regular
 /// motion and too little to be called chaotic. Over a third of the time it may pass for regular, over twice the time not.
 #[test]
