@@ -75,7 +75,7 @@ pub use equilibria::{equilibria, equilibria_watched, with_virtual_work};
 pub use equilibrium::{Equilibria, Equilibrium};
 pub use equilibrium_names::name_equilibria;
 pub use error::DynamicsError;
-pub use family::{Along, Bifurcation, Family, Member};
+pub use family::{Along, Bifurcation, Family, Member, NOT_ISOLATED};
 pub use family_course::{FamilyCourse, driven_family, family};
 pub use flow_course::{FlowMoment, flow_course};
 pub use flow_map::{FlowMap, flow_map};

@@ -11,8 +11,8 @@ use super::interrupt::Interrupt;
 use super::slow_notice::with_notice;
 use super::study::{self, Study, StudyArguments, shown, table};
 use crate::dynamics::{
-    Along, Bifurcation, Family, Fixed, Orbit, OrbitStability, drive_period, driven_family,
-    driven_orbit, family, periodic_orbit,
+    Along, Bifurcation, Family, Fixed, NOT_ISOLATED, Orbit, OrbitStability, drive_period,
+    driven_family, driven_orbit, family, periodic_orbit,
 };
 use crate::printable;
 
@@ -109,6 +109,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     if let (Some(family), Some(along)) = (&family, &arguments.along) {
         object.insert("along".to_owned(), along.name.as_str().into());
         object.insert("family".to_owned(), members(&study, family));
+        object.insert("isolated".to_owned(), json!(family.isolated));
         object.insert("ended".to_owned(), json!(family.ended));
         text.push_str(&rows(family, &along.name));
     }
@@ -163,8 +164,8 @@ fn members(study: &Study, family: &Family) -> Value {
             "closure": member.orbit.closure,
             "multipliers": multipliers(&member.orbit),
             "trace": member.orbit.transverse.trace(),
-            "stable": member.orbit.is_stable(),
-            "stability": member.orbit.stability().word(),
+            "stable": member.is_stable(),
+            "stability": member.stability().word(),
             "bifurcation": member.bifurcation.map(Bifurcation::word),
         })
     };
@@ -182,11 +183,14 @@ fn rows(family: &Family, name: &str) -> String {
             shown(orbit.period),
             shown(orbit.energy),
             shown(orbit.transverse.trace()),
-            orbit.stability().word().to_owned(),
+            member.stability().word().to_owned(),
             member.bifurcation.map_or("", Bifurcation::word).to_owned(),
         ]);
     }
     let mut text = format!("\n{}", table(&rows));
+    if !family.isolated {
+        text.push_str(&format!("{NOT_ISOLATED}\n"));
+    }
     for why in &family.ended {
         text.push_str(&format!("{why}\n"));
     }

@@ -12,13 +12,14 @@ mod equations;
 mod family_end;
 mod members;
 mod point;
+mod tangent;
 
 use nalgebra::{DMatrix, DVector};
 
 use super::error::DynamicsError;
 use super::family::{Along, Member};
 use super::linear;
-use super::newton::{Fixed, Newton};
+use super::newton::{Fixed, Newton, ROUNDING};
 use super::orbit::Orbit;
 use super::orbit_units::OrbitUnits;
 use super::phase_space::PhaseSpace;
@@ -26,7 +27,7 @@ use crate::integrate::{Method, Settings};
 use crate::num::significant;
 use crate::system::State;
 use equations::FamilyEquations;
-use family_end::{lost, shrunk};
+use family_end::{ended, lost};
 use point::FamilyPoint;
 
 /// The most steps in one direction.
@@ -147,12 +148,13 @@ impl Continuation<'_> {
             value: self.value_of(orbit, parameter),
             orbit: orbit.clone(),
             rounds: Vec::new(),
+            directions: 1,
         };
         let (low, high) = self.range();
         // the value grows along the tangent
         let found = self.equations(&point.state, point.period, point.parameter)?;
         point.rounds.clone_from(&found.here.circuit.rounds);
-        point.tangent = self.direction(&point, &found, None)?;
+        (point.tangent, point.directions) = self.direction(&point, &found, None)?;
         if point.value > high || point.value < low {
             let slope = self.slope(&point)?;
             let wanted = if point.value > high { -1.0 } else { 1.0 };
@@ -202,61 +204,6 @@ impl Continuation<'_> {
         Ok(FamilyEquations { missing, matrix: full, here })
     }
 
-    /// The unit direction of the family at a point with these equations, along `before` if that is given.
-    fn direction(
-        &self,
-        point: &FamilyPoint,
-        found: &FamilyEquations,
-        before: Option<&DVector<f64>>,
-    ) -> Result<DVector<f64>, DynamicsError> {
-        let n = self.space.dimension();
-        // the last column does not exist where no parameter changes
-        let missing = usize::from(!matches!(self.along, Along::Parameter(_)));
-        let kept = found.matrix.ncols() - missing;
-        let kernel = linear::kernel(&found.matrix.columns(0, kept).into_owned(), 1e-7);
-        let guide = match before {
-            Some(before) => before.clone(),
-            None => {
-                let mut guide = DVector::zeros(n + 2);
-                match self.along {
-                    Along::Parameter(_) => guide[n + 1] = 1.0,
-                    Along::Period => guide[n] = 1.0,
-                    Along::Energy => {
-                        let gradient = self.gradient(point)?;
-                        guide.rows_mut(0, n).copy_from(&gradient);
-                    }
-                }
-                guide
-            }
-        };
-        let guide = found.within(&guide).rows(0, kept).into_owned();
-        let mut direction = DVector::zeros(kept);
-        for vector in &kernel {
-            direction.axpy(vector.dot(&guide), vector, 1.0);
-        }
-        let Some(unit) = direction.try_normalize(1e-9 * guide.norm()) else {
-            return Err(DynamicsError::Unsuited(
-                "the family cannot be followed from this orbit: it turns back right here"
-                    .to_owned(),
-            ));
-        };
-        Ok(found.outside(&unit.resize_vertically(kept + missing, 0.0)))
-    }
-
-    fn gradient(&self, point: &FamilyPoint) -> Result<DVector<f64>, DynamicsError> {
-        self.space_at(point.parameter).energy_gradient(&point.state)
-    }
-
-    /// How fast the value grows along the tangent.
-    fn slope(&self, point: &FamilyPoint) -> Result<f64, DynamicsError> {
-        let n = self.space.dimension();
-        Ok(match self.along {
-            Along::Parameter(_) => point.tangent[n + 1],
-            Along::Period => point.tangent[n],
-            Along::Energy => self.gradient(point)?.dot(&point.tangent.rows(0, n)),
-        })
-    }
-
     /// The point of the family a step onwards, and the corrections that it took.
     fn onwards(
         &self,
@@ -274,9 +221,8 @@ impl Continuation<'_> {
     /// The orbit at a point, by the method of the members.
     fn member(&self, from: &FamilyPoint, point: FamilyPoint) -> Result<Orbit, DynamicsError> {
         let (mut point, mut method) = (point, self.method);
-        if let Some(exact) = self.exact()
-            && let Some((found, _)) = exact.closed_near(from, &from.change(&point))?
-        {
+        let exact = self.exact().unwrap_or(*self);
+        if let Some((found, _)) = exact.closed_near(from, &from.change(&point), ROUNDING)? {
             (point, method) = (found, exact.method);
         }
         point.orbit.with_action(&self.space_at(point.parameter), method)
@@ -288,17 +234,18 @@ impl Continuation<'_> {
         from: &FamilyPoint,
         by: &DVector<f64>,
     ) -> Result<Option<(FamilyPoint, usize)>, DynamicsError> {
-        match (self.closed_near(from, by)?, self.exact()) {
-            (None, Some(exact)) => exact.closed_near(from, by),
+        match (self.closed_near(from, by, CLOSED)?, self.exact()) {
+            (None, Some(exact)) => exact.closed_near(from, by, CLOSED),
             (found, _) => Ok(found),
         }
     }
 
-    /// The same by this method alone.
+    /// The same by this method alone, corrected until it closes up to a part `wanted` of its size, or no better.
     fn closed_near(
         &self,
         from: &FamilyPoint,
         by: &DVector<f64>,
+        wanted: f64,
     ) -> Result<Option<(FamilyPoint, usize)>, DynamicsError> {
         let n = self.space.dimension();
         let moved = |state: &State, by: &DVector<f64>, parameter: f64| {
@@ -311,23 +258,30 @@ impl Continuation<'_> {
         };
         let (mut period, mut parameter) = (from.period + by[n], from.parameter + by[n + 1]);
         let Some(mut state) = moved(&from.state, by, parameter)? else { return Ok(None) };
+        let mut closest: Option<(FamilyPoint, usize, f64)> = None;
         for count in 0..CORRECTIONS {
             if period <= 0.0 {
-                return Ok(None);
+                break;
             }
             let found = self.equations(&state, period, parameter);
             let found = match found {
                 Ok(found) => found,
                 Err(error) if error.is_cancelled() => return Err(error),
-                Err(_) => return Ok(None),
+                Err(_) => break,
             };
-            if found.missing.norm() <= CLOSED * found.here.circuit.size {
+            let missing = found.missing.norm() / found.here.circuit.size;
+            if missing <= CLOSED {
                 // beyond a separatrix there is another family
                 if found.here.circuit.rounds != from.rounds {
                     return Ok(None);
                 }
-                let point = self.point(from, &found, parameter)?;
-                return Ok(Some((point, count)));
+                if closest.as_ref().is_some_and(|(.., before)| missing >= *before) {
+                    break;
+                }
+                closest = Some((self.point(from, &found, parameter)?, count, missing));
+                if missing <= wanted {
+                    break;
+                }
             }
             // across the family only
             let (rows, columns) = found.matrix.shape();
@@ -336,14 +290,14 @@ impl Continuation<'_> {
                 .copy_from(&found.within(&from.tangent).transpose());
             let right = found.missing.clone().resize_vertically(rows + 1, 0.0);
             let cut = 1e-10 * found.matrix.amax() + 1e-4 * found.missing.norm();
-            let Some(change) = linear::least_squares(&all, &right, cut) else { return Ok(None) };
+            let Some(change) = linear::least_squares(&all, &right, cut) else { break };
             let change = found.outside(&change);
             period += change[n];
             parameter += change[n + 1];
-            let Some(there) = moved(&state, &change, parameter)? else { return Ok(None) };
+            let Some(there) = moved(&state, &change, parameter)? else { break };
             state = there;
         }
-        Ok(None)
+        Ok(closest.map(|(point, count, _)| (point, count)))
     }
 
     fn point(
@@ -359,8 +313,10 @@ impl Continuation<'_> {
         let tangent = from.tangent.clone();
         let value = self.value_of(&orbit, parameter);
         let rounds = here.circuit.rounds.clone();
-        let mut point = FamilyPoint { state, period, parameter, tangent, value, orbit, rounds };
-        point.tangent = self.direction(&point, found, Some(&from.tangent))?;
+        let directions = from.directions;
+        let mut point =
+            FamilyPoint { state, period, parameter, tangent, value, orbit, rounds, directions };
+        (point.tangent, point.directions) = self.direction(&point, found, Some(from))?;
         Ok(point)
     }
 
@@ -425,7 +381,7 @@ impl Continuation<'_> {
             return Ok(());
         };
         if let Some(end) = self.between(here, &next, side.step, &mut side.members)? {
-            side.ended = Some(SideEnd::Before(shrunk(here, &end)));
+            side.ended = Some(SideEnd::Before(ended(here, &end)));
             return Ok(());
         }
         if side.begin.unit().is_some() && here.unit().is_none() && next.unit().is_none() {

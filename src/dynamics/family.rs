@@ -1,8 +1,13 @@
 //! A family of periodic orbits: its members, and the folds and bifurcations between them.
 //!
-//! In: orbits with their values. Out: nothing but these data. Never here: how a family is followed; see `continuation`.
+//! In: orbits with their values. Out: these data, and what becomes of the neighbours of a member. Never here: how a family is followed; see `continuation`.
 
-use super::orbit::Orbit;
+use super::orbit::{ON_CIRCLE, Orbit};
+use super::orbit_stability::OrbitStability;
+use crate::num::math;
+
+/// Of a family whose orbits are not isolated.
+pub const NOT_ISOLATED: &str = "each orbit has others of the same value beside it: the family has more parameters, and one path through it is followed";
 
 /// What changes along a family.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -48,6 +53,39 @@ pub struct Member {
     pub bifurcation: Option<Bifurcation>,
 }
 
+impl Member {
+    /// What becomes of its neighbours, to first order. Where it bifurcates and volumes across it are preserved, two multipliers have
+    /// met at 1 or −1, and the others decide; they are known to the part of a step to which the place is.
+    pub fn stability(&self) -> OrbitStability {
+        let meets = match self.bifurcation {
+            Some(Bifurcation::Fold | Bifurcation::Branching) => 1.0,
+            Some(Bifurcation::PeriodDoubling) => -1.0,
+            None => return self.orbit.stability(),
+        };
+        if (self.orbit.transverse.determinant() - 1.0).abs() > ON_CIRCLE {
+            return self.orbit.stability();
+        }
+        let mut others = self.orbit.multipliers.clone();
+        let off = |z: &[f64; 2]| math::hypot(z[0] - meets, z[1]);
+        others.sort_by(|a, b| off(a).total_cmp(&off(b)));
+        let leaves = |z: &[f64; 2]| math::hypot(z[0], z[1]) > 1.0 + ON_CIRCLE;
+        if others.iter().skip(2).any(leaves) {
+            OrbitStability::Unstable
+        } else {
+            OrbitStability::Parabolic
+        }
+    }
+
+    /// Whether no multiplier lies outside the unit circle; `None` where that is not known.
+    pub fn is_stable(&self) -> Option<bool> {
+        match self.stability() {
+            OrbitStability::Parabolic => None,
+            OrbitStability::Unstable => Some(false),
+            _ => self.orbit.is_stable(),
+        }
+    }
+}
+
 /// A family as far as it was followed.
 #[derive(Clone, Debug)]
 pub struct Family {
@@ -55,6 +93,9 @@ pub struct Family {
     pub members: Vec<Member>,
     /// Why it was not followed to the end of the values on either side.
     pub ended: Vec<String>,
+    /// Whether each orbit is the only one beside it with its value of what changes. Of others the one in whose direction that
+    /// changes most is followed.
+    pub isolated: bool,
     /// Whether the work was cancelled.
     pub cancelled: bool,
 }

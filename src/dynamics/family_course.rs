@@ -157,6 +157,8 @@ impl FamilyCourse {
                 _ => None,
             }));
         }
-        Family { members, ended, cancelled: self.cancelled }
+        let alone = |side: &FamilySide| side.begin.directions == 1 || side.here.directions == 1;
+        let isolated = self.sides.as_ref().is_none_or(|sides| sides.iter().any(alone));
+        Family { members, ended, isolated, cancelled: self.cancelled }
     }
 }

@@ -20,7 +20,7 @@ pub enum OrbitStability {
     /// There is no direction across it but that to orbits of other energies.
     Neutral,
     /// All multipliers are 1: neighbours turn about it as little as they part exponentially, as on a torus that is filled
-    /// with periodic orbits.
+    /// with periodic orbits. Or two have met at 1 or −1, and no other is outside the unit circle, as where a family bifurcates.
     Parabolic,
     /// No multiplier lies outside the unit circle.
     Stable,

@@ -17,7 +17,7 @@ use super::{
     Need, Offer, PeriodicOrbits, Physics, Picture, Plot, PlotTable, Present, Seed, Stroke, Upwards,
     varied,
 };
-use crate::dynamics::Bifurcation;
+use crate::dynamics::{Bifurcation, NOT_ISOLATED};
 use crate::ensemble::Start;
 use crate::expr::Expr;
 use crate::integrate::method_named;
@@ -413,6 +413,9 @@ fn legend(plot: &Plot, physics: Physics<'_>, answer: Option<&Answer>) -> Vec<Str
     }
     if !found.is_complete() {
         lines.push("being followed".to_owned());
+    }
+    if !found.isolated {
+        lines.push(NOT_ISOLATED.to_owned());
     }
     lines.extend(found.ended.iter().cloned());
     lines

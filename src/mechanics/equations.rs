@@ -103,8 +103,8 @@ pub struct Supplements {
     /// For each transformation of the file the new variables as functions of (q, p, t), if they can
     /// be written down.
     pub transformations: Vec<Option<Vec<(Symbol, Expr)>>>,
-    /// The laws of the transformations, those made of others written out where that is possible.
-    pub transformation_laws: Vec<Result<TransformationLaw, NoClosedForm>>,
+    /// The laws of the transformations, those made of others written out where that is possible, else as chains.
+    pub transformation_laws: Vec<TransformationLaw>,
     /// New variables of transformations and constants of the complete integral, as functions of
     /// (q, p, t), as far as they can be written down.
     pub new_variables: Vec<(Symbol, Expr)>,

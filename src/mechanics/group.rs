@@ -1,7 +1,7 @@
 //! The transformations of a model, with those made of others: the inverse of one, and several applied one after the other.
 //!
-//! In: transformations whose laws are known. Out: the law of the one made of them, of the same kinds as those of a file; or
-//! why it cannot be written down. Never here: whether it is canonical, which is asked of it as of any other.
+//! In: transformations whose laws are known. Out: the law of the one made of them, of the same kinds as those of a file where it
+//! can be written down, and else a chain of them. Never here: whether it is canonical, which is asked of it as of any other.
 //!
 //! With G = −F, old and new variables exchanged, the inverse of F1(q, Q) is the F1 of G, that of F2(q, P) the F3, that of
 //! F3(p, Q) the F2, that of F4(p, P) the F4.
@@ -10,7 +10,7 @@
 use std::collections::HashMap;
 
 use super::canonical::PhaseMap;
-use super::equations::{Equations, ImplicitMap, NoClosedForm};
+use super::equations::{Equations, ImplicitMap};
 use super::isolate::Solution;
 use super::sampling::{FAR_POINTS, POINTS};
 use super::structure_error::StructureError;
@@ -26,24 +26,23 @@ pub(super) fn find(equations: &mut Equations, model: &Model) {
     for given in &model.transformations {
         let before = equations.supplements.transformation_laws.clone();
         let law = resolved(model, equations, given, &before, &all);
-        let forwards = law.as_ref().ok().and_then(|law| {
-            let written = Transformation { law: law.clone(), ..given.clone() };
-            let map = PhaseMap::relations(&mut equations.pool, model, &written);
-            let own = written_inverse(model, equations, (given, &map), &all);
-            let mut found = own.or_else(|| map.find_forwards(model, equations))?;
+        let written = Transformation { law: law.clone(), ..given.clone() };
+        let map = PhaseMap::relations(&mut equations.pool, model, &written);
+        let own = written_inverse(model, equations, (given, &map), &all);
+        let mut forwards = own.or_else(|| map.find_forwards(model, equations));
+        if let Some(found) = &mut forwards {
             found.sort_by_key(|(symbol, _)| map.implicit.new.iter().position(|s| s == symbol));
-            Some(found)
-        });
+        }
         // a root that is 0/0 at the start is no value, though the relations have one there
         let has_value = forwards.as_ref().is_some_and(|forwards| {
             let start = Valuation::at_start(model, equations);
             forwards.iter().all(|&(_, e)| start.value(&equations.pool, e).is_finite())
         });
-        if let (Ok(law), false) = (&law, has_value)
-            && given.new.iter().flatten().all(|symbol| shared.contains(symbol))
-        {
-            let given = Transformation { law: law.clone(), ..given.clone() };
-            let map = PhaseMap::relations(&mut equations.pool, model, &given);
+        if let Some(symbol) = given.residual {
+            let residual = map.largest_residual(&mut equations.pool);
+            residuals.push((symbol, residual));
+        }
+        if !has_value && given.new.iter().flatten().all(|symbol| shared.contains(symbol)) {
             let at = if forwards.is_some() {
                 let start = Valuation::at_start(model, equations);
                 map.image(&equations.pool, &start)
@@ -54,12 +53,6 @@ pub(super) fn find(equations: &mut Equations, model: &Model) {
                 let image = map.implicit.new.iter().map(|&s| at.at(s)).collect();
                 equations.supplements.implicit_maps.push((map.implicit, image));
             }
-        }
-        if let (Some(symbol), Ok(law)) = (given.residual, &law) {
-            let written = Transformation { law: law.clone(), ..given.clone() };
-            let map = PhaseMap::relations(&mut equations.pool, model, &written);
-            let residual = map.largest_residual(&mut equations.pool);
-            residuals.push((symbol, residual));
         }
         equations.supplements.transformation_laws.push(law);
         all.push(forwards);
@@ -74,7 +67,7 @@ pub(super) fn find(equations: &mut Equations, model: &Model) {
 }
 
 /// The transformations of a model with their laws, those made of others written out, and the maps as they were found with
-/// its equations. What cannot be written down is left out.
+/// its equations.
 pub(super) fn written_maps(
     model: &Model,
     equations: &mut Equations,
@@ -83,11 +76,11 @@ pub(super) fn written_maps(
     let laws = equations.supplements.transformation_laws.clone();
     let pool = &mut equations.pool;
     let all = model.transformations.iter().zip(found).zip(laws);
-    let maps = all.filter_map(|((given, forwards), law)| {
-        let given = Transformation { law: law.ok()?, ..given.clone() };
+    let maps = all.map(|((given, forwards), law)| {
+        let given = Transformation { law, ..given.clone() };
         let mut map = PhaseMap::relations(pool, model, &given);
         map.forwards = forwards;
-        Some((given, map))
+        (given, map)
     });
     maps.collect()
 }
@@ -97,9 +90,9 @@ pub fn phase_maps(model: &Model, equations: &mut Equations) -> Vec<PhaseMap> {
     written_maps(model, equations).into_iter().map(|(_, map)| map).collect()
 }
 
-/// The relations of the transformation at a place of the file; `None` if it is explicit, or cannot be written down.
+/// The relations of the transformation at a place of the file; `None` if it is explicit.
 pub fn relations_of(model: &Model, equations: &mut Equations, place: usize) -> Option<ImplicitMap> {
-    let law = equations.supplements.transformation_laws.get(place)?.clone().ok()?;
+    let law = equations.supplements.transformation_laws.get(place)?.clone();
     let solved = matches!(law, TransformationLaw::Generating { .. } | TransformationLaw::Chain(_));
     let given = Transformation { law, ..model.transformations.get(place)?.clone() };
     solved.then(|| PhaseMap::relations(&mut equations.pool, model, &given).implicit)
@@ -110,19 +103,22 @@ pub(super) fn resolved(
     model: &Model,
     equations: &mut Equations,
     given: &Transformation,
-    before: &[Result<TransformationLaw, NoClosedForm>],
+    before: &[TransformationLaw],
     forwards: &[Option<Solution>],
-) -> Result<TransformationLaw, NoClosedForm> {
+) -> TransformationLaw {
     match &given.law {
         TransformationLaw::Inverse(k) => {
-            let law = before[*k].clone()?;
+            let law = before[*k].clone();
             if let TransformationLaw::Chain(parts) = law {
                 let back = parts.into_iter().rev();
                 let back = back.map(|part| ChainPart { inverted: !part.inverted, ..part });
-                return Ok(TransformationLaw::Chain(back.collect()));
+                return TransformationLaw::Chain(back.collect());
             }
             let of = Transformation { law, ..model.transformations[*k].clone() };
-            inverse(model, equations, given, &of)
+            let written = inverse(model, equations, given, &of);
+            // what cannot be written down is solved for, too
+            let solved = || TransformationLaw::Chain(vec![ChainPart { of, inverted: true }]);
+            written.unwrap_or_else(solved)
         }
         TransformationLaw::Composition(parts) => {
             let known = |&k: &usize| {
@@ -132,9 +128,9 @@ pub(super) fn resolved(
             let Some(known) = parts.iter().map(known).collect::<Option<Vec<_>>>() else {
                 return chain(model, parts, before);
             };
-            Ok(composition(model, equations, given, &known))
+            composition(model, equations, given, &known)
         }
-        law => Ok(law.clone()),
+        law => law.clone(),
     }
 }
 
@@ -153,7 +149,7 @@ fn inverse(
     equations: &mut Equations,
     given: &Transformation,
     of: &Transformation,
-) -> Result<TransformationLaw, NoClosedForm> {
+) -> Option<TransformationLaw> {
     let old = old_variables(model);
     let (theirs, own) = (in_order(&of.new), in_order(&given.new));
     let pool = &mut equations.pool;
@@ -171,23 +167,18 @@ fn inverse(
             GeneratingType::F3 => GeneratingType::F2,
             GeneratingType::F4 => GeneratingType::F4,
         });
-        return Ok(TransformationLaw::Generating { types: types.collect(), function });
+        return Some(TransformationLaw::Generating { types: types.collect(), function });
     }
     let map = PhaseMap::relations(pool, model, of);
-    let Some(backwards) = map.backwards(model, equations) else {
-        let why = format!("the inverse of `{}` cannot be written down", of.name);
-        return Err(NoClosedForm(why));
-    };
+    let backwards = map.backwards(model, equations)?;
     let pool = &mut equations.pool;
     let mut all = Vec::new();
     for &symbol in &old {
-        let Some(&(_, e)) = backwards.iter().find(|(found, _)| *found == symbol) else {
-            return Err(NoClosedForm(format!("the inverse of `{}` is not complete", of.name)));
-        };
+        let &(_, e) = backwards.iter().find(|(found, _)| *found == symbol)?;
         all.push(pool.substitute(e, &exchanged));
     }
     let momenta = all.split_off(old.len() / 2);
-    Ok(TransformationLaw::Explicit { positions: all, momenta })
+    Some(TransformationLaw::Explicit { positions: all, momenta })
 }
 
 /// The new variables of an inverse as functions of the old ones where those of the transformation that it is the inverse of are
@@ -246,14 +237,10 @@ fn written_inverse(
 }
 
 /// The parts one after the other where the new variables of some are not known in closed form.
-fn chain(
-    model: &Model,
-    parts: &[usize],
-    before: &[Result<TransformationLaw, NoClosedForm>],
-) -> Result<TransformationLaw, NoClosedForm> {
+fn chain(model: &Model, parts: &[usize], before: &[TransformationLaw]) -> TransformationLaw {
     let mut all = Vec::new();
     for &k in parts {
-        match before[k].clone()? {
+        match before[k].clone() {
             TransformationLaw::Chain(parts) => all.extend(parts),
             law => {
                 let of = Transformation { law, ..model.transformations[k].clone() };
@@ -261,7 +248,7 @@ fn chain(
             }
         }
     }
-    Ok(TransformationLaw::Chain(all))
+    TransformationLaw::Chain(all)
 }
 
 /// The parts one after the other, the first one first.
@@ -292,25 +279,11 @@ fn composition(
     TransformationLaw::Explicit { positions: values, momenta }
 }
 
-/// The transformations of a file whose laws cannot be written down, and the events and surfaces of section on the new
-/// variables of one that is solved numerically.
-pub(super) fn structure_errors(model: &Model, equations: &Equations) -> Vec<StructureError> {
-    let laws = equations.supplements.transformation_laws.iter();
-    let all = model.transformations.iter().zip(laws).filter_map(|(given, law)| {
-        let why = law.as_ref().err()?;
-        Some(StructureError {
-            place: given.place.clone(),
-            message: format!("`{}` cannot be written down: {why}", given.name),
-            help: "write it out as an explicit transformation or by a generating function"
-                .to_owned(),
-        })
-    });
-    all.chain(unlocated(model, equations)).collect()
-}
-
+/// The events and surfaces of section on the new variables of a transformation that is solved numerically.
+///
 /// Zeros are located on the dense output of a step, by slopes too; the image of a map that is solved numerically is known
 /// at the states that are observed, one after the other, and ends at caustics.
-fn unlocated(model: &Model, equations: &Equations) -> Vec<StructureError> {
+pub(super) fn structure_errors(model: &Model, equations: &Equations) -> Vec<StructureError> {
     let pool = &equations.pool;
     let new = equations.supplements.implicit_maps.iter().flat_map(|(map, _)| &map.new);
     let new: Vec<Symbol> = new.copied().collect();

@@ -2,6 +2,7 @@
 //!
 //! In: the last points of it. Out: a sentence. Never here: whether it ends.
 
+use super::members::FamilyEnd;
 use super::point::FamilyPoint;
 use crate::num::significant;
 
@@ -11,12 +12,19 @@ const LONG: f64 = 3.0;
 /// The value at an equilibrium is zero up to this part of that beside it.
 const VANISHES: f64 = 1e-6;
 
-/// Why a family ends between two points of which the second is an equilibrium.
-pub(super) fn shrunk(from: &FamilyPoint, end: &FamilyPoint) -> String {
+/// Why a family ends beside a point.
+pub(super) fn ended(from: &FamilyPoint, end: &FamilyEnd) -> String {
+    let (end, how, digits) = match end {
+        FamilyEnd::Equilibrium(end) => (end, ["at", "at an equilibrium"], 6),
+        FamilyEnd::Branching(end) => {
+            (end, ["near", "at an orbit of another, from which it branches off"], 4)
+        }
+    };
     // the first digits of a value that vanishes are rounding
     let value = if end.value.abs() <= VANISHES * from.value.abs() { 0.0 } else { end.value };
-    let [value, period] = [value, end.period].map(|x| significant(x, 6, 1e-4..1e6));
-    format!("the family ends at {value}, at an equilibrium, where its period is {period}")
+    let [value, period] = [value, end.period].map(|x| significant(x, digits, 1e-4..1e6));
+    let [near, place] = how;
+    format!("the family ends {near} {value}, {place}, where its period is {period}")
 }
 
 /// Whether the period at a point is so much longer than the first that it grows without bound.

@@ -2,7 +2,7 @@
 //!
 //! In: two points, one step apart. Out: the members between them, in their order. Never here: the step.
 
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 
 use super::super::direction::FlowDirection;
 use super::super::error::DynamicsError;
@@ -13,22 +13,41 @@ use super::{Continuation, FamilyPoint};
 const LOCATED: f64 = 1e-9;
 const MOST: usize = 40;
 
-/// An orbit on which nothing moves faster than this part of what does on one beside it is an equilibrium.
+/// An orbit on which nothing moves faster than this part of what does on one beside it is an equilibrium; one whose neighbours
+/// move by no more in a period is what they have shrunk to.
 const SLOW: f64 = 0.1;
 
+/// Where a family ends.
+pub(super) enum FamilyEnd {
+    /// At an equilibrium.
+    Equilibrium(FamilyPoint),
+    /// At an orbit of another family, as tori about a steady precession shrink to that.
+    Branching(FamilyPoint),
+}
+
+/// Whether orbits beside each other shrink to one where their family turns back: then the map across it is the identity.
+fn is_shrunk(from: &FamilyPoint, to: &FamilyPoint) -> bool {
+    let moved = |point: &FamilyPoint| {
+        let across = &point.orbit.transverse;
+        (across - DMatrix::identity(across.nrows(), across.ncols())).amax()
+    };
+    from.directions > 1 && moved(to) <= SLOW * moved(from)
+}
+
 impl Continuation<'_> {
-    /// Collects the members between two points, in their order. Returns the point at which the family ends between them, if it
-    /// shrinks to an equilibrium there: beyond it come the same orbits, half a period later.
+    /// Collects the members between two points, in their order. Returns where the family ends between them, if it does:
+    /// beyond that come the same orbits, half a period later.
     pub(super) fn between(
         &self,
         from: &FamilyPoint,
         to: &FamilyPoint,
         step: f64,
         members: &mut Vec<Member>,
-    ) -> Result<Option<FamilyPoint>, DynamicsError> {
+    ) -> Result<Option<FamilyEnd>, DynamicsError> {
         let (low, high) = self.range();
         let equilibrium = self.equilibrium(from, to, step)?;
-        let until = equilibrium.as_ref().map_or(f64::INFINITY, |(part, _)| *part);
+        let mut until = equilibrium.as_ref().map_or(f64::INFINITY, |(part, _)| *part);
+        let mut end = equilibrium.as_ref().map(|(_, point)| FamilyEnd::Equilibrium(point.clone()));
         let mut found: Vec<(f64, Member)> = Vec::new();
         let [before, after] = [self.slope(from)?, self.slope(to)?];
         let folds = equilibrium.is_none() && (before < 0.0) != (after < 0.0);
@@ -53,6 +72,15 @@ impl Continuation<'_> {
         for (kind, test) in specials {
             let close = |_: &FamilyPoint, moved: f64| moved <= LOCATED * step;
             let located = self.located((from, to, step), &*test, &close)?;
+            if let Some((part, point)) = &located
+                && kind == Bifurcation::Fold
+                && is_shrunk(from, point)
+            {
+                // the way past that orbit comes near it, not onto it: it is no member
+                until = *part;
+                end = Some(FamilyEnd::Branching(point.clone()));
+                continue;
+            }
             if let Some((part, point)) = located
                 && (low..=high).contains(&point.value)
             {
@@ -80,7 +108,7 @@ impl Continuation<'_> {
         found.retain(|(part, _)| *part < until);
         found.sort_by(|x, y| x.0.total_cmp(&y.0));
         members.extend(found.into_iter().map(|(_, member)| member));
-        Ok(equilibrium.map(|(_, point)| point))
+        Ok(end)
     }
 
     /// Where between two points, a step apart, the orbits shrink to an equilibrium: there the direction in which they begin is

@@ -26,6 +26,8 @@ pub(in super::super) struct FamilyPoint {
     pub(in super::super) orbit: Orbit,
     /// How often each variable with a period goes round in one: the same on all of the family.
     pub(super) rounds: Vec<i64>,
+    /// In how many directions there are orbits beside it and beside all before it: one if they are isolated.
+    pub(in super::super) directions: usize,
 }
 
 impl FamilyPoint {

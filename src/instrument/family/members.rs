@@ -45,6 +45,8 @@ pub(super) struct FollowedFamily {
     pub(super) members: Vec<FamilyMember>,
     /// Why it does not go on, at either end.
     pub(super) ended: Vec<String>,
+    /// Whether each orbit is the only one beside it of its value.
+    pub(super) isolated: bool,
     /// Where its orbits cross the surfaces of section.
     pub(super) periodic: Arc<PeriodicOrbits>,
     /// What it is followed on from; `None` once that is done.
@@ -121,6 +123,7 @@ pub(super) fn close(
         channel,
         members,
         ended: Vec::new(),
+        isolated: true,
         periodic: Arc::new(periodic),
         way: Some(FamilyWay { space, fixed, course, steps: FIRST_STEPS, orbit: points }),
     })
@@ -179,6 +182,7 @@ pub(super) fn follow_on(
         channel: known.channel,
         members,
         ended: found.ended,
+        isolated: found.isolated,
         periodic: Arc::new(periodic),
         way: (!is_complete).then_some(way),
     })
@@ -197,7 +201,7 @@ fn seen(
         period: member.orbit.period,
         energy: member.orbit.energy,
         trace: member.orbit.transverse.trace(),
-        stable: member.orbit.is_stable(),
+        stable: member.is_stable(),
         bifurcation: member.bifurcation,
     }
 }

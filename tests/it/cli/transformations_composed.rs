@@ -80,6 +80,39 @@ fn maps_without_a_closed_form_are_composed() {
     assert!((value - 1.0).abs() < 1e-13, "{found}");
 }
 
+/// Kepler's equation q = x − ½ sin x has no solution in closed form: the inverse of a map with it is solved for.
+#[test]
+fn an_explicit_map_that_cannot_be_written_backwards_has_an_inverse() {
+    let kepler = "[[transformations]]\nname = \"k\"\nkind = \"explicit\"\nQ = { A = \"q - 1/2*sin(q)\" }\n\
+                  P = { B = \"p_q/(1 - 1/2*cos(q))\" }";
+    let back = made("b", "inverse", "\"k\"", "\"X\", \"Y\"");
+    let both = made("c", "compose", "\"b\", \"k\"", "\"U\", \"V\"");
+    let text = [FREE, kepler, &back, &both].join("\n");
+    let found = with_file(&text, &["derive", "system.toml", "--format", "json"]).json();
+    for one in found["transformations"].as_array().expect("a list") {
+        assert_eq!((&one["canonical"], &one["proved"]), (&json!(true), &json!(true)), "{one}");
+    }
+    let words = ["run", "system.toml", "--until=2", "--every=0.25", "--format=json"];
+    let observed = ["X", "Y", "U", "V"].map(|name| format!("--observe={name}"));
+    let words: Vec<&str> = words.into_iter().chain(observed.iter().map(String::as_str)).collect();
+    let rows = with_file(&text, &words).json();
+    let columns = rows["columns"].as_array().expect("columns");
+    let names = ["q", "p_q", "X", "Y", "U", "V"];
+    let place = names.map(|name| columns.iter().position(|c| c == name).expect("a column"));
+    for row in rows["rows"].as_array().expect("rows") {
+        let [q, p, x, y, u, v] = place.map(|k| row[k].as_f64().expect("a value"));
+        let (mut low, mut high) = (q - 1.0, q + 1.0);
+        for _ in 0..80 {
+            let middle: f64 = 0.5 * (low + high);
+            if middle - 0.5 * middle.sin() < q { low = middle } else { high = middle }
+        }
+        let expected = [low, p * (1.0 - 0.5 * low.cos()), q, p];
+        for (value, expected) in [x, y, u, v].into_iter().zip(expected) {
+            assert!((value - expected).abs() < 1e-13, "{value} is not {expected}: {row}");
+        }
+    }
+}
+
 /// K of maps one after the other is that of each of them in turn: of rotating axes and then polar coordinates it is
 /// H − w p_θ, without a division by sin w t; and what multiplies out to less is multiplied out.
 #[test]

@@ -136,13 +136,6 @@ fn what_is_made_of_nothing_is_an_error() {
         &[SHEAR, "[[transformations]]\nname = \"b\"\nkind = \"F2\"\nof = [\"shear\"]\nF = \"q*P\""],
         &["`of`"],
     );
-    // Kepler's equation has no solution in closed form
-    let kepler = "[[transformations]]\nname = \"k\"\nkind = \"explicit\"\nQ = { A = \"q - 1/2*sin(q)\" }\n\
-                  P = { B = \"p_q/(1 - 1/2*cos(q))\" }";
-    check(
-        &[kepler, &made("b", "inverse", "\"k\"", "")],
-        &["inverse of `k` cannot be written down"],
-    );
 }
 
 /// Zeros are located along a step; of an image that is solved for that is refused with its reason, of one in closed form

@@ -104,3 +104,28 @@ fn an_orbit_of_a_top_has_the_casimirs_of_its_start() {
     assert_eq!(found.trivial_names().len(), 4);
     assert_eq!(found.multipliers.len(), 2);
 }
+
+/// With L₃ conserved beside the energy, the closed orbits of Lagrange's top fill a torus each and form a family in both: none is
+/// stable or unstable, no energy is left out, and nothing turns back. They shrink to a steady precession, at which their family ends.
+#[test]
+fn orbits_of_an_integrable_top_are_parabolic_and_turn_back_nowhere() {
+    let case = preset("heavy-top-body", &[], &[]);
+    let along = (Along::Energy, Fixed::Energy(10.6));
+    let orbit = periodic_orbit(&case.space, taylor(), &case.start, None, along.1).unwrap();
+    // from the energy of the start downwards
+    let values = [9.2, 8.0, 6.8, 5.6];
+    let found = family(&case.space, taylor(), &orbit, along, (&values, &|_| ())).unwrap();
+    assert!(!found.isolated);
+    let seen: Vec<_> = found.members.iter().map(|m| (m.value, m.bifurcation)).collect();
+    assert_eq!(seen, [9.2, 8.0, 6.8].map(|value| (value, None)), "{:?}", found.ended);
+    // two turns of the spin to a nutation: the steady precession with these Casimirs and this ratio has E = 6.021547 and
+    // T = 3.807922, by I₁ φ̇² cos θ − L₃ φ̇ + Mgl = 0 and the second derivative of the effective potential of θ
+    let [why] = &found.ended[..] else { panic!("{:?}", found.ended) };
+    let said = "the family ends near 6.022, at an orbit of another, from which it branches off, where its period is 3.808";
+    assert_eq!(why, said);
+    for member in &found.members {
+        assert_eq!(member.stability(), OrbitStability::Parabolic, "{}", member.value);
+        assert_eq!(member.is_stable(), None, "{}", member.value);
+        assert!(member.orbit.closes_to_rounding, "{}", member.orbit.closure);
+    }
+}

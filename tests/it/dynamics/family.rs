@@ -1,8 +1,8 @@
 //! Families of periodic orbits.
 
 use phaselab::dynamics::{
-    Along, Bifurcation, Family, Fixed, Member, drive_period, driven_family, driven_orbit, family,
-    periodic_orbit,
+    Along, Bifurcation, Family, Fixed, Member, OrbitStability, drive_period, driven_family,
+    driven_orbit, family, periodic_orbit,
 };
 
 use super::{Case, file, taylor};
@@ -118,6 +118,10 @@ fn orbits_bifurcate_at_the_characteristic_values_of_mathieu() {
         (Bifurcation::Branching, 4.37130098),
     ];
     assert_eq!(bifurcations.len(), expected.len(), "{bifurcations:?} {:?}", found.ended);
+    // where two multipliers meet at 1 or −1, to whichever side of it they were found
+    for member in found.members.iter().filter(|member| member.bifurcation.is_some()) {
+        assert_eq!((member.stability(), member.is_stable()), (OrbitStability::Parabolic, None));
+    }
     for ((kind, value), (wanted, at)) in bifurcations.iter().zip(expected) {
         assert_eq!(*kind, wanted);
         assert!((value - at).abs() < 2e-7, "{value} is not {at}");
