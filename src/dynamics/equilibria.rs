@@ -113,7 +113,7 @@ pub fn equilibria_watched(
         }
         let belonging =
             if is_degenerate { search.belonging(&variables) } else { Belonging::Isolated };
-        let family = match belonging {
+        let mut family = match belonging {
             Belonging::Isolated => None,
             Belonging::Member(family) => Some(family),
             Belonging::Crossing(places) => {
@@ -142,6 +142,15 @@ pub fn equilibria_watched(
         further.extend(search.images(&variables));
         if family.is_none() {
             further.extend(search.beside(&variables));
+        }
+        if let Some(family) = &mut family
+            && matches!(search.law, LawAtRest::Free(_))
+        {
+            // members from which no walk led on, before the family was known
+            found.retain(|known| {
+                let alone = known.family.is_empty() && search.is_degenerate(&known.variables);
+                !(alone && search.belongs(family, &known.variables))
+            });
         }
         families.extend(family);
         found.push(one);

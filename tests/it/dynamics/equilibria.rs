@@ -1004,3 +1004,32 @@ fn a_list_that_is_full_says_so() {
     assert_eq!((many.found.len(), many.is_complete), (100, false));
     assert_eq!((few.found.len(), few.is_complete), (1, true));
 }
+
+/// The member listed is the place nearest to the start, whatever the momenta are there: a free body's is along the axis of its start,
+/// a charge in a field rests where it is, and the top's circle is listed once.
+#[test]
+fn the_member_of_a_family_is_the_nearest_place() {
+    let mirror = of(&preset("magnetic-mirror", &[], &[]));
+    let [one] = &mirror[..] else { panic!("{mirror:?}") };
+    for (x, place) in one.variables.iter().zip([1.0, 0.0, 0.0]) {
+        close(*x, place, 1e-9);
+    }
+    let top = of(&preset("heavy-top-body", &[], &[]));
+    assert_eq!(top.iter().map(|one| one.family.len()).collect::<Vec<_>>(), [1, 0, 0], "{top:?}");
+    close(top[0].variables[0], 0.0, 1e-9);
+}
+
+/// At θ = x = 0 the masses x′θ′ cos θ and the others make a singular matrix: only the two wells beside it are equilibria.
+#[test]
+fn a_singular_mass_matrix_is_no_equilibrium() {
+    let found = held(
+        "title = \"t\"\n[coordinates]\nth = { initial = 0.5, period = \"2*pi\" }\nx = { initial = 0.1 }\n[lagrangian]\n\
+         L = \"1/2*(th'^2 + x'^2 + 2*x'*th'*cos(th)) + 8*(x + sin(th))^2 - 25/2*x^2 + 9.81*cos(th)\"\n",
+        &[],
+    );
+    assert_eq!(kinds(&found), [MINIMUM, MINIMUM], "{found:?}");
+    // ∂V/∂x = 0 at 9 x = 16 sin θ
+    for one in &found {
+        close(9.0 * one.variables[1], 16.0 * one.variables[0].sin(), 1e-11);
+    }
+}
