@@ -29,6 +29,7 @@ mod flow_map;
 mod frequency_drift;
 mod gali;
 mod halton;
+mod kind;
 mod levels;
 mod linear;
 mod lobatto;
@@ -81,6 +82,7 @@ pub use flow_course::{FlowMoment, flow_course};
 pub use flow_map::{FlowMap, flow_map};
 pub use frequency_drift::{FrequencyDrift, frequency_drift};
 pub use gali::{Gali, gali};
+pub use kind::Kind;
 pub use lyapunov::{Chaos, Lyapunov, lyapunov};
 pub use method_step::MethodStep;
 pub use newton::Fixed;
@@ -91,7 +93,7 @@ pub use principle::{Hamiltonian, abbreviated_action, action_at_energy};
 pub use return_growth::{ReturnGrowth, growth_after, return_growth};
 pub use rotation::{NoRotation, Rotation, Turning, angle_rotation, rotation};
 pub use sampled_motion::MotionSpan;
-pub use small_oscillation::{Kind, Mode};
+pub use small_oscillation::Mode;
 pub use spectral_line::SpectralLine;
 pub use spectrum::{
     MeanRate, Spectrum, driven_spectrum, independent_frequencies, mean_rate, spectrum, straightened,

@@ -82,6 +82,7 @@ fn object(study: &Study, found: &Equilibria) -> Map<String, Value> {
     let names = study.space.names();
     let periods = found.periods.iter().map(|&(i, period)| (names[i].clone(), period.into()));
     object.insert("periods".to_owned(), Value::Object(periods.collect()));
+    object.insert("complete".to_owned(), found.is_complete.into());
     let status = if found.cancelled { "stopped" } else { "completed" };
     object.insert("status".to_owned(), status.into());
     object
@@ -172,6 +173,9 @@ fn text(study: &Study, found: &Equilibria) -> String {
             .collect();
         text.push_str(&table(&rows));
         text.push('\n');
+    }
+    if !found.is_complete {
+        text.push_str("the search has ended at so many: there may be more\n\n");
     }
     if !found.periods.is_empty() {
         let turn = |&(i, period): &(usize, f64)| format!("{} by {}", names[i], shown(period));

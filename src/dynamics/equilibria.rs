@@ -14,23 +14,28 @@ mod beginnings;
 mod family;
 mod likeness;
 mod search;
+mod zero;
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 use super::equilibrium::{Equilibria, Equilibrium, in_order};
 use super::error::DynamicsError;
+use super::kind::{Inertia, Kind};
 use super::linear;
 use super::phase_space::PhaseSpace;
-use super::small_oscillation::{Kind, Mode, modes, stable};
+use super::small_oscillation::{Mode, modes, stable};
 use super::virtual_work::virtual_work;
 use crate::mechanics::Equations;
 use crate::model::Model;
 use crate::system::{Form, MotionErrorKind, State};
-use family::EquilibriumFamily;
+use family::{Belonging, EquilibriumFamily};
 use search::{EquilibriumSearch, LawAtRest};
 
 /// The largest number of equilibria.
 const MOST: usize = 100;
+
+/// The error of the second derivative of a potential along the surface of constraints, as a part of its largest entry.
+const ON_SURFACE: f64 = 1e-12;
 
 /// Gradients of Casimirs depend on each other up to this part of the largest.
 const DEPENDENT: f64 = 1e-8;
@@ -61,7 +66,7 @@ pub fn equilibria(space: &PhaseSpace, start: &State) -> Result<Equilibria, Dynam
     equilibria_watched(space, start, &mut |_, _| ())
 }
 
-/// Like [`equilibria`]; after each of its beginnings it hands on how many of all are done.
+/// Like [`equilibria`]; before each search it hands on how many have been, and how many there will be, as far as is known.
 ///
 /// # Errors
 /// Returns an error if the law of motion depends on time.
@@ -78,18 +83,20 @@ pub fn equilibria_watched(
     let mut search = EquilibriumSearch::new(space, start)?;
     let mut found: Vec<Equilibrium> = Vec::new();
     let mut families: Vec<EquilibriumFamily> = Vec::new();
-    let mut cancelled = false;
-    let mut beginning = 0;
+    let (mut cancelled, mut is_complete) = (false, true);
+    let (mut beginning, mut searched) = (0, 0);
     // laws are often the same in a mirror, and so are their equilibria; others may lie close by
     let mut further: Vec<Vec<f64>> = Vec::new();
+    let mut crossings: Vec<Vec<f64>> = Vec::new();
     let beginnings = search.beginnings();
-    while beginning < beginnings {
+    while beginning < beginnings || !further.is_empty() {
         if space.system().cancel().is_cancelled() {
             cancelled = true;
             break;
         }
+        look(searched, searched + further.len() + beginnings - beginning);
+        searched += 1;
         let place = further.pop().unwrap_or_else(|| {
-            look(beginning, beginnings);
             beginning += 1;
             search.beginning(beginning - 1)
         });
@@ -98,14 +105,28 @@ pub fn equilibria_watched(
             continue;
         }
         let is_degenerate = search.is_degenerate(&variables);
-        if is_degenerate && families.iter_mut().any(|one| search.belongs(one, &variables)) {
+        if is_degenerate
+            && (families.iter_mut().any(|one| search.belongs(one, &variables))
+                || crossings.iter().any(|one| search.is_beside(one, &variables)))
+        {
             continue;
         }
-        let family = if is_degenerate { search.family(&variables) } else { None };
+        let belonging =
+            if is_degenerate { search.belonging(&variables) } else { Belonging::Isolated };
+        let mut family = match belonging {
+            Belonging::Isolated => None,
+            Belonging::Member(family) => Some(family),
+            Belonging::Crossing(places) => {
+                further.extend(places);
+                crossings.push(variables);
+                continue;
+            }
+        };
         let Some(one) = search.described(&variables, family.as_ref())? else { continue };
         let known = found.iter().any(|known| match family {
             // a minimum and a maximum are two, however near
-            None if known.kind == one.kind
+            None if (known.kind == one.kind
+                || [known.kind, one.kind].contains(&Some(Kind::Degenerate)))
                 && search.is_lost_between(&known.variables, &variables) =>
             {
                 true
@@ -122,15 +143,25 @@ pub fn equilibria_watched(
         if family.is_none() {
             further.extend(search.beside(&variables));
         }
+        if let Some(family) = &mut family
+            && matches!(search.law, LawAtRest::Free(_))
+        {
+            // members from which no walk led on, before the family was known
+            found.retain(|known| {
+                let alone = known.family.is_empty() && search.is_degenerate(&known.variables);
+                !(alone && search.belongs(family, &known.variables))
+            });
+        }
         families.extend(family);
         found.push(one);
         if found.len() == MOST {
+            is_complete = beginning == beginnings && further.is_empty();
             break;
         }
     }
     in_order(&mut found);
     let periods = search.unknowns.iter().filter_map(|&i| Some((i, space.turns()[i]?))).collect();
-    Ok(Equilibria { found, periods, cancelled })
+    Ok(Equilibria { found, periods, cancelled, is_complete })
 }
 
 impl EquilibriumSearch<'_> {
@@ -141,8 +172,9 @@ impl EquilibriumSearch<'_> {
         family: Option<&EquilibriumFamily>,
     ) -> Result<Option<Equilibrium>, DynamicsError> {
         let nearest = family.and_then(|family| self.representative(family));
-        let variables = nearest.as_deref().unwrap_or(variables);
-        let tangents = family.map_or(Vec::new(), |family| self.tangents(family, variables));
+        let (nearest, along) = nearest.unwrap_or((variables.to_vec(), Vec::new()));
+        let variables = &nearest[..];
+        let tangents: Vec<_> = along.iter().filter_map(|one| self.tangent(one)).collect();
         let state = match &self.law {
             LawAtRest::Free(_) => self.space.state_at(self.start, variables),
             LawAtRest::Constrained(balance) => match balance.state(variables) {
@@ -156,7 +188,7 @@ impl EquilibriumSearch<'_> {
             Err(_) => return Ok(None),
         };
         let found = match &mut self.law {
-            LawAtRest::Free(_) => self.around(variables, tangents.len()),
+            LawAtRest::Free(_) => self.around(variables, &along),
             LawAtRest::Constrained(_) => self.around_on_surface(variables, tangents.len()),
         };
         let Some((kind, eigenvalues, stable, modes)) = found else { return Ok(None) };
@@ -211,24 +243,30 @@ impl EquilibriumSearch<'_> {
         sizes.iter().filter(|size| **size > DEPENDENT * sizes.max()).count()
     }
 
-    /// The kind, the eigenvalues and the modes at a place, of variables that are independent, on a family of this dimension.
-    fn around(&mut self, variables: &[f64], family: usize) -> Option<Around> {
-        let df = self.slopes(variables)?;
+    /// The kind, the eigenvalues and the modes at a place, of variables that are independent, on a family with these directions.
+    fn around(&mut self, variables: &[f64], along: &[DVector<f64>]) -> Option<Around> {
+        let (df, error) = self.slopes(variables, along)?;
         // across their level sets eigenvalues are zero
         let across = self.independent_casimirs(variables);
         let count = self.unknowns.len();
         let unit = |k: usize| self.units[self.unknowns[k]];
         let in_units = DMatrix::from_fn(count, count, |i, j| df[(i, j)] * unit(j) / unit(i));
-        let eigenvalues = if family > 0 {
-            linear::rates_beside_kernel(&in_units, family)?
-        } else {
+        let canonical = self.space.form() == Form::Momentum;
+        let inertia = canonical.then(|| Inertia::of_canonical(&df, &error));
+        let flat = inertia.map_or(0, |inertia| inertia.flat).max(along.len());
+        let eigenvalues = if canonical && flat == 0 {
             linear::rates(&df)
+        } else {
+            linear::rates_beside_kernel(&in_units, flat)?
         };
         let within = &eigenvalues[..eigenvalues.len().saturating_sub(across)];
-        let stable = stable(&in_units, within);
-        if self.space.form() != Form::Momentum {
-            return Some((None, eigenvalues, stable, Vec::new()));
-        }
+        let Some(inertia) = inertia else {
+            return Some((None, eigenvalues.clone(), stable(&in_units, within), Vec::new()));
+        };
+        let kind = if along.is_empty() { inertia.kind() } else { Kind::Degenerate };
+        // what has the least energy stays near it (J.-L. Lagrange, G. Dirichlet)
+        let least = kind == Kind::Minimum && self.space.is_conservative();
+        let stable = if least { Some(true) } else { stable(&in_units, within) };
         let places = DMatrix::identity(count / 2, count);
         let half = count / 2;
         let mass = df.view((0, half), (half, half)).into_owned().try_inverse();
@@ -239,7 +277,7 @@ impl EquilibriumSearch<'_> {
         });
         let mass = mass.filter(|mass| mass.clone().cholesky().is_some());
         let modes = self.modes(&in_units, &eigenvalues, &places, mass.as_ref());
-        Some((Some(Kind::of_canonical(&df)), eigenvalues, stable, modes))
+        Some((Some(kind), eigenvalues, stable, modes))
     }
 
     /// The same of displacements along the surface of constraints.
@@ -252,7 +290,13 @@ impl EquilibriumSearch<'_> {
             symmetric.cholesky().is_some()
         };
         let potential = around.potential.filter(|(_, mass)| positive(mass));
-        let kind = potential.map(|(second, _)| Kind::of(&second));
+        let kind = potential.map(|(second, _)| match family {
+            0 => {
+                let error = second.map(|_| ON_SURFACE * second.amax());
+                Inertia::of(&second, &error).kind()
+            }
+            _ => Kind::Degenerate,
+        });
         let modes = self.modes(&around.matrix, &eigenvalues, &around.displacements, None);
         let stable = stable(&around.matrix, &eigenvalues);
         Some((kind, eigenvalues, stable, modes))

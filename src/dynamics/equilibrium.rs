@@ -4,7 +4,8 @@
 
 use std::cmp::Ordering;
 
-use super::small_oscillation::{Kind, Mode, rests};
+use super::kind::Kind;
+use super::small_oscillation::{Mode, rests};
 use super::virtual_work::VirtualWork;
 
 /// An equilibrium.
@@ -60,6 +61,8 @@ pub struct Equilibria {
     pub periods: Vec<(usize, f64)>,
     /// Whether the search was cancelled.
     pub cancelled: bool,
+    /// Whether it came to its end; otherwise it has found as many as are listed, and there may be more.
+    pub is_complete: bool,
 }
 
 /// Energies and places count as the same up to this part of the largest.

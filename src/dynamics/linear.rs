@@ -43,9 +43,6 @@ pub(super) fn rates(matrix: &DMatrix<f64>) -> Vec<[f64; 2]> {
 /// The same of a matrix with a kernel of at least this dimension that is known to be one but for rounding: without its vectors, which
 /// others of a Jordan block lead to, no zero eigenvalue is the root of a rounding error.
 pub(super) fn rates_beside_kernel(matrix: &DMatrix<f64>, kernel: usize) -> Option<Vec<[f64; 2]>> {
-    if kernel == 0 {
-        return Some(rates(matrix));
-    }
     let (mut rest, mut known, mut zeros) = (matrix.clone(), kernel, 0);
     while rest.nrows() > 0 {
         let SingularValues { sizes, right, .. } = singular_values(&rest)?;

@@ -1,34 +1,20 @@
-//! Small oscillations about an equilibrium, and what its potential does there.
+//! Small oscillations about an equilibrium.
 //!
-//! In: the derivative of the rates of the variables that rest, or the second derivative of a potential. Out: modes, a kind, a
-//! verdict on stability. Never here: where the equilibrium is.
+//! In: the derivative of the rates of the variables that rest. Out: modes, a verdict on stability. Never here: where the equilibrium is.
 
 use nalgebra::{Complex, DMatrix, DVector};
 
 use super::linear;
 use crate::num::math;
 
-/// An eigenvalue counts as zero up to this part of the largest.
-const VANISHES: f64 = 1e-8;
+/// The rounding error of the square of an eigenvalue, as a part of that of the largest.
+const ROUNDING: f64 = 1e3 * f64::EPSILON;
 
 /// Two frequencies are equal up to this part: a pair without two modes differs by the root of rounding.
 const EQUAL: f64 = 1e-6;
 
 /// A part of a mode below this is rounding, which equal frequencies leave half the digits of.
 const REAL: f64 = 1e-7;
-
-/// What the effective potential does at an equilibrium.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Kind {
-    /// It grows in all directions.
-    Minimum,
-    /// It grows in some and falls in others.
-    Saddle,
-    /// It falls in all directions.
-    Maximum,
-    /// It changes by less than a square in some direction.
-    Degenerate,
-}
 
 /// A small oscillation.
 #[derive(Clone, PartialEq, Debug)]
@@ -41,50 +27,12 @@ pub struct Mode {
     pub quadrature: Vec<f64>,
 }
 
-impl Kind {
-    /// The kind by the second derivative of the potential.
-    pub(super) fn of(second: &DMatrix<f64>) -> Kind {
-        let symmetric = (second + second.transpose()) * 0.5;
-        let values = symmetric.symmetric_eigenvalues();
-        let largest = values.amax();
-        if largest == 0.0 || values.iter().any(|x| x.abs() <= VANISHES * largest) {
-            return Kind::Degenerate;
-        }
-        match (values.min() > 0.0, values.max() < 0.0) {
-            (true, _) => Kind::Minimum,
-            (_, true) => Kind::Maximum,
-            _ => Kind::Saddle,
-        }
-    }
-
-    /// The kind by ∂(q̇, ṗ)/∂(q, p): that of the least energy at fixed coordinates.
-    pub(super) fn of_canonical(df: &DMatrix<f64>) -> Kind {
-        let n = df.nrows() / 2;
-        let part = |i: usize, j: usize| df.view((i * n, j * n), (n, n)).into_owned();
-        let (a, b, c, d) = (part(0, 0), part(0, 1), part(1, 0), part(1, 1));
-        let inertia = (&b + b.transpose()) * 0.5;
-        let positive = inertia.clone().cholesky().is_some();
-        match b.try_inverse() {
-            Some(mass) if positive => Kind::of(&-(c - d * mass * a)),
-            // no kinetic energy that is positive: the energy itself decides
-            _ => {
-                let mut hessian = DMatrix::zeros(2 * n, 2 * n);
-                hessian.view_mut((0, 0), (n, n)).copy_from(&(-part(1, 0)));
-                hessian.view_mut((0, n), (n, n)).copy_from(&(-part(1, 1)));
-                hessian.view_mut((n, 0), (n, n)).copy_from(&part(0, 0));
-                hessian.view_mut((n, n), (n, n)).copy_from(&part(0, 1));
-                Kind::of(&hessian)
-            }
-        }
-    }
-}
-
 /// Whether nothing grows in the linear motion x′ = `matrix` x by its eigenvalues; `None` where some that are zero leave it open,
 /// where equal frequencies have fewer modes than there are of them, so that the motion grows in proportion to time, and where
 /// the eigenvalues are not known.
 pub(super) fn stable(matrix: &DMatrix<f64>, eigenvalues: &[[f64; 2]]) -> Option<bool> {
     let scale = largest(eigenvalues);
-    if eigenvalues.iter().any(|z| z[0] > VANISHES.sqrt() * scale) {
+    if eigenvalues.iter().any(|z| z[0] > error_of_growth(*z, scale)) {
         return Some(false);
     }
     let known = !eigenvalues.is_empty();
@@ -98,15 +46,22 @@ pub(super) fn stable(matrix: &DMatrix<f64>, eigenvalues: &[[f64; 2]]) -> Option<
 
 /// Whether something neither moves nor grows in some direction: an eigenvalue is zero.
 pub(super) fn rests(eigenvalues: &[[f64; 2]]) -> bool {
-    let scale = largest(eigenvalues);
-    eigenvalues.iter().any(|z| math::hypot(z[0], z[1]) <= VANISHES.sqrt() * scale)
+    eigenvalues.contains(&[0.0; 2])
+}
+
+/// The error of the real part of an eigenvalue. A pair that is slow beside the fastest differs by the root of what rounding leaves of its
+/// square, and so does one of two equal ones.
+fn error_of_growth(z: [f64; 2], scale: f64) -> f64 {
+    let size = math::hypot(z[0], z[1]);
+    if size > 0.0 { (EQUAL * size).max(ROUNDING * scale * (scale / size)) } else { 0.0 }
 }
 
 /// The frequencies of what neither grows nor is damped, the slowest first.
 fn frequencies(eigenvalues: &[[f64; 2]]) -> Vec<f64> {
     let scale = largest(eigenvalues);
-    let oscillates =
-        |z: &&[f64; 2]| z[1] > VANISHES.sqrt() * scale && z[0].abs() <= VANISHES.sqrt() * scale;
+    let oscillates = |z: &&[f64; 2]| {
+        z[1] > 0.0 && z[1] > z[0].abs() && z[0].abs() <= error_of_growth(**z, scale)
+    };
     let mut frequencies: Vec<f64> = eigenvalues.iter().filter(oscillates).map(|z| z[1]).collect();
     frequencies.sort_by(f64::total_cmp);
     frequencies

@@ -21,7 +21,7 @@ const SUMS_TO_ZERO: f64 = 1e-9;
 
 /// Forces whose sum is more than this part of the largest of them, and of what they change by over the size of a coordinate or its
 /// unit, do not balance.
-const OUT_OF_BALANCE: f64 = 1e-3;
+const OUT_OF_BALANCE: f64 = 1e-4;
 
 /// A term that has more parts than this is shown as a whole.
 const MOST_PARTS: usize = 12;

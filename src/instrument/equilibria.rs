@@ -31,6 +31,8 @@ pub struct FoundEquilibria {
     pub periods: Vec<(usize, f64)>,
     /// The parameters.
     pub parameters: Vec<f64>,
+    /// Whether the search came to its end; otherwise there may be more.
+    pub is_complete: bool,
 }
 
 /// The search around the current state, as the work of a job; its error is a sentence.
@@ -53,11 +55,12 @@ pub fn equilibria_search(
             progress.reach(done as u64);
         };
         let found = equilibria_watched(&space, &state, &mut look).map_err(|why| why.to_string())?;
-        let (periods, parameters) = (found.periods, start.parameters.clone());
+        let (periods, is_complete) = (found.periods, found.is_complete);
+        let parameters = start.parameters.clone();
         let mut found = found.found;
         with_virtual_work((&model, &equations), &parameters, &mut found);
         name_equilibria(&model, &parameters, &mut found);
-        Ok(FoundEquilibria { found, periods, parameters })
+        Ok(FoundEquilibria { found, periods, parameters, is_complete })
     }
 }
 

@@ -1,29 +1,33 @@
 //! Families of equilibria: curves and surfaces each of whose places is one, as the circle of minima of V = (x² + y² − 1)².
 //!
-//! At a member the rates do not change along the family, so that their derivative J has a kernel. That alone is no proof: V = x⁴ has one
-//! too. A place is a member if steps along the kernel, corrected by the Gauss–Newton method across it, lead to places at which the rates
-//! vanish and J has a kernel of the same dimension, as far as a unit away or round a closed curve.
+//! At a member the rates do not change along the family, so that their derivative J has a kernel; but V = x⁴ has one too, that of
+//! (x² + y² − 1)⁴ is larger than the family, and so is any where two families cross. The kernel only says where to look: from places
+//! a little along it the rates vanish again somewhere, and where that is not where it began there is a direction of the family.
+//! Then it is followed: at each step the place may move across the family alone, and the rates must vanish there, as far as a unit away
+//! or round a closed curve.
 //!
 //! In: a place at which the rates vanish, in units. Out: the family it belongs to, the member nearest to another place, whether two are
 //! of one family. Never here: isolated equilibria.
 
 use nalgebra::{DMatrix, DVector};
 
-use super::search::EquilibriumSearch;
-use crate::dynamics::linear::{self, SingularValues};
+use super::search::{EquilibriumSearch, size_of};
+use crate::dynamics::linear;
+use crate::system::Form;
 
-/// Singular values of J up to this part of the largest belong to its kernel.
-const VANISHES: f64 = 1e-8;
+/// Singular values of J up to this part of the largest there, or a little way off, belong to its kernel: no direction of a family is
+/// outside it.
+const VANISHES: f64 = 1e-6;
 
-/// Rates are rounding up to this part of what they would change by over the size of the place.
-const ROUNDED: f64 = 64.0 * f64::EPSILON;
+/// Those of a kernel that is no larger than the family, which has its directions to all digits.
+const EXACT: f64 = 1e-8;
 
-/// Rates that do not change but for rounding are lost in it up to this part of the largest change of others. Along the way of a family this
-/// is enough; where a search ends it is not: the forces of V = x²⁰ are that small far from their zero.
-const LOST: f64 = 8.0 * f64::EPSILON;
+/// How far along the kernel another zero is looked for, in the size of the place, and the least part of it that a zero moves away.
+const BESIDE: f64 = 0.02;
+const MOVED: f64 = 0.2;
 
-/// The number of corrections of a place. Across a family on which the rates vanish quadratically each gains a factor 1/2.
-const CORRECTIONS: usize = 70;
+/// The distance to members whose difference is a direction of the family.
+const SECANT: f64 = 1e-3;
 
 /// The longest step along a family, in the size of the place, and the shortest.
 const LONGEST: f64 = 0.1;
@@ -33,189 +37,204 @@ const SHORTEST: f64 = 1e-6;
 const STEPS: usize = 24;
 const ATTEMPTS: usize = 120;
 
-/// What remains of a step after its correction is at least this part along the direction in which it was taken.
-const ALONG: f64 = 0.7;
+/// A step across the family is no more than this part of the one along it.
+const ACROSS: f64 = 0.7;
 
 /// Two places are the same up to this part of their size.
 const SAME: f64 = 1e-6;
 
-/// The number of steps between two members, and the least part of the way to the other that a step may take.
+/// The number of steps between two members, and how near to the nearest member they lead, in the size of the place.
 const WALK: usize = 80;
-const TOWARDS: f64 = 0.02;
+const NEAREST: f64 = 1e-10;
 
 /// The members that are kept of each family.
 const KEPT: usize = 300;
 
+/// Orthonormal directions.
+pub(super) type Directions = Vec<DVector<f64>>;
+
 /// A family of equilibria, in the units of the search.
 pub(super) struct EquilibriumFamily {
-    dimension: usize,
-    members: Vec<DVector<f64>>,
+    members: Vec<Member>,
 }
 
-/// A place at which the rates vanish, with their derivative.
+/// A place of a family, and its directions there.
+#[derive(Clone)]
 struct Member {
     place: DVector<f64>,
-    slopes: SingularValues,
+    along: Directions,
 }
 
-impl Member {
-    /// The dimension of the kernel.
-    fn nullity(&self) -> usize {
-        let cut = VANISHES * self.slopes.sizes.max();
-        self.slopes.sizes.iter().filter(|size| **size <= cut).count()
-    }
-
-    /// The vectors of the kernel.
-    fn kernel(&self) -> Vec<DVector<f64>> {
-        let (count, nullity) = (self.slopes.sizes.len(), self.nullity());
-        (count - nullity..count).map(|k| self.slopes.right.column(k).into_owned()).collect()
-    }
-
-    /// The part of a vector along the kernel.
-    fn along(&self, vector: &DVector<f64>) -> DVector<f64> {
-        let mut along = DVector::zeros(vector.len());
-        for one in self.kernel() {
-            along += &one * one.dot(vector);
-        }
-        along
-    }
+/// What a place is at which the rates vanish.
+pub(super) enum Belonging {
+    /// The only one around it.
+    Isolated,
+    /// One of a family.
+    Member(EquilibriumFamily),
+    /// Where several families meet: places of each.
+    Crossing(Vec<Vec<f64>>),
 }
 
 impl EquilibriumSearch<'_> {
-    /// The unknowns of a place in their units.
-    fn scaled(&self, variables: &[f64]) -> DVector<f64> {
-        DVector::from_iterator(
-            self.unknowns.len(),
-            self.unknowns.iter().map(|&i| variables[i] / self.units[i]),
-        )
-    }
-
-    /// The variables of a place in units; the others are those of the search.
-    fn unscaled(&self, place: &DVector<f64>) -> Vec<f64> {
-        let mut variables = self.middle.clone();
-        for (k, &i) in self.unknowns.iter().enumerate() {
-            variables[i] = place[k] * self.units[i];
-        }
-        variables
-    }
-
-    /// The place at which the rates vanish that is reached from one near it by steps across the kernel of J, whose dimension is the one
-    /// given, or what J has there; `None` if there is none.
-    fn corrected(&mut self, place: &DVector<f64>, nullity: Option<usize>) -> Option<Member> {
-        self.corrected_to(place, nullity, LOST)
-    }
-
-    /// The same, with rates that are zero up to this part of the largest change.
-    fn corrected_to(
-        &mut self,
-        place: &DVector<f64>,
-        mut nullity: Option<usize>,
-        lost: f64,
-    ) -> Option<Member> {
-        let mut place = place.clone();
-        for _ in 0..CORRECTIONS {
-            let variables = self.unscaled(&place);
-            let (f, df) = self.look_in_units(&variables)?;
-            let slopes = linear::singular_values(&tall(df.clone()))?;
-            let kept = slopes.sizes.len()
-                - *nullity.get_or_insert_with(|| {
-                    let cut = VANISHES * slopes.sizes.max();
-                    slopes.sizes.iter().filter(|size| **size <= cut).count()
-                });
-            if is_rounding(&f, &df, place.amax().max(1.0), lost) {
-                return Some(Member { place, slopes });
-            }
-            let mut step = DVector::zeros(place.len());
-            for k in 0..kept {
-                let part = slopes.left.column(k).rows(0, f.len()).dot(&f) / slopes.sizes[k];
-                step -= slopes.right.column(k) * part;
-            }
-            if !step.iter().all(|x| x.is_finite()) || step.norm() <= f64::EPSILON * place.norm() {
-                return None;
-            }
-            place += step;
-        }
-        None
-    }
-
-    /// The place near this one at which the rates vanish to rounding, if J has a kernel there: Newton's method across it.
-    pub(super) fn across(&mut self, variables: &[f64]) -> Option<Vec<f64>> {
-        let place = self.scaled(variables);
-        let (_, df) = self.look_in_units(variables)?;
-        let slopes = linear::singular_values(&tall(df))?;
-        let first = Member { place: place.clone(), slopes };
-        let nullity = Some(first.nullity()).filter(|nullity| *nullity > 0)?;
-        let member = self.corrected_to(&place, Some(nullity), 0.0)?;
-        let near = (&member.place - &place).norm() <= VANISHES.sqrt() * place.norm().max(1.0);
-        (near && member.nullity() > 0).then(|| self.unscaled(&member.place))
+    /// Directions beside which every one along a family has no part: the kernel of J.
+    fn kernel(&mut self, place: &DVector<f64>) -> Option<Directions> {
+        let (_, df) = self.look(place)?;
+        let beside = [1.0, -1.0].map(|side| {
+            let moved = side * LONGEST * size_of(place);
+            self.look(&place.add_scalar(moved)).map_or(0.0, |(_, df)| df.amax())
+        });
+        let cut = VANISHES * df.amax().max(beside[0]).max(beside[1]);
+        below(df, cut)
     }
 
     /// Whether J has a kernel at a place at which the rates vanish.
     pub(super) fn is_degenerate(&mut self, variables: &[f64]) -> bool {
-        let place = self.scaled(variables);
-        self.corrected(&place, None).is_some_and(|member| member.nullity() > 0)
+        let place = self.in_units(variables);
+        self.kernel(&place).is_none_or(|kernel| !kernel.is_empty())
     }
 
-    /// The family that a place belongs to, at which the rates vanish.
-    pub(super) fn family(&mut self, variables: &[f64]) -> Option<EquilibriumFamily> {
-        let place = self.scaled(variables);
-        let first = self.corrected(&place, None)?;
-        let nullity = first.nullity();
-        if nullity == 0 {
+    /// What a place is at which the rates vanish.
+    pub(super) fn belonging(&mut self, variables: &[f64]) -> Belonging {
+        let place = self.in_units(variables);
+        let Some(kernel) = self.kernel(&place) else { return Belonging::Isolated };
+        let directions = self.directions(&place, kernel);
+        if directions.is_empty() {
+            return Belonging::Isolated;
+        }
+        let first = Member { place, along: directions.clone() };
+        if let Some(family) = self.family(&first) {
+            return Belonging::Member(family);
+        }
+        // the directions of several families together are those of none
+        let mut met = Vec::new();
+        for direction in &directions {
+            for side in [1.0, -1.0] {
+                let beside = &first.place + direction * (side * LONGEST * size_of(&first.place));
+                let Some(there) = self.approached(&beside, &[]) else { continue };
+                let only = Member { place: there, along: vec![direction.clone()] };
+                if directions.len() > 1 || self.family(&only).is_some() {
+                    met.push(self.unscaled(&only.place));
+                }
+            }
+        }
+        if directions.len() == 1 || met.is_empty() {
+            Belonging::Isolated
+        } else {
+            Belonging::Crossing(met)
+        }
+    }
+
+    /// Whether a place is so near to one where families meet that its directions are those of several.
+    pub(super) fn is_beside(&self, crossing: &[f64], variables: &[f64]) -> bool {
+        let place = self.in_units(crossing);
+        let apart = self.way(&place, &self.in_units(variables)).norm();
+        apart <= 2.0 * BESIDE * size_of(&place)
+    }
+
+    /// Directions, within a kernel, in which there are other zeros beside one.
+    fn directions(&mut self, place: &DVector<f64>, kernel: Directions) -> Directions {
+        let distance = BESIDE * size_of(place);
+        let mut found: Directions = Vec::new();
+        for candidate in kernel {
+            let Some(candidate) = outside(&candidate, &found, MOVED) else { continue };
+            for side in [1.0, -1.0] {
+                let beside = place + &candidate * (side * distance);
+                let Some(there) = self.approached(&beside, &[]) else { continue };
+                let moved = (there - place) / distance;
+                if moved.norm() > 1.0 / MOVED {
+                    continue;
+                }
+                if let Some(direction) = outside(&moved, &found, MOVED) {
+                    found.push(direction);
+                    break;
+                }
+            }
+        }
+        found
+    }
+
+    /// The directions of a family at a place, from those a little way off.
+    fn turned(&mut self, place: &DVector<f64>, before: &Directions) -> Option<Directions> {
+        let (_, df) = self.look(place)?;
+        let cut = EXACT * df.amax();
+        let kernel = below(df, cut)?;
+        if kernel.len() == before.len() {
+            return Some(kernel);
+        }
+        let distance = SECANT * size_of(place);
+        let mut found: Directions = Vec::new();
+        for direction in before {
+            let mut secant = |distance: f64| {
+                let [ahead, behind] = [distance, -distance]
+                    .map(|by| self.approached(&(place + direction * by), before));
+                Some((ahead? - behind?) / (2.0 * distance))
+            };
+            // its error is of fourth order
+            let (near, far) = (secant(distance)?, secant(2.0 * distance)?);
+            found.push(outside(&(&near + (&near - far) / 3.0), &found, MOVED)?);
+        }
+        Some(found)
+    }
+
+    /// The member that is reached by a step along a family.
+    fn stepped(&mut self, from: &Member, step: &DVector<f64>) -> Option<Member> {
+        let place = self.approached(&(&from.place + step), &from.along)?;
+        let across = (&place - &from.place - step).norm();
+        if across > ACROSS * step.norm() {
             return None;
         }
-        let mut members = vec![first.place.clone()];
-        let mut dimension = 0;
-        for direction in first.kernel() {
-            let sides = [1.0, -1.0].map(|side| self.traced(&first, &(&direction * side)));
-            let found = sides.iter().flatten().count();
-            dimension += usize::from(found > 0);
-            members.extend(sides.into_iter().flatten().flatten());
-        }
-        (dimension > 0).then_some(EquilibriumFamily { dimension, members })
+        let along = self.turned(&place, &from.along)?;
+        Some(Member { place, along })
     }
 
-    /// Members in a direction of the kernel, as far as a unit away; `None` where they end before.
-    fn traced(&mut self, first: &Member, direction: &DVector<f64>) -> Option<Vec<DVector<f64>>> {
-        let nullity = first.nullity();
-        let size = first.place.amax().max(1.0);
-        let (mut step, mut longest) = (LONGEST * size, 0.0_f64);
-        let (mut place, mut direction) = (first.place.clone(), direction.clone());
+    /// The family of a place that has these directions, if it is one of all of them.
+    fn family(&mut self, first: &Member) -> Option<EquilibriumFamily> {
+        let along = self.turned(&first.place, &first.along)?;
+        let first = Member { along, ..first.clone() };
+        let mut members = vec![first.clone()];
+        for direction in &first.along {
+            let sides = [1.0, -1.0].map(|side| self.traced(&first, &(direction * side)));
+            if sides.iter().all(Option::is_none) {
+                return None;
+            }
+            members.extend(sides.into_iter().flatten().flatten());
+        }
+        let all = first.along.iter().fold(DVector::zeros(first.place.len()), |sum, one| sum + one);
+        let size = size_of(&first.place);
+        [BESIDE, -BESIDE]
+            .into_iter()
+            .find_map(|part| self.stepped(&first, &(&all * (part * size))))?;
+        Some(EquilibriumFamily { members })
+    }
+
+    /// Members in a direction of a family, as far as a unit away; `None` where they end before.
+    fn traced(&mut self, first: &Member, direction: &DVector<f64>) -> Option<Vec<Member>> {
+        let size = size_of(&first.place);
+        let (mut step, mut longest, mut gone) = (LONGEST * size, 0.0_f64, 0.0);
+        let (mut member, mut direction) = (first.clone(), direction.clone());
         let mut members = Vec::new();
-        let mut gone = 0.0;
         for _ in 0..ATTEMPTS {
             if gone >= size || (members.len() >= STEPS && step >= longest / 8.0) {
                 return Some(members);
             }
-            let there = &place + &direction * step;
-            let next = self.corrected(&there, Some(nullity)).filter(|next| {
-                let moved = &next.place - &place;
-                next.nullity() == nullity
-                    && moved.dot(&direction) >= ALONG * step
-                    && moved.norm() * ALONG <= step
+            let next = self.stepped(&member, &(&direction * step));
+            let next = next.and_then(|next| {
+                let along = within(&direction, &next.along);
+                (along.norm() >= ACROSS).then(|| (next, along.normalize()))
             });
-            let Some(next) = next else {
+            let Some((next, along)) = next else {
                 step *= 0.5;
                 if step < SHORTEST * size {
                     return None;
                 }
                 continue;
             };
-            let along = next.along(&direction);
-            let length = along.norm();
-            if length < ALONG {
-                step *= 0.5;
-                if step < SHORTEST * size {
-                    return None;
-                }
-                continue;
-            }
             gone += step;
             longest = longest.max(step);
             step = (2.0 * step).min(LONGEST * size);
-            direction = along / length;
-            place = next.place;
-            members.push(place.clone());
+            direction = along;
+            member = next;
+            members.push(member.clone());
         }
         None
     }
@@ -234,18 +253,28 @@ impl EquilibriumSearch<'_> {
 
     /// Whether a place at which the rates vanish is one of a family's, to which a way along its members leads.
     pub(super) fn belongs(&mut self, family: &mut EquilibriumFamily, variables: &[f64]) -> bool {
-        let place = self.scaled(variables);
-        let distance = |search: &Self, member: &DVector<f64>| search.way(member, &place).norm();
+        let place = self.in_units(variables);
+        let everything = DVector::from_element(place.len(), 1.0);
         let mut near: Vec<(f64, usize)> = Vec::new();
         for (k, member) in family.members.iter().enumerate() {
-            near.push((distance(self, member), k));
+            near.push((self.way(&member.place, &place).norm(), k));
         }
         near.sort_by(|a, b| a.0.total_cmp(&b.0));
         for (_, k) in near.into_iter().take(2) {
-            let from = family.members[k].clone();
-            if self.walked(&from, &place).is_some_and(|left| left <= SAME * place.amax().max(1.0)) {
+            let from = &family.members[k];
+            let size = size_of(&place);
+            let step = within(&self.way(&from.place, &place), &from.along);
+            if step.norm() <= LONGEST * size {
+                let (there, along) = (&from.place + step, from.along.clone());
+                let there = self.approached(&there, &along);
+                if there.is_some_and(|there| self.way(&there, &place).norm() <= SAME * size) {
+                    return true;
+                }
+            }
+            let reached = self.nearest(family.members[k].clone(), &place, &everything);
+            if self.way(&reached.place, &place).norm() <= SAME * size {
                 if family.members.len() < KEPT {
-                    family.members.push(place);
+                    family.members.push(reached);
                 }
                 return true;
             }
@@ -253,100 +282,118 @@ impl EquilibriumSearch<'_> {
         false
     }
 
-    /// How far from a place the walk along a family ends that goes towards it.
-    fn walked(&mut self, from: &DVector<f64>, to: &DVector<f64>) -> Option<f64> {
-        self.nearest(from, to).map(|member| self.way(&member.place, to).norm())
-    }
-
-    /// The member nearest to a place that a walk along the family reaches.
-    fn nearest(&mut self, from: &DVector<f64>, to: &DVector<f64>) -> Option<Member> {
-        let mut member = self.corrected(from, None)?;
-        let nullity = member.nullity();
-        let size = to.amax().max(from.amax()).max(1.0);
+    /// The member nearest to a place that a walk along the family reaches, where variables count by their weights.
+    fn nearest(&mut self, from: Member, to: &DVector<f64>, weights: &DVector<f64>) -> Member {
+        let mut member = from;
+        let size = size_of(to).max(size_of(&member.place));
         let mut longest = LONGEST * size;
+        let mut before: Option<(DVector<f64>, DVector<f64>)> = None;
         for _ in 0..WALK {
-            let way = self.way(&member.place, to);
-            let along = member.along(&way);
-            let length = along.norm();
-            if length <= (TOWARDS * SAME) * size || length <= TOWARDS * SAME * way.norm() {
+            let way = self.way(&member.place, to).component_mul(weights);
+            let Some(along) = shortest(&member.along, &way, weights) else { break };
+            if along.norm() <= NEAREST * size {
                 break;
             }
-            let part = (longest / length).min(1.0);
-            let there = &member.place + &along * part;
-            let next = self.corrected(&there, Some(nullity)).filter(|next| {
-                let moved = &next.place - &member.place;
-                next.nullity() == nullity
-                    && moved.dot(&along) >= ALONG * part * length * length
-                    && self.way(&next.place, to).norm() < way.norm()
+            // the family is curved: how much less is left after a step says how far it is (J. Barzilai, J. Borwein, IMA J. Numer. Anal. 8,
+            // 141 (1988))
+            let far = before.as_ref().map_or(1.0, |(moved, left)| {
+                let part = moved.norm_squared() / moved.dot(&(left - &along));
+                if part.is_finite() && part > 0.0 { part } else { 1.0 }
+            });
+            let mut step = &along * far;
+            if step.norm() > longest {
+                step *= longest / step.norm();
+            }
+            let next = self.stepped(&member, &step).filter(|next| {
+                let left = self.way(&next.place, to).component_mul(weights);
+                left.norm() < way.norm() || along.norm() <= SAME * size
             });
             match next {
                 Some(next) => {
+                    before = Some((self.way(&member.place, &next.place), along));
                     member = next;
                     longest = (2.0 * longest).min(LONGEST * size);
                 }
-                None => longest = 0.5 * part * length,
+                None => (longest, before) = (0.5 * step.norm(), None),
             }
-            if longest < SHORTEST * size {
+            if longest < SHORTEST * SHORTEST * size {
                 break;
             }
         }
-        Some(member)
+        member
     }
 
-    /// The member of a family that is nearest to where the search began, by its variables.
-    pub(super) fn representative(&mut self, family: &EquilibriumFamily) -> Option<Vec<f64>> {
-        let start = self.scaled(&self.middle.clone());
-        let distance = |member: &&DVector<f64>| self.way(member, &start).norm();
-        let from = family.members.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
-        let from = from?.clone();
-        let member = self.nearest(&from, &start)?;
-        let mut variables = self.unscaled(&member.place);
-        self.within_periods(&mut variables);
-        Some(variables)
+    /// By what the distance to the start counts along a family: by places, unless its members differ in momenta alone.
+    fn weights(&self, along: &Directions) -> DVector<f64> {
+        let canonical = self.space.form() == Form::Momentum;
+        let is_place = |i: &usize| f64::from(u8::from(!canonical || *i < self.degrees));
+        let places =
+            DVector::from_iterator(self.unknowns.len(), self.unknowns.iter().map(is_place));
+        let moved: Directions = along.iter().map(|one| one.component_mul(&places)).collect();
+        let moves = DMatrix::from_columns(&moved).singular_values().min() > MOVED * SECANT;
+        if moves { places } else { DVector::from_element(self.unknowns.len(), 1.0) }
     }
 
-    /// The directions along a family at a member, in the coordinates and momenta: as many as its dimension.
-    pub(super) fn tangents(
+    /// The member of a family that is nearest to where the search began: its variables, and directions along the family, in units.
+    pub(super) fn representative(
         &mut self,
         family: &EquilibriumFamily,
-        variables: &[f64],
-    ) -> Vec<Vec<f64>> {
-        let place = self.scaled(variables);
-        let Some(member) = self.corrected(&place, None) else { return Vec::new() };
-        let mut found: Vec<Vec<f64>> = Vec::new();
-        for direction in member.kernel() {
-            if found.len() == family.dimension || self.traced(&member, &direction).is_none() {
-                continue;
-            }
-            let mut tangent = vec![0.0; self.middle.len()];
-            for (k, &i) in self.unknowns.iter().enumerate() {
-                tangent[i] = direction[k] * self.units[i];
-            }
-            let of =
-                |values: &[f64]| values.iter().copied().max_by(|a, b| a.abs().total_cmp(&b.abs()));
-            let Some(largest) = of(&tangent[..self.degrees]).filter(|x| *x != 0.0).or(of(&tangent))
-            else {
-                continue;
-            };
-            // what is left of the largest is rounding
-            let part = |x: f64| if x.abs() <= VANISHES * largest.abs() { 0.0 } else { x / largest };
-            found.push(tangent.into_iter().map(part).collect());
+    ) -> Option<(Vec<f64>, Directions)> {
+        let start = self.in_units(&self.middle.clone());
+        let weights = self.weights(&family.members.first()?.along);
+        let distance =
+            |member: &&Member| self.way(&member.place, &start).component_mul(&weights).norm();
+        let from = family.members.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+        let member = self.nearest(from.clone(), &start, &weights);
+        let mut variables = self.unscaled(&member.place);
+        self.within_periods(&mut variables);
+        Some((variables, member.along))
+    }
+
+    /// A direction in the variables, in the largest of its coordinates or else of its momenta.
+    pub(super) fn tangent(&self, direction: &DVector<f64>) -> Option<Vec<f64>> {
+        let mut tangent = vec![0.0; self.middle.len()];
+        for (k, &i) in self.unknowns.iter().enumerate() {
+            tangent[i] = direction[k] * self.units[i];
         }
-        found
+        let of = |values: &[f64]| values.iter().copied().max_by(|a, b| a.abs().total_cmp(&b.abs()));
+        let largest = of(&tangent[..self.degrees]).filter(|x| *x != 0.0).or(of(&tangent))?;
+        // what is left of the largest is rounding
+        let part = |x: f64| if x.abs() <= EXACT * largest.abs() { 0.0 } else { x / largest };
+        Some(tangent.into_iter().map(part).collect())
     }
 }
 
-/// A matrix with rows of zeros below, so that all its right singular vectors are known.
-fn tall(matrix: DMatrix<f64>) -> DMatrix<f64> {
+/// The vectors that a matrix takes to no more than this.
+fn below(matrix: DMatrix<f64>, cut: f64) -> Option<Directions> {
     let (rows, columns) = matrix.shape();
-    matrix.resize_vertically(rows.max(columns), 0.0)
+    // with rows of zeros below, so that all its right singular vectors are known
+    let found = linear::singular_values(&matrix.resize_vertically(rows.max(columns), 0.0))?;
+    let small = (0..columns).filter(|&k| found.sizes[k] <= cut);
+    Some(small.map(|k| found.right.column(k).into_owned()).collect())
 }
 
-/// Whether each rate is no more than the rounding of a place of this size leaves of it.
-fn is_rounding(f: &DVector<f64>, df: &DMatrix<f64>, size: f64, lost: f64) -> bool {
-    let lost = lost * size * df.amax();
-    f.iter().enumerate().all(|(i, f)| {
-        let slopes: f64 = df.row(i).iter().map(|x| x.abs()).sum();
-        f.abs() <= ROUNDED * size * slopes + lost
-    })
+/// The part of a vector outside these directions, normalised; `None` if it is shorter than this.
+fn outside(vector: &DVector<f64>, directions: &Directions, least: f64) -> Option<DVector<f64>> {
+    let left = vector - within(vector, directions);
+    (left.norm() >= least).then(|| left.normalize())
+}
+
+/// The part of a vector along these directions.
+fn within(vector: &DVector<f64>, directions: &Directions) -> DVector<f64> {
+    let parts = directions.iter().map(|one| one * one.dot(vector));
+    parts.fold(DVector::zeros(vector.len()), |sum, part| sum + part)
+}
+
+/// The step along directions that comes nearest to the end of a way, where variables count by their weights.
+fn shortest(
+    directions: &Directions,
+    way: &DVector<f64>,
+    weights: &DVector<f64>,
+) -> Option<DVector<f64>> {
+    let along = DMatrix::from_columns(directions);
+    let weighted =
+        DMatrix::from_fn(along.nrows(), along.ncols(), |i, j| along[(i, j)] * weights[i]);
+    let parts = linear::least_squares(&weighted, way, 0.0)?;
+    Some(along * parts)
 }

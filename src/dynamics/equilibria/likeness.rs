@@ -5,10 +5,10 @@
 
 use nalgebra::DVector;
 
-use super::search::{EquilibriumSearch, LawAtRest};
+use super::search::{EquilibriumSearch, LawAtRest, size_of};
 use crate::dynamics::equilibrium::Equilibrium;
+use crate::dynamics::kind::Kind;
 use crate::dynamics::linear;
-use crate::dynamics::small_oscillation::Kind;
 
 /// Two energies are the same up to this part of what V changes by in the next unit beyond the two places, on the line through them.
 const SAME_ENERGY: f64 = 1e-7;
@@ -40,8 +40,8 @@ impl EquilibriumSearch<'_> {
             self.space.system().energy(&state, self.space.parameters()).ok()
         };
         let change = |part: f64| energy(part).map(|energy| (energy - known.energy).abs());
-        let pairs = self.in_units(&known.variables).into_iter().zip(self.in_units(&one.variables));
-        let apart = pairs.map(|(a, b)| (a - b).abs()).fold(f64::MIN_POSITIVE, f64::max);
+        let apart = self.in_units(&known.variables) - self.in_units(&one.variables);
+        let apart = apart.amax().max(f64::MIN_POSITIVE);
         let beyond = [-1.0 / apart, 1.0 + 1.0 / apart].map(|part| change(part).unwrap_or(0.0));
         let within = SAME_ENERGY * beyond[0].max(beyond[1]) + ROUNDING * known.energy.abs();
         [1.0, 0.75, 0.5, 0.25].into_iter().all(|part| change(part).is_some_and(|x| x <= within))
@@ -50,9 +50,8 @@ impl EquilibriumSearch<'_> {
     /// Whether two places near each other, at which the rates vanish to rounding, differ by rounding alone: the rates between
     /// them are no more than what rounding leaves of them.
     pub(super) fn is_lost_between(&mut self, known: &[f64], one: &[f64]) -> bool {
-        let size = self.in_units(known).iter().fold(1.0, |most: f64, x| most.max(x.abs()));
-        let pairs = self.in_units(known).into_iter().zip(self.in_units(one));
-        let apart = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        let size = size_of(&self.in_units(known));
+        let apart = (self.in_units(known) - self.in_units(one)).amax();
         if apart > NEAR * size {
             return false;
         }

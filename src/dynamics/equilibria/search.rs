@@ -32,15 +32,12 @@ const VANISHES: f64 = 1e-8;
 /// Next to a zero of the rates they grow over this distance, in the size of the place; next to a pole they fall.
 const BEYOND_ROUNDING: f64 = 1e-12;
 
-/// The number of steps in which a zero of higher order is approached further.
-const FURTHER_STEPS: usize = 60;
+/// A mass matrix that is singular next to a place is this many times further from it this far beside it, in the size of the place.
+const SINGULAR: f64 = 1e-4;
+const FALLS_AWAY: f64 = 100.0;
 
-/// Where no step makes the rates smaller there is a zero only if the last one is no more than this part of the place: in the tails of
-/// forces, as x⁻⁷, it is a seventh.
-const NEAR_ITS_ZERO: f64 = 1e-3;
-
-/// A step of Newton's is a part of the one before it where it converges linearly: that of a zero of order m is 1 − 1/m.
-const LINEAR: std::ops::Range<f64> = 0.4..0.999;
+/// Where a rate and its derivative vanish for want of smaller numbers, a place is known to this part of its size.
+const NO_DIGITS: f64 = 1e-3;
 
 /// What must vanish at an equilibrium, and of what.
 pub(super) enum LawAtRest {
@@ -173,23 +170,33 @@ impl<'a> EquilibriumSearch<'a> {
         f.iter().chain(df.iter()).all(|x| x.is_finite()).then_some((f, df))
     }
 
-    /// ∂f/∂z of the variables that rest, with 0 where it is smaller than its change over the rounding error of the place: it vanishes
-    /// at the equilibrium, but not at the nearest number.
-    pub(super) fn slopes(&mut self, variables: &[f64]) -> Option<DMatrix<f64>> {
-        let LawAtRest::Free(field) = &mut self.law else { return None };
-        let mut beside = variables.to_vec();
-        for &i in &self.unknowns {
-            beside[i] += ROUNDED * (variables[i].abs() + self.units[i]);
+    /// ∂f/∂z of the variables that rest, and its changes over what is uncertain of a place, which may be moved along the `held`
+    /// directions; 0 where it is smaller than these: it vanishes at the equilibrium, but not at the nearest number.
+    pub(super) fn slopes(
+        &mut self,
+        variables: &[f64],
+        held: &[DVector<f64>],
+    ) -> Option<(DMatrix<f64>, DMatrix<f64>)> {
+        let mut uncertain = self.uncertainty(&self.in_units(variables), held)?;
+        for (k, &i) in self.unknowns.iter().enumerate() {
+            let rounding = ROUNDED * (variables[i].abs() + self.units[i]);
+            uncertain[k] = uncertain[k] * self.units[i] + rounding;
         }
-        let slopes = resting_rates(field, (self.start.time, &beside), &self.unknowns);
-        let (_, df) = resting_rates(field, (self.start.time, variables), &self.unknowns)?;
-        let Some((_, beside)) = slopes else { return Some(df) };
-        Some(df.zip_map(
-            &beside,
-            |at, beside| {
-                if at.abs() <= (at - beside).abs() { 0.0 } else { at }
-            },
-        ))
+        let LawAtRest::Free(field) = &mut self.law else { return None };
+        let (time, unknowns) = (self.start.time, &self.unknowns);
+        let (_, df) = resting_rates(field, (time, variables), unknowns)?;
+        let mut error = DMatrix::zeros(df.nrows(), df.ncols());
+        for side in [1.0, -1.0] {
+            let mut beside = variables.to_vec();
+            for (&i, uncertain) in unknowns.iter().zip(&uncertain) {
+                beside[i] += side * uncertain;
+            }
+            if let Some((_, beside)) = resting_rates(field, (time, &beside), unknowns) {
+                error = error.sup(&(&df - beside).abs());
+            }
+        }
+        let known = df.zip_map(&error, |at, error| if at.abs() <= error { 0.0 } else { at });
+        Some((known, error))
     }
 
     /// Whether the rates fall away from a place in the direction in which they change most, as they do next to a pole, where they are
@@ -207,6 +214,35 @@ impl<'a> EquilibriumSearch<'a> {
             self.look_in_units(&there).map_or(f64::INFINITY, |(g, _)| g.amax())
         });
         beside.into_iter().all(|g| g < f.amax())
+    }
+
+    /// Whether the mass matrix is singular next to a place: velocities per momentum of what rests fall away from it all around.
+    fn has_singular_mass(&mut self, variables: &[f64]) -> bool {
+        let place = self.in_units(variables);
+        let half = self.unknowns.len() / 2;
+        if self.space.form() != Form::Momentum || matches!(self.law, LawAtRest::Constrained(_)) {
+            return false;
+        }
+        let mut mobility = |moved: f64| {
+            let (_, df) = self.look(&place.add_scalar(moved * size_of(&place)))?;
+            Some(df.view((0, half), (half, half)).amax())
+        };
+        let here = mobility(0.0);
+        [SINGULAR, -SINGULAR].into_iter().all(|moved| {
+            here.zip(mobility(moved)).is_some_and(|(here, there)| here > FALLS_AWAY * there)
+        })
+    }
+
+    /// The same place without the digits of coordinates on which no force depends there but for underflow, as near the zero of V = x⁶⁰.
+    fn without_lost_digits(&mut self, place: DVector<f64>) -> DVector<f64> {
+        let Some((f, df)) = self.look(&place) else { return place };
+        if df.row_iter().all(|row| row.amax() > 0.0) {
+            return place;
+        }
+        let within = NO_DIGITS * size_of(&place);
+        let round = place.map(|x| if x.abs() <= within { 0.0 } else { x });
+        let is_zero = self.look(&round).is_some_and(|(g, _)| g.amax() <= f.amax());
+        if is_zero { round } else { place }
     }
 
     /// Newton's method from a beginning.
@@ -228,73 +264,59 @@ impl<'a> EquilibriumSearch<'a> {
                     return self.accepted(variables);
                 }
             }
-            let step = linear::least_squares(&df, &(-&f), VANISHES * df.amax())?;
-            let mut part = 1.0_f64.min(2.0 * size / step.amax().max(f64::MIN_POSITIVE));
-            let next = loop {
-                let mut there = variables.clone();
-                for (k, &i) in self.unknowns.iter().enumerate() {
-                    there[i] += part * step[k] * self.units[i];
-                }
-                match self.look_in_units(&there) {
-                    Some((g, dg)) if settled > 0 || g.norm() < f.norm() => {
-                        break Some((there, g, dg));
-                    }
-                    _ if part < 1e-4 => break None,
-                    _ => part *= 0.5,
-                }
-            };
+            // without directions in which little changes; where these alone are left, in them too
+            let across = linear::least_squares(&df, &(-&f), VANISHES * df.amax())?;
+            let mut next = self.damped(&variables, (&f, settled > 0), &across);
+            if next.is_none() {
+                let whole = newton_step(&df, &f);
+                next = whole.and_then(|step| self.damped(&variables, (&f, false), &step));
+            }
             let Some(next) = next else { break };
             (variables, f, df) = next;
         }
         if settled > 0 { self.accepted(variables) } else { None }
     }
 
-    /// The variables of the search in their units.
-    pub(super) fn in_units(&self, variables: &[f64]) -> Vec<f64> {
-        self.unknowns.iter().map(|&i| variables[i] / self.units[i]).collect()
+    /// The place at the end of a step, or of the first part of it, at which the rates are smaller or need not be.
+    fn damped(
+        &mut self,
+        from: &[f64],
+        (f, any): (&DVector<f64>, bool),
+        step: &DVector<f64>,
+    ) -> Option<(Vec<f64>, DVector<f64>, DMatrix<f64>)> {
+        let size = size_of(&self.in_units(from));
+        let mut part = 1.0_f64.min(2.0 * size / step.amax().max(f64::MIN_POSITIVE));
+        loop {
+            let mut there = from.to_vec();
+            for (k, &i) in self.unknowns.iter().enumerate() {
+                there[i] += part * step[k] * self.units[i];
+            }
+            match self.look_in_units(&there) {
+                Some((g, dg)) if any || g.norm() < f.norm() => return Some((there, g, dg)),
+                _ if part < 1e-4 => return None,
+                _ => part *= 0.5,
+            }
+        }
     }
 
-    /// Newton's method continued from a place at which the rates are small, with all directions in which they change. Where they
-    /// vanish to a higher order, as those of V = x⁴ do, the steps shrink by a constant factor 1 − 1/m, and m of them are taken
-    /// at once (E. Schröder, Math. Ann. 2, 317 (1870)). Returns `None` where the rates go on shrinking without a zero, as in the
-    /// tail of V = exp(−x²).
-    fn approached(&mut self, mut variables: Vec<f64>) -> Option<Vec<f64>> {
-        // on a family of equilibria Newton's method is taken across it
-        if let Some(there) = self.across(&variables) {
-            return Some(there);
+    /// The unknowns of a place in their units.
+    pub(super) fn in_units(&self, variables: &[f64]) -> DVector<f64> {
+        let parts = self.unknowns.iter().map(|&i| variables[i] / self.units[i]);
+        DVector::from_iterator(self.unknowns.len(), parts)
+    }
+
+    /// The variables of a place in units; the others are those of the search.
+    pub(super) fn unscaled(&self, place: &DVector<f64>) -> Vec<f64> {
+        let mut variables = self.middle.clone();
+        for (k, &i) in self.unknowns.iter().enumerate() {
+            variables[i] = place[k] * self.units[i];
         }
-        let (mut f, mut df) = self.look_in_units(&variables)?;
-        let mut before: Option<DVector<f64>> = None;
-        for _ in 0..FURTHER_STEPS {
-            if is_rounding(&f, &df, &self.in_units(&variables)) {
-                return Some(variables);
-            }
-            // in a direction in which nothing changes there is a family of equilibria
-            let Some(step) = newton_step(&df, &f) else { return Some(variables) };
-            if step.amax() <= f64::EPSILON * size_of(&self.in_units(&variables)) {
-                return Some(variables);
-            }
-            let ratio = before.as_ref().map_or(0.0, |last| step.dot(last) / last.norm_squared());
-            let multiples =
-                if LINEAR.contains(&ratio) { vec![1.0 / (1.0 - ratio), 1.0] } else { vec![1.0] };
-            let next = multiples.into_iter().find_map(|multiple| {
-                let mut there = variables.clone();
-                for (k, &i) in self.unknowns.iter().enumerate() {
-                    there[i] += multiple * step[k] * self.units[i];
-                }
-                let (g, dg) = self.look_in_units(&there)?;
-                let shrinks = newton_step(&dg, &g).is_none_or(|s| s.norm() < 0.97 * step.norm());
-                (shrinks || g.amax() < 0.9 * f.amax()).then_some((there, g, dg, multiple))
-            });
-            let Some((there, g, dg, multiple)) = next else {
-                // what is left is rounding, unless a zero is far away
-                let is_near = step.amax() <= NEAR_ITS_ZERO * size_of(&self.in_units(&variables));
-                return is_near.then_some(variables);
-            };
-            (variables, f, df) = (there, g, dg);
-            before = (multiple == 1.0).then_some(step);
-        }
-        None
+        variables
+    }
+
+    /// What must vanish at a place and its derivatives, all in units.
+    pub(super) fn look(&mut self, place: &DVector<f64>) -> Option<(DVector<f64>, DMatrix<f64>)> {
+        self.look_in_units(&self.unscaled(place))
     }
 
     /// Takes the place nearest to the start among its periods, with angles within half a turn of zero. Returns whether it is in reach.
@@ -324,8 +346,10 @@ impl<'a> EquilibriumSearch<'a> {
     /// The variables nearest to the start among their periods, if they are in reach; angles within half a turn of zero,
     /// however often the motion has gone round.
     fn accepted(&mut self, variables: Vec<f64>) -> Option<Vec<f64>> {
-        let mut variables = self.approached(variables)?;
-        if self.is_pole(&variables) {
+        let place = self.approached(&self.in_units(&variables), &[])?;
+        let place = self.without_lost_digits(place);
+        let mut variables = self.unscaled(&place);
+        if self.is_pole(&variables) || self.has_singular_mass(&variables) {
             return None;
         }
         if !self.within_periods(&mut variables) {
@@ -364,16 +388,8 @@ fn has_many_momenta(field: &mut VectorField, time: f64, start: &[f64], units: &[
 }
 
 /// The size of a place in units.
-fn size_of(place: &[f64]) -> f64 {
-    place.iter().fold(1.0, |most, x| most.max(x.abs()))
-}
-
-/// Whether f is no more than the rounding of the place leaves of it.
-fn is_rounding(f: &DVector<f64>, df: &DMatrix<f64>, place: &[f64]) -> bool {
-    f.iter().enumerate().all(|(i, f)| {
-        let terms = place.iter().enumerate().map(|(j, x)| (df[(i, j)] * x).abs());
-        f.abs() <= ROUNDED * terms.sum::<f64>()
-    })
+pub(super) fn size_of(place: &DVector<f64>) -> f64 {
+    place.amax().max(1.0)
 }
 
 /// The step at which the linear part of f vanishes; `None` if it does not change in some direction.

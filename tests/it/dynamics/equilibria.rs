@@ -921,3 +921,115 @@ fn a_narrow_well_at_the_origin_is_found() {
         assert_eq!(found.iter().filter(is_there).count(), 1, "{place:?} {found:?}");
     }
 }
+
+/// In the plane, from (x, y): what is found of a potential.
+fn in_plane(potential: &str, [x, y]: [f64; 2]) -> Vec<Equilibrium> {
+    let text = format!(
+        "title = \"t\"\n[coordinates]\nx = {{ initial = {x} }}\ny = {{ initial = {y} }}\n\
+         [lagrangian]\nL = \"1/2*(x'^2 + y'^2) - ({potential})\"\n"
+    );
+    of(&file(&text, &[]))
+}
+
+/// V = (x² + y² − 1)⁴ has one circle of equilibria and its middle, V = (xy − 1)² (x² + y² − 9)² a circle and both branches of a
+/// hyperbola, which meet the circle in four places, and beside them what ∇V = 0 leaves: x = y = 0, x = y = ±√(11/4), x = −y = ±√(7/4).
+#[test]
+fn families_may_be_flat_and_may_cross() {
+    let found = in_plane("(x^2 + y^2 - 1)^4", [2.0, 0.3]);
+    assert_eq!(found.iter().map(|one| one.family.len()).collect::<Vec<_>>(), [1, 0], "{found:?}");
+    let circle = &found[0];
+    close(circle.variables[0].hypot(circle.variables[1]), 1.0, 1e-9);
+    close(circle.variables[1] / circle.variables[0], 0.15, 1e-5);
+    close(circle.family[0][0] / circle.family[0][1], -0.15, 1e-5);
+    assert_eq!((found[1].kind, &found[1].variables[..2]), (Some(Kind::Maximum), &[0.0, 0.0][..]));
+    let found = in_plane("(x*y - 1)^2*(x^2 + y^2 - 9)^2", [0.5, 0.4]);
+    let (families, others): (Vec<_>, Vec<_>) = found.iter().partition(|one| !one.family.is_empty());
+    let [circle, branch, opposite] = families[..] else { panic!("{families:?}") };
+    let size = 0.5_f64.hypot(0.4);
+    close(circle.variables[0], 3.0 * 0.5 / size, 1e-8);
+    close(circle.variables[1], 3.0 * 0.4 / size, 1e-8);
+    for (one, sign) in [(branch, 1.0), (opposite, -1.0)] {
+        let [x, y] = [one.variables[0], one.variables[1]];
+        close(x * y, 1.0, 1e-12);
+        assert!(x * sign > 0.0, "{x}");
+        // the way to the start is across the branch
+        close((0.5 - x) * -x + (0.4 - y) * y, 0.0, 1e-8);
+    }
+    let mut diagonals: Vec<f64> = others.iter().map(|one| one.variables[0]).collect();
+    diagonals.sort_by(f64::total_cmp);
+    let (far, near) = (2.75_f64.sqrt(), 1.75_f64.sqrt());
+    assert_eq!(diagonals.len(), 5, "{others:?}");
+    for (x, place) in diagonals.iter().zip([-far, -near, 0.0, near, far]) {
+        close(*x, place, 1e-12);
+    }
+}
+
+/// What is soft is found and judged beside what is stiff; a ring that a weak force tilts is a minimum and a saddle.
+#[test]
+fn a_soft_direction_is_seen_beside_a_stiff_one() {
+    for potential in ["x^4 + 1/2*1e6*y^2", "x^60 + 1/2*1e6*y^2"] {
+        let found = in_plane(potential, [0.3, 0.3]);
+        assert_eq!(kinds(&found), [(Some(Kind::Degenerate), None)], "{potential}: {found:?}");
+    }
+    for stiffness in ["1e12", "1e17"] {
+        let found = in_plane(&format!("1/2*{stiffness}*x^2 + 1/2*y^2"), [1.3, 0.4]);
+        assert_eq!(kinds(&found), [MINIMUM], "{stiffness}");
+    }
+    let found = in_plane("(x^2 - 1e-8)^2*1e16 + y^2", [1.3, 0.4]);
+    assert_eq!(kinds(&found), [MINIMUM, MINIMUM, SADDLE]);
+    let found = in_plane("(x^2 + y^2 - 1)^2 + 1e-9*x", [1.3, 0.4]);
+    assert_eq!(kinds(&found), [SADDLE, MINIMUM, MAXIMUM]);
+    for (one, x) in found.iter().zip([1.0, -1.0, 0.0]) {
+        close(one.variables[0], x, 1e-9);
+        close(one.variables[1], 0.0, 1e-12);
+    }
+    // V_yy = −1e-9 at (1, 0)
+    close(found[0].eigenvalues[2][0], 1e-9_f64.sqrt(), 1e-9);
+}
+
+/// A law with more equilibria than are listed says so.
+#[test]
+fn a_list_that_is_full_says_so() {
+    let text = |wells: u32| {
+        format!(
+            "title = \"t\"\n[coordinates]\nx = {{ initial = 0.1 }}\ny = {{ initial = 0.2 }}\n\
+             [lagrangian]\nL = \"1/2*(x'^2 + y'^2) + cos({wells}*x)*cos({wells}*y) - x^2/100 - y^2/50\"\n"
+        )
+    };
+    let search = |wells: u32| {
+        let case = file(&text(wells), &[]);
+        equilibria(&case.space, &case.start).unwrap()
+    };
+    let (many, few) = (search(9), search(0));
+    assert_eq!((many.found.len(), many.is_complete), (100, false));
+    assert_eq!((few.found.len(), few.is_complete), (1, true));
+}
+
+/// The member listed is the place nearest to the start, whatever the momenta are there: a free body's is along the axis of its start,
+/// a charge in a field rests where it is, and the top's circle is listed once.
+#[test]
+fn the_member_of_a_family_is_the_nearest_place() {
+    let mirror = of(&preset("magnetic-mirror", &[], &[]));
+    let [one] = &mirror[..] else { panic!("{mirror:?}") };
+    for (x, place) in one.variables.iter().zip([1.0, 0.0, 0.0]) {
+        close(*x, place, 1e-9);
+    }
+    let top = of(&preset("heavy-top-body", &[], &[]));
+    assert_eq!(top.iter().map(|one| one.family.len()).collect::<Vec<_>>(), [1, 0, 0], "{top:?}");
+    close(top[0].variables[0], 0.0, 1e-9);
+}
+
+/// At θ = x = 0 the masses x′θ′ cos θ and the others make a singular matrix: only the two wells beside it are equilibria.
+#[test]
+fn a_singular_mass_matrix_is_no_equilibrium() {
+    let found = held(
+        "title = \"t\"\n[coordinates]\nth = { initial = 0.5, period = \"2*pi\" }\nx = { initial = 0.1 }\n[lagrangian]\n\
+         L = \"1/2*(th'^2 + x'^2 + 2*x'*th'*cos(th)) + 8*(x + sin(th))^2 - 25/2*x^2 + 9.81*cos(th)\"\n",
+        &[],
+    );
+    assert_eq!(kinds(&found), [MINIMUM, MINIMUM], "{found:?}");
+    // ∂V/∂x = 0 at 9 x = 16 sin θ
+    for one in &found {
+        close(9.0 * one.variables[1], 16.0 * one.variables[0].sin(), 1e-11);
+    }
+}

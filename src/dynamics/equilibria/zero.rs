@@ -1,0 +1,209 @@
+//! A place at which the rates vanish, approached from one near it.
+//!
+//! Each step solves f + J s = 0 by the method of Levenberg and Marquardt, damped by |f| over a distance: where J falls away in some
+//! direction with f, as along a family of equilibria, the step has no part in that direction, and elsewhere it is Newton's (N. Yamashita,
+//! M. Fukushima, Computing Suppl. 15, 239 (2001)). Where the rates vanish to a higher order, as those of V = x⁴ do, the steps shrink by a
+//! constant factor 1 − 1/m, and m of them are taken at once (E. Schröder, Math. Ann. 2, 317 (1870)).
+//!
+//! In: a place in the units of the search, and directions in which it must not move. Out: the place, to rounding. Never here: what is
+//! around it.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::search::{EquilibriumSearch, size_of};
+
+/// The number of steps.
+const STEPS: usize = 80;
+
+/// The distance over which rates are compared with their derivative, in the size of the place.
+const REACH: f64 = 0.1;
+
+/// Where no step makes the rates smaller there is a zero only if the last one is no more than this part of the place: in the tails of
+/// forces, as x⁻⁷, it is a seventh.
+const NEAR_ITS_ZERO: f64 = 1e-3;
+
+/// Where the last step is no more than this part of the place, the rates need not be their rounding error: those of V = x²⁰ are smaller
+/// far from their zero.
+const AT_ITS_ZERO: f64 = 1e-9;
+
+/// A step leads on where the next one is less than this part of it, or what is left of the rates less than this part of them.
+const SHRINKS: f64 = 0.97;
+const FALLS: f64 = 0.9;
+
+/// Along a curved valley the way leads now across it, now along: so many steps are taken that do not lead on.
+const IN_VAIN: usize = 3;
+
+/// A zero is no farther than this multiple of a step towards it.
+const ABOVE_STEP: f64 = 8.0;
+
+/// A step is a part of the one before it where it converges linearly: that of a zero of order m is 1 − 1/m.
+const LINEAR: std::ops::Range<f64> = 0.4..0.999;
+
+/// The error of rates is looked for in so many places beside one, this far apart in its size, and counts so many times.
+const NOISE_SAMPLES: u32 = 8;
+const NOISE_DISTANCE: f64 = 1e-11;
+const ABOVE_NOISE: f64 = 64.0;
+
+impl EquilibriumSearch<'_> {
+    /// The place at which the rates vanish that is reached from one near it, without a step along the `held` directions, which are
+    /// orthonormal. `None` where the rates do not vanish, or go on shrinking without a zero, as in the tail of V = exp(−x²).
+    pub(super) fn approached(
+        &mut self,
+        from: &DVector<f64>,
+        held: &[DVector<f64>],
+    ) -> Option<DVector<f64>> {
+        let mut place = from.clone();
+        let (mut f, df) = self.look(&place)?;
+        let mut correction = Correction::new(&df, &f, held, size_of(&place))?;
+        let mut best = (place.clone(), f.clone(), correction.clone());
+        let (mut before, mut vain): (Option<DVector<f64>>, usize) = (None, 0);
+        for _ in 0..STEPS {
+            let size = size_of(&place);
+            let step = &correction.step;
+            let ratio = before.as_ref().map_or(0.0, |last| step.dot(last) / last.norm_squared());
+            let jump = LINEAR.contains(&ratio).then_some(1.0 / (1.0 - ratio));
+            let least = best.2.step.amax() <= f64::EPSILON * size;
+            let mut next = None;
+            for multiple in jump.into_iter().chain([1.0]).filter(|_| !least) {
+                let there = &place + step * multiple;
+                let Some((g, dg)) = self.look(&there) else { continue };
+                let Some(after) = Correction::new(&dg, &g, held, size) else { continue };
+                let (_, f, one) = &best;
+                let shrinks = after.step.norm() < SHRINKS * one.step.norm()
+                    || one.left(&g) < FALLS * one.left(f);
+                next = Some((there, g, after, multiple, shrinks));
+                if shrinks {
+                    break;
+                }
+            }
+            let is_better = next.as_ref().is_some_and(|next| next.4);
+            vain = if is_better { 0 } else { vain + 1 };
+            let Some((there, g, after, multiple, _)) = next.filter(|_| vain < IN_VAIN) else {
+                let (place, _, last) = best;
+                return self.vanishes(&place, held, &last.step).then_some(place);
+            };
+            let last = std::mem::replace(&mut correction, after).step;
+            before = (multiple == 1.0).then_some(last);
+            (place, f) = (there, g);
+            if is_better {
+                best = (place.clone(), f.clone(), correction.clone());
+            }
+        }
+        None
+    }
+
+    /// How far from a place at which the rates vanish their zero may be, across the `held` directions: by what is left of them, and by
+    /// their rounding error.
+    pub(super) fn uncertainty(
+        &mut self,
+        place: &DVector<f64>,
+        held: &[DVector<f64>],
+    ) -> Option<DVector<f64>> {
+        let (f, df) = self.look(place)?;
+        let noise = self.noise(place, &f, &df)?;
+        let size = size_of(place);
+        let [left, lost] = [f, noise].map(|f| Correction::new(&df, &f, held, size));
+        Some((left?.step.abs() + lost?.step.abs()) * ABOVE_STEP)
+    }
+
+    /// Whether rates that no step across the `held` directions makes smaller vanish, the last of which was this one: there is a zero, and
+    /// it is no farther along these directions either, or what is left is rounding.
+    fn vanishes(
+        &mut self,
+        place: &DVector<f64>,
+        held: &[DVector<f64>],
+        step: &DVector<f64>,
+    ) -> bool {
+        let size = size_of(place);
+        if step.amax() > NEAR_ITS_ZERO * size {
+            return false;
+        }
+        let Some((f, df)) = self.look(place) else { return false };
+        let whole = if held.is_empty() {
+            Some(step.clone())
+        } else {
+            Correction::new(&df, &f, &[], size).map(|one| one.step)
+        };
+        whole.is_some_and(|step| step.amax() <= AT_ITS_ZERO * size)
+            || self.noise(place, &f, &df).is_some_and(|noise| {
+                f.iter().zip(&noise).all(|(f, noise)| f.abs() <= ABOVE_NOISE * noise)
+            })
+    }
+
+    /// The rounding error of each rate at a place: what its change over a tiny distance has beside the linear part.
+    pub(super) fn noise(
+        &mut self,
+        place: &DVector<f64>,
+        f: &DVector<f64>,
+        df: &DMatrix<f64>,
+    ) -> Option<DVector<f64>> {
+        let mut noise = DVector::zeros(f.len());
+        for (i, row) in df.row_iter().enumerate() {
+            let terms = row.iter().zip(place).map(|(slope, x)| slope.abs() * x.abs().max(1.0));
+            noise[i] = f64::EPSILON * terms.sum::<f64>();
+        }
+        for step in 1..=NOISE_SAMPLES {
+            let moved = NOISE_DISTANCE * size_of(place) * f64::from(step);
+            let (g, _) = self.look(&place.add_scalar(moved))?;
+            let linear = f + df * DVector::from_element(df.ncols(), moved);
+            let apart = g - linear;
+            noise.zip_apply(&apart, |noise, apart| *noise = noise.max(apart.abs()));
+        }
+        Some(noise)
+    }
+}
+
+/// A step towards a zero.
+#[derive(Clone)]
+struct Correction {
+    step: DVector<f64>,
+    /// The largest slope of each rate.
+    slopes: DVector<f64>,
+}
+
+impl Correction {
+    /// The damped step in which f + J s vanishes, across the `held` directions. Rates count by their own slopes, so that something soft
+    /// is seen beside what is stiff.
+    fn new(
+        df: &DMatrix<f64>,
+        f: &DVector<f64>,
+        held: &[DVector<f64>],
+        size: f64,
+    ) -> Option<Correction> {
+        let across = |vector: &mut DVector<f64>| {
+            for one in held {
+                let along = one.dot(vector);
+                vector.axpy(-along, one, 1.0);
+            }
+        };
+        let (rows, columns) = df.shape();
+        // the rows of the damping are below those of the slopes
+        let mut matrix = df.clone().resize_vertically(rows + columns, 0.0);
+        let mut rates = f.clone().resize_vertically(rows + columns, 0.0);
+        let mut slopes = DVector::from_element(rows, 1.0);
+        for i in 0..rows {
+            let mut row = df.row(i).transpose();
+            across(&mut row);
+            if row.amax() > 0.0 {
+                slopes[i] = row.amax();
+            }
+            matrix.row_mut(i).copy_from(&(row / slopes[i]).transpose());
+            rates[i] /= slopes[i];
+        }
+        let damping = rates.norm() / (REACH * size);
+        matrix.view_mut((rows, 0), (columns, columns)).fill_diagonal(damping);
+        let mut step = DVector::zeros(columns);
+        if damping > 0.0 {
+            let factors = matrix.qr();
+            factors.q_tr_mul(&mut rates);
+            step = -factors.unpack_r().solve_upper_triangular(&rates.rows(0, columns))?;
+            across(&mut step);
+        }
+        step.iter().all(|x| x.is_finite()).then_some(Correction { step, slopes })
+    }
+
+    /// What is left of rates, by these slopes.
+    fn left(&self, rates: &DVector<f64>) -> f64 {
+        rates.component_div(&self.slopes).amax()
+    }
+}

@@ -1,0 +1,124 @@
+//! What a potential does at an equilibrium, by the signs of its second derivative.
+//!
+//! In: the second derivative, and the error of each of its entries. Out: in how many directions it grows, falls and does neither, as
+//! far as these errors tell. Never here: the motion.
+//!
+//! Signs do not depend on the units of the coordinates (J. J. Sylvester's law of inertia): they are taken in units in which the
+//! entries are as large as each other, so that what is soft is seen beside what is stiff.
+
+use nalgebra::{DMatrix, DVector};
+
+/// The number of times that rows and columns are brought to one size.
+const BALANCINGS: usize = 12;
+
+/// The error of an entry of a product, and of an eigenvalue of entries no larger than 1, per row.
+const ROUNDING: f64 = 8.0 * f64::EPSILON;
+
+/// What the effective potential does at an equilibrium.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Kind {
+    /// It grows in all directions.
+    Minimum,
+    /// It grows in some and falls in others.
+    Saddle,
+    /// It falls in all directions.
+    Maximum,
+    /// It changes by less than a square in some direction.
+    Degenerate,
+}
+
+/// In how many directions a potential grows, falls, or does neither by a square.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) struct Inertia {
+    pub(super) growing: usize,
+    pub(super) falling: usize,
+    pub(super) flat: usize,
+}
+
+impl Inertia {
+    /// That of the second derivative of a potential, whose entries are known to these errors.
+    pub(super) fn of(second: &DMatrix<f64>, error: &DMatrix<f64>) -> Inertia {
+        let n = second.nrows();
+        let mut scale = DVector::from_element(n, 1.0);
+        let symmetric = (second + second.transpose()) * 0.5;
+        let scaled = |m: &DMatrix<f64>, scale: &DVector<f64>| {
+            DMatrix::from_fn(n, n, |i, j| m[(i, j)] * scale[i] * scale[j])
+        };
+        for _ in 0..BALANCINGS {
+            let balanced = scaled(&symmetric, &scale);
+            for (size, row) in scale.iter_mut().zip(balanced.row_iter()) {
+                if row.amax() > 0.0 {
+                    *size /= row.amax().sqrt();
+                }
+            }
+        }
+        let errors = scaled(&error.abs(), &scale);
+        let error = errors.row_iter().map(|row| row.sum()).fold(ROUNDING * n as f64, f64::max);
+        let values = scaled(&symmetric, &scale).symmetric_eigenvalues();
+        let growing = values.iter().filter(|value| **value > error).count();
+        let falling = values.iter().filter(|value| **value < -error).count();
+        Inertia { growing, falling, flat: n - growing - falling }
+    }
+
+    /// That by ∂(q̇, ṗ)/∂(q, p), with its errors: of the least energy at fixed coordinates.
+    pub(super) fn of_canonical(df: &DMatrix<f64>, error: &DMatrix<f64>) -> Inertia {
+        let n = df.nrows() / 2;
+        let parts = |of: &DMatrix<f64>| {
+            [(0, 0), (0, 1), (1, 0), (1, 1)]
+                .map(|(i, j)| of.view((i * n, j * n), (n, n)).into_owned())
+        };
+        let ([a, b, c, d], [da, _, dc, dd]) = (parts(df), parts(error));
+        let inertia = (&b + b.transpose()) * 0.5;
+        let positive = inertia.clone().cholesky().is_some();
+        if let Some(mass) = b.try_inverse().filter(|_| positive) {
+            let size = mass.abs();
+            let error = dc
+                + c.abs() * ROUNDING
+                + (&dd + d.abs() * ROUNDING) * &size * a.abs()
+                + d.abs() * &size * da;
+            return Inertia::of(&-(c - d * mass * a), &error);
+        }
+        // no kinetic energy that is positive: the energy itself decides
+        let ordered = |of: &DMatrix<f64>, sign: f64| {
+            DMatrix::from_fn(2 * n, 2 * n, |i, j| {
+                if i < n { of[(n + i, j)] * sign } else { of[(i - n, j)] }
+            })
+        };
+        Inertia::of(&ordered(df, -1.0), &ordered(error, 1.0))
+    }
+
+    pub(super) fn kind(self) -> Kind {
+        match (self.growing, self.falling, self.flat) {
+            (_, 0, 0) => Kind::Minimum,
+            (0, _, 0) => Kind::Maximum,
+            (_, _, 0) => Kind::Saddle,
+            _ => Kind::Degenerate,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of(rows: [[f64; 2]; 2], error: f64) -> Kind {
+        let second = DMatrix::from_fn(2, 2, |i, j| rows[i][j]);
+        Inertia::of(&second, &DMatrix::from_element(2, 2, error)).kind()
+    }
+
+    /// By determinant and trace.
+    #[test]
+    fn a_soft_direction_counts_beside_a_stiff_one() {
+        assert_eq!(of([[1e12, 0.0], [0.0, 1.0]], 1e-16), Kind::Minimum);
+        assert_eq!(of([[8.0, 6e-5], [6e-5, 1e-9]], 1e-13), Kind::Minimum);
+        assert_eq!(of([[8.0, 6e-5], [6e-5, 1e-10]], 1e-13), Kind::Saddle);
+        assert_eq!(of([[0.0, 1e-9], [1e-9, 1e9]], 1e-16), Kind::Saddle);
+    }
+
+    #[test]
+    fn what_is_no_more_than_its_error_is_flat() {
+        assert_eq!(of([[8.0, 0.0], [0.0, 1e-13]], 2e-13), Kind::Degenerate);
+        assert_eq!(of([[0.9, 0.3], [0.3, 0.1]], 1e-16), Kind::Degenerate);
+        assert_eq!(of([[1.0, 0.0], [0.0, 0.0]], 0.0), Kind::Degenerate);
+    }
+}
