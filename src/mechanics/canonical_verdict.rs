@@ -187,6 +187,26 @@ impl PhaseMap {
         all
     }
 
+    /// c of M 𝕁 Mᵀ = c 𝕁, if that is proved: 1 for a map that is given by a generating function.
+    pub(super) fn proved_valence(&self, pool: &mut Pool) -> Option<Expr> {
+        if !self.is_explicit() {
+            return Some(Expr::ONE);
+        }
+        let all = self.compared_brackets(pool);
+        self.valence(pool, &all)
+    }
+
+    /// The brackets of an explicit map, and whether they are what they should be.
+    fn compared_brackets(&self, pool: &mut Pool) -> Vec<(FailingBracket, Zero)> {
+        let mut all = Vec::new();
+        for bracket in self.brackets(pool) {
+            let difference = pool.sub(bracket.is, bracket.expected);
+            let zero = pool.is_zero(difference);
+            all.push((bracket, zero));
+        }
+        all
+    }
+
     /// The largest entry of |M 𝕁 Mᵀ − 𝕁| of an explicit map, as a function of the old variables and t.
     pub(super) fn largest_residual(&self, pool: &mut Pool) -> Expr {
         let mut largest = Expr::ZERO;
@@ -205,12 +225,7 @@ impl PhaseMap {
     /// Compares the brackets of an explicit map with those of canonical variables.
     fn by_brackets(&self, equations: &mut Equations, verdict: &mut CanonicalVerdict) {
         let pool = &mut equations.pool;
-        let mut all: Vec<(FailingBracket, Zero)> = Vec::new();
-        for bracket in self.brackets(pool) {
-            let difference = pool.sub(bracket.is, bracket.expected);
-            let zero = pool.is_zero(difference);
-            all.push((bracket, zero));
-        }
+        let all = self.compared_brackets(pool);
         let proved = all.iter().all(|(_, zero)| *zero == Zero::Proved);
         let refuted = all.iter().any(|(_, zero)| *zero == Zero::No);
         if proved {

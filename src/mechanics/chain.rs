@@ -13,7 +13,6 @@ use super::group::in_order;
 use super::valuation::Valuation;
 use crate::expr::{Expr, Pool, Symbol};
 use crate::model::{ChainPart, Model, Transformation};
-use crate::num::Number;
 
 /// Where among all unknowns of maps one after the other, each of so many variables, those are that a part gives: the last one gives
 /// the new variables, which come first.
@@ -35,7 +34,7 @@ impl PhaseMap {
             positions.chain(model.coordinates.iter().map(|c| c.momentum)).collect();
         let mut between: Vec<Symbol> = Vec::new();
         let mut new = in_order(&given.new);
-        let (mut relations, mut terms) = (Vec::new(), Some(Vec::new()));
+        let (mut relations, mut rate) = (Vec::new(), Some(Expr::ZERO));
         let mut maps = Vec::new();
         let mut from = old.clone();
         for (k, ChainPart { of, inverted }) in parts.iter().enumerate() {
@@ -56,15 +55,21 @@ impl PhaseMap {
                 }
             }
             relations.extend(map.implicit.relations.iter().map(|&e| pool.substitute(e, &put)));
-            let rate = match map.function_rate {
-                Some(rate) => Some(rate),
+            let own = match map.function_rate {
+                Some(own) => Some(own),
                 None => map.rate_of_explicit(pool, model.symbols.time).ok(),
             };
-            let sign = if *inverted { Number::MINUS_ONE } else { Number::ONE };
-            let rate = rate.map(|rate| (sign, pool.substitute(rate, &put)));
-            terms = terms.zip(rate).map(|(mut terms, rate)| {
-                terms.push(rate);
-                terms
+            // K = c H + R, with the H that the parts before have given
+            let valence = map.proved_valence(pool);
+            rate = rate.zip(own).zip(valence).map(|((before, own), valence)| {
+                let own = pool.substitute(own, &put);
+                if *inverted {
+                    let difference = pool.sub(before, own);
+                    pool.div(difference, valence)
+                } else {
+                    let before = pool.mul(valence, before);
+                    pool.add(before, own)
+                }
             });
             maps.push((map, *inverted));
             from = to;
@@ -79,7 +84,7 @@ impl PhaseMap {
             name: given.name.clone(),
             old,
             implicit: ImplicitMap { new, relations, by_new, own: Vec::new() },
-            function_rate: terms.map(|terms| pool.linear(Number::ZERO, &terms)),
+            function_rate: rate,
             forwards: None,
             near_identity: Vec::new(),
             parts: maps,

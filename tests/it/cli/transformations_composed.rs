@@ -193,3 +193,25 @@ fn what_a_transformation_lacks_of_being_canonical_has_a_name() {
     with_file(&function.join("\n"), &["check", "system.toml"])
         .fails(65, &["`residual` is that of an explicit transformation"]);
 }
+
+/// K = c₂ (c₁ H + R₁) + R₂: a change of scale multiplies what the maps before it have added.
+#[test]
+fn a_change_of_scale_counts_in_the_new_hamiltonian() {
+    let text = "[coordinates]\nq = { initial = 1.0, momentum = 0.3 }\n[parameters]\ng = 0.7\n\
+                [hamiltonian]\nH = \"p_q^2/2 + q^4\"\n\
+                [[transformations]]\nname = \"a\"\nkind = \"F2\"\n\
+                F = \"q*aP + 1/20*sin(q)*cosh(aP) + g*t*q\"\nnew = [\"aQ\", \"aP\"]\n\
+                [[transformations]]\nname = \"scale\"\nkind = \"explicit\"\n\
+                Q = { sQ = \"2*q\" }\nP = { sP = \"3*p_q\" }";
+    let text = [
+        text.to_owned(),
+        made("both", "compose", "\"a\", \"scale\"", "\"X\", \"Y\""),
+        made("back", "inverse", "\"scale\"", "\"C\", \"D\""),
+        made("less", "compose", "\"a\", \"back\"", "\"U\", \"V\""),
+    ]
+    .join("\n");
+    let printed = with_file(&text, &["derive", "system.toml"]).success();
+    for right in ["3 p_q² + 6 q⁴ + 6 g q", "1/12 p_q² + 1/6 q⁴ + 1/6 g q"] {
+        assert!(printed.contains(right), "{right} in\n{printed}");
+    }
+}
