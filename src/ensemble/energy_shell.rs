@@ -10,7 +10,7 @@
 
 use super::Start;
 use crate::num::short;
-use crate::system::{ChannelKind, InitialOverride, MotionError, Observer, System};
+use crate::system::{ChannelKind, InitialOverride, MotionError, MotionErrorKind, Observer, System};
 
 /// Which of the two roots completes a start.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -78,6 +78,9 @@ const QUADRATIC: f64 = 1e-11;
 /// Doublings outwards and halvings inwards of a root that is not that of a quadratic.
 const DOUBLINGS: u32 = 200;
 const HALVINGS: u32 = 200;
+
+/// Sections by the golden ratio in the search for the least distance from an energy.
+const SECTIONS: u32 = 60;
 
 /// The smallest value looked at, relative to one.
 const INNERMOST: f64 = 1e-30;
@@ -164,7 +167,9 @@ impl EnergyShell {
         })
     }
 
-    /// The root next to the extremum on its side, for an energy that is no quadratic.
+    /// The root next to the extremum on its side, for an energy that is no quadratic: where the energy passes what is asked for
+    /// between two places, or is nearest to it between three. Where it has no value, as beyond the velocity of light, the edge is
+    /// approached.
     fn bracketed(&self, energies: &mut Energies<'_>, by: &str) -> Result<f64, NotOnShell> {
         let (sign, side) = match self.root {
             Root::Positive => (1.0, "positive"),
@@ -174,18 +179,52 @@ impl EnergyShell {
         if missing == 0.0 {
             return Ok(self.about);
         }
-        let (mut inner, mut outer) = ((0.0, missing), INNERMOST);
+        // above zero on the side of the extremum, below behind the root
+        let mut left = |v: f64| {
+            energies.at(self.about + sign * v).map(|e| (e - self.energy) * missing.signum())
+        };
+        let mut before = [0.0, 0.0];
+        let mut known = [missing.abs(); 2];
+        let (mut next, mut edge) = (INNERMOST, f64::INFINITY);
         for _ in 0..DOUBLINGS {
-            let found = energies.at(self.about + sign * outer)? - self.energy;
-            if found == 0.0 || (found > 0.0) != (missing > 0.0) {
-                let within = (inner, (outer, found));
-                let energy = |v: f64| Ok(energies.at(self.about + sign * v)? - self.energy);
-                return located(within, energy).map(|v| self.about + sign * v);
+            let found = match left(next) {
+                Err(why) if why.kind == MotionErrorKind::Cancelled => return Err(why.into()),
+                Ok(found) if !found.is_nan() => found,
+                // next to the extremum a momentum may have too few digits beside the terms that it is the sum of
+                _ if before[1] == 0.0 && edge.is_infinite() => {
+                    next *= 2.0;
+                    continue;
+                }
+                _ => {
+                    edge = next;
+                    next = f64::midpoint(before[1], edge);
+                    if next <= before[1] || next >= edge {
+                        break;
+                    }
+                    continue;
+                }
+            };
+            let lowest = known[1] < known[0] && known[1] < found;
+            let within = if found <= 0.0 {
+                Some(((before[1], known[1]), (next, found)))
+            } else if lowest {
+                let behind = passed([before[0], before[1], next], &mut left)?;
+                behind.map(|outer| ((before[0], known[0]), outer))
+            } else {
+                None
+            };
+            if let Some(within) = within {
+                let root = located(within, |v| Ok(left(v)?));
+                return root.map(|v| self.about + sign * v);
             }
             // next to the extremum nothing happens
-            let is_flat = (found - missing).abs() < FLAT * missing.abs();
-            inner = (outer, found);
-            outer *= if is_flat { FAR } else { 2.0 };
+            let is_flat = (found - known[1]).abs() < FLAT * missing.abs();
+            (before, known) = ([before[1], next], [known[1], found]);
+            next = match edge.is_finite() {
+                true => f64::midpoint(next, edge),
+                false if is_flat => FAR * next,
+                false => 2.0 * next,
+            };
         }
         Err(NotOnShell::NotFound { energy: self.energy, by: by.to_owned(), side })
     }
@@ -200,19 +239,52 @@ impl EnergyShell {
             }
             let missing = energies.at(rate)? - self.energy;
             let width = 1e-4 * rate.abs();
-            let slope = (energies.at(rate + width)? - energies.at(rate - width)?) / (2.0 * width);
+            let (Ok(above), Ok(below)) = (energies.at(rate + width), energies.at(rate - width))
+            else {
+                break;
+            };
+            let slope = (above - below) / (2.0 * width);
             let next = rate - missing / slope;
             if !next.is_finite() || (next < self.about) != (rate < self.about) {
                 break;
             }
-            let distance = (energies.at(next)? - self.energy).abs();
-            if distance >= best.1 {
+            let Ok(found) = energies.at(next) else { break };
+            let distance = (found - self.energy).abs();
+            if distance.is_nan() || distance >= best.1 {
                 break;
             }
             (best, rate) = ((next, distance), next);
         }
         Ok(best.0)
     }
+}
+
+/// A place between the first and the last of three at which a function that is least at the middle one is not above zero, and its
+/// value there.
+fn passed(
+    [mut low, mut middle, mut high]: [f64; 3],
+    value: &mut impl FnMut(f64) -> Result<f64, MotionError>,
+) -> Result<Option<(f64, f64)>, NotOnShell> {
+    const GOLDEN: f64 = 0.381_966_011_250_105_1;
+    let mut least = value(middle)?;
+    for _ in 0..SECTIONS {
+        let right = high - middle > middle - low;
+        let step = GOLDEN * if right { high - middle } else { low - middle };
+        let place = middle + step;
+        let found = value(place)?;
+        if found <= 0.0 {
+            return Ok(Some((place, found)));
+        }
+        if found < least {
+            (low, high) = if right { (middle, high) } else { (low, middle) };
+            (middle, least) = (place, found);
+        } else if right {
+            high = place;
+        } else {
+            low = place;
+        }
+    }
+    Ok(None)
 }
 
 /// The zero of a function between two places, with its values there of opposite signs: by secants whose value at an end that stays is

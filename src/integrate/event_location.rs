@@ -50,6 +50,8 @@ pub(super) struct EventLocator {
     sides: Vec<f64>,
     /// When each of them last crossed zero in a direction that counts; NaN before it has.
     last: Vec<f64>,
+    /// The events at the time of the one that was found last, each with the side of its function afterwards.
+    beside: Vec<(LocatedEvent, f64)>,
     /// Whether an impulse has just changed the state.
     fresh: bool,
     /// The time up to which the functions were found to be simple.
@@ -83,6 +85,7 @@ impl EventLocator {
             directions,
             sides: vec![0.0; count],
             last: vec![f64::NAN; count],
+            beside: Vec::new(),
             fresh: false,
             simple: None,
             shortest: 0,
@@ -104,9 +107,19 @@ impl EventLocator {
         self.simple = None;
     }
 
-    /// Forgets how far the functions are simple, when the motion changes.
+    /// Forgets how far the functions are simple and what else happens now, when the motion changes.
     pub(super) fn turn(&mut self) {
         self.simple = None;
+        self.beside.clear();
+    }
+
+    /// The next event at a time at which one has been found, if the state is still the same.
+    pub(super) fn next_at(&mut self, time: f64) -> Option<LocatedEvent> {
+        self.beside.first().filter(|(next, _)| next.exact.high == time)?;
+        let (next, side) = self.beside.remove(0);
+        self.sides[next.event] = side;
+        self.last[next.event] = next.exact.high;
+        Some(next)
     }
 
     /// Forgets the sides of the functions.
@@ -307,7 +320,9 @@ impl EventLocator {
             }
             passed.push(crossings);
         }
-        Ok(PieceRoots::First(first(&passed, &self.directions, &mut self.sides, to)))
+        let found;
+        (found, self.beside) = first(&passed, &self.directions, &mut self.sides, to);
+        Ok(PieceRoots::First(found))
     }
 
     /// The crossings of one function, in order of time, up to the first that counts.
@@ -428,6 +443,8 @@ impl EventLocator {
             let (known, last) = (&mut self.sides[event], self.last[event]);
             passed.push(sampling.follow(own, samples, known, last)?);
         }
-        Ok(first(&passed, &self.directions, &mut self.sides, to))
+        let found;
+        (found, self.beside) = first(&passed, &self.directions, &mut self.sides, to);
+        Ok(found)
     }
 }

@@ -44,20 +44,26 @@ impl Crossing {
 }
 
 /// The first crossing that counts of all functions, where each list has the crossings up to its own
-/// first. Also updates the side of each function that has crossed by then.
+/// first, and the others at its time, with the sides afterwards. Also updates the side of each function that has crossed by
+/// then; the others at its time have not.
 pub(super) fn first(
     passed: &[Vec<Crossing>],
     directions: &[Direction],
     sides: &mut [f64],
     to: f64,
-) -> Option<LocatedEvent> {
+) -> (Option<LocatedEvent>, Vec<(LocatedEvent, f64)>) {
+    let counted: Vec<(LocatedEvent, f64)> = passed
+        .iter()
+        .enumerate()
+        .filter_map(|(event, crossings)| {
+            let last = crossings.last().filter(|crossing| crossing.counts(directions[event]))?;
+            Some((LocatedEvent { event, exact: last.exact }, last.side))
+        })
+        .collect();
     let mut found: Option<LocatedEvent> = None;
-    for (event, crossings) in passed.iter().enumerate() {
-        let counts = crossings.last().filter(|crossing| crossing.counts(directions[event]));
-        if let Some(crossing) = counts
-            && found.is_none_or(|first| earlier(crossing.exact, first.exact))
-        {
-            found = Some(LocatedEvent { event, exact: crossing.exact });
+    for (event, _) in &counted {
+        if found.is_none_or(|first| earlier(event.exact, first.exact)) {
+            found = Some(*event);
         }
     }
     let until = found.map_or(to, |found| found.exact.high);
@@ -68,5 +74,8 @@ pub(super) fn first(
             sides[event] = last.side;
         }
     }
-    found
+    let others = counted.into_iter().filter(|(event, _)| {
+        found.is_some_and(|found| found.event != event.event) && event.exact.high == until
+    });
+    (found, others.collect())
 }

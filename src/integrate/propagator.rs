@@ -63,6 +63,8 @@ pub struct Propagator {
     stalled: u32,
     /// The event at that time.
     waiting: Option<LocatedEvent>,
+    /// Whether events may happen at the time of the last impulse that are known only after the next step.
+    unsettled: bool,
     /// The accumulation detector of each event.
     accumulation: Vec<AccumulationDetector>,
     watch: SingularityRecord,
@@ -108,6 +110,7 @@ impl Propagator {
             near: blank,
             clear: 0.0,
             waiting: None,
+            unsettled: false,
             stalled: 0,
             accumulation: vec![AccumulationDetector::NONE; system.discontinuities().events.len()],
             watch: SingularityRecord::default(),
@@ -264,6 +267,7 @@ impl Propagator {
         self.near.copy_from(&self.state);
         self.clear = state.time;
         self.waiting = None;
+        self.unsettled = false;
         if let Some(crossings) = &mut self.crossings {
             crossings.turn();
         }

@@ -111,9 +111,9 @@ pub struct Info {
 pub struct CommonSymbols {
     /// `t`.
     pub time: Symbol,
-    /// `energy`: Jacobi's h, or H. It may be used in observables only.
+    /// `energy`: Jacobi's h, or H. It may be used in what is observed of a motion: observables, events, sections.
     pub energy: Symbol,
-    /// `action`: ∫ L dt from the start. It may be used in observables only.
+    /// `action`: ∫ L dt from the start. It may be used where the energy may be.
     pub action: Symbol,
 }
 

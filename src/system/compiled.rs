@@ -130,7 +130,8 @@ impl System {
         }
         let equations = Arc::new(equations);
         let quadratures = Quadratures {
-            action: list.depends(&equations, equations.symbols.action),
+            action: list.depends(&equations, equations.symbols.action)
+                || Discontinuities::depend(model, &equations, equations.symbols.action),
             work: equations.energy_rate != Expr::ZERO || !model.impulses.is_empty(),
         };
         let mut builder = ProgramBuilder {

@@ -8,6 +8,7 @@ use super::observables;
 use super::program::Program;
 use super::rhs::ProgramBuilder;
 use crate::expr::{Expr, FunctionId, Node, Symbol};
+use crate::mechanics::Equations;
 use crate::model::{Direction, EventAction, Model};
 
 /// The events and impulses of a motion.
@@ -61,6 +62,11 @@ impl Discontinuities {
         self.quadratic
     }
 
+    /// Whether an event or a section of a model depends on a symbol.
+    pub(super) fn depend(model: &Model, equations: &Equations, symbol: Symbol) -> bool {
+        functions(model).any(|e| equations.pool.depends(e, symbol))
+    }
+
     pub(super) fn of(
         model: &Model,
         builder: &mut ProgramBuilder<'_>,
@@ -73,7 +79,7 @@ impl Discontinuities {
         }
         let schedule = lowering.finish(outputs)?;
         let located = || model.events.iter().chain(&model.sections);
-        let functions = located().map(|e| Some(e.when)).collect::<Vec<_>>();
+        let functions: Vec<_> = functions(model).map(Some).collect();
         let changes = model.impulses.iter().flat_map(|i| i.change.iter().map(|&e| Some(e)));
         let changes: Vec<_> = changes.collect();
         Ok(Discontinuities {
@@ -102,6 +108,11 @@ impl Discontinuities {
             quadratic: builder.equations.is_quadratic(),
         })
     }
+}
+
+/// The functions of the events and of the surfaces of section.
+fn functions(model: &Model) -> impl Iterator<Item = Expr> + '_ {
+    model.events.iter().chain(&model.sections).map(|event| event.when)
 }
 
 /// The program of the functions that are expanded: those of the events, then the arguments of the

@@ -814,3 +814,98 @@ fn an_event_on_a_kink_of_another_one_happens_once() {
         assert!((found[0] - time).abs() < 1e-14, "{name}: {} for {time}", found[0]);
     }
 }
+
+/// L = 1/2 x'^2 with x' = 1: the action is t/2.
+#[test]
+fn an_event_on_the_action_happens_whether_or_not_a_column_shows_the_action() {
+    let text = format!(
+        "{FREE}[[events]]\nname = 'stop'\nwhen = 'action - 1'\naction = 'impulse:back'\n\
+         [[impulses]]\nname = 'back'\nchange = {{ p_x = \"-2*x'\" }}\n\
+         [[events]]\nname = 'end'\nwhen = 'action - 2'\naction = 'stop'\n"
+    );
+    for method in ["taylor", "gauss4", "rk4", "dop853"] {
+        let mut free = build(&text, |setup| {
+            method.clone_into(&mut setup.method);
+            setup.settings.step = matches!(method, "gauss4" | "rk4").then_some(0.25);
+        });
+        assert_eq!(free.advance(9.0, PLENTY), AdvanceOutcome::Ended, "{method}");
+        assert!((free.time() - 4.0).abs() < 1e-12, "{method}: {}", free.time());
+        assert!(value(&free, "x").abs() < 1e-12, "{method}: it turned at x = 2");
+    }
+}
+
+/// A mark at the time of two impulses comes between them in neither order, and no row is in the middle.
+#[test]
+fn a_mark_at_the_time_of_two_impulses_leaves_the_state_after_both() {
+    let back = "[[events]]\nname = 'wall'\nwhen = 'x - 2'\ndirection = 'rising'\naction = 'impulse:back'\n\
+         [[impulses]]\nname = 'back'\nchange = { p_x = \"-2*x'\" }\n\
+         [[impulses]]\nname = 'push'\nat = 2.0\nchange = { p_x = '-0.5' }\n";
+    let mark = "[[events]]\nname = 'mark'\nwhen = '(x - 2)*(x - 3)'\n";
+    for method in ["taylor", "rk4", "dop853"] {
+        for text in
+            [format!("{FREE}{back}"), format!("{FREE}{back}{mark}"), format!("{FREE}{mark}{back}")]
+        {
+            for rows in [&[1.0, 2.0, 3.0][..], &[3.0], &[2.0]] {
+                let mut free = build(&text, |setup| {
+                    method.clone_into(&mut setup.method);
+                    setup.settings.step = (method == "rk4").then_some(0.25);
+                    setup.end = Some(3.0);
+                });
+                for &time in rows {
+                    run(&mut free, time);
+                }
+                let speed = value(&free, "x'");
+                assert!((speed + 1.5).abs() < 1e-12, "{method}: {speed} of {rows:?}\n{text}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_mark_at_the_time_of_a_stop_lets_no_impulse_in_between() {
+    let text = format!(
+        "{FREE}[[impulses]]\nname = 'k'\nat = 2.0\nchange = {{ p_x = '5' }}\n\
+         [[events]]\nname = 'stop'\nwhen = 'x - 2'\naction = 'stop'\n\
+         [[events]]\nname = 'mark'\nwhen = '(x - 2)*(x - 3)'\n"
+    );
+    let mut free = file(&text);
+    assert_eq!(free.advance(3.0, PLENTY), AdvanceOutcome::Ended);
+    assert_eq!((free.time(), value(&free, "x'")), (2.0, 1.0));
+}
+
+/// Two walls are met at once; each turns its own coordinate.
+#[test]
+fn the_row_at_the_time_of_two_impulses_by_events_is_after_both() {
+    let text = "
+title = 'a corner'
+[coordinates]
+x = { initial = 0.0, velocity = 1.0 }
+y = { initial = 0.0, velocity = 1.0 }
+[lagrangian]
+L = \"1/2*(x'^2 + y'^2)\"
+[[events]]
+name = 'right'
+when = 'x - 2'
+action = 'impulse:x'
+[[events]]
+name = 'upper'
+when = 'y - 2'
+action = 'impulse:y'
+[[impulses]]
+name = 'x'
+change = { p_x = \"-2*x'\" }
+[[impulses]]
+name = 'y'
+change = { p_y = \"-2*y'\" }
+";
+    for method in ["taylor", "rk4", "dop853"] {
+        let mut corner = build(text, |setup| {
+            method.clone_into(&mut setup.method);
+            setup.settings.step = (method == "rk4").then_some(0.25);
+            setup.end = Some(3.0);
+        });
+        run(&mut corner, 2.0);
+        let velocity = (value(&corner, "x'"), value(&corner, "y'"));
+        assert_eq!(velocity, (-1.0, -1.0), "{method}");
+    }
+}

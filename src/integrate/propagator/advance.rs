@@ -45,6 +45,12 @@ impl Propagator {
             }
             if self.clear <= time {
                 let due = self.impulse_schedule.due(self.clear);
+                if self.waiting.is_none()
+                    && (due.is_some() || self.clear >= self.stepper.time())
+                    && let Some(crossings) = &mut self.crossings
+                {
+                    self.waiting = crossings.next_at(self.clear);
+                }
                 if self.waiting.is_some() || due.is_some() {
                     // there may be infinitely many occurrences
                     if *budget == 0 {
@@ -59,6 +65,11 @@ impl Propagator {
                 if let Some(impulse) = due {
                     return self.apply_scheduled(impulse).map(Reached::Happened);
                 }
+            }
+            if self.clear >= time && self.unsettled && self.clear < limit && *budget > 0 {
+                *budget -= 1;
+                self.settle(limit)?;
+                continue;
             }
             if self.clear >= time {
                 let before = self.state.time;
@@ -87,6 +98,16 @@ impl Propagator {
             }
             self.scan()?;
         }
+    }
+
+    /// Takes the next step after an impulse, which shows what else happens at its time: the state there is that after all of it.
+    /// A step that cannot be taken shows nothing, and is an error once the motion is to go on.
+    fn settle(&mut self, limit: f64) -> Result<(), MotionError> {
+        self.unsettled = false;
+        if self.stepper.time() <= self.clear && self.step(limit).is_err() {
+            return Ok(());
+        }
+        self.scan()
     }
 
     /// Whether nothing can happen between two steps: nothing acts on the motion but its law, and
@@ -168,6 +189,7 @@ impl Propagator {
     /// Searches for events in what was computed beyond `clear`, up to the next impulse, as far as
     /// the functions can be followed at once.
     fn scan(&mut self) -> Result<(), MotionError> {
+        self.unsettled = false;
         let end = self.stepper.time();
         let mut end =
             self.impulse_schedule.next(self.clear).map_or(end, |impulse| impulse.min(end));

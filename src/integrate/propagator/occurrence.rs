@@ -77,6 +77,7 @@ impl Propagator {
         self.before.copy_from(&before);
         self.impulse = Some((impulse, event));
         self.resume(&after_impulse.after)?;
+        self.unsettled = self.crossings.is_some();
         let discontinuities = self.system.discontinuities();
         let name = match event {
             Some(event) => discontinuities.events[event].name.clone(),

@@ -268,13 +268,39 @@ fn a_linear_term_has_both_its_roots_and_a_relativistic_particle_its_own() {
         [hamiltonian]
         H = "sqrt(1 + p_x^2) + 1/2*x^2"
     "#;
+    // beyond the velocity of light there is no energy
+    let fast = r#"
+        title = "Relativistic"
+        [coordinates]
+        x = { initial = 0.1, velocity = 0.2 }
+        [lagrangian]
+        L = "-sqrt(1 - x'^2) - 1/2*x^2"
+    "#;
+    // the least energy is between the roots
+    let quartic = r#"
+        title = "Quartic"
+        [coordinates]
+        x = { initial = 0.1, momentum = 0.2 }
+        [hamiltonian]
+        H = "1/4*p_x^4 - 1/2*p_x^2 + 1/2*x^2"
+    "#;
+    // a momentum of which a part has no velocity
+    let shifted = fast.replace("1/2*x^2", "1/2*x^2 + 0.3*x'");
     let root = f64::sqrt(4.0 - 2.0 - 0.25);
     let p = f64::sqrt(1.375 * 1.375 - 1.0);
+    let high = |energy: f64| f64::sqrt((energy - 0.005) * (energy - 0.005) - 1.0);
+    let nearest = f64::sqrt(1.0 - f64::sqrt(0.58));
     for (file, energy, solve, expected) in [
         (rotating, "-1", "p_x", 2.0 + root),
         (rotating, "-1", "-p_x", 2.0 - root),
         (relativistic, "1.5", "p_x", p),
         (relativistic, "1.5", "-p_x", -p),
+        (fast, "1.2", "x'", high(1.2)),
+        (fast, "1.5", "x'", high(1.5)),
+        (fast, "1.9", "-x'", -high(1.9)),
+        (&shifted, "1.5", "p_x", 0.3 + high(1.5)),
+        (quartic, "-0.1", "p_x", nearest),
+        (quartic, "-0.1", "-p_x", -nearest),
     ] {
         let (energy, solve) = (format!("--energy={energy}"), format!("--solve={solve}"));
         // the surface is reached at once, at a state that is nearly the start

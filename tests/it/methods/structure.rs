@@ -177,3 +177,20 @@ fn a_state_of_either_form_is_a_start() {
         assert!(distance(&ends[0], &ends[1]) < 1e-13, "{name}");
     }
 }
+
+/// Two double pendulums whose only difference is a column that shows the action.
+#[test]
+fn the_motion_is_the_same_whether_the_action_is_carried_or_not() {
+    let text = crate::hand::catalog().find("double-pendulum").unwrap().text.clone();
+    let shown = format!("{text}\n[[observables]]\nname = 'carried'\nexpression = 'action'\n");
+    let end = |text: &str, method: &str| {
+        let mut motion = crate::experiment::build(text, |setup| {
+            method.clone_into(&mut setup.method);
+        });
+        crate::experiment::run(&mut motion, 1.0);
+        ["theta1", "theta2"].map(|name| crate::experiment::value(&motion, name))
+    };
+    for method in ["taylor", "dop853"] {
+        assert_eq!(end(&text, method), end(&shown, method), "{method}");
+    }
+}
