@@ -65,9 +65,6 @@ pub enum Growth {
 }
 
 impl Verdict {
-    /// At the rounding floor, without growth.
-    pub const LEVEL: Verdict = Verdict::Exact(Growth::Level);
-
     /// The verdict in one to four words, for reports: `exact`, `bounded`, `secular`, `lost`,
     /// `not conserved`, `open`, `unknown`, `other branch`.
     pub fn word(&self) -> &'static str {

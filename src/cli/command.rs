@@ -332,6 +332,13 @@ fn assigned(words: &[OsString], error: &clap::Error) -> Option<String> {
     if error.kind() != clap::error::ErrorKind::UnknownArgument {
         return None;
     }
+    // a misspelt option is no parameter, and not every command sets one
+    let command = Arguments::command();
+    let takes_parameters = |word: &OsString| {
+        let command = command.find_subcommand(word)?;
+        command.get_arguments().any(|argument| argument.get_long() == Some("set")).then_some(())
+    };
+    words.iter().find_map(takes_parameters)?;
     let ContextValue::String(given) = error.get(ContextKind::InvalidArg)? else { return None };
     let (name, value) = match (given.strip_prefix("--"), given.split_once('=')) {
         (Some(option), _) => {

@@ -44,8 +44,10 @@ fn other_format(path: &Path, form: OutputForm) -> Option<String> {
     }
     let is_json = matches!(ending.as_str(), "json" | "jsonl");
     match form {
-        OutputForm::Json if ending == "csv" => Some("whatever .csv says".to_owned()),
-        OutputForm::Text if is_json => Some(format!("not as JSON: see --format {ending}")),
+        OutputForm::Json if ending == "csv" => {
+            Some("although .csv names another format".to_owned())
+        }
+        OutputForm::Text if is_json => Some(format!("although .{ending} names another format")),
         _ => None,
     }
 }

@@ -126,8 +126,12 @@ impl PhaseMap {
         let all: Vec<CanonicalVerdict> =
             self.parts.iter().map(|(map, _)| map.verdict(model, equations)).collect();
         let names = self.parts.iter().map(|(map, _)| map.name.as_str()).zip(&all);
-        let wrong: Vec<&str> =
-            names.filter(|(_, of)| !of.canonical).map(|(name, _)| name).collect();
+        let mut wrong: Vec<&str> = names
+            .filter(|(_, of)| !of.canonical && of.valence.is_none())
+            .map(|(name, _)| name)
+            .collect();
+        wrong.sort_unstable();
+        wrong.dedup();
         let pool = &mut equations.pool;
         let mut valence = Some(Expr::ONE);
         for (of, (_, inverted)) in all.iter().zip(&self.parts) {
@@ -140,8 +144,8 @@ impl PhaseMap {
         if verdict.residual.is_none() {
             verdict.why = Some("no point with an image was found near the start".to_owned());
         } else if verdict.canonical {
-            verdict.proved = wrong.is_empty() && all.iter().all(|of| of.proved);
-        } else {
+            verdict.proved = all.iter().all(|of| of.canonical && of.proved);
+        } else if !wrong.is_empty() {
             let names: Vec<String> = wrong.iter().map(|name| format!("`{name}`")).collect();
             let is = if names.len() == 1 { "is" } else { "are" };
             verdict.why = Some(format!("{} {is} not canonical", names.join(" and ")));

@@ -43,11 +43,14 @@ pub(super) fn find(equations: &mut Equations, model: &Model) {
             residuals.push((symbol, residual));
         }
         if !has_value && given.new.iter().flatten().all(|symbol| shared.contains(symbol)) {
+            let start = Valuation::at_start(model, equations);
+            let at_start = || map.image(&equations.pool, &start);
             let at = if forwards.is_some() {
-                let start = Valuation::at_start(model, equations);
-                map.image(&equations.pool, &start)
+                at_start()
             } else {
-                map.images(model, equations, 1).pop()
+                // maps one after the other are solved for all at once along the motion, and begin where each has been solved
+                let known = if map.parts.is_empty() { None } else { at_start() };
+                known.or_else(|| map.images(model, equations, 1).pop())
             };
             if let Some(at) = at {
                 let image = map.implicit.new.iter().map(|&s| at.at(s)).collect();

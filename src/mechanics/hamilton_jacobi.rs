@@ -102,17 +102,17 @@ impl HamiltonJacobi {
         let beta: Vec<Expr> =
             integral.constants.iter().map(|c| tidy_derivative(pool, s, c.symbol)).collect();
         let (residual, mut why) = match remainder(model, equations, s, &momenta) {
-            Ok(Remainder { value, solves }) => {
-                let unsolved = |value: f64| {
-                    let value = significant(value, 3, 1e-3..1e4);
+            Ok(Remainder { value, part, solves }) => {
+                let unsolved = || {
+                    let part = significant(100.0 * part, 3, 1e-3..1e4);
                     format!(
-                        "S does not solve H(q, ∂S/∂q, t) + ∂S/∂t = 0, of which up to {value} is left"
+                        "S does not solve H(q, ∂S/∂q, t) + ∂S/∂t = 0: up to {part} % of its terms are left"
                     )
                 };
                 let unknown = "S has no value at the points tried".to_owned();
                 let why = match value {
                     None => Some(unknown),
-                    Some(value) => (!solves).then(|| unsolved(value)),
+                    Some(_) => (!solves).then(unsolved),
                 };
                 (value, why)
             }
@@ -159,7 +159,10 @@ fn with_common_roots(model: &Model, equations: &mut Equations, e: Expr) -> Expr 
 }
 
 struct Remainder {
+    /// The largest value; `None` if there is none.
     value: Option<f64>,
+    /// Its part of the size of the terms.
+    part: f64,
     solves: bool,
 }
 
@@ -178,7 +181,7 @@ fn remainder(
     let rate = pool.derivative(s, model.symbols.time);
     let left = pool.add(energy, rate);
     if pool.is_zero(left) == Zero::Proved {
-        return Ok(Remainder { value: Some(0.0), solves: true });
+        return Ok(Remainder { value: Some(0.0), part: 0.0, solves: true });
     }
     let (mut largest, mut relative, mut seen) = (0.0_f64, 0.0_f64, 0);
     // what solves the equation near the start may not do so far from it, beyond a kink
@@ -207,7 +210,7 @@ fn remainder(
         }
     }
     let value = (seen > 0).then_some(largest);
-    Ok(Remainder { value, solves: relative < SOLVES })
+    Ok(Remainder { value, part: relative, solves: relative < SOLVES })
 }
 
 /// A point with numbers for the constants: those that its motion has, and others.

@@ -75,9 +75,10 @@ impl PhaseMap {
         };
         let points: Vec<Valuation> =
             (0..LOOKED_AT as u64).map(|n| Valuation::near_start(model, equations, n)).collect();
-        let mut values: Vec<Option<(Valuation, f64)>> = points
+        // the value of the new Hamiltonian, and the size of its terms
+        let mut values: Vec<Option<(Valuation, [f64; 2])>> = points
             .iter()
-            .map(|at| Some((at.clone(), at.value(&equations.pool, hamiltonian))))
+            .map(|at| Some((at.clone(), sized(&equations.pool, hamiltonian, at))))
             .collect();
         let mut e = hamiltonian;
         for map in parts {
@@ -92,9 +93,11 @@ impl PhaseMap {
             };
             let valence = verdict.valence.unwrap_or(Expr::ONE);
             for known in &mut values {
-                *known = known.take().and_then(|(at, value)| {
+                *known = known.take().and_then(|(at, [value, size])| {
                     let image = map.image(pool, &at)?;
-                    let value = at.value(pool, valence) * value + image.value(pool, rate);
+                    let valence = at.value(pool, valence);
+                    let [own, own_size] = sized(pool, rate, &image);
+                    let value = [valence * value + own, valence.abs() * size + own_size];
                     let new = map.implicit.new.iter().map(|&s| image.at(s));
                     let next = map.old.iter().copied().zip(new).collect::<Vec<_>>();
                     Some((at.with(next), value))
@@ -102,10 +105,11 @@ impl PhaseMap {
             }
         }
         let pool = &mut equations.pool;
-        let known = values.iter().flatten().map(|(at, value)| (at.value(pool, e), *value));
-        let known: Vec<(f64, f64)> = known.filter(|(found, _)| found.is_finite()).collect();
-        let agrees =
-            |&(found, value): &(f64, f64)| (found - value).abs() <= SAME * (1.0 + value.abs());
+        let known = values.iter().flatten().map(|(at, value)| (sized(pool, e, at), *value));
+        let known: Vec<_> = known.filter(|(found, _)| found[0].is_finite()).collect();
+        let agrees = |&([found, its], [value, size]): &([f64; 2], [f64; 2])| {
+            (found - value).abs() <= SAME * size.max(its)
+        };
         let agrees = !known.is_empty() && known.iter().all(agrees);
         agrees.then(|| renamed(pool, e, &self.old, &self.implicit.new))
     }
@@ -215,8 +219,8 @@ impl PhaseMap {
         let free = pool.substitute(law, &there);
         let free = pool.simplify(free);
         let agrees = |at: &Valuation| {
-            let (found, expected) = (at.value(pool, free), at.value(pool, law));
-            (found - expected).abs() <= SAME * (1.0 + expected.abs())
+            let ([found, its], [expected, size]) = (sized(pool, free, at), sized(pool, law, at));
+            (found - expected).abs() <= SAME * size.max(its)
         };
         let known = !images.is_empty() && images.iter().all(agrees);
         (known && !pool.depends_on_any(free, &self.old)).then_some(free)
@@ -271,7 +275,19 @@ impl PhaseMap {
             rest = pool.simplify(rest);
             if rest == Expr::ZERO || pool.is_zero(rest) == Zero::Proved {
                 let total = pool.linear(Number::ZERO, &parts);
-                return Ok(pool.simplify(total));
+                let total = pool.simplify(total);
+                // what does not change along a ray from the origin is not in the integral
+                for (&slope, &variable) in slopes.iter().zip(&self.old) {
+                    let own = pool.derivative(total, variable);
+                    let difference = pool.sub(own, slope);
+                    if pool.is_zero(difference) == Zero::No {
+                        return Err(NoClosedForm(
+                            "∂(Q, P)/∂t is that of a function which is not regular at the origin, and is not searched for"
+                                .to_owned(),
+                        ));
+                    }
+                }
+                return Ok(total);
             }
             factorial = factorial * Number::integer(degree);
             let coefficient = pool.substitute(rest, &at_zero);
@@ -283,4 +299,10 @@ impl PhaseMap {
                 .to_owned(),
         ))
     }
+}
+
+/// The value of an expression at a point, and the size of its terms.
+fn sized(pool: &Pool, e: Expr, at: &Valuation) -> [f64; 2] {
+    let (value, size) = pool.evaluate_with_size(e, &|symbol| at.at(symbol));
+    [value, size]
 }

@@ -45,7 +45,8 @@ pub(super) fn find(equations: &mut Equations, model: &Model, rates: &[Expr]) {
         let small = pairs(model, &[(first, second)]);
         let all = pairs(model, &[(first, second), (capital(first), capital(second))]);
         let is_larger = all.len() > small.len();
-        for pairs in [Some(small), is_larger.then_some(all)].into_iter().flatten() {
+        // of what moves apart from each other the sum is the constant, as of x1, y1 and x2, y2
+        for pairs in [is_larger.then_some(all), Some(small)].into_iter().flatten() {
             let angles =
                 pairs.iter().any(|&(i, j)| [i, j].iter().any(|&k| is_angle(&model.coordinates[k])));
             if pairs.is_empty() || angles || !covers(model, first, second, &pairs) {

@@ -221,8 +221,6 @@ fn bars_in_line_are_told_whether_they_are_passed_or_not() {
     }
 }
 
-/// The dense output of a method keeps the constraints to its tolerance only, and seems to turn their directions fast where they
-/// are reversed.
 /// x (z' − 0.2) = 0.1 x' z on a circle, falling to its bottom, where x and z vanish and with them the row of the constraint: the
 /// circle itself is met there.
 #[test]
@@ -236,6 +234,8 @@ fn a_constraint_whose_row_vanishes_is_singular_and_no_other_is_lost() {
     assert!(why.contains("singular configuration") && why.contains("t = 0.672"), "{why}");
 }
 
+/// The dense output of a method keeps the constraints to its tolerance only, and seems to turn their directions fast where they
+/// are reversed.
 #[test]
 fn bars_in_line_are_told_at_every_tolerance() {
     for tolerance in ["1e-4", "1e-6", "1e-9", "1e-13"] {

@@ -5,7 +5,9 @@
 use std::sync::Arc;
 
 use super::mean::Mean;
-use crate::analysis::{Errors, History, LEFT, LOST, Stretch, Unseen, Verdict, rounding_floor};
+use crate::analysis::{
+    Errors, Growth, History, LEFT, LOST, Stretch, Unseen, Verdict, rounding_floor,
+};
 use crate::experiment::{Gauge, Reference};
 use crate::expr::Expr;
 use crate::system::{BatchTerms, TermSums, TermWatch};
@@ -371,7 +373,9 @@ impl InvariantMonitor {
             (None, None) => match Verdict::of(&self.distances, self.farthest, rounding, errors) {
                 Verdict::Secular(slope) => Verdict::Secular(slope / scale),
                 // less than the last digit of its terms
-                Verdict::Exact(_) if self.farthest < f64::EPSILON * self.rounding => Verdict::LEVEL,
+                Verdict::Exact(_) if self.farthest < f64::EPSILON * self.rounding => {
+                    Verdict::Exact(Growth::Level)
+                }
                 other => other,
             },
         };

@@ -68,7 +68,15 @@ impl Check<'_> {
         let name = written.residual.as_ref()?;
         if written.positions.is_none() && written.momenta.is_none() {
             let message = "`residual` is that of an explicit transformation";
-            let help = "a generating function gives a canonical one: `derive` prints what rounding leaves of it";
+            let made = matches!(
+                written.kind.as_ref().map(|kind| kind.get_ref().as_str()),
+                Some("compose" | "inverse")
+            );
+            let help = if made {
+                "give it to the transformations that this one is made of"
+            } else {
+                "a generating function gives a canonical one: `derive` prints what rounding leaves of it"
+            };
             self.diagnostics.push(Diagnostic::error(name.span(), message).with_help(help));
             return None;
         }
