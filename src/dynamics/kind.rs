@@ -112,7 +112,9 @@ mod tests {
         assert_eq!(of([[1e12, 0.0], [0.0, 1.0]], 1e-16), Kind::Minimum);
         assert_eq!(of([[8.0, 6e-5], [6e-5, 1e-9]], 1e-13), Kind::Minimum);
         assert_eq!(of([[8.0, 6e-5], [6e-5, 1e-10]], 1e-13), Kind::Saddle);
-        assert_eq!(of([[0.0, 1e-9], [1e-9, 1e9]], 1e-16), Kind::Saddle);
+        assert_eq!(of([[0.0, 1e-9], [1e-9, 1e9]], 0.0), Kind::Saddle);
+        // det = ±1e-7 − 1e-18 has no sign
+        assert_eq!(of([[0.0, 1e-9], [1e-9, 1e9]], 1e-16), Kind::Degenerate);
     }
 
     #[test]
