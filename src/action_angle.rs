@@ -7,6 +7,7 @@
 
 mod angle;
 mod effective_potential;
+mod extremum;
 mod held;
 mod moment;
 mod row;
@@ -16,5 +17,7 @@ pub use angle::angle;
 pub use effective_potential::{AllowedInterval, EffectivePotential};
 pub use held::{HeldMotion, HeldSystem, NotHeld, OwnMotion};
 pub use moment::AngleMoment;
-pub use row::{ActionRow, ActionSystems, NoAction, RegionKind, action_row, cyclic_row};
+pub use row::{
+    ActionRow, ActionSystems, NoAction, RegionKind, action_row, action_rows, cyclic_row,
+};
 pub use separatrix::Separatrix;

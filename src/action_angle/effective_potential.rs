@@ -3,6 +3,7 @@
 //!
 //! In: a system, a start, a coordinate. Out: regions and tops at an energy. Never here: times, actions.
 
+use super::extremum::{NOISE, resolved, turns};
 use crate::ensemble::{EnergyShell, NotOnShell, Root, Start};
 use crate::num::math;
 use crate::system::{ChannelKind, Form, InitialOverride, MotionError, Observer, System};
@@ -13,17 +14,8 @@ const PLACES: usize = 4001;
 /// How far they reach on each side: sinh of this, in units of the distance of the start from zero (1 if it is at zero).
 const REACH: f64 = 12.0;
 
-/// Energies that differ by less than this part are the same to rounding.
-const NOISE: f64 = 1e-11;
-
 /// A top or a bottom that is greater by this factor than what is around it is a pole.
 const POLE: f64 = 1e12;
-
-/// So many bottoms and tops in succession without a place between them are an oscillation that is too fast for the places.
-const UNRESOLVED: usize = 8;
-
-/// The most tops on one side of the start that are given.
-const MOST_TOPS: usize = 8;
 
 /// Halvings of an interval, and sections by the golden ratio.
 const HALVINGS: usize = 200;
@@ -134,6 +126,11 @@ impl<'a> EffectivePotential<'a> {
         ChannelKind::Momentum(self.coordinate)
     }
 
+    /// The velocity of the coordinate at a start.
+    pub(super) fn velocity(&mut self, start: &Start) -> Result<f64, MotionError> {
+        self.observed(start, ChannelKind::Velocity(self.coordinate))
+    }
+
     pub(super) fn observed(
         &mut self,
         start: &Start,
@@ -171,14 +168,23 @@ impl<'a> EffectivePotential<'a> {
 
     /// p to the right less p to the left at a place, zero where the energy forbids it by rounding.
     pub(super) fn width(&mut self, place: f64, energy: f64) -> Result<f64, NotOnShell> {
-        let momentum = |own: &mut Self, root| match own.moving(place, energy, root) {
-            Ok(start) => Ok(Some(own.observed(&start, ChannelKind::Momentum(own.coordinate))?)),
+        let right = self.momentum_at(place, energy, Root::Positive)?;
+        let left = self.momentum_at(place, energy, Root::Negative)?;
+        Ok(right.zip(left).map_or(0.0, |(right, left)| right - left))
+    }
+
+    /// p to the right or to the left at a place, `None` where the energy forbids it by rounding.
+    pub(super) fn momentum_at(
+        &mut self,
+        place: f64,
+        energy: f64,
+        root: Root,
+    ) -> Result<Option<f64>, NotOnShell> {
+        match self.moving(place, energy, root) {
+            Ok(start) => Ok(Some(self.observed(&start, ChannelKind::Momentum(self.coordinate))?)),
             Err(NotOnShell::Forbidden { .. } | NotOnShell::NotFound { .. }) => Ok(None),
             Err(why) => Err(why),
-        };
-        let right = momentum(self, Root::Positive)?;
-        let left = momentum(self, Root::Negative)?;
-        Ok(right.zip(left).map_or(0.0, |(right, left)| right - left))
+        }
     }
 
     fn look_around(&mut self, at: f64) {
@@ -279,12 +285,18 @@ impl<'a> EffectivePotential<'a> {
         let mut regions = Vec::new();
         let mut open: Option<Option<f64>> = None;
         let mut last: Option<[f64; 2]> = None;
-        for node in nodes {
+        // the energy of infinity is that of the places from which it cannot be told, and ends no region
+        let digits = 8.0 * f64::EPSILON * (energy.abs() + self.height);
+        let level_from = |nodes: &[[f64; 2]]| nodes.iter().all(|n| (n[1] - energy).abs() <= digits);
+        for (k, &node) in nodes.iter().enumerate() {
             let allowed = node[1] < level;
             match (open, allowed) {
                 (None, true) => {
-                    open = Some(last.map(|[q, _]| self.crossing(node[0], q, energy)));
+                    let ends = self.period.is_some() || !level_from(&nodes[..k]);
+                    let before = last.filter(|_| ends);
+                    open = Some(before.map(|[q, _]| self.crossing(node[0], q, energy)));
                 }
+                (Some(_), false) if self.period.is_none() && level_from(&nodes[k..]) => break,
                 (Some(left), false) => {
                     let inside = last.map_or(node[0], |[q, _]| q);
                     let right = Some(self.crossing(inside, node[0], energy));
@@ -396,55 +408,4 @@ impl<'a> EffectivePotential<'a> {
 /// The column of a channel.
 fn column(system: &System, kind: ChannelKind) -> usize {
     system.channels().iter().position(|channel| channel.kind == kind).unwrap_or(0)
-}
-
-/// The places around `at` beyond which extrema follow each other from one sample to the next, or there are too many tops.
-fn resolved(turns: &[[f64; 3]], at: f64) -> [f64; 2] {
-    // two extrema have a sample between them where the second begins behind the first
-    let is_fast = |pairs: &[[f64; 3]]| pairs.windows(2).all(|two| two[1][0] < two[0][2]);
-    let mut limits = [f64::NEG_INFINITY, f64::INFINITY];
-    for fast in turns.windows(UNRESOLVED).filter(|some| is_fast(some)) {
-        let [first, last] = [fast[0], fast[UNRESOLVED - 1]];
-        if first[0] >= at {
-            limits[1] = limits[1].min(first[0]);
-        } else if last[2] <= at {
-            limits[0] = limits[0].max(last[2]);
-        }
-    }
-    let tops = |side: &dyn Fn(&[f64; 3]) -> bool| {
-        turns.iter().filter(|turn| turn[1] > 0.0 && side(turn)).copied().collect::<Vec<_>>()
-    };
-    if let Some(beyond) = tops(&|turn| turn[0] >= at).get(MOST_TOPS) {
-        limits[1] = limits[1].min(beyond[0]);
-    }
-    if let Some(beyond) = tops(&|turn| turn[2] <= at).iter().rev().nth(MOST_TOPS) {
-        limits[0] = limits[0].max(beyond[2]);
-    }
-    limits
-}
-
-/// The extrema of a sampled function beyond rounding: the places on both sides, with +1 for a maximum, −1 for a minimum.
-fn turns(nodes: &[[f64; 2]]) -> Vec<[f64; 3]> {
-    // values that are the same to rounding are one node, from the first of them to the last
-    let mut runs: Vec<[f64; 3]> = Vec::new();
-    for &[place, value] in nodes.iter().filter(|node| node[1].is_finite()) {
-        match runs.last_mut() {
-            Some([_, last, level]) if (value - *level).abs() <= NOISE * level.abs() => {
-                *last = place;
-            }
-            _ => runs.push([place, place, value]),
-        }
-    }
-    let turn = |three: &[[f64; 3]]| {
-        let [before, here, after] = [three[0][2], three[1][2], three[2][2]];
-        let kind = if here > before && here > after {
-            1.0
-        } else if here < before && here < after {
-            -1.0
-        } else {
-            return None;
-        };
-        Some([three[0][1], kind, three[2][0]])
-    };
-    runs.windows(3).filter_map(turn).collect()
 }

@@ -21,6 +21,8 @@ pub enum RegionKind {
     Libration,
     /// Round and round.
     Rotation,
+    /// Round and round, to the left.
+    BackwardRotation,
     /// It goes away and does not return.
     Unbounded,
 }
@@ -31,6 +33,7 @@ impl RegionKind {
         match self {
             RegionKind::Libration => "libration",
             RegionKind::Rotation => "rotation",
+            RegionKind::BackwardRotation => "backward rotation",
             RegionKind::Unbounded => "unbounded",
         }
     }
@@ -135,7 +138,10 @@ const MOST: usize = 4096;
 const CONVERGED: f64 = 1e-14;
 const ROUNDING: f64 = 1e-11;
 
-/// The row of a region.
+/// The rotations to both sides are the same if action and period differ by less than this part.
+pub(super) const SAME: f64 = 1e-9;
+
+/// The row of a region; a rotation goes this way.
 ///
 /// # Errors
 /// Returns an error if the motion does not return to where it began.
@@ -143,11 +149,11 @@ pub fn action_row(
     potential: &mut EffectivePotential<'_>,
     systems: &ActionSystems<'_>,
     region: AllowedInterval,
-    energy: f64,
+    (energy, way): (f64, Root),
 ) -> Result<ActionRow, NoAction> {
     match (region.left, region.right, potential.period()) {
         (Some(left), Some(right), _) => libration(potential, systems, [left, right], energy),
-        (None, None, Some(period)) => rotation(potential, systems, period, energy),
+        (None, None, Some(period)) => rotation(potential, systems, period, (energy, way)),
         (left, right, _) => Ok(ActionRow {
             energy,
             kind: RegionKind::Unbounded,
@@ -157,6 +163,26 @@ pub fn action_row(
             mean_rate: None,
         }),
     }
+}
+
+/// The rows of a region: of a rotation that differs from the one to the left, both.
+///
+/// # Errors
+/// Returns an error if a motion does not return to where it began.
+pub fn action_rows(
+    potential: &mut EffectivePotential<'_>,
+    systems: &ActionSystems<'_>,
+    region: AllowedInterval,
+    energy: f64,
+) -> Result<Vec<ActionRow>, NoAction> {
+    let row = action_row(potential, systems, region, (energy, Root::Positive))?;
+    if row.kind != RegionKind::Rotation {
+        return Ok(vec![row]);
+    }
+    let other = action_row(potential, systems, region, (energy, Root::Negative))?;
+    let differs = |one: f64, other: f64| (one - other).abs() > SAME * one.abs();
+    let is_another = differs(row.action, other.action) || differs(row.period, other.period);
+    Ok(if is_another { vec![row, other] } else { vec![row] })
 }
 
 fn libration(
@@ -279,28 +305,27 @@ fn rotation(
     potential: &mut EffectivePotential<'_>,
     systems: &ActionSystems<'_>,
     period: f64,
-    energy: f64,
+    (energy, way): (f64, Root),
 ) -> Result<ActionRow, NoAction> {
     let Some(rotating) = systems.rotating else {
         return Err(NoAction::NoReturn("the coordinate has no period".to_owned()));
     };
-    let start = potential.moving(0.0, energy, Root::Positive)?;
+    let start = potential.moving(0.0, energy, way)?;
     let found = follow(systems, rotating, &start, 1)?;
     let (time, carried) = end(&found);
     let one = rotating.0.degrees() == 1;
+    let (kind, sign) = match way {
+        Root::Positive => (RegionKind::Rotation, 1.0),
+        Root::Negative => (RegionKind::BackwardRotation, -1.0),
+    };
     let action = if one {
         carried + energy * time
     } else {
-        // a periodic integrand: the trapezoidal rule; both directions share the width
-        0.5 * converged(|n| {
-            let step = period / n as f64;
-            (0..n).try_fold(0.0, |sum, i| {
-                Ok(sum + step * potential.width((i as f64 + 0.5) * step, energy)?)
-            })
+        sign * over_a_period(period, |place| {
+            Ok(potential.momentum_at(place, energy, way)?.unwrap_or(0.0))
         })?
     };
     let turning_points = Vec::new();
-    let kind = RegionKind::Rotation;
     Ok(ActionRow { energy, kind, turning_points, action, period: time, mean_rate: None })
 }
 
@@ -351,6 +376,36 @@ pub(super) fn action_between(
             let place = middle + half * math::sin(angle);
             Ok(sum + step * half * math::cos(angle) * potential.width(place, energy)?)
         })
+    })
+}
+
+/// The part of ∫ p dq over a period that is the same both ways, as of p = q̇ + A: a turn to the right has it more than `half` of the
+/// area between both ways, one to the left less. It is smooth where the coordinate turns.
+///
+/// # Errors
+/// Returns an error if there is no state at a place.
+pub(super) fn common_part(
+    potential: &mut EffectivePotential<'_>,
+    (period, half): (f64, f64),
+    energy: f64,
+) -> Result<f64, NotOnShell> {
+    let turn = over_a_period(period, |place| {
+        let right = potential.momentum_at(place, energy, Root::Positive)?;
+        let left = potential.momentum_at(place, energy, Root::Negative)?;
+        let common = right.zip(left).map_or(0.0, |(right, left)| f64::midpoint(right, left));
+        Ok(half / period + common)
+    })?;
+    Ok(turn - half)
+}
+
+/// The integral of a periodic function over its period, by the trapezoidal rule.
+fn over_a_period(
+    period: f64,
+    mut integrand: impl FnMut(f64) -> Result<f64, NotOnShell>,
+) -> Result<f64, NotOnShell> {
+    converged(|n| {
+        let step = period / n as f64;
+        (0..n).try_fold(0.0, |sum, i| Ok(sum + step * integrand((i as f64 + 0.5) * step)?))
     })
 }
 
