@@ -7,15 +7,18 @@
 
 mod angle;
 mod effective_potential;
+mod extremum;
 mod held;
 mod moment;
+mod quadrature;
 mod row;
-mod sampled_extrema;
 mod separatrix;
 
 pub use angle::angle;
 pub use effective_potential::{AllowedInterval, EffectivePotential};
 pub use held::{HeldMotion, HeldSystem, NotHeld, OwnMotion};
 pub use moment::AngleMoment;
-pub use row::{ActionRow, ActionSystems, NoAction, RegionKind, action_row, cyclic_row};
+pub use row::{
+    ActionRow, ActionSystems, NoAction, RegionKind, action_row, action_rows, cyclic_row,
+};
 pub use separatrix::Separatrix;

@@ -49,6 +49,7 @@ mod resonance;
 mod return_growth;
 mod rotation;
 mod sampled_motion;
+mod sampled_spectrum;
 mod search_budget;
 mod singular_orbit;
 mod small_oscillation;
@@ -93,11 +94,10 @@ pub use principle::{Hamiltonian, abbreviated_action, action_at_energy};
 pub use return_growth::{ReturnGrowth, growth_after, return_growth};
 pub use rotation::{NoRotation, Rotation, Turning, angle_rotation, rotation};
 pub use sampled_motion::MotionSpan;
+pub use sampled_spectrum::{NoSpectrum, SampledSpectrum, SpectrumRequest, sampled_spectrum};
 pub use small_oscillation::Mode;
 pub use spectral_line::SpectralLine;
-pub use spectrum::{
-    MeanRate, Spectrum, driven_spectrum, independent_frequencies, mean_rate, spectrum, straightened,
-};
+pub use spectrum::{MeanRate, Spectrum, independent_frequencies, mean_rate, spectrum};
 pub use stationary_path::{
     PathKind, StationaryPath, morse_index, nearest_stationary_path, stationary_path,
 };

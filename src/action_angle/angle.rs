@@ -58,7 +58,7 @@ pub fn angle(
             };
             Ok((gone / (there + back)).rem_euclid(1.0))
         }
-        (RegionKind::Rotation, _, Some(turn)) => {
+        (RegionKind::Rotation | RegionKind::BackwardRotation, _, Some(turn)) => {
             let (sign, root) =
                 if velocity < 0.0 { (-1.0, Root::Negative) } else { (1.0, Root::Positive) };
             let step = |way: f64| (sign * way, 1.0);

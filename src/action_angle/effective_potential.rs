@@ -5,7 +5,7 @@
 
 mod rest;
 
-use super::sampled_extrema::{resolved, turns};
+use super::extremum::{NOISE, resolved, turns};
 use crate::ensemble::{EnergyShell, NotOnShell, Root, Start};
 use crate::num::math;
 use crate::system::{ChannelKind, Form, InitialOverride, MotionError, Observer, System};
@@ -15,9 +15,6 @@ const PLACES: usize = 4001;
 
 /// How far they reach on each side: sinh of this, in units of the distance of the start from zero (1 if it is at zero).
 const REACH: f64 = 12.0;
-
-/// Energies that differ by less than this part are the same to rounding.
-pub(super) const NOISE: f64 = 1e-11;
 
 /// A top or a bottom that is greater by this factor than what is around it is a pole.
 const POLE: f64 = 1e12;
@@ -128,6 +125,11 @@ impl<'a> EffectivePotential<'a> {
         ChannelKind::Momentum(self.coordinate)
     }
 
+    /// The velocity of the coordinate at a start.
+    pub(super) fn velocity(&mut self, start: &Start) -> Result<f64, MotionError> {
+        self.observed(start, ChannelKind::Velocity(self.coordinate))
+    }
+
     pub(super) fn observed(
         &mut self,
         start: &Start,
@@ -176,15 +178,23 @@ impl<'a> EffectivePotential<'a> {
 
     /// p to the right less p to the left at a place, zero where the energy forbids it by rounding.
     pub(super) fn width(&mut self, place: f64, energy: f64) -> Result<f64, NotOnShell> {
-        let about = self.resting(place)?;
-        let momentum = |own: &mut Self, root| match own.moving_about(about, place, energy, root) {
-            Ok(start) => Ok(Some(own.observed(&start, ChannelKind::Momentum(own.coordinate))?)),
+        let right = self.momentum_at(place, energy, Root::Positive)?;
+        let left = self.momentum_at(place, energy, Root::Negative)?;
+        Ok(right.zip(left).map_or(0.0, |(right, left)| right - left))
+    }
+
+    /// p to the right or to the left at a place, `None` where the energy forbids it by rounding.
+    pub(super) fn momentum_at(
+        &mut self,
+        place: f64,
+        energy: f64,
+        root: Root,
+    ) -> Result<Option<f64>, NotOnShell> {
+        match self.moving(place, energy, root) {
+            Ok(start) => Ok(Some(self.observed(&start, ChannelKind::Momentum(self.coordinate))?)),
             Err(NotOnShell::Forbidden { .. } | NotOnShell::NotFound { .. }) => Ok(None),
             Err(why) => Err(why),
-        };
-        let right = momentum(self, Root::Positive)?;
-        let left = momentum(self, Root::Negative)?;
-        Ok(right.zip(left).map_or(0.0, |(right, left)| right - left))
+        }
     }
 
     fn look_around(&mut self, at: f64) {
@@ -285,12 +295,18 @@ impl<'a> EffectivePotential<'a> {
         let mut regions = Vec::new();
         let mut open: Option<Option<f64>> = None;
         let mut last: Option<[f64; 2]> = None;
-        for node in nodes {
+        // the energy of infinity is that of the places from which it cannot be told, and ends no region
+        let digits = 8.0 * f64::EPSILON * (energy.abs() + self.height);
+        let level_from = |nodes: &[[f64; 2]]| nodes.iter().all(|n| (n[1] - energy).abs() <= digits);
+        for (k, &node) in nodes.iter().enumerate() {
             let allowed = node[1] < level;
             match (open, allowed) {
                 (None, true) => {
-                    open = Some(last.map(|[q, _]| self.crossing(node[0], q, energy)));
+                    let ends = self.period.is_some() || !level_from(&nodes[..k]);
+                    let before = last.filter(|_| ends);
+                    open = Some(before.map(|[q, _]| self.crossing(node[0], q, energy)));
                 }
+                (Some(_), false) if self.period.is_none() && level_from(&nodes[k..]) => break,
                 (Some(left), false) => {
                     let inside = last.map_or(node[0], |[q, _]| q);
                     let right = Some(self.crossing(inside, node[0], energy));

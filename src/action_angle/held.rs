@@ -13,7 +13,7 @@ use super::{
     Separatrix, action_row, angle,
 };
 use crate::cancel::Cancel;
-use crate::ensemble::{Start, add_section};
+use crate::ensemble::{NotOnShell, Root, Start, add_section};
 use crate::expr::{Expr, FunctionId, Pool, Symbol};
 use crate::integrate::{METHODS, Method, Settings};
 use crate::mechanics::{NoClosedForm, derive_for_motion};
@@ -207,9 +207,10 @@ impl HeldMotion<'_> {
         system.observer(&self.start.parameters).observe_columns(&state, &mut values)?;
         let place = values[self.held.column(ChannelKind::Position(self.held.coordinate))];
         let energy = values[self.held.column(ChannelKind::Energy)];
+        let along = (energy, way(self.potential.velocity(&self.start)?));
         let regions = self.potential.regions(energy);
         let row = match nearest(&regions, place, self.potential.period()) {
-            Some(region) => action_row(&mut self.potential, &self.held.systems(), region, energy),
+            Some(region) => action_row(&mut self.potential, &self.held.systems(), region, along),
             None => Err(NoAction::NoReturn("the coordinate is at rest".to_owned())),
         };
         Ok(OwnMotion { energy, row })
@@ -232,14 +233,16 @@ impl HeldMotion<'_> {
         angle(&mut self.potential, row, place, velocity)
     }
 
-    /// The rows of all regions of an energy in which the motion returns, from left to right.
+    /// The rows of all regions of an energy in which the motion returns, from left to right; a rotation goes the way of the motion.
     ///
     /// # Errors
     /// Returns an error if a motion does not come back to where it began.
     pub fn rows(&mut self, energy: f64) -> Result<Vec<ActionRow>, NoAction> {
+        let velocity = self.potential.velocity(&self.start).map_err(NotOnShell::from)?;
+        let along = (energy, way(velocity));
         let mut rows = Vec::new();
         for region in self.potential.regions(energy) {
-            let row = action_row(&mut self.potential, &self.held.systems(), region, energy)?;
+            let row = action_row(&mut self.potential, &self.held.systems(), region, along)?;
             if row.kind != RegionKind::Unbounded {
                 rows.push(row);
             }
@@ -265,6 +268,11 @@ impl HeldMotion<'_> {
         };
         between.unwrap_or_else(|| self.potential.bottom())
     }
+}
+
+/// The way in which a velocity goes.
+fn way(velocity: f64) -> Root {
+    if velocity < 0.0 { Root::Negative } else { Root::Positive }
 }
 
 /// Puts a parameter in the place of the time, the last of all, and returns whether the law depends on it.

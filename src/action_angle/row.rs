@@ -8,6 +8,7 @@
 
 use std::f64::consts::PI;
 
+use super::quadrature::{action_between, over_a_period};
 use super::{AllowedInterval, EffectivePotential};
 use crate::ensemble::{Crossings, NotOnShell, OrbitStatus, Root, SectionPlan, Start, crossings};
 use crate::integrate::{Method, Settings};
@@ -21,6 +22,8 @@ pub enum RegionKind {
     Libration,
     /// Round and round.
     Rotation,
+    /// Round and round, to the left.
+    BackwardRotation,
     /// It goes away and does not return.
     Unbounded,
 }
@@ -31,6 +34,7 @@ impl RegionKind {
         match self {
             RegionKind::Libration => "libration",
             RegionKind::Rotation => "rotation",
+            RegionKind::BackwardRotation => "backward rotation",
             RegionKind::Unbounded => "unbounded",
         }
     }
@@ -147,14 +151,10 @@ const SLOPE_STEP: f64 = 1e-5;
 /// The steps after which a return is given up.
 const PATIENCE: u64 = 1_000_000;
 
-/// The least and the greatest number of places in a quadrature, the relative change that ends it, and that which may be
-/// rounding.
-const FEWEST: usize = 32;
-const MOST: usize = 4096;
-const CONVERGED: f64 = 1e-14;
-const ROUNDING: f64 = 1e-11;
+/// The rotations to both sides are the same if action and period differ by less than this part.
+pub(super) const SAME: f64 = 1e-9;
 
-/// The row of a region.
+/// The row of a region; a rotation goes this way.
 ///
 /// # Errors
 /// Returns an error if the motion does not return to where it began.
@@ -162,11 +162,11 @@ pub fn action_row(
     potential: &mut EffectivePotential<'_>,
     systems: &ActionSystems<'_>,
     region: AllowedInterval,
-    energy: f64,
+    (energy, way): (f64, Root),
 ) -> Result<ActionRow, NoAction> {
     match (region.left, region.right, potential.period()) {
         (Some(left), Some(right), _) => libration(potential, systems, [left, right], energy),
-        (None, None, Some(period)) => rotation(potential, systems, period, energy),
+        (None, None, Some(period)) => rotation(potential, systems, period, (energy, way)),
         (left, right, _) => Ok(ActionRow {
             energy,
             kind: RegionKind::Unbounded,
@@ -176,6 +176,26 @@ pub fn action_row(
             mean_rate: None,
         }),
     }
+}
+
+/// The rows of a region: of a rotation that differs from the one to the left, both.
+///
+/// # Errors
+/// Returns an error if a motion does not return to where it began.
+pub fn action_rows(
+    potential: &mut EffectivePotential<'_>,
+    systems: &ActionSystems<'_>,
+    region: AllowedInterval,
+    energy: f64,
+) -> Result<Vec<ActionRow>, NoAction> {
+    let row = action_row(potential, systems, region, (energy, Root::Positive))?;
+    if row.kind != RegionKind::Rotation {
+        return Ok(vec![row]);
+    }
+    let other = action_row(potential, systems, region, (energy, Root::Negative))?;
+    let differs = |one: f64, other: f64| (one - other).abs() > SAME * one.abs();
+    let is_another = differs(row.action, other.action) || differs(row.period, other.period);
+    Ok(if is_another { vec![row, other] } else { vec![row] })
 }
 
 fn libration(
@@ -315,28 +335,27 @@ fn rotation(
     potential: &mut EffectivePotential<'_>,
     systems: &ActionSystems<'_>,
     period: f64,
-    energy: f64,
+    (energy, way): (f64, Root),
 ) -> Result<ActionRow, NoAction> {
     let Some(rotating) = systems.rotating else {
         return Err(NoAction::NoReturn("the coordinate has no period".to_owned()));
     };
-    let start = potential.moving(0.0, energy, Root::Positive)?;
+    let start = potential.moving(0.0, energy, way)?;
     let found = follow(systems, rotating, &start, 1)?;
     let (time, carried) = end(&found);
     let one = rotating.0.degrees() == 1;
+    let (kind, sign) = match way {
+        Root::Positive => (RegionKind::Rotation, 1.0),
+        Root::Negative => (RegionKind::BackwardRotation, -1.0),
+    };
     let action = if one {
         carried + energy * time
     } else {
-        // a periodic integrand: the trapezoidal rule; both directions share the width
-        0.5 * converged(|n| {
-            let step = period / n as f64;
-            (0..n).try_fold(0.0, |sum, i| {
-                Ok(sum + step * potential.width((i as f64 + 0.5) * step, energy)?)
-            })
+        sign * over_a_period(period, |place| {
+            Ok(potential.momentum_at(place, energy, way)?.unwrap_or(0.0))
         })?
     };
     let turning_points = Vec::new();
-    let kind = RegionKind::Rotation;
     Ok(ActionRow { energy, kind, turning_points, action, period: time, mean_rate: None })
 }
 
@@ -367,40 +386,4 @@ fn follow(
 fn end(found: &[Vec<f64>]) -> (f64, f64) {
     let last = found.last().map_or(&[][..], |row| row);
     (last.first().copied().unwrap_or(f64::NAN), last.last().copied().unwrap_or(f64::NAN))
-}
-
-/// The area of the curve of an energy between two places, ∮ p dq, where the curve closes at both.
-///
-/// # Errors
-/// Returns an error if there is no state in between.
-pub(super) fn action_between(
-    potential: &mut EffectivePotential<'_>,
-    left: f64,
-    right: f64,
-    energy: f64,
-) -> Result<f64, NotOnShell> {
-    let (middle, half) = (f64::midpoint(left, right), 0.5 * (right - left));
-    converged(|n| {
-        let step = PI / n as f64;
-        (0..n).try_fold(0.0, |sum, i| {
-            let angle = -0.5 * PI + (i as f64 + 0.5) * step;
-            let place = middle + half * math::sin(angle);
-            Ok(sum + step * half * math::cos(angle) * potential.width(place, energy)?)
-        })
-    })
-}
-
-/// A sum with ever more places, until it no longer changes, or only by rounding, which does not shrink.
-fn converged(mut sum: impl FnMut(usize) -> Result<f64, NotOnShell>) -> Result<f64, NotOnShell> {
-    let (mut last, mut before) = (sum(FEWEST)?, f64::INFINITY);
-    let mut n = 2 * FEWEST;
-    while n <= MOST {
-        let next = sum(n)?;
-        let change = (next - last).abs() / next.abs();
-        if change <= CONVERGED || (change <= ROUNDING && change >= 0.5 * before) {
-            return Ok(next);
-        }
-        (last, before, n) = (next, change, 2 * n);
-    }
-    Ok(last)
 }

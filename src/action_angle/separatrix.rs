@@ -3,7 +3,8 @@
 //! In: an effective potential. Out: [`Separatrix`]. Never here: how an action is computed.
 //! Source: *The Principles of Dynamics*, § 4.2.
 
-use super::row::action_between;
+use super::quadrature::{action_between, common_part};
+use super::row::SAME;
 use super::{AllowedInterval, EffectivePotential};
 use crate::ensemble::NotOnShell;
 
@@ -14,8 +15,8 @@ pub struct Separatrix {
     pub energy: f64,
     /// The actions; infinite where a lobe does not close.
     pub actions: Vec<f64>,
-    /// Of the highest top of a coordinate with a period: the action of one turn, which goes one way only.
-    pub turn: Option<f64>,
+    /// Of the highest top of a coordinate with a period: the actions of one turn, to the right and to the left.
+    pub turn: Option<[f64; 2]>,
 }
 
 /// The lobes of tops of the same energy that are connected with each other.
@@ -45,7 +46,15 @@ impl Separatrix {
                     return Ok(all);
                 }
             }
-            let turn = is_of_rotation(potential, energy).then(|| 0.5 * actions.iter().sum::<f64>());
+            let turn = match potential.period().filter(|_| is_of_rotation(potential, energy)) {
+                Some(period) => {
+                    let half = 0.5 * actions.iter().sum::<f64>();
+                    let common = common_part(potential, (period, half), energy)?;
+                    let is_same = common.abs() <= SAME * half;
+                    Some(if is_same { [half; 2] } else { [half + common, half - common] })
+                }
+                None => None,
+            };
             all.push(Separatrix { energy, actions, turn });
         }
         Ok(all)

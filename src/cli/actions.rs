@@ -17,10 +17,10 @@ use super::section::surface;
 use super::stderr;
 use crate::action_angle::{
     ActionRow, ActionSystems, AllowedInterval, EffectivePotential, NoAction, RegionKind,
-    Separatrix, action_row, cyclic_row,
+    Separatrix, action_row, action_rows, cyclic_row,
 };
 use crate::diagnostic::nearest;
-use crate::ensemble::add_section;
+use crate::ensemble::{Root, add_section};
 use crate::expr::Expr;
 use crate::model::{Direction, Model};
 use crate::num::significant;
@@ -94,14 +94,19 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
             regions = containing(&regions, own.place, potential.period());
         }
         for region in regions {
-            let row = match along {
-                None => action_row(&mut potential, &systems.systems(), region, energy),
-                Some(_) => systems.of_cyclic(&mut potential, index, region, energy),
+            let systems_of = systems.systems();
+            let found = match (along, arguments.energy.is_some()) {
+                (None, true) => action_rows(&mut potential, &systems_of, region, energy),
+                (None, false) => action_row(&mut potential, &systems_of, region, (energy, own.way))
+                    .map(|row| vec![row]),
+                (Some(_), _) => {
+                    systems.of_cyclic(&mut potential, index, region, energy).map(|row| vec![row])
+                }
             };
             if interrupt.signal().is_some() {
                 break 'energies;
             }
-            rows.push(row.map_err(|why| could_not(why.to_string()))?);
+            rows.extend(found.map_err(|why| could_not(why.to_string()))?);
         }
     }
     let separatrices = match along {
@@ -300,10 +305,11 @@ fn refuse_where_energy_is_not_conserved(laid: &Laid) -> Result<(), CommandError>
     Err(CommandError::CouldNot(message.to_owned()))
 }
 
-/// Where the coordinate is at the start, and the energy there.
+/// Where the coordinate is at the start, the energy there, and which way it goes.
 struct Own {
     place: f64,
     energy: f64,
+    way: Root,
 }
 
 fn own_start(laid: &Laid, index: usize) -> Result<Own, String> {
@@ -316,7 +322,9 @@ fn own_start(laid: &Laid, index: usize) -> Result<Own, String> {
         place.map_or(f64::NAN, |place| values[place])
     };
     let place = value(ChannelKind::Position(index));
-    Ok(Own { place, energy: value(ChannelKind::Energy) })
+    let is_backward = value(ChannelKind::Velocity(index)) < 0.0;
+    let way = if is_backward { Root::Negative } else { Root::Positive };
+    Ok(Own { place, energy: value(ChannelKind::Energy), way })
 }
 
 /// The region that a place lies in; a start at rest lies on its edge.
@@ -378,7 +386,7 @@ fn written(
         members.insert("rows".to_owned(), rows.collect::<Value>());
         let separatrices = separatrices
             .iter()
-            .map(|s| json!({ "energy": s.energy, "actions": s.actions, "turn": s.turn }));
+            .map(|s| json!({ "energy": s.energy, "actions": s.actions, "turn": s.turn.map(|turn| turn[0]), "backward_turn": s.turn.map(|turn| turn[1]) }));
         members.insert("separatrices".to_owned(), separatrices.collect::<Value>());
         members.insert("status".to_owned(), if stopped { "stopped" } else { "completed" }.into());
         members.insert("message".to_owned(), json!(stopped.then_some(STOPPED)));
@@ -413,9 +421,17 @@ fn written(
         let lobe = |&x: &f64| if x.is_finite() { shown(x) } else { "unbounded".to_owned() };
         let actions: Vec<String> = s.actions.iter().map(lobe).collect();
         let (energy, actions) = (shown(s.energy), actions.join(", "));
-        let turn = s.turn.map_or_else(String::new, |turn| {
-            format!(" of libration, {} a turn of rotation", shown(turn))
-        });
+        let turn =
+            s.turn.map_or_else(String::new, |[right, left]| match (shown(right), shown(left)) {
+                (right, left) if right == left => {
+                    format!(" of libration, {right} a turn of rotation")
+                }
+                (right, left) => {
+                    format!(
+                        " of libration, {right} a turn of rotation, {left} of backward rotation"
+                    )
+                }
+            });
         format!("{lead}separatrix at energy {energy}: actions {actions}{turn}\n")
     };
     let separatrices = separatrices.iter().map(line).collect::<Vec<_>>().concat();

@@ -9,16 +9,16 @@ use super::motion_options::Laid;
 use super::slow_notice::with_notice;
 use super::study::{self, StudyArguments, shown, table};
 use crate::dynamics::{
-    FrequencyDrift, MeanRate, PhaseSpace, SpectralLine, Spectrum, driven_spectrum, frequency_drift,
-    independent_frequencies, mean_rate, straightened,
+    FrequencyDrift, MeanRate, NoSpectrum, PhaseSpace, SampledSpectrum, SpectralLine,
+    SpectrumRequest, independent_frequencies, sampled_spectrum,
 };
 use crate::ensemble::SystemFlow;
 use crate::num::{significant, to_its_error};
 use crate::system::ChannelKind;
 
-/// The numbers taken where none are asked for, and how long the motion is followed then, in seconds of the lab's clock at
+/// The numbers taken first where none are asked for, and at most if these do not show the motion, and how long the motion is followed then, in seconds of the lab's clock at
 /// the file's own speed.
-const COUNT: u32 = 2048;
+const COUNTS: [usize; 2] = [2048, 65_536];
 const SECONDS: f64 = 90.0;
 
 /// The column of an expression, which may already be one of the file.
@@ -46,10 +46,9 @@ pub(super) struct Arguments {
     /// When to end; by default after 90 seconds of the lab at the file's own speed.
     #[arg(long, value_name = "T", allow_hyphen_values = true, value_parser = number)]
     until: Option<f64>,
-    /// How many samples are taken, at equal intervals.
-    #[arg(long, value_name = "N", default_value_t = COUNT,
-          value_parser = clap::value_parser!(u32).range(64..=65_536))]
-    count: u32,
+    /// How many samples are taken, at equal intervals; by default 2048, or as many more as the motion needs.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(64..=65_536))]
+    count: Option<u32>,
     /// How many lines to search for.
     #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..=64))]
     lines: u32,
@@ -60,13 +59,9 @@ struct FoundSpectrum {
     of: String,
     from: f64,
     until: f64,
-    count: usize,
-    spectrum: Spectrum,
+    sampled: SampledSpectrum,
     /// The frequency of the drive, if the motion has one.
     drive: Option<f64>,
-    rate: Option<MeanRate>,
-    /// The strongest line in both halves of the time.
-    drift: Option<FrequencyDrift>,
 }
 
 pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
@@ -99,38 +94,54 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         start: start.time,
         effort: None,
     };
-    let count = arguments.count as usize;
-    let spacing = (until - start.time) / count as f64;
-    let times: Vec<f64> = (0..count).map(|k| start.time + k as f64 * spacing).collect();
-    let carry = || flow.carry(&state, &times, &[channel]).seen;
-    let seen = with_notice("following the motion", carry);
-    if seen.len() < count {
-        let time = significant(times[seen.len()], 6, 1e-4..1e6);
-        let why = format!("the motion ends before t = {time}: choose an earlier --until");
-        return Err(CommandError::CouldNot(why));
-    }
-    let values: Vec<f64> = seen.iter().map(|row| row[0]).collect();
     let is_angle = system.period(channel, &start.parameters).is_some()
         && matches!(system.channels()[channel].kind, ChannelKind::Position(_));
-    let rate = mean_rate(&values, spacing).filter(|_| is_angle);
-    let straight = straightened(&values, spacing, rate);
-    let fundamentals = independent_frequencies(model, equations, system);
-    let most = (arguments.lines as usize, fundamentals);
     let space = PhaseSpace::on_constraints(model, equations, system, &start.parameters).ok();
     let drive = space.and_then(|space| space.drive()).map(|period| std::f64::consts::TAU / period);
-    let search = || driven_spectrum(&straight, spacing, most, drive, &mut |_| true);
-    let spectrum = with_notice("searching for the lines", search)
-        .ok_or_else(|| CommandError::CouldNot("the quantity has no finite values".to_owned()))?;
-    let drift = frequency_drift(&spectrum.without_trend(&straight), spacing, &spectrum.lines);
+    let fundamentals = independent_frequencies(model, equations, system);
+    let asked = arguments.count.map(|count| [count as usize; 2]);
+    let request = SpectrumRequest {
+        span: [start.time, until],
+        counts: asked.unwrap_or(COUNTS),
+        is_angle,
+        lines: (arguments.lines as usize, fundamentals),
+        drive,
+    };
+    let mut sample = |times: &[f64]| {
+        let carry = || flow.carry(&state, times, &[channel]).seen;
+        let seen = with_notice("following the motion", carry);
+        seen.iter().map(|row| row[0]).collect()
+    };
+    let sampled = sampled_spectrum(&request, &mut sample, &mut |_| true).map_err(|why| {
+        CommandError::CouldNot(match why {
+            NoSpectrum::Ends(time) => {
+                let time = significant(time, 6, 1e-4..1e6);
+                format!("the motion ends before t = {time}: choose an earlier --until")
+            }
+            NoSpectrum::NotFinite => "the quantity has no finite values".to_owned(),
+        })
+    })?;
+    if sampled.is_false() {
+        return Err(CommandError::CouldNot(too_few(sampled.count, asked.is_some())));
+    }
     let of = arguments.of.clone().unwrap_or_else(|| system.channels()[channel].name.clone());
-    let found = FoundSpectrum { of, from: start.time, until, count, spectrum, drive, rate, drift };
+    let found = FoundSpectrum { of, from: start.time, until, sampled, drive };
     let mut head = study::head(model, system, &start.parameters, (*method, *settings));
     head.append(&mut object(&found));
     study::write(&arguments.study, (head, text(&found)), None, interrupt)
 }
 
+/// The error where the values do not show the motion.
+fn too_few(count: usize, is_asked: bool) -> String {
+    let help = if is_asked { "take more with --count" } else { "choose an earlier --until" };
+    format!(
+        "{count} values are too few: the quantity is faster than their distance, and no line is its own; {help}"
+    )
+}
+
 fn object(found: &FoundSpectrum) -> Map<String, Value> {
-    let FoundSpectrum { of, from, until, count, spectrum, drive, rate, drift } = found;
+    let FoundSpectrum { of, from, until, sampled, drive } = found;
+    let SampledSpectrum { count, spectrum, rate, drift, between, .. } = sampled;
     let line = |line: &SpectralLine| {
         json!({
             "frequency": line.frequency,
@@ -153,6 +164,8 @@ fn object(found: &FoundSpectrum) -> Map<String, Value> {
     insert("fundamentals", json!(spectrum.fundamentals));
     insert("drive", json!(drive));
     insert("left", json!(spectrum.left));
+    insert("left_between", json!(between));
+    insert("resolved", json!(sampled.is_resolved()));
     insert("turns", json!(spectrum.turns));
     let halves = |d: &FrequencyDrift| json!({ "first": d.first, "second": d.second, "relative": d.relative(), "error": d.relative_error() });
     insert("frequency_drift", drift.as_ref().map_or(Value::Null, halves));
@@ -161,7 +174,8 @@ fn object(found: &FoundSpectrum) -> Map<String, Value> {
 }
 
 fn text(found: &FoundSpectrum) -> String {
-    let FoundSpectrum { of, from, until, count, spectrum, drive, rate, drift } = found;
+    let FoundSpectrum { of, from, until, sampled, drive } = found;
+    let SampledSpectrum { count, spectrum, rate, drift, between, .. } = sampled;
     let mut text = format!("{of} from t = {from:?} to {until:?}, {count} values\n\n");
     let head = ["", "ω", "", "amplitude", "phase"];
     let mut rows = vec![head.map(str::to_owned).to_vec()];
@@ -189,6 +203,12 @@ fn text(found: &FoundSpectrum) -> String {
         shown(spectrum.mean),
         spectrum.left
     ));
+    if !sampled.is_resolved() {
+        text.push_str(&format!(
+            "between the values they leave {between:.1e}: there are lines too fast for so few values, and fainter lines may be their \
+             images; take more with --count\n"
+        ));
+    }
     if let Some(change) = spectrum.change_of_mean() {
         text.push_str(&format!(
             "the mean changes by {} in this time: a slow change is fitted beside the lines\n",

@@ -71,7 +71,8 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
         return Err(CommandError::CouldNot(why.to_string()));
     }
     let similarity = equations.similarity();
-    let others = Others { points, similarity };
+    let has_lagrangian = equations.lagrangian().is_ok();
+    let others = Others { has_lagrangian, points, similarity };
     let text = match arguments.format {
         Format::Text => {
             let script = MathScript::of_locale();

@@ -110,7 +110,7 @@ pub fn spectrum(
 }
 
 /// The same of a motion with a drive, of which the frequency is known: it belongs to the combinations.
-pub fn driven_spectrum(
+pub(super) fn driven_spectrum(
     signal: &[f64],
     spacing: f64,
     (most, fundamentals): (usize, usize),
@@ -220,11 +220,15 @@ fn unresolved(fit: &SpectralFit<'_>, left: &[f64], line: &SpectralLine) -> f64 {
 }
 
 /// An angle that goes round less its mean advance, so that what is left has lines.
-pub fn straightened(values: &[f64], spacing: f64, rate: Option<MeanRate>) -> Vec<f64> {
-    let turned = |rate: &MeanRate| rate.rate.abs() * spacing * values.len() as f64;
-    let rate = rate.filter(|rate| turned(rate) > TAU);
-    let rate = rate.map_or(0.0, |rate| rate.rate);
+pub(super) fn straightened(values: &[f64], spacing: f64, rate: Option<MeanRate>) -> Vec<f64> {
+    let rate = advance(values.len(), spacing, rate);
     values.iter().enumerate().map(|(k, x)| x - rate * spacing * k as f64).collect()
+}
+
+/// The rate of the mean advance that is subtracted from so many values of an angle: none if it is less than a turn in all.
+pub(super) fn advance(count: usize, spacing: f64, rate: Option<MeanRate>) -> f64 {
+    let turned = |rate: &MeanRate| rate.rate.abs() * spacing * count as f64;
+    rate.filter(|rate| turned(rate) > TAU).map_or(0.0, |rate| rate.rate)
 }
 
 /// The most frequencies of a quasi-periodic motion that are no combinations of each other: one for each degree of freedom, and

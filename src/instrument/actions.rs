@@ -408,7 +408,10 @@ fn sentences(present: &Present<'_>, answer: Option<&Answer>) -> Vec<String> {
         let name = if from.is_some() { "E − V₀" } else { "E" };
         let energy = short(separatrix.energy - from.unwrap_or(0.0));
         let actions = actions.join(" and ");
-        let turn = separatrix.turn.map_or_else(String::new, |x| format!(", {} a turn", short(x)));
+        let turn = separatrix.turn.map_or_else(String::new, |turn| match turn.map(short) {
+            [right, left] if right == left => format!(", {right} a turn"),
+            [right, left] => format!(", {right} a turn, {left} backwards"),
+        });
         lines.push(format!("separatrix at {name} = {energy}: J = {actions}{turn}"));
     }
     if let Some([action, height]) = changes {

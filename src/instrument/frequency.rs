@@ -8,14 +8,14 @@
 use std::f64::consts::TAU;
 
 use super::varied::VariedMotions;
-use crate::dynamics::{driven_spectrum, mean_rate, straightened};
+use crate::dynamics::{NoSpectrum, SampledSpectrum, SpectrumRequest, sampled_spectrum};
 use crate::ensemble::{Start, SystemFlow};
 use crate::expr::Expr;
 use crate::num::significant;
 use crate::system::{ChannelKind, System};
 
-/// How many numbers are taken of a motion, and the lines that are searched for.
-const COUNT: usize = 2048;
+/// How many numbers are taken of a motion, first and at most, and the lines that are searched for.
+const COUNTS: [usize; 2] = [2048, 16_384];
 const LINES: usize = 4;
 
 /// A frequency is that of at least so many turns, and known to this part of it.
@@ -45,16 +45,28 @@ impl VariedMotions {
         let state = start.state(system).map_err(|why| why.to_string())?;
         let settles = self.equations.energy_rate != Expr::ZERO;
         let begin = start.time + if settles { length } else { 0.0 };
-        let spacing = length / COUNT as f64;
-        let times: Vec<f64> = (0..COUNT).map(|k| begin + k as f64 * spacing).collect();
-        let seen = flow.carry(&state, &times, &[channel]).seen;
-        if seen.len() < COUNT {
-            let time = significant(begin + seen.len() as f64 * spacing, 4, 1e-3..1e5);
-            return Err(format!("the motion ends before t = {time}"));
-        }
-        let values: Vec<f64> = seen.iter().map(|row| row[0]).collect();
         let turn = system.period(channel, &start.parameters);
-        let rate = turn.and_then(|_| mean_rate(&values, spacing));
+        let request = SpectrumRequest {
+            span: [begin, begin + length],
+            counts: COUNTS,
+            is_angle: turn.is_some(),
+            lines: (LINES, 1),
+            drive: None,
+        };
+        let mut sample = |times: &[f64]| {
+            let seen = flow.carry(&state, times, &[channel]).seen;
+            seen.iter().map(|row| row[0]).collect()
+        };
+        let mut look = |_| !system.cancel().is_cancelled();
+        let sampled =
+            sampled_spectrum(&request, &mut sample, &mut look).map_err(|why| match why {
+                NoSpectrum::Ends(time) => {
+                    format!("the motion ends before t = {}", significant(time, 4, 1e-3..1e5))
+                }
+                NoSpectrum::NotFinite => "the motion has no finite values".to_owned(),
+            })?;
+        let is_false = sampled.is_false();
+        let SampledSpectrum { spectrum: found, rate, .. } = sampled;
         let rounds = |rate: f64, turn: f64| (rate * length / turn).abs();
         if let (Some(rate), Some(turn)) = (rate, turn)
             && rounds(rate.rate, turn) >= TURNS
@@ -62,10 +74,9 @@ impl VariedMotions {
         {
             return Ok((rate.rate * TAU / turn).abs());
         }
-        let straight = straightened(&values, spacing, rate);
-        let mut look = |_| !system.cancel().is_cancelled();
-        let found = driven_spectrum(&straight, spacing, (LINES, 1), None, &mut look)
-            .ok_or_else(|| "the motion has no finite values".to_owned())?;
+        if is_false {
+            return Err(format!("{name} is faster than so many values can show"));
+        }
         let strongest = found.lines.first().filter(|_| !found.is_continuous());
         let line = strongest.ok_or_else(|| format!("no frequency of {name} stands out"))?;
         let turns = line.frequency * length / TAU;

@@ -10,8 +10,8 @@ use super::{
     Physics, Picture, Plot, Present, Upwards,
 };
 use crate::dynamics::{
-    FrequencyDrift, MeanRate, PhaseSpace, SpectralLine, Spectrum as Lines, driven_spectrum,
-    frequency_drift, independent_frequencies, mean_rate, straightened,
+    FrequencyDrift, MeanRate, NoSpectrum, PhaseSpace, SampledSpectrum, SpectralLine,
+    Spectrum as Lines, SpectrumRequest, independent_frequencies, sampled_spectrum,
 };
 use crate::ensemble::SystemFlow;
 use crate::integrate::method_named;
@@ -23,9 +23,10 @@ use crate::system::ChannelKind;
 const CURVE: Level = 0;
 const LINES: Level = 2;
 
-/// How long the motion is followed, in seconds of the wall clock at the file's own speed, and how many numbers are taken.
+/// How long the motion is followed, in seconds of the wall clock at the file's own speed, and how many numbers are taken
+/// first, and at most if these do not show the motion.
 const SECONDS: f64 = 90.0;
-const COUNT: usize = 2048;
+const COUNTS: [usize; 2] = [2048, 32_768];
 
 /// The most lines that are searched for, and that are listed.
 const MOST: usize = 10;
@@ -148,31 +149,36 @@ impl Instrument for SpectrumPlot {
                 effort: None,
             };
             let speed = if speed.is_finite() && speed > 0.0 { speed } else { 1.0 };
-            let spacing = SECONDS * speed / COUNT as f64;
+            let request = SpectrumRequest {
+                span: [begin, begin + SECONDS * speed],
+                counts: COUNTS,
+                is_angle,
+                lines: (MOST, fundamentals),
+                drive,
+            };
             let start = conditions.state(&system, begin).map_err(|fault| fault.to_string());
             let outcome = start.and_then(|start| {
-                let times: Vec<f64> = (0..COUNT).map(|k| begin + k as f64 * spacing).collect();
-                let seen = flow.carry(&start, &times, &[channel]).seen;
-                let values: Vec<f64> = seen.iter().map(|row| row[0]).collect();
-                if values.len() < COUNT {
-                    let time = begin + values.len() as f64 * spacing;
-                    return Err(format!(
-                        "the motion ends before t = {}",
-                        significant(time, 4, 1e-3..1e5)
-                    ));
-                }
-                let rate = mean_rate(&values, spacing).filter(|_| is_angle);
-                let straight = straightened(&values, spacing, rate);
                 progress.expect(MOST as u64);
                 let mut look = |count: usize| {
                     progress.reach(count as u64);
                     !progress.is_cancelled()
                 };
-                let most = (MOST, fundamentals);
-                let lines = driven_spectrum(&straight, spacing, most, drive, &mut look);
-                let lines = lines.ok_or_else(|| "the motion has no finite values".to_owned())?;
-                let still = lines.without_trend(&straight);
-                let drift = frequency_drift(&still, spacing, &lines.lines);
+                let mut sample = |times: &[f64]| {
+                    let seen = flow.carry(&start, times, &[channel]).seen;
+                    seen.iter().map(|row| row[0]).collect()
+                };
+                let sampled = sampled_spectrum(&request, &mut sample, &mut look);
+                let sampled = sampled.map_err(|why| match why {
+                    NoSpectrum::Ends(time) => {
+                        let time = significant(time, 4, 1e-3..1e5);
+                        format!("the motion ends before t = {time}")
+                    }
+                    NoSpectrum::NotFinite => "the motion has no finite values".to_owned(),
+                })?;
+                if sampled.is_false() {
+                    return Err("it is faster than so many values can show".to_owned());
+                }
+                let SampledSpectrum { spectrum: lines, rate, drift, .. } = sampled;
                 Ok(Analysis { lines, rate, drift })
             });
             Answer::new(ComputedSpectrum { conditions: conditions.clone(), drive, outcome })

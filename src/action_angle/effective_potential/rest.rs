@@ -44,8 +44,8 @@ impl EffectivePotential<'_> {
 
     /// The zero of the velocity as a function of the momentum, by secants from one that is near and from zero.
     fn secant(&mut self, place: f64, near: f64) -> Result<Option<f64>, MotionError> {
-        let mut before = [0.0, self.velocity(place, 0.0)?];
-        let mut here = [near, self.velocity(place, near)?];
+        let mut before = [0.0, self.velocity_at(place, 0.0)?];
+        let mut here = [near, self.velocity_at(place, near)?];
         for _ in 0..SECANTS {
             if here[1] == 0.0 {
                 return Ok(Some(here[0]));
@@ -57,12 +57,12 @@ impl EffectivePotential<'_> {
             if (next - here[0]).abs() <= f64::EPSILON * next.abs() {
                 return Ok(Some(next));
             }
-            (before, here) = (here, [next, self.velocity(place, next)?]);
+            (before, here) = (here, [next, self.velocity_at(place, next)?]);
         }
         Ok(None)
     }
 
-    fn velocity(&mut self, place: f64, momentum: f64) -> Result<f64, MotionError> {
+    fn velocity_at(&mut self, place: f64, momentum: f64) -> Result<f64, MotionError> {
         let mut start = self.base.clone();
         start.replace(InitialOverride::Position(self.coordinate, place));
         start.replace(InitialOverride::Momentum(self.coordinate, momentum));

@@ -37,7 +37,7 @@ impl Adiabatic {
         let state = system.convert(state, Form::Momentum, &self.parameters).ok()?;
         let halves = [&state.values[..1], &state.values[1..2]];
         let own = self.held.at(state.time, &self.parameters, halves).ok()?.own().ok()?;
-        own.row.ok().filter(|row| row.action.is_finite() && row.action > 0.0)
+        own.row.ok().filter(|row| row.action.is_finite() && row.action != 0.0)
     }
 
     /// How much the parameters that change have changed, each relative to what it was: the largest.
@@ -70,7 +70,7 @@ impl Adiabatic {
     ) -> Option<Invariant> {
         let (before, after) = (self.action(system, first)?, self.action(system, last)?);
         let driven = self.driven([first.time, last.time]);
-        let change = (after.action - before.action).abs() / before.action;
+        let change = (after.action - before.action).abs() / before.action.abs();
         let verdict = match (driven > 0.0, change <= FAR_LESS * driven) {
             (false, _) => "open",
             (true, true) => "adiabatic",

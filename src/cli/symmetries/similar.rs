@@ -13,6 +13,8 @@ use crate::num::Number;
 
 /// The point symmetries, and the similarity.
 pub(super) struct Others {
+    /// Whether the equations have a Lagrangian.
+    pub(super) has_lagrangian: bool,
     pub(super) points: Result<PointSymmetries, Unsupported>,
     pub(super) similarity: Option<Similarity>,
 }
@@ -76,9 +78,16 @@ impl Others {
                 let complete =
                     if points.complete { ", and there are no others (proved)" } else { "" };
                 let what = if count == 1 { "point symmetry" } else { "point symmetries" };
+                // without a Lagrangian none is
+                let law = self.has_lagrangian;
+                let unknown = points.found.iter().filter(|s| law && s.noether.is_none()).count();
+                let own = match (unknown, own) {
+                    (0, own) => format!("{own} of them Noether's"),
+                    (_, 0) => "of which it is not known which are Noether's".to_owned(),
+                    _ => format!("{own} of them Noether's and {unknown} of which it is not known"),
+                };
                 text.push_str(&format!(
-                    "\n{count} {what} of the equations of motion, {own} of them \
-                     Noether's{complete} among\n  {searched}\n"
+                    "\n{count} {what} of the equations of motion, {own}{complete} among\n  {searched}\n"
                 ));
             }
         }

@@ -243,6 +243,13 @@ fn an_unbounded_motion_has_no_action() {
     assert_eq!(row["kind"], "unbounded");
     assert_eq!((&row["action"], &row["frequency"]), (&Value::Null, &Value::Null));
     near(&row["turning_points"][0], -f64::ln(1.0 + 1.5f64.sqrt()), 1e-14);
+    // exactly there too, on either side, and beside it another energy has its row
+    for potential in ["(1 - exp(-x))^2", "(1 - exp(x))^2"] {
+        let object = actions(&line(potential, "0"), &["--energy=0.5,1"]);
+        let kinds: Vec<&Value> =
+            object["rows"].as_array().unwrap().iter().map(|row| &row["kind"]).collect();
+        assert_eq!(kinds, ["libration", "unbounded"], "{potential}");
+    }
 }
 
 #[test]
@@ -515,4 +522,52 @@ fn an_energy_with_several_momenta_of_rest_is_told_as_such() {
         assert_eq!(turned.code, 1, "{}", turned.stdout);
         assert!(turned.stderr.contains("not that of rest"), "{}", turned.stderr);
     }
+}
+
+/// A flux A through a ring adds A to p and nothing to the motion: ∮ p dq is that of the pendulum, 2π ⟨√(2(E + cos f))⟩, plus 2π A
+/// one way and less 2π A the other way.
+#[test]
+fn a_momentum_without_velocity_counts_one_way_and_against_it() {
+    let flux = 0.2;
+    let pendulum = |energy: f64| {
+        let p = |i: i32| (2.0 * (energy + (2.0 * PI * f64::from(i) / 256.0).cos())).sqrt();
+        (0..256).map(p).sum::<f64>() * 2.0 * PI / 256.0
+    };
+    let ring = |start: &str, others: &str| {
+        format!(
+            "[coordinates]\n{others}f = {{ initial = 0, velocity = {start}, period = '2*pi' }}\n[parameters]\nA = {flux}\n\
+             [lagrangian]\nL = \"1/2*f'^2 + A*f' + cos(f)"
+        )
+    };
+    let one = |start: &str| format!("{}\"\n", ring(start, ""));
+    let of = |file: &str, words: &[&str]| {
+        with_file(file, &[&["actions", "./system.toml", "--format=json"], words].concat()).json()
+    };
+    let energy = 2.5 * 2.5 / 2.0 - 1.0;
+    for (start, kind, sign) in [("2.5", "rotation", 1.0), ("-2.5", "backward rotation", -1.0)] {
+        let found = of(&one(start), &[]);
+        assert_eq!(found["rows"][0]["kind"], kind);
+        near(&found["rows"][0]["action"], pendulum(energy) + sign * 2.0 * PI * flux, 1e-12);
+        let along = of(&one(start), &["--until=5", "--count=4"]);
+        near(&along["along"]["rows"][4][3], pendulum(energy) + sign * 2.0 * PI * flux, 1e-11);
+        // the separatrix: 8 a turn without the flux
+        near(&found["separatrices"][0]["turn"], 8.0 + 2.0 * PI * flux, 1e-9);
+        near(&found["separatrices"][0]["backward_turn"], 8.0 - 2.0 * PI * flux, 1e-9);
+    }
+    // of an energy both are rows
+    let found = of(&one("0"), &["--energy=1.5"]);
+    let kinds: Vec<&Value> =
+        found["rows"].as_array().unwrap().iter().map(|row| &row["kind"]).collect();
+    assert_eq!(kinds, ["rotation", "backward rotation"]);
+    // beside another coordinate
+    let two = ring("2.5", "x = { initial = 0.5, velocity = 0.2 }\n") + " + 1/2*x'^2 - x^2\"\n";
+    let found = of(&two, &["--coordinate=f"]);
+    near(&found["rows"][0]["action"], pendulum(energy) + 2.0 * PI * flux, 1e-12);
+    // a flux that changes slowly leaves ∮ p dq as it is, that is E + A′s induction
+    let words = ["run", "./system.toml", "--until=5", "--ramp=A=0.2:0.3:0:4", "--format=json"];
+    let run = with_file(&one("-2.5"), &words).json();
+    let invariants = run["invariants"].as_array().unwrap();
+    let action = invariants.iter().find(|one| one["name"] == "action variable").unwrap();
+    assert_eq!(action["verdict"], "adiabatic", "{action}");
+    near(&action["initial"], pendulum(energy) - 2.0 * PI * flux, 1e-9);
 }

@@ -3,7 +3,9 @@
 use std::f64::consts::TAU;
 
 use phaselab::diagnostic::Document;
-use phaselab::dynamics::{Spectrum, frequency_drift, mean_rate, spectrum};
+use phaselab::dynamics::{
+    Spectrum, SpectrumRequest, frequency_drift, mean_rate, sampled_spectrum, spectrum,
+};
 use phaselab::ensemble::SystemFlow;
 use phaselab::experiment::Prepared;
 use phaselab::integrate::{Settings, method_named};
@@ -330,4 +332,53 @@ fn lines_that_are_not_resolved_have_wide_errors() {
             assert!(!resolved || line.error < 1e-9, "{length}: {line:?}");
         }
     }
+}
+
+/// cos 100 t + 0.1 cos √2 t: of 2048 values in 90 units of time the first has the image 2π·2048/90 − 100.
+#[test]
+fn a_line_too_fast_for_the_values_is_found_with_more_or_not_claimed() {
+    let quantity = |t: f64| (100.0 * t).cos() + 0.1 * (2.0_f64.sqrt() * t).cos();
+    let mut sample = |times: &[f64]| times.iter().map(|&t| quantity(t)).collect();
+    let request = |counts: [usize; 2]| SpectrumRequest {
+        span: [0.0, 90.0],
+        counts,
+        is_angle: false,
+        lines: (4, 2),
+        drive: None,
+    };
+    let own = sampled_spectrum(&request([2048, 65_536]), &mut sample, &mut |_| true).unwrap();
+    assert!(own.is_resolved() && own.count == 8192, "{own:?}");
+    assert!((own.spectrum.lines[0].frequency - 100.0).abs() < 1e-10);
+    assert!((own.spectrum.lines[1].frequency - 2.0_f64.sqrt()).abs() < 1e-9);
+    let few = sampled_spectrum(&request([2048; 2]), &mut sample, &mut |_| true).unwrap();
+    assert!(few.is_false(), "{few:?}");
+    // the slow one is right, and a faint fast one is said not to be
+    let quantity = |t: f64| (2.0_f64.sqrt() * t).cos() + 1e-4 * (100.0 * t).cos();
+    let mut sample = |times: &[f64]| times.iter().map(|&t| quantity(t)).collect();
+    let faint = sampled_spectrum(&request([2048; 2]), &mut sample, &mut |_| true).unwrap();
+    assert!(!faint.is_false() && !faint.is_resolved(), "{faint:?}");
+    assert!((faint.spectrum.lines[0].frequency - 2.0_f64.sqrt()).abs() < 1e-9);
+}
+
+/// No more values are taken of what has no lines, nor of what does not move.
+#[test]
+fn noise_and_rest_are_not_taken_more_often() {
+    let (mut x, mut noise) = (0.3_f64, Vec::new());
+    for _ in 0..4096 {
+        x = 3.99 * x * (1.0 - x);
+        noise.push(x);
+    }
+    let request = SpectrumRequest {
+        span: [0.0, 90.0],
+        counts: [2048, 65_536],
+        is_angle: false,
+        lines: (4, 1),
+        drive: None,
+    };
+    let mut sample = |times: &[f64]| noise[..times.len()].to_vec();
+    let found = sampled_spectrum(&request, &mut sample, &mut |_| true).unwrap();
+    assert!(found.count == 2048 && found.is_resolved(), "{found:?}");
+    let mut sample = |times: &[f64]| vec![0.1; times.len()];
+    let found = sampled_spectrum(&request, &mut sample, &mut |_| true).unwrap();
+    assert!(found.count == 2048 && found.is_resolved(), "{found:?}");
 }

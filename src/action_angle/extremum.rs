@@ -1,9 +1,9 @@
-//! The extrema of a sampled function.
+//! The extrema of a sampled potential, and how far from the start they are told apart.
 //!
-//! In: places with their values. Out: between which samples there is an extremum, and up to where they can be told apart. Never
-//! here: where exactly they are.
+//! In: places with their energies. Out: places beside an extremum with its kind. Never here: the potential itself.
 
-use super::effective_potential::NOISE;
+/// Energies that differ by less than this part are the same to rounding.
+pub(super) const NOISE: f64 = 1e-11;
 
 /// So many bottoms and tops in succession without a place between them are an oscillation that is too fast for the places.
 const UNRESOLVED: usize = 8;
