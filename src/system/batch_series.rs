@@ -152,6 +152,11 @@ impl BatchSeries {
         self.builder.jet.arguments()
     }
 
+    /// The high negative powers c/u^n: n, c, and the series of u.
+    pub fn steep_poles(&self) -> impl Iterator<Item = (Batch, Batch, &[Batch])> {
+        self.builder.jet.steep_poles()
+    }
+
     /// Writes the states at times after the origins into `out`, in the lanes that have one, by the
     /// polynomials.
     pub fn states_after(

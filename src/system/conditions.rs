@@ -8,7 +8,8 @@
 
 use std::sync::Arc;
 
-use super::constraint_programs::{ConstraintPrograms, VALUES};
+use super::consistent_initial::GIVEN_WITHIN;
+use super::constraint_programs::{ConstraintPrograms, JUMPS, VALUES};
 use super::constraint_span::{Basis, ConstraintSpan, norm};
 use super::solve::Factored;
 use super::value::Evaluator;
@@ -25,6 +26,9 @@ const SCALINGS: usize = 3;
 /// The relative error of an initial value or a parameter that was rounded to an `f64` a few times
 /// between the file or the command line and here.
 const ROUNDING_OF_INPUTS: f64 = 4.0 * f64::EPSILON;
+
+/// The part of the least jump of an angle up to which a constraint counts as missed rather than turned.
+const PART_OF_JUMP: f64 = 0.25;
 
 /// A residual, and the sizes it is measured by.
 #[derive(Clone, Copy, Debug)]
@@ -63,6 +67,8 @@ pub(super) struct Conditions {
     integrated: Vec<bool>,
     /// The level of each f that was integrated, once a motion has begun.
     levels: Vec<Option<DoubleDouble>>,
+    /// What each f has jumped by at the cuts of angles without a common measure, up to the last state on the constraints.
+    jumped: Vec<DoubleDouble>,
 }
 
 impl Conditions {
@@ -76,6 +82,7 @@ impl Conditions {
             count,
             integrated: programs.integrated.clone(),
             levels: vec![None; count],
+            jumped: vec![DoubleDouble::ZERO; count],
         }
     }
 
@@ -85,6 +92,50 @@ impl Conditions {
         for k in (0..self.count).filter(|&k| self.integrated[k]) {
             self.levels[k] = Some(self.output(k, self.degrees + 1));
         }
+        for k in 0..self.count {
+            self.jumped[k] = DoubleDouble::ZERO;
+            let (value, jumped) = (self.output(k, self.degrees + 1), self.jumps(k));
+            let off = (value - jumped).high.abs();
+            let wound = off > GIVEN_WITHIN * self.size(k, self.degrees + 1);
+            // a state on the constraint, after turns that are not known
+            self.jumped[k] = if wound && self.least_jump(k).is_finite() { value } else { jumped };
+        }
+    }
+
+    /// Takes the turns of angles from where the constraints were looked at last, a state that satisfies them.
+    pub(super) fn take_turns(&mut self) {
+        for k in 0..self.count {
+            self.jumped[k] = self.jumps(k);
+        }
+    }
+
+    /// The jumps of f at the cuts of angles without a common measure.
+    fn each_jump(&self, constraint: usize) -> impl Iterator<Item = DoubleDouble> {
+        let places = self.degrees + VALUES - JUMPS..self.degrees + VALUES;
+        let jumps = places.map(move |place| self.output(constraint, place));
+        jumps.filter(|jump| jump.high.is_normal())
+    }
+
+    /// The least of them; infinite if there are none.
+    fn least_jump(&self, constraint: usize) -> f64 {
+        self.each_jump(constraint).map(|jump| jump.high.abs()).fold(f64::INFINITY, f64::min)
+    }
+
+    /// What f has jumped by: as much as at the last state, unless f is off by a good part of a jump. Then each angle may have
+    /// passed its cut once, either way.
+    fn jumps(&self, constraint: usize) -> DoubleDouble {
+        let before = self.jumped[constraint];
+        let value = self.output(constraint, self.degrees + 1);
+        let off = |jumped: &DoubleDouble| (value - *jumped).high.abs();
+        if off(&before) <= PART_OF_JUMP * self.least_jump(constraint) {
+            return before;
+        }
+        let mut known = vec![before];
+        for jump in self.each_jump(constraint) {
+            let beside = known.iter().flat_map(|&x| [x, x + jump, x - jump]);
+            known = beside.collect();
+        }
+        known.into_iter().min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(before)
     }
 
     pub(super) fn set_parameters(&mut self, parameters: &[DoubleDouble]) {
@@ -144,8 +195,9 @@ impl Conditions {
         let turn = self.output(constraint, place + 2);
         let value = self.output(constraint, place);
         let turns = (value / turn).high.round();
+        let jumped = if turns.is_normal() { turn * turns } else { self.jumps(constraint) };
         let f = Residual {
-            value: if turns.is_normal() { value - turn * turns } else { value },
+            value: value - jumped,
             size: self.size(constraint, place),
             inputs: self.inputs(constraint, place),
         };

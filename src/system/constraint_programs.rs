@@ -11,13 +11,21 @@ use crate::expr::{Expr, FunctionId, Node, Pool, Symbol};
 use crate::mechanics::Holonomy;
 use crate::num::Number;
 
-/// The number of values of each constraint beside its entries of A: A₀, f, g and a turn of f.
-pub(super) const VALUES: usize = 4;
+/// The number of values of each constraint beside its entries of A: A₀, f, g, a turn of f, and the jumps of f.
+pub(super) const VALUES: usize = 4 + JUMPS;
+
+/// The most angles without a common measure that are followed in a constraint.
+pub(super) const JUMPS: usize = 3;
+
+/// The most parts in which the common divisor of several jumps divides one of them. By decimal ratios such as 2 and 0.142859 it
+/// is so small that any residual would be near a multiple of it, and the constraint would not be kept.
+const MOST_PARTS: i64 = 100;
 
 /// The programs of the constraints, as functions of (q, t).
 #[derive(Clone, Debug)]
 pub(super) struct ConstraintPrograms {
-    /// A, A₀, f and g of each constraint, and by how much f jumps where an angle in it begins a new turn.
+    /// A, A₀, f and g of each constraint, by how much f jumps where any angle in it begins a new turn, and if there is no such
+    /// number by how much it does for each angle.
     pub(super) values: Arc<Program>,
     /// For each of these values the size of its terms, then its sensitivity to its inputs, Σ |s
     /// ∂/∂s|.
@@ -39,8 +47,10 @@ impl ConstraintPrograms {
             integrated.push(known.is_some());
             holonomic.push(row.position.is_some());
             let (f, g) = known.unwrap_or((row.position.unwrap_or(Expr::ZERO), Expr::ONE));
-            let turn = turn(builder, f);
+            let (turn, mut jumps) = turn(builder, f);
+            jumps.resize(JUMPS, Expr::ZERO);
             values.extend([f, g, turn]);
+            values.extend(jumps);
         }
         let pool = &mut builder.pool;
         let sizes = values.iter().flat_map(|&e| [pool.magnitude(e), pool.size_of_inputs(e)]);
@@ -76,8 +86,9 @@ fn integral(builder: &mut ProgramBuilder<'_>, k: usize) -> Option<(Expr, Expr)> 
 }
 
 /// By how much an f jumps where angles of points in it begin new turns: the greatest number of which the jumps of all are
-/// multiples. Zero where there is no angle, or no such number. There the motion goes on, since the slopes of f do.
-fn turn(builder: &mut ProgramBuilder<'_>, f: Expr) -> Expr {
+/// multiples. Zero where there is no angle, or no such number that tells a turn from a residual ([`MOST_PARTS`]): then the jump
+/// of each angle, if there are not too many. There the motion goes on, since the slopes of f do.
+fn turn(builder: &mut ProgramBuilder<'_>, f: Expr) -> (Expr, Vec<Expr>) {
     let equations = builder.equations;
     let pool = &mut builder.pool;
     let mut moving: Vec<Symbol> = equations.coordinates.iter().map(|c| c.position).collect();
@@ -101,27 +112,42 @@ fn turn(builder: &mut ProgramBuilder<'_>, f: Expr) -> Expr {
         symbols.push(symbol);
     }
     let held = [&moving[..], &symbols].concat();
-    let (mut unit, mut multiple) = (Expr::ZERO, Number::ZERO);
+    let mut jumps: Vec<Expr> = Vec::new();
     for (&symbol, &(_, half_turns)) in symbols.iter().zip(&angles) {
         let slope = pool.derivative(function, symbol);
         // an angle within another one has no slope
         if slope == Expr::ZERO || pool.depends_on_any(slope, &held) {
-            return Expr::ZERO;
+            return (Expr::ZERO, Vec::new());
         }
-        let jump = pool.monomial(Number::integer(half_turns), &[(slope, Number::ONE)]);
-        if unit == Expr::ZERO {
-            (unit, multiple) = (jump, Number::ONE);
-            continue;
-        }
+        jumps.push(pool.monomial(Number::integer(half_turns), &[(slope, Number::ONE)]));
+    }
+    let pi = pool.pi();
+    if let Some((unit, multiple)) = common_measure(pool, &jumps) {
+        let multiple = pool.number(multiple);
+        return (pool.product(&[unit, multiple, pi]), Vec::new());
+    }
+    if jumps.len() > JUMPS {
+        return (Expr::ZERO, Vec::new());
+    }
+    (Expr::ZERO, jumps.into_iter().map(|jump| pool.mul(jump, pi)).collect())
+}
+
+/// An expression and the rational multiple of it that is the greatest number of which all are multiples; `None` if there are
+/// none, or no such number that is not small beside one of them.
+fn common_measure(pool: &mut Pool, jumps: &[Expr]) -> Option<(Expr, Number)> {
+    let (&unit, others) = jumps.split_first()?;
+    let (mut multiple, mut ratios) = (Number::ONE, vec![Number::ONE]);
+    for &jump in others {
         let ratio = pool.div(jump, unit);
         let ratio = pool.simplify(ratio);
-        let Some(Number::Rational(n, d)) = pool.as_number(ratio) else { return Expr::ZERO };
-        let Number::Rational(m, e) = multiple else { return Expr::ZERO };
+        let Some(Number::Rational(n, d)) = pool.as_number(ratio) else { return None };
+        let Number::Rational(m, e) = multiple else { return None };
         let [n, d, m, e] = [n, d, m, e].map(i128::from);
         multiple = Number::ratio(common_divisor(n * e, m * d), d * e);
+        ratios.push(Number::ratio(n, d));
     }
-    let (pi, multiple) = (pool.pi(), pool.number(multiple));
-    pool.product(&[unit, multiple, pi])
+    let most = multiple * Number::integer(MOST_PARTS);
+    ratios.iter().all(|ratio| ratio.abs() <= most).then_some((unit, multiple))
 }
 
 fn common_divisor(a: i128, b: i128) -> i128 {

@@ -24,7 +24,7 @@ use crate::expr::FunctionId;
 use crate::num::{Analytic, Batch, DoubleDouble, Kernel, Real, vectorized};
 #[cfg(feature = "jit")]
 pub(super) use outline::JetPlan;
-use series_index::SeriesIndex;
+use series_index::{PoleDegree, SeriesIndex};
 pub use side::Side;
 pub(super) use tables::Coefficient;
 use tables::Tables;
@@ -220,6 +220,17 @@ impl<R: Coefficient> Jet<R> {
         self.program.body.iter().filter_map(|&r| match self.program.ops[r as usize] {
             Op::Call(function, [u, _]) => Some((function, self.series(u))),
             _ => None,
+        })
+    }
+
+    /// The high negative powers c/u^n: n, c, and the series of u.
+    pub fn steep_poles(&self) -> impl Iterator<Item = (R, R, &[R])> {
+        self.tables.index.steep_poles.iter().map(|pole| {
+            let degree = match pole.degree {
+                PoleDegree::Number(n) => R::of(DoubleDouble::from(n)),
+                PoleDegree::Parameter(exponent) => -self.value(exponent),
+            };
+            (degree, pole.above.map_or(R::ONE, |above| self.value(above)), self.series(pole.base))
         })
     }
 

@@ -45,7 +45,7 @@ impl ConstraintProjector {
         self.projection.set_parameters(&self.system.inputs(parameters));
     }
 
-    /// Takes what the constraints on the velocities keep constant from a state where a motion begins
+    /// Takes what the constraints on the velocities keep constant, and the turns of angles in others, from a state where a motion begins
     /// or continues.
     pub fn take_levels(&mut self, state: &State) {
         self.load(state);
@@ -84,6 +84,7 @@ impl ConstraintProjector {
                 return Err(self.system.lost(ProjectionError::Parted(k), state));
             }
         }
+        conditions.take_turns();
         for (i, &x) in self.numbers.iter().enumerate() {
             state.set(i, x);
         }

@@ -316,16 +316,19 @@ impl Series {
         &self.high.jet.weight(i)[..self.high.order]
     }
 
-    /// The series of the arguments u of functions, which show how fast these change, with ln |u| at the origin where
-    /// numbers have left the range of `f64`: there a series is known in a unit of its own.
+    /// The series of the arguments u of functions; beyond the range of `f64` in a unit of their own, with ln |u| at the origin.
     pub fn arguments(&self) -> impl Iterator<Item = (FunctionId, &[f64], Option<f64>)> {
         let wide = self.wide.as_ref().filter(|_| self.has_left_range);
         let mut sizes = wide.map(|wide| wide.jet.arguments());
         self.high.jet.arguments().map(move |(function, u)| {
-            let argument = sizes.as_mut().and_then(Iterator::next).map(|(_, u)| u[0]);
-            let size = argument.map(|u| if u.value() < 0.0 { -u } else { u });
-            (function, u, size.map(|size| Analytic::ln(size).value()))
+            let wide = sizes.as_mut().and_then(Iterator::next).map(|(_, u)| u[0]);
+            (function, u, wide.map(|u| Analytic::ln(if u.value() < 0.0 { -u } else { u }).value()))
         })
+    }
+
+    /// The high negative powers c/u^n: n, c, the series of u.
+    pub fn steep_poles(&self) -> impl Iterator<Item = (f64, f64, &[f64])> {
+        self.high.jet.steep_poles()
     }
 
     /// Writes the state at a time `after` the origin into `out`, by the polynomials.

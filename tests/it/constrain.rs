@@ -491,6 +491,44 @@ fn a_constraint_goes_on_where_one_of_several_angles_begins_a_new_turn() {
     }
 }
 
+/// 2 and 0.142859 have the common divisor 1e-6, of which anything that a step has missed is nearly a multiple; 2 and √2 have none.
+#[test]
+fn a_constraint_goes_on_where_one_of_several_angles_without_a_common_measure_begins_a_new_turn() {
+    let wound = |ratio: &str| {
+        format!(
+            "[coordinates]\nx = {{ initial = 1.0, velocity = 0.0 }}\ny = {{ initial = 0.0, velocity = 1.0 }}\n\
+             X = {{ initial = 1.0, velocity = 0.1 }}\nY = {{ initial = 0.0, velocity = 0.7 }}\ns = {{ initial = 0.5 }}\n[lagrangian]\n\
+             L = \"1/2*(x'^2 + y'^2 + X'^2 + Y'^2 + s'^2) - 1/2*(x^2 + y^2 - 1)^2 - 1/2*(X^2 + Y^2 - 1)^2\"\n\
+             [[constraints]]\nname = \"thread\"\nexpression = \"s - 0.5 - 2*atan2(y, x) - {ratio}*atan2(Y, X)\"\n"
+        )
+    };
+    for (ratio, size) in [
+        ("0.142859", 0.142_859),
+        ("0.14", 0.14),
+        ("1.5", 1.5),
+        ("sqrt(2)", std::f64::consts::SQRT_2),
+    ] {
+        let mut motion = build(&wound(ratio), |setup| {
+            "rk4".clone_into(&mut setup.method);
+            setup.settings.step = Some(0.1);
+        });
+        // each angle is followed by its least change in a step
+        let mut turned = [0.0_f64; 2];
+        for step in 1..=60 {
+            run(&mut motion, 0.2 * f64::from(step));
+            for (angle, point) in turned.iter_mut().zip([["x", "y"], ["X", "Y"]]) {
+                let [x, y] = point.map(|name| value(&motion, name));
+                let tau = std::f64::consts::TAU;
+                let change = y.atan2(x) - *angle;
+                *angle += change - tau * (change / tau).round();
+            }
+            let off = value(&motion, "s") - 0.5 - 2.0 * turned[0] - size * turned[1];
+            assert!(off.abs() < 1e-13, "{ratio}: {off:e} after {step}");
+        }
+        assert!(turned[0] > 4.0 && turned[1] > 4.0, "{ratio}: {turned:?}");
+    }
+}
+
 /// A thread that is wound up by the angle of a point, over several turns: the motion of its polar coordinates.
 #[test]
 fn a_constraint_goes_on_where_an_angle_in_it_begins_a_new_turn() {

@@ -17,6 +17,9 @@ const SATURATED: f64 = 750.0;
 /// ln 750, from above.
 const LOG_SATURATED: f64 = 6.621;
 
+/// ln 1e-250, from above: below it the last terms of what a force adds to a motion may be fainter than [`FAINT`].
+const LOG_SEEN: f64 = -575.0;
+
 /// What is left of terms that cancel to this part of them is their rounding.
 const ROUNDING: f64 = 1e-13;
 
@@ -77,12 +80,39 @@ fn saturates(function: FunctionId) -> bool {
     matches!(function, FunctionId::Exp | FunctionId::Sinh | FunctionId::Cosh | FunctionId::Tanh)
 }
 
-/// A time in which |u| does not fall by a factor of more than e^`fall`. With a_k = u_k/u₀ the series of ln |u| is
-/// l_k = a_k − Σ_{0<j<k} j l_j a_{k−j}/k, and the sum of the sizes of its terms stays below `fall`, each having a share.
-/// Where u grows fast, as an exponential or a high power does, its own terms allow far less.
+/// The step before which a high negative power c/u^n, that is e^(ln c − n ln u), becomes large enough to show itself in the
+/// series of the motion; infinite where it does.
+pub(super) fn of_steep_pole(degree: f64, above: f64, u: &[f64]) -> f64 {
+    let factor = math::ln(above.abs());
+    let log = if factor.is_finite() { factor } else { 0.0 } - degree * math::ln(u[0].abs());
+    let is_unseen = degree > 0.0 && log.is_finite() && log < LOG_SEEN;
+    let Some(logs) = logarithm(u).filter(|_| is_unseen) else { return f64::INFINITY };
+    let mut exponent = logs.map(|l| -degree * l);
+    exponent[0] = log;
+    // the highest order of u is not known where that of the state is
+    of_argument(FunctionId::Exp, &exponent[..u.len() - 1], None)
+}
+
+/// A time in which |u| does not fall by a factor of more than e^`fall`: the sum of the sizes of the terms of ln |u| stays below
+/// it, each having a share. Where u grows fast, as an exponential or a high power does, its own terms allow far less.
 fn before_fall(u: &[f64], fall: f64) -> f64 {
-    let mut logs = [0.0; ROOM];
+    let Some(logs) = logarithm(u) else { return 0.0 };
     let mut safe = f64::INFINITY;
+    for (k, log) in logs.iter().enumerate().skip(1).filter(|(_, log)| log.abs() >= FAINT) {
+        safe = safe.min(0.5 * math::powf(fall / log.abs(), 1.0 / k as f64));
+        if k >= u.len() / 2 {
+            // a zero of u at a distance r is a term r^−k/k
+            let zero = math::powf(k as f64 * log.abs(), -1.0 / k as f64);
+            safe = safe.min(PART_OF_RADIUS * zero);
+        }
+    }
+    safe
+}
+
+/// The series of ln |u| beyond its first term: with a_k = u_k/u₀, l_k = a_k − Σ_{0<j<k} j l_j a_{k−j}/k. `None` where a term is
+/// not finite.
+fn logarithm(u: &[f64]) -> Option<[f64; ROOM]> {
+    let mut logs = [0.0; ROOM];
     // the highest order of an argument is not known where that of the state is
     for k in 1..(u.len() - 1).min(ROOM) {
         let own = u[k] / u[0];
@@ -92,19 +122,11 @@ fn before_fall(u: &[f64], fall: f64) -> f64 {
             (log, size) = (log - term, size.max(term.abs()));
         }
         if !log.is_finite() {
-            return 0.0;
+            return None;
         }
         logs[k] = if log.abs() > ROUNDING * size { log } else { 0.0 };
-        if logs[k].abs() >= FAINT {
-            safe = safe.min(0.5 * math::powf(fall / logs[k].abs(), 1.0 / k as f64));
-            if k >= u.len() / 2 {
-                // a zero of u at a distance r is a term r^−k/k
-                let zero = math::powf(k as f64 * logs[k].abs(), -1.0 / k as f64);
-                safe = safe.min(PART_OF_RADIUS * zero);
-            }
-        }
     }
-    safe
+    Some(logs)
 }
 
 /// The time in which no term of a series exceeds `far`.
@@ -163,6 +185,13 @@ mod tests {
             let longest = of_argument(FunctionId::Tanh, &line, None);
             assert!((0.3..0.95).contains(&longest), "{order}: {longest}");
         }
+        // x^−600 from 5 toward 0 comes into the range of numbers near 3.5
+        let falling: Vec<f64> =
+            (0..20).map(|k| [5.0, -1.0].get(k).copied().unwrap_or(0.0)).collect();
+        let longest = of_steep_pole(600.0, 1.0, &falling);
+        assert!((0.3..1.51).contains(&longest), "{longest}");
+        // where it is no longer tiny the series of the motion shows it
+        assert_eq!(of_steep_pole(300.0, 1.0, &falling), f64::INFINITY);
         near(step(FunctionId::Ln, 100.0), 25.0);
         near(step(FunctionId::Sin, 100.0), 6.0);
     }

@@ -3,7 +3,9 @@
 //! In: the series of a [`BatchSeries`]. Out: for each lane the step that [`StepSize`](super::step_size::StepSize)
 //! finds for that orbit alone, to the last bit. Never here: the rule and its constants.
 
-use super::argument_step::{FARTHEST_ARGUMENT, before_pole, may_pass_pole, of_argument};
+use super::argument_step::{
+    FARTHEST_ARGUMENT, before_pole, may_pass_pole, of_argument, of_steep_pole,
+};
 use super::last_orders::{FAINT, FIRST, ROOM, last_orders};
 use super::rough_logarithms::rough_logarithms;
 use super::step_screen::StepScreen;
@@ -53,6 +55,16 @@ impl BatchStepSize {
                 let moves_far = far(1, h) || far(2, square) || far(3, cube) || !cube.is_finite();
                 if moves_far && !h.is_nan() {
                     shortest.0[lane] = h.min(of_argument(function, &alone(), None));
+                }
+            }
+        }
+        for (degree, above, u) in series.steep_poles() {
+            for (lane, shortest) in shortest.0.iter_mut().enumerate() {
+                let alone: Vec<f64> = u.iter().map(|c| c.0[lane]).collect();
+                let own = of_steep_pole(degree.0[lane], above.0[lane], &alone);
+                // a NaN remains
+                if own < *shortest {
+                    *shortest = own;
                 }
             }
         }

@@ -6,7 +6,9 @@
 //! |c_j| h^j, and stays inside the radius of convergence however small those terms are: a body far
 //! from a collision is hardly affected by it.
 
-use super::argument_step::{FARTHEST_ARGUMENT, before_pole, may_pass_pole, of_argument};
+use super::argument_step::{
+    FARTHEST_ARGUMENT, before_pole, may_pass_pole, of_argument, of_steep_pole,
+};
 use super::last_orders::{FIRST, INDULGENCE, LANES, ROOM, indulgence_of, larger, last_orders};
 use super::rough_logarithms::Logarithms;
 use super::step_screen::StepScreen;
@@ -84,6 +86,9 @@ impl StepSize {
             if far(1, shortest) || far(2, square) || far(3, cube) || !cube.is_finite() {
                 shortest = shortest.min(of_argument(function, u, log_size));
             }
+        }
+        for (degree, above, u) in series.steep_poles() {
+            shortest = shortest.min(of_steep_pole(degree, above, u));
         }
         Some(shortest)
     }

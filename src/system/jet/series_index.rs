@@ -2,6 +2,8 @@
 //!
 //! In: a program. Out: the registers, and the place of each among their series. Never here: numbers.
 
+use std::collections::BTreeMap;
+
 use crate::system::program::{Op, PARAMETRIC_POWER_BITS, Program, Register};
 
 /// The registers that are read as whole series.
@@ -11,16 +13,39 @@ pub(super) struct SeriesIndex {
     /// Those that are copies of registers, each with its place among all. The factors of a parametric power are stored
     /// nowhere else.
     pub(super) copies: Vec<(Register, u32)>,
+    /// The bases of high negative powers.
+    pub(super) steep_poles: Vec<SteepPole>,
     /// For each register of the program, its place among these; [`NOWHERE`] if it has none.
     places: Vec<u32>,
 }
+
+/// A factor of high negative power, c/u^n.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SteepPole {
+    /// u.
+    pub(super) base: Register,
+    pub(super) degree: PoleDegree,
+    /// c, if it depends on parameters only; else it counts as 1.
+    pub(super) above: Option<Register>,
+}
+
+/// The n of 1/u^n.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum PoleDegree {
+    Number(f64),
+    /// Less the exponent, which depends on parameters.
+    Parameter(Register),
+}
+
+/// The least degree of a pole whose power is below the range of `f64` where a motion may begin: u^−32 is beyond 10⁹.
+const STEEP_POLE: f64 = 32.0;
 
 /// The place of a register that is not read as a series.
 const NOWHERE: u32 = u32::MAX;
 
 impl SeriesIndex {
-    /// The switches, the guards, the arguments of functions, all factors of parametric powers, and
-    /// the outputs if these are read.
+    /// The switches, the guards, the arguments of functions, the bases of high negative powers, all factors of parametric
+    /// powers, and the outputs if these are read.
     pub(super) fn of(program: &Program, outputs: bool) -> SeriesIndex {
         let mut wanted = vec![false; program.ops.len()];
         let mut factors = wanted.clone();
@@ -47,6 +72,8 @@ impl SeriesIndex {
                 _ => {}
             }
         }
+        let steep_poles = steep_poles(program);
+        steep_poles.iter().for_each(|pole| wanted[pole.base as usize] = true);
         let registers: Vec<Register> =
             (0..).zip(&wanted).filter_map(|(r, wanted)| wanted.then_some(r)).collect();
         let mut places = vec![NOWHERE; wanted.len()];
@@ -55,11 +82,60 @@ impl SeriesIndex {
         }
         let copies = (0..).zip(&registers).filter(|&(_, &register)| !factors[register as usize]);
         let copies = copies.map(|(place, &register)| (register, place)).collect();
-        SeriesIndex { registers, copies, places }
+        SeriesIndex { registers, copies, steep_poles, places }
     }
 
     /// Where the series of a register begins, if they are `stride` apart.
     pub(super) fn start(&self, register: Register, stride: usize) -> usize {
         self.places[register as usize] as usize * stride
     }
+}
+
+fn steep_poles(program: &Program) -> Vec<SteepPole> {
+    let mut poles = Vec::new();
+    for &r in &program.body {
+        match program.ops[r as usize] {
+            Op::Divide(above, below) => {
+                let high = |&(_, degree): &(Register, f64)| degree >= STEEP_POLE;
+                let factors = factors(program, below).into_iter().filter(high);
+                poles.extend(factors.map(|(base, degree)| SteepPole {
+                    base,
+                    degree: PoleDegree::Number(degree),
+                    above: program.fixed[above as usize].then_some(above),
+                }));
+            }
+            Op::Power(base, exponent) => {
+                let degree = -program.constants[exponent as usize].high;
+                if degree >= STEEP_POLE {
+                    poles.push(SteepPole { base, degree: PoleDegree::Number(degree), above: None });
+                }
+            }
+            Op::ParametricPower(base, exponent) => {
+                let degree = PoleDegree::Parameter(exponent);
+                poles.push(SteepPole { base, degree, above: None });
+            }
+            _ => {}
+        }
+    }
+    poles
+}
+
+/// The varying factors that are multiplied in a register, each with its degree.
+fn factors(program: &Program, register: Register) -> Vec<(Register, f64)> {
+    // operations follow those of their parts
+    let mut open = BTreeMap::from([(register, 1.0)]);
+    let mut found = Vec::new();
+    while let Some((r, degree)) = open.pop_last() {
+        let mut part = |part: Register, degree: f64| *open.entry(part).or_insert(0.0) += degree;
+        match program.ops[r as usize] {
+            Op::Square(a) => part(a, 2.0 * degree),
+            Op::Scale(_, a) => part(a, degree),
+            Op::Multiply(a, b) => {
+                part(a, degree);
+                part(b, degree);
+            }
+            _ => found.push((r, degree)),
+        }
+    }
+    found
 }

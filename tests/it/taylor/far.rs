@@ -132,6 +132,26 @@ fn powers_that_leave_the_range_of_numbers_have_the_motion_of_their_units() {
     assert!(expected[0] > 746.0);
 }
 
+/// c x^−n, too small to be a number where the motion begins, throws back: with ½ = c r^−n the way from 5 to r takes
+/// 5 + r Γ(−1/n) Γ(½)/(n Γ(½ − 1/n)), at 30 digits.
+#[test]
+fn a_high_negative_power_throws_back_from_where_it_is_below_the_smallest_numbers() {
+    for (v, place) in [
+        ("x^(-400)", 6.996_516_663_929_919),
+        ("x^(-600)", 6.997_681_693_232_4),
+        ("(x^2)^(-300)", 6.997_681_693_232_4),
+        ("x^(-700)/3", 6.994_880_522_629_43),
+        ("x^(-600.5)", 6.997_683_630_058_92),
+        ("1e-100*x^(-400)", 6.122_723_826_558_96),
+    ] {
+        let mut run = potential("5.0", "-1.0", v);
+        near(&run.to(10.0), &[place, 1.0], 1e-12);
+        assert!(run.steps < 1000, "{v}: {} steps", run.steps);
+        run.to(1e9);
+        assert!(run.steps < 1100, "{v}: {} steps", run.steps);
+    }
+}
+
 /// About x = 0 the series of 1/(1 + x^n) begins with as many zeros, and far beyond the wall all is flat again: it is met in a
 /// step of any length, as a potential and as a force of which no energy is known. Beyond it v² = v₀² + 2, and it reflects
 /// what is slower than √2 on its other side.
