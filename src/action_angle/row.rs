@@ -12,7 +12,7 @@ use super::quadrature::{action_between, over_a_period};
 use super::{AllowedInterval, EffectivePotential};
 use crate::ensemble::{Crossings, NotOnShell, OrbitStatus, Root, SectionPlan, Start, crossings};
 use crate::integrate::{Method, Settings};
-use crate::num::{math, short};
+use crate::num::short;
 use crate::system::System;
 
 /// The kind of a motion of one coordinate.

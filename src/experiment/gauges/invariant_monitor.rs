@@ -5,9 +5,7 @@
 use std::sync::Arc;
 
 use super::mean::Mean;
-use crate::analysis::{
-    Errors, Growth, History, LEFT, LOST, Stretch, Unseen, Verdict, rounding_floor,
-};
+use crate::analysis::{self, Errors, History, LEFT, LOST, Stretch, Unseen, Verdict};
 use crate::experiment::{Gauge, Reference};
 use crate::expr::Expr;
 use crate::system::{BatchTerms, TermSums, TermWatch};
@@ -311,7 +309,7 @@ impl InvariantMonitor {
         if self.underflows && self.rounding < f64::MIN_POSITIVE {
             return Some(Unseen::Underflow);
         }
-        let is_lost = rounding_floor(0) * self.rounding > LOST * moving;
+        let is_lost = analysis::rounding_floor(0) * self.rounding > LOST * moving;
         let within_rounding = self.farthest <= self.explained;
         // the terms of others may all be constant, so that what moves of them is rounding
         (self.quantity == Some(ENERGY) && moving > 0.0 && is_lost && within_rounding)
@@ -358,6 +356,7 @@ impl InvariantMonitor {
         };
         let distance = if self.offset { self.last } else { (value - self.reference).abs() };
         let beyond = self.farthest > rounding;
+        let is_below_digits = self.farthest < f64::EPSILON * self.rounding;
         let (worst, since_when) = self.drifted();
         let max_drift = if beyond { worst } else { drift(self.farthest.max(distance)) };
         let drift_now = drift(distance).min(max_drift);
@@ -372,10 +371,7 @@ impl InvariantMonitor {
             (None, None) if beyond && max_drift > LOST => Verdict::Lost,
             (None, None) => match Verdict::of(&self.distances, self.farthest, rounding, errors) {
                 Verdict::Secular(slope) => Verdict::Secular(slope / scale),
-                // less than the last digit of its terms
-                Verdict::Exact(_) if self.farthest < f64::EPSILON * self.rounding => {
-                    Verdict::Exact(Growth::Level)
-                }
+                Verdict::Exact(_) if is_below_digits => Verdict::Exact(analysis::Growth::Level),
                 other => other,
             },
         };
