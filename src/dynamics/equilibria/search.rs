@@ -261,7 +261,7 @@ impl<'a> EquilibriumSearch<'a> {
             if f.amax() <= ZERO * size * df.amax() {
                 settled += 1;
                 if settled > 2 {
-                    return self.accepted(variables);
+                    return self.accepted(&variables);
                 }
             }
             // without directions in which little changes; where these alone are left, in them too
@@ -274,7 +274,7 @@ impl<'a> EquilibriumSearch<'a> {
             let Some(next) = next else { break };
             (variables, f, df) = next;
         }
-        if settled > 0 { self.accepted(variables) } else { None }
+        if settled > 0 { self.accepted(&variables) } else { None }
     }
 
     /// The place at the end of a step, or of the first part of it, at which the rates are smaller or need not be.
@@ -345,8 +345,8 @@ impl<'a> EquilibriumSearch<'a> {
 
     /// The variables nearest to the start among their periods, if they are in reach; angles within half a turn of zero,
     /// however often the motion has gone round.
-    fn accepted(&mut self, variables: Vec<f64>) -> Option<Vec<f64>> {
-        let place = self.approached(&self.in_units(&variables), &[])?;
+    fn accepted(&mut self, variables: &[f64]) -> Option<Vec<f64>> {
+        let place = self.approached(&self.in_units(variables), &[])?;
         let place = self.without_lost_digits(place);
         let mut variables = self.unscaled(&place);
         if self.is_pole(&variables) || self.has_singular_mass(&variables) {

@@ -73,7 +73,9 @@ impl SeriesIndex {
             }
         }
         let steep_poles = steep_poles(program);
-        steep_poles.iter().for_each(|pole| wanted[pole.base as usize] = true);
+        for pole in &steep_poles {
+            wanted[pole.base as usize] = true;
+        }
         let registers: Vec<Register> =
             (0..).zip(&wanted).filter_map(|(r, wanted)| wanted.then_some(r)).collect();
         let mut places = vec![NOWHERE; wanted.len()];

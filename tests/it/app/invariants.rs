@@ -9,6 +9,7 @@ use phaselab::job::Progress;
 
 use super::real::Real;
 use crate::hand::{lab, lowered, press};
+use crate::screen;
 
 fn kepler(parameters: &str, exponent: &str) -> String {
     format!(
@@ -178,4 +179,23 @@ fn numbers_of_the_file_are_searched_like_parameters() {
     let literal = of(&format!("{head}{literals}"));
     assert_eq!(literal, by_name);
     assert!(literal.1.iter().all(|(_, proved)| *proved), "{literal:?}");
+}
+
+/// Page 2 is long: it opens at the answer, and stays there until it is scrolled.
+#[test]
+fn page_two_opens_at_what_was_asked_for() {
+    let text = "title = \"Kepler\"\n[coordinates]\nx = { initial = 1.0, momentum = 0.0 }\n\
+                y = { initial = 0.0, momentum = 1.2 }\n[hamiltonian]\n\
+                H = \"1/2*(p_x^2 + p_y^2) - 1/sqrt(x^2 + y^2)\"\n";
+    let mut real = Real::with(lowered(text));
+    let shown = |real: &Real| {
+        screen::rows(&screen::screen(&real.app, &screen::rich(), (80, 12))).join("\n")
+    };
+    for (keys, seen) in [("I", "Further constants of the motion"), ("B", "Brackets")] {
+        real.press(keys);
+        assert!(shown(&real).contains(seen), "{keys}\n{}", shown(&real));
+    }
+    real.press("1 2");
+    let top = shown(&real);
+    assert!(!top.contains("Brackets") && !top.contains("Further constants"), "{top}");
 }

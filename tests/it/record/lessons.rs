@@ -194,6 +194,23 @@ fn what_is_false_is_an_error() {
     check(&format!("Say \"{}\"\nWait 1s\n", "word ".repeat(150)), "rows on a screen of 80");
 }
 
+/// A task is to change something: where there is room for one pane the parameters are shown, and the motion otherwise.
+#[test]
+fn a_task_in_a_low_window_shows_the_parameters() {
+    for (size, is_low) in [((60, 15), true), ((80, 24), false)] {
+        let mut lesson = taken(
+            "Say \"first\"\nTask \"do\" hint \"so\" until e < 0.5\nSolution Down x3 Enter 0 Enter\n",
+        );
+        pass(&mut lesson, 0.1);
+        assert!(screen(&mut lesson, size, &plain()).join("\n").contains("- Motion"), "{size:?}");
+        keys(&mut lesson, "\n");
+        pass(&mut lesson, 0.1);
+        let text = screen(&mut lesson, size, &plain()).join("\n");
+        assert!(text.contains("Parameters"), "{size:?}\n{text}");
+        assert_eq!(text.contains("- Motion"), !is_low, "{size:?}\n{text}");
+    }
+}
+
 #[test]
 fn a_task_ends_when_the_claim_holds_and_the_system_begins_anew() {
     let text = "Task \"do\" hint \"like this\" until e < 0.5\nSolution Down x3 Enter 0 Enter\n\
