@@ -63,6 +63,7 @@ mod torus;
 mod transverse;
 mod turning;
 mod unclosed_motion;
+mod unit_circle;
 mod variation;
 mod virtual_work;
 

@@ -2,8 +2,9 @@
 //!
 //! In: orbits with their values. Out: these data, and what becomes of the neighbours of a member. Never here: how a family is followed; see `continuation`.
 
-use super::orbit::{ON_CIRCLE, Orbit};
+use super::orbit::Orbit;
 use super::orbit_stability::OrbitStability;
+use super::unit_circle::ON_CIRCLE;
 use crate::num::math;
 
 /// Of a family whose orbits are not isolated.

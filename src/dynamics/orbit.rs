@@ -13,13 +13,13 @@ use super::error::DynamicsError;
 use super::first_return::{difference, return_near};
 use super::linear;
 use super::newton::{CLOSED, Fixed, Newton, NewtonIterate};
-use super::orbit_stability::none_is_outside;
 use super::orbit_units::OrbitUnits;
 use super::phase_space::PhaseSpace;
 use super::resonance::along_resonance;
 use super::search_budget::SearchBudget;
 use super::transverse::{self, Removed};
 use super::unclosed_motion::explained;
+use super::unit_circle::none_is_outside;
 use crate::integrate::{Method, Settings};
 use crate::num::short;
 use crate::system::State;
@@ -41,9 +41,6 @@ const BESIDE: f64 = 1e-5;
 
 /// The rounds in which steps of both kinds are taken.
 const ROUNDS: usize = 4;
-
-/// A multiplier this close to the unit circle lies on it.
-pub(super) const ON_CIRCLE: f64 = 1e-6;
 
 /// The part of a matrix by which rounding turns what is across an orbit.
 const DIRECTIONS: f64 = 4.0 * f64::EPSILON;

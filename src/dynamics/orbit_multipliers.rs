@@ -3,8 +3,9 @@
 //! In: an orbit with its matrix. Out: the names of the trivial ones, which of them rounding hides, exponents, angles, Greene's residue.
 //! Never here: how the orbit was closed, what becomes of its neighbours (`orbit_stability`).
 
-use super::orbit::{ON_CIRCLE, Orbit};
+use super::orbit::Orbit;
 use super::transverse::Removed;
+use super::unit_circle::ON_CIRCLE;
 use crate::num::math;
 
 /// Rounding up to this size leaves of a multiplier that is smaller that it nearly vanishes.

@@ -2,17 +2,11 @@
 //!
 //! In: its multipliers. Out: one of four kinds. Never here: how multipliers are found, what is printed of them.
 
-use super::orbit::{ON_CIRCLE, Orbit};
-use crate::num::math;
+use super::orbit::Orbit;
+use super::unit_circle::{is_one, is_outside};
 
 /// An error that rounding leaves of the matrix of the multipliers is mentioned if it may show in their digits.
 pub const NOTICED_ROUNDING: f64 = 1e-8;
-
-/// A multiplier farther from 1 is none, whatever rounding leaves of it.
-const NEAR_ONE: f64 = 1e-5;
-
-/// (μ − 1)² of a double multiplier 1 is rounding of the matrix, up to this many times.
-const TIMES: f64 = 100.0;
 
 /// What becomes of the neighbours of a periodic orbit, to first order.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -38,21 +32,6 @@ impl OrbitStability {
             OrbitStability::Unstable => "unstable",
         }
     }
-}
-
-/// Whether a multiplier is 1 as far as rounding of the matrix lets it be known: of a double one half of the digits are lost.
-fn is_one([re, im]: [f64; 2], rounding: f64) -> bool {
-    math::hypot(re - 1.0, im) <= (TIMES * rounding).sqrt().min(NEAR_ONE)
-}
-
-/// Whether no multiplier lies outside the unit circle but by what rounding of the matrix makes of 1.
-pub(super) fn none_is_outside(multipliers: &[[f64; 2]], rounding: f64) -> bool {
-    multipliers.iter().all(|&z| !is_outside(z) || is_one(z, rounding))
-}
-
-/// Whether a multiplier lies outside the unit circle.
-fn is_outside([re, im]: [f64; 2]) -> bool {
-    math::hypot(re, im) > 1.0 + ON_CIRCLE
 }
 
 /// Whether two multipliers of product 1 lie on the unit circle, by the trace of their matrix and its error; `None` where
@@ -115,16 +94,6 @@ mod tests {
                 assert!(!is_one(at(beyond), rounding), "{rounding} {re} {im}");
             }
         }
-    }
-
-    /// Those of a proton in crossed fields, all of which are 1: √(1.2e-11) = 3.4e-6.
-    #[test]
-    fn what_rounding_makes_of_one_is_not_outside() {
-        let off = [1.000_001_721_803_657, 1.261_323_960_354_561e-7];
-        let multipliers = [off, [off[0], -off[1]], [1.0, 0.0], [0.999_998_278_194_624_4, 0.0]];
-        assert!(none_is_outside(&multipliers, 1.176e-11));
-        assert!(!none_is_outside(&multipliers, 1e-15));
-        assert!(!none_is_outside(&[[1.001, 0.0], [1.0 / 1.001, 0.0]], 1.176e-11));
     }
 
     #[test]

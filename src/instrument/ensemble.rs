@@ -107,7 +107,8 @@ impl Instrument for Ensemble {
             layers.push((CLOUD, Layer::Cloud(Arc::clone(&frame.cloud))));
         }
         // a cloud is drawn with the motion where it was then: its last frame is a little behind, or a lot
-        let then = shown(present, answer).map(|frame| frame.own);
+        let then = shown(present, answer).filter(|frame| frame.time != present.time);
+        let then = then.map(|frame| frame.own);
         let then = then.filter(|at| at.iter().all(|x| x.is_finite()));
         let now = then.unwrap_or_else(|| channels.map(|channel| present.value(channel)));
         layers.push((NOW, Layer::Point(now, MarkerShape::Disc, Ink::Accent)));

@@ -157,10 +157,11 @@ impl DormandPrince {
         if !self.next.is_finite() {
             return f64::INFINITY;
         }
-        // tangent vectors are judged by themselves, so that they spoil no mean over the motion; the integrals do not act on
-        // it and are not judged, so that it is the same motion whether they are carried or not
+        // tangent vectors are judged by themselves, so that they spoil no mean over the motion; the action is not judged, so
+        // that it is the same motion whether it is carried or not, as the work always is where there is any
         let (motion, driven) = (self.system.motion_len(), self.system.driven_len());
-        self.error_of(step, 0..motion).max(self.error_of(step, motion..driven))
+        let judged = (0..motion).chain(self.system.work_place());
+        self.error_of(step, judged).max(self.error_of(step, motion..driven))
     }
 
     /// The mean error of some of the numbers.

@@ -8,8 +8,7 @@
 
 use std::sync::Arc;
 
-use super::consistent_initial::GIVEN_WITHIN;
-use super::constraint_programs::{ConstraintPrograms, JUMPS, VALUES};
+use super::constraint_programs::{ConstraintPrograms, GIVEN_WITHIN, JUMPS, VALUES};
 use super::constraint_span::{Basis, ConstraintSpan, norm};
 use super::solve::Factored;
 use super::value::Evaluator;

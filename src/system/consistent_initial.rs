@@ -5,12 +5,10 @@
 //! always given.
 
 use super::conditions::Conditions;
+use super::constraint_programs::GIVEN_WITHIN;
 use super::legendre::LegendreError;
 use super::value::Evaluator;
 use crate::num::{DoubleDouble, math};
-
-/// The tolerance of a constraint for given values, relative to the size of its terms.
-pub(super) const GIVEN_WITHIN: f64 = 1e-9;
 
 /// A pivot smaller than this, relative to its equation, counts as zero.
 const SMALLEST_PIVOT: f64 = 1e-10;

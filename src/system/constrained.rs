@@ -6,6 +6,7 @@
 use super::active_set::ActiveSet;
 use super::conditions::Conditions;
 use super::consistent_initial::{self, InconsistentStart, KnownVelocity};
+use super::constraint_programs::GIVEN_WITHIN;
 use super::error::{MotionError, MotionErrorKind};
 use super::projection::ProjectionError;
 use super::value::Evaluator;
@@ -139,7 +140,7 @@ impl System {
         };
         for k in 0..self.constraints() {
             let part = conditions.position(k).missed();
-            if part.is_nan() || part > consistent_initial::GIVEN_WITHIN {
+            if part.is_nan() || part > GIVEN_WITHIN {
                 return Err(missed(k, part));
             }
         }

@@ -14,6 +14,9 @@ use crate::num::Number;
 /// The number of values of each constraint beside its entries of A: A₀, f, g, a turn of f, and the jumps of f.
 pub(super) const VALUES: usize = 4 + JUMPS;
 
+/// The tolerance of a constraint for given values, relative to the size of its terms.
+pub(super) const GIVEN_WITHIN: f64 = 1e-9;
+
 /// The most angles without a common measure that are followed in a constraint.
 pub(super) const JUMPS: usize = 3;
 

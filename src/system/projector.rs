@@ -5,7 +5,7 @@
 
 use super::active_set::ActiveSet;
 use super::conditions::Conditions;
-use super::consistent_initial;
+use super::constraint_programs::GIVEN_WITHIN;
 use super::constraint_span::ConstraintSpan;
 use super::error::{MotionError, MotionErrorKind};
 use super::projection::{Projection, ProjectionError};
@@ -80,7 +80,7 @@ impl ConstraintProjector {
         for k in (0..active.len()).filter(|&k| active[k] && !enforced[k]) {
             let off = conditions.position(k).relative();
             let off = off.max(conditions.velocity(k, velocities).relative());
-            if off.is_nan() || off > consistent_initial::GIVEN_WITHIN {
+            if off.is_nan() || off > GIVEN_WITHIN {
                 return Err(self.system.lost(ProjectionError::Parted(k), state));
             }
         }

@@ -48,7 +48,7 @@ impl System {
     }
 
     /// The index in a state of the work done on it.
-    pub(super) fn work_place(&self) -> Option<usize> {
+    pub fn work_place(&self) -> Option<usize> {
         let quadratures = self.quadratures();
         quadratures.work.then(|| self.driven_len() + usize::from(quadratures.action))
     }

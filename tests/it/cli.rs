@@ -213,7 +213,7 @@ fn an_output_named_after_another_format_is_remarked_upon() {
         done.stderr
     };
     for (name, format, word) in
-        [("a.xlsx", "csv", ".xlsx"), ("a.json", "csv", "--format json"), ("a.csv", "json", "JSON")]
+        [("a.xlsx", "csv", ".xlsx"), ("a.json", "csv", ".json"), ("a.csv", "json", ".csv")]
     {
         assert!(written(name, format).contains(word), "{name}");
     }

@@ -2,9 +2,16 @@
 //!
 //! In: the last points of it. Out: a sentence. Never here: whether it ends.
 
-use super::members::FamilyEnd;
 use super::point::FamilyPoint;
 use crate::num::significant;
+
+/// Where a family ends.
+pub(super) enum FamilyEnd {
+    /// At an equilibrium.
+    Equilibrium(FamilyPoint),
+    /// At an orbit of another family, as tori about a steady precession shrink to that.
+    Branching(FamilyPoint),
+}
 
 /// A period grows where it is so many times that of the orbit begun with.
 const LONG: f64 = 3.0;

@@ -7,6 +7,7 @@ use nalgebra::{DMatrix, DVector};
 use super::super::direction::FlowDirection;
 use super::super::error::DynamicsError;
 use super::super::family::{Bifurcation, Member};
+use super::family_end::FamilyEnd;
 use super::{Continuation, FamilyPoint};
 
 /// A bifurcation is located to this part of a step, in so many tries at most.
@@ -16,14 +17,6 @@ const MOST: usize = 40;
 /// An orbit on which nothing moves faster than this part of what does on one beside it is an equilibrium; one whose neighbours
 /// move by no more in a period is what they have shrunk to.
 const SLOW: f64 = 0.1;
-
-/// Where a family ends.
-pub(super) enum FamilyEnd {
-    /// At an equilibrium.
-    Equilibrium(FamilyPoint),
-    /// At an orbit of another family, as tori about a steady precession shrink to that.
-    Branching(FamilyPoint),
-}
 
 /// Whether orbits beside each other shrink to one where their family turns back: then the map across it is the identity.
 fn is_shrunk(from: &FamilyPoint, to: &FamilyPoint) -> bool {

@@ -211,7 +211,7 @@ fn a_change_of_scale_counts_in_the_new_hamiltonian() {
     ]
     .join("\n");
     let printed = with_file(&text, &["derive", "system.toml"]).success();
-    for right in ["3 p_q² + 6 q⁴ + 6 g q", "1/12 p_q² + 1/6 q⁴ + 1/6 g q"] {
+    for right in ["3 p_q² + 6 q⁴ + 6 g q", "p_q²/12 + ⅙ q⁴ + ⅙ g q"] {
         assert!(printed.contains(right), "{right} in\n{printed}");
     }
 }

@@ -199,7 +199,7 @@ fn what_is_false_is_an_error() {
 fn a_task_in_a_low_window_shows_the_parameters() {
     for (size, is_low) in [((60, 15), true), ((80, 24), false)] {
         let mut lesson = taken(
-            "Say \"first\"\nTask \"do\" hint \"so\" until e < 0.5\nSolution Down x3 Enter 0 Enter\n",
+            "Say \"first\"\nTask \"do\" hint \"so\" until e < 0.5\nSolution Down x3 Enter 0 Enter\nWait 1s\n",
         );
         pass(&mut lesson, 0.1);
         assert!(screen(&mut lesson, size, &plain()).join("\n").contains("- Motion"), "{size:?}");
