@@ -267,8 +267,9 @@ impl Run<'_> {
         };
         let snapshot = self.experiment.snapshot();
         let mut invariants = invariants::of(&snapshot.gauges);
-        // what a signal has ended is not followed any further
-        if let (Some((known, first, system)), None) = (&self.adiabatic, end) {
+        // what a signal or a fault has ended is not followed any further
+        let is_whole = matches!(end, None | Some(EarlyEnd::Event));
+        if let Some((known, first, system)) = self.adiabatic.as_ref().filter(|_| is_whole) {
             invariants.extend(known.invariant(system, first, &snapshot.state));
         }
         let events = Events::of(self.experiment.model(), self.experiment.occurrences());

@@ -117,6 +117,17 @@ fn a_run_with_a_ramp_says_what_became_of_the_action() {
 }
 
 /// A well that divides into two: the motion is left in one of them, with half its action.
+/// The event that ends the preset's run happens just when the run ends.
+#[test]
+fn what_became_of_the_action_is_said_where_an_event_ends_the_run() {
+    let run = ["run", "opening-well", "--format", "json", "--every", "100"];
+    let found = gauge(&phaselab(&run).json());
+    let [before, after] = ["initial", "final"].map(|name| found[name].as_f64().expect("a number"));
+    // ∮ p dq of ½ p² + ¼ q⁴ − ¼ q² through (1.35, 0): 4.511237108659841 by quadrature; one well has half of it
+    assert!((before - 4.511_237_108_659_841).abs() < 1e-10, "{before}");
+    assert!((after / before - 0.5).abs() < 0.01, "{after}");
+}
+
 #[test]
 fn a_well_that_opens_halves_the_action() {
     let file = "title = \"Well\"\n[coordinates]\nq = { initial = 1.0, momentum = 0.0 }\n[parameters]\n\
