@@ -141,7 +141,9 @@ impl Run<'_> {
         let cut_short = matches!(end, Some(EarlyEnd::Fault(_) | EarlyEnd::Signal(_)));
         let has_drifted = |gauge: &Gauge| {
             let drifts = matches!(gauge.verdict, Verdict::Secular(_) | Verdict::Lost);
-            gauge.proved && (drifts || gauge.left.is_some())
+            // what swings and comes back is the method's own error
+            let has_left = gauge.left.is_some() && gauge.verdict != Verdict::Bounded;
+            gauge.proved && (drifts || has_left)
         };
         let steps = snapshot.method.steps;
         if end.is_none()
