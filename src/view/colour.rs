@@ -118,6 +118,21 @@ impl Rgb {
         Self::from_oklab(std::array::from_fn(|i| a[i] + share * (b[i] - a[i])))
     }
 
+    /// The mixture of two colours channel by channel, with `share` (0 to 1) of `other`: rougher than [`mix`](Self::mix), and
+    /// cheap enough for each cell of a frame.
+    #[must_use]
+    pub fn towards(self, other: Self, share: f64) -> Self {
+        let channel =
+            |from: u8, to: u8| (f64::from(from) + share * (f64::from(to) - f64::from(from))) as u8;
+        Self(channel(self.0, other.0), channel(self.1, other.1), channel(self.2, other.2))
+    }
+
+    /// How bright a colour looks, 0 to 1: the luma of its channels. Source: ITU-R BT.709.
+    pub fn brightness(self) -> f64 {
+        let Self(r, g, b) = self;
+        (0.2126 * f64::from(r) + 0.7152 * f64::from(g) + 0.0722 * f64::from(b)) / 255.0
+    }
+
     /// The perceptual difference of two colours: their distance in Oklab, about 1 from black to white.
     pub fn distance(self, other: Self) -> f64 {
         let (a, b) = (self.oklab(), other.oklab());

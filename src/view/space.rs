@@ -11,6 +11,7 @@ mod line;
 mod reference_frame;
 mod rod;
 mod scene;
+mod shading;
 mod solid;
 mod surface;
 
@@ -23,7 +24,6 @@ use super::kept::{self, Kept, Track, TrailKey};
 use super::plot::{Ages, Camera, DepthBuffer, Marker, Pen, PlotFrame, Raster, Visibility};
 use super::quantity::{Quantities, QuantitySource};
 use super::theme::Role;
-use crate::expr::Symbol;
 use crate::instrument::CameraPose;
 use crate::model::{Point, Shape};
 use crate::num::math;
@@ -32,6 +32,7 @@ use body::Outline;
 use colours::colours;
 use reference_frame::ReferenceFrame;
 use scene::Scene;
+use shading::Shading;
 
 /// The least radius, in cells, of a mass drawn with its size: in a plane, and in space, where tracks run across it.
 const LEAST: [f64; 2] = [1.2, 2.0];
@@ -68,6 +69,8 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
         labels: Vec::new(),
         surfaces: Vec::new(),
         depth,
+        shading: Shading::new(area, canvas.look.glyphs),
+        edges: Raster::new(area, canvas.look.glyphs),
         raster,
         frame,
         camera,
@@ -102,6 +105,9 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
     let forces = artist.apparent(seen.map_or(&[], Vec::as_slice));
     let mechanics = artist.mechanics();
     artist.raster.draw(canvas.buffer);
+    let shading = &artist.shading;
+    artist.edges.draw_on_blank(canvas.buffer, |index| shading.has_edges(index));
+    shading.draw(canvas.buffer, &canvas.look.theme);
     annotation::labels(canvas, area, &artist.frame, &artist.labels);
     let mut lines = annotation::forces(canvas, &forces);
     lines.extend(mechanics.into_iter().flat_map(|both| annotation::mechanics(canvas, both)));
@@ -114,6 +120,8 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
 /// Draws the shapes of a scene.
 struct ScenePainter<'a> {
     raster: Raster,
+    /// The edges of shaded surfaces; where these are dots, their edges are on the raster.
+    edges: Raster,
     frame: PlotFrame,
     camera: Camera,
     q: &'a Quantities<'a>,
@@ -126,6 +134,8 @@ struct ScenePainter<'a> {
     beside: Option<usize>,
     /// What hides what.
     depth: DepthBuffer,
+    /// The surfaces as they are lit.
+    shading: Shading,
     /// The pens of the surfaces, with their shares of dots in the shade and in full light.
     surfaces: Vec<(Pen, [f64; 2])>,
     /// How near to the eye the back and the front of the scene are; `None` in a plane.
@@ -221,23 +231,29 @@ impl ScenePainter<'_> {
             Shape::Disc { centre, radius, normal } => {
                 let (centre, normal) = (self.point(centre), self.direction(normal));
                 let rim = self.rim(centre, self.q.number(*radius), normal);
-                self.curve(&rim, &solid);
+                self.edge(|artist| artist.curve(&rim, &solid));
             }
             Shape::Cone { tip, base, radius } => {
                 let (tip, base) = (self.point(tip), self.point(base));
                 let axis = [0, 1, 2].map(|k| base[k] - tip[k]);
                 let rim = self.rim(base, self.q.number(*radius), axis);
-                self.curve(&rim, &solid);
-                self.silhouette(&vec![tip; rim.len()], &rim, &solid);
+                self.edge(|artist| {
+                    artist.curve(&rim, &solid);
+                    artist.silhouette(&vec![tip; rim.len()], &rim, &solid);
+                });
             }
             Shape::Cylinder { from, to, radius } => {
                 let ends = [self.point(from), self.point(to)];
                 let radius = self.q.number(*radius);
                 let [low, high] = solid::rims(ends, radius, self.spacing(radius));
-                self.curve(&low, &solid);
-                self.curve(&high, &solid);
-                self.silhouette(&low, &high, &solid);
+                self.edge(|artist| {
+                    artist.curve(&low, &solid);
+                    artist.curve(&high, &solid);
+                    artist.silhouette(&low, &high, &solid);
+                });
             }
+            // A shaded sphere ends where its cells do.
+            Shape::Sphere { .. } if self.shading.is_on() => {}
             Shape::Sphere { centre, radius } => {
                 let centre = self.point(centre);
                 let outline = circle::circle(centre, self.q.number(*radius), self.camera.towards());
@@ -258,17 +274,14 @@ impl ScenePainter<'_> {
         }
     }
 
-    /// Writes words beside a point, away from another one.
-    fn label(&mut self, at: [f64; 3], foot: Option<[f64; 3]>, text: &str) {
-        let veiled = self.sight(at) == Visibility::Veiled;
-        let [tip, foot] = [at, foot.unwrap_or(at)].map(|point| self.flat(point));
-        let role = match () {
-            () if veiled => Role::Dim,
-            () if foot == tip => Role::Text,
-            () => Role::Accent,
-        };
-        let text = self.q.look.glyphs.text(text).into_owned();
-        self.labels.push(Label { tip, leftwards: tip[0] < foot[0], text, role });
+    /// Draws edges of a surface.
+    fn edge(&mut self, draw: impl FnOnce(&mut Self)) {
+        if !self.shading.is_on() {
+            return draw(self);
+        }
+        std::mem::swap(&mut self.raster, &mut self.edges);
+        draw(self);
+        std::mem::swap(&mut self.raster, &mut self.edges);
     }
 
     /// The current position of a point of a shape in the reference frame.
@@ -379,23 +392,6 @@ impl ScenePainter<'_> {
         colours::colour(self.q, &self.colours, point)
     }
 
-    /// The colours of the traces of the right mechanics and of the wrong one beside it, where both leave one.
-    fn mechanics(&self) -> Option<[usize; 2]> {
-        let other = &self.q.lab.loaded.model.comparison.as_ref()?.symbols;
-        let other: Vec<Symbol> = other.iter().flat_map(|&(place, rate)| [place, rate]).collect();
-        let pool = &self.q.lab.loaded.equations.pool;
-        let trace = |wrong: bool| {
-            self.q.lab.shapes(self.eye).find_map(|(shape, _)| match shape {
-                Shape::Trace { at } => {
-                    let is_wrong = at.iter().any(|&e| pool.depends_on_any(e, &other));
-                    (is_wrong == wrong).then(|| self.colour(at))
-                }
-                _ => None,
-            })
-        };
-        Some([trace(false)?, trace(true)?])
-    }
-
     /// Draws the pieces of the model's body and its principal axes, with its centre of mass at a point.
     fn body(&mut self, at: &Point) {
         let Some(outline) = self.outline else { return };
@@ -410,9 +406,8 @@ impl ScenePainter<'_> {
         for line in axes {
             self.curve(&line, &Pen::shaded(theme.line(Role::Separatrix), TRACK));
         }
-        for line in edges {
-            self.curve(&line, &Pen::new(theme[Role::Text], SOLID));
-        }
+        let pen = Pen::new(theme[Role::Text], SOLID);
+        self.edge(|artist| edges.iter().for_each(|line| artist.curve(line, &pen)));
         for point in points {
             if let Some(pen) = self.seen_at(point, &Pen::new(theme.curve(0), BODY)) {
                 let flat = self.flat(point);

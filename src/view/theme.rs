@@ -17,6 +17,7 @@ use ramps::Ramps;
 
 pub use dash::Dash;
 pub use palettes::{PALETTES, Palette};
+pub use ramps::Tones;
 pub use role::{CURVES, PaletteColour, Role, Shade};
 
 /// The number of steps of a trail, from oldest to newest; it is small, so that a frame changes few cells.
@@ -24,6 +25,12 @@ const AGES: usize = 8;
 
 /// The number of steps of the density ramp, from sparse to dense.
 const DENSITIES: usize = 12;
+
+/// By how much the brightness of a line differs at least from that of a surface behind it, …
+const LEGIBLE: f64 = 0.25;
+
+/// … and the number of steps to the foreground that are tried.
+const LEGIBLE_STEPS: u8 = 5;
 
 /// The styles of a palette at one depth.
 #[derive(Clone, Debug)]
@@ -36,6 +43,8 @@ pub struct Theme {
     curves: [Style; CURVES],
     trails: Vec<Vec<Shade>>,
     density: Vec<Shade>,
+    /// The colours of surfaces, with the colour that each belongs to.
+    tones: Vec<(Color, Tones)>,
 }
 
 impl Theme {
@@ -62,6 +71,10 @@ impl Theme {
             curves: palette.curves.map(|ink| ink.style(depth)),
             trails: palette.curves.iter().map(|ink| ramps.trail(ink, AGES)).collect(),
             density: ramps.density(DENSITIES),
+            tones: std::iter::once(&palette.roles[Role::Level as usize])
+                .chain(&palette.curves)
+                .filter_map(|ink| Some((ink.style(depth).fg?, ramps.tones(ink)?)))
+                .collect(),
         }
     }
 
@@ -139,6 +152,31 @@ impl Theme {
                 style.remove_modifier(Modifier::BOLD).add_modifier(Modifier::DIM)
             }
             ColourDepth::Ansi16 | ColourDepth::None => style,
+        }
+    }
+
+    /// The colours of a surface of this style, that of level curves or of a series, from shade to full light; `None` where
+    /// colours are too few to shade with.
+    pub fn tones(&self, style: Style) -> Option<&Tones> {
+        self.tones.iter().find(|(own, _)| Some(*own) == style.fg).map(|(_, tones)| tones)
+    }
+
+    /// A style whose colour is told from this background: its own, or one nearer to the foreground.
+    pub fn legible(&self, style: Style, background: Color) -> Style {
+        let foreground = self.palette.foreground;
+        let own = style.fg.and_then(Rgb::of).unwrap_or(foreground);
+        let behind = Rgb::of(background).unwrap_or(self.palette.background).brightness();
+        let shares = (0..=LEGIBLE_STEPS).map(|step| f64::from(step) / f64::from(LEGIBLE_STEPS));
+        let mut colours = shares.map(|share| own.towards(foreground, share));
+        let Rgb(r, g, b) = colours
+            .find(|colour| (colour.brightness() - behind).abs() >= LEGIBLE)
+            .unwrap_or(foreground);
+        match self.depth {
+            ColourDepth::True => style.fg(Color::Rgb(r, g, b)),
+            ColourDepth::Ansi256 if own != Rgb(r, g, b) => {
+                style.fg(Color::Indexed(Rgb(r, g, b).nearest256()))
+            }
+            _ => style,
         }
     }
 

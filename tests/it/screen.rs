@@ -11,6 +11,7 @@ mod motion;
 mod panes;
 mod plain;
 mod purity;
+mod shading;
 mod tabs;
 mod workbench;
 

@@ -27,6 +27,8 @@ pub(super) struct Formula {
     pub(super) shown: String,
     pub(super) reason: String,
     pub(super) proved: bool,
+    /// Why it is not constant, if it is known not to be.
+    pub(super) broken: Option<String>,
     pub(super) expression: Expr,
 }
 
@@ -61,13 +63,13 @@ impl FormulaMonitors {
     /// The monitors of formulas in `pool`, without a reference.
     pub(super) fn new(pool: Arc<Pool>, formulas: impl IntoIterator<Item = Formula>) -> Self {
         let monitor = |(place, formula): (usize, Formula)| {
-            let Formula { name, shown, reason, proved, expression } = formula;
+            let Formula { name, shown, reason, proved, broken, expression } = formula;
             InvariantMonitor::new(Subject {
                 name,
                 shown,
                 reason,
                 proved,
-                broken: None,
+                broken,
                 channel: place,
                 quantity: None,
                 expression,
@@ -84,7 +86,7 @@ impl FormulaMonitors {
             let mut scope = Scope::new(model, Allowed::Observable, "a constant of the motion");
             let expression = scope.read(&mut pool, &constant.expression)?;
             let FoundConstant { name, shown, reason, proved, .. } = constant.clone();
-            Some(Formula { name, shown, reason, proved, expression })
+            Some(Formula { name, shown, reason, proved, broken: None, expression })
         };
         let formulas: Vec<Formula> = found.iter().filter_map(formula).collect();
         Self::new(Arc::new(pool), formulas)

@@ -13,9 +13,9 @@ use std::sync::Arc;
 use super::formula_monitors::{ChannelValues, Formula, FormulaMonitors};
 use crate::analysis::{Errors, Verdict};
 use crate::experiment::{Gauge, Reference};
-use crate::expr::{Expr, Pool, Symbol};
+use crate::expr::{Expr, Pool, Symbol, Zero};
 use crate::mechanics::{Equations, HamiltonJacobi, Valuation};
-use crate::model::Model;
+use crate::model::{Mechanics, Model};
 use crate::system::TermWatch;
 
 /// p and ∂S/∂q are the same number if they differ by less than this part of their size.
@@ -52,17 +52,24 @@ impl IntegrationConstants {
         let proved = HamiltonJacobi::of(model, &mut own).is_some_and(|found| found.complete);
         let mut pool = own.pool;
         let map = all.iter().map(|&(constant, alpha, _)| (constant.symbol, alpha)).collect();
-        let relations = model.coordinates.iter().map(|c| {
+        let mut relations = Vec::new();
+        for c in &model.coordinates {
             let slope = pool.derivative(integral.function, c.position);
             let slope = pool.substitute(slope, &map);
             let momentum = pool.variable(c.momentum);
-            (pool.sub(momentum, slope), 0.0)
-        });
-        let relations = relations.collect();
+            let relation = pool.sub(momentum, slope);
+            // where α is the momentum itself, S has one branch
+            if pool.is_zero(relation) != Zero::Proved {
+                relations.push((relation, 0.0));
+            }
+        }
+        let broken = acting(model).map(|cause| format!("S leaves {cause} out"));
+        let between = if model.impulses.is_empty() { "" } else { ", between impulses" };
         let formula = |symbol: Symbol, expression: Expr, reason: String| {
             let info = pool.symbol_info(symbol);
             let (name, shown) = (info.name.clone(), info.unicode.clone());
-            Formula { name, shown, reason, proved, expression }
+            let (reason, broken) = (format!("{reason}{between}"), broken.clone());
+            Formula { name, shown, reason, proved, broken, expression }
         };
         let is_new = |symbol: Symbol| {
             let info = pool.symbol_info(symbol);
@@ -176,5 +183,22 @@ impl IntegrationConstants {
         }
         self.is_on_branch = is_on;
         is_on
+    }
+}
+
+/// What acts beside the function whose Hamilton–Jacobi equation S solves.
+fn acting(model: &Model) -> Option<&'static str> {
+    let (friction, forces) = match &model.mechanics {
+        Mechanics::Lagrangian { dissipation, forces, .. } => (*dissipation != Expr::ZERO, forces),
+        Mechanics::Hamiltonian { forces, .. } | Mechanics::Poisson { forces, .. } => {
+            (false, forces)
+        }
+    };
+    let forced = forces.iter().any(|&force| force != Expr::ZERO);
+    match (friction, forced) {
+        (true, true) => Some("friction and the forces"),
+        (true, false) => Some("friction"),
+        (false, true) => Some("the forces"),
+        (false, false) => None,
     }
 }

@@ -7,8 +7,8 @@
 use super::scale::PlotFrame;
 use crate::num::math;
 
-/// The direction of the light, from the upper left in front: right, up, towards the eye.
-const LIGHT: [f64; 3] = [-0.45, 0.55, 0.70];
+/// The direction of the light, from above, a little left in front: right, up, towards the eye.
+const LIGHT: [f64; 3] = [-0.40, 0.75, 0.53];
 
 /// How far behind a surface a point still counts as lying on it, relative to the picture.
 const TOLERANCE: f64 = 0.03;

@@ -271,6 +271,15 @@ impl Raster {
 
     /// Copies the dots to the screen. Cells without dots do not change, and neither does the background.
     pub fn draw(&self, buffer: &mut Buffer) {
+        self.draw_where(buffer, |_, _| true);
+    }
+
+    /// Copies the dots of some cells, told by their index row by row, to the screen where it is blank.
+    pub fn draw_on_blank(&self, buffer: &mut Buffer, shown: impl Fn(usize) -> bool) {
+        self.draw_where(buffer, |index, place| place.symbol() == " " && shown(index));
+    }
+
+    fn draw_where(&self, buffer: &mut Buffer, shows: impl Fn(usize, &ScreenCell) -> bool) {
         let covered = self.beside_markers();
         // A raster and what is on the screen have the same columns, row by row.
         let shown = self.area.intersection(buffer.area);
@@ -282,7 +291,8 @@ impl Raster {
                 + usize::from(shown.x - self.area.x);
             let from = buffer.index_of(shown.x, y);
             let there = &mut buffer.content[from..from + usize::from(shown.width)];
-            for (index, place) in (first..).zip(there) {
+            for (index, place) in (first..).zip(there).filter(|(index, place)| shows(*index, place))
+            {
                 self.show(index, covered.get(index).copied().unwrap_or(0), place);
             }
         }

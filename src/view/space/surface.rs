@@ -16,6 +16,9 @@ const COLOURLESS_SPHERE: [f64; 2] = [0.02, 0.12];
 const OPAQUE: [f64; 2] = [0.2, 0.9];
 const WHOLE: [f64; 2] = [1.0, 1.0];
 
+/// The share of its light that a shaded surface has behind a veil.
+const BEHIND: f64 = 0.5;
+
 impl ScenePainter<'_> {
     /// Adds the surfaces of a shape to what hides others.
     pub(super) fn surfaces(&mut self, shape: &Shape) {
@@ -78,17 +81,31 @@ impl ScenePainter<'_> {
         }
     }
 
-    /// Fills the surfaces, each dot with the nearest one.
+    /// Fills the surfaces, each dot with the nearest one: with tones where the terminal has them, else with some of the dots.
     pub(super) fn fill(&mut self) {
         let pens: Vec<_> = std::mem::take(&mut self.surfaces)
             .into_iter()
             .map(|(pen, shares)| ([pen, self.dim(&pen)], shares))
             .collect();
+        let look = self.q.look;
+        let tones: Vec<Option<usize>> = pens
+            .iter()
+            .map(|([pen, _], _)| {
+                let tones = look.theme.tones(pen.style).filter(|_| !look.glyphs.is_ascii())?;
+                Some(self.shading.add(*tones))
+            })
+            .collect();
         for (dot, covered) in self.depth.dots() {
             let Some((pen, [shade, light])) = pens.get(covered.surface) else { continue };
+            if let Some(tones) = tones[covered.surface] {
+                let light = if covered.veiled { BEHIND * covered.light } else { covered.light };
+                self.shading.cover(dot, tones, light);
+                continue;
+            }
             let pen = pen[usize::from(covered.veiled)];
             let coverage = shade + (light - shade) * covered.light * covered.light;
             self.raster.shade(dot, &pen.covering(coverage));
         }
+        self.shading.finish();
     }
 }

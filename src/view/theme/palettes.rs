@@ -31,6 +31,13 @@ pub struct Palette {
     pub most: ColourDepth,
 }
 
+impl Palette {
+    /// Whether it is designed for a dark background.
+    pub fn is_dark(&self) -> bool {
+        self.background.brightness() < self.foreground.brightness()
+    }
+}
+
 /// Every palette; the first is the default.
 pub const PALETTES: [Palette; 5] = [DARK, LIGHT, CONTRAST, COLOUR_BLIND, TERMINAL];
 

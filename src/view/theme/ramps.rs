@@ -1,6 +1,6 @@
 //! Ramps: sequences of shades whose contrast with the background never decreases.
 //!
-//! In: a palette and a depth. Out: the steps of trails and of density. Never here: which step a dot gets.
+//! In: a palette and a depth. Out: the steps of trails, of density and of light. Never here: which step a dot gets.
 
 use ratatui::style::{Color, Modifier, Style};
 
@@ -8,6 +8,12 @@ use super::dash::Dash;
 use super::palettes::Palette;
 use super::role::{PaletteColour, Shade};
 use crate::view::colour::{ColourDepth, Rgb};
+
+/// The number of steps from shade to full light; with fewer steps, a frame in which a body turns changes fewer cells.
+const LIGHTS: usize = 10;
+
+/// The colours of a surface from shade to full light.
+pub type Tones = [Color; LIGHTS];
 
 /// Makes the ramps of a palette at a depth.
 pub(super) struct Ramps {
@@ -47,6 +53,30 @@ impl Ramps {
             let below = (place as usize).min(heat.len() - 2);
             heat[below].mix(heat[below + 1], place - below as f64)
         })
+    }
+
+    /// The colours of a surface from shade to full light; `None` where colours are too few.
+    pub(super) fn tones(&self, ink: &PaletteColour) -> Option<Tones> {
+        let own = ink.rgb.unwrap_or(self.palette.foreground);
+        // between the background and its own colour, and brighter in the light on paper of any colour
+        let share = |light: f64| match self.palette.is_dark() {
+            true => 0.2 + 0.65 * light,
+            false => 0.75 - 0.5 * light,
+        };
+        let tone = |step: usize| {
+            let light = step as f64 / (LIGHTS - 1) as f64;
+            self.palette.background.mix(own, share(light))
+        };
+        match self.depth {
+            ColourDepth::True => Some(std::array::from_fn(|step| {
+                let Rgb(r, g, b) = tone(step);
+                Color::Rgb(r, g, b)
+            })),
+            ColourDepth::Ansi256 => {
+                Some(std::array::from_fn(|step| Color::Indexed(tone(step).nearest256())))
+            }
+            ColourDepth::Ansi16 | ColourDepth::None => None,
+        }
     }
 
     /// A ramp of a few of the sixteen colours, or of the colours that `at` gives for positions from 0 to 1.

@@ -330,3 +330,47 @@ fn the_constants_of_a_complete_integral_are_gauged() {
     }
     assert_eq!(known, [0.0, 1.0, 2.0]);
 }
+
+/// A free particle in a plane with S = a x + b y − (a² + b²) t/2, where α is the momentum itself and S has one branch:
+/// β = ∂S/∂α = x − a t is where the particle started. S leaves friction out, and an impulse ends both constants.
+/// Source: *The Principles of Dynamics*, § 3.5.
+#[test]
+fn a_complete_integral_of_one_branch_is_gauged() {
+    let text = |law: &str, impulse: &str| {
+        format!(
+            "[coordinates]\nx = {{ initial = 1.0, velocity = 0.3 }}\ny = {{ initial = 0.5, velocity = 0.2 }}\n\
+             [lagrangian]\nL = \"1/2*(x'^2 + y'^2)\"\n{law}{impulse}\
+             [hamilton_jacobi]\nS = \"a*x + b*y - (a^2 + b^2)/2*t\"\nconstants = [\"a\", \"b\"]\n"
+        )
+    };
+    let gauges = |text: &str, until: f64| {
+        let mut particle = build(text, |_| ());
+        run(&mut particle, until);
+        let snapshot = particle.snapshot();
+        ["a", "beta_a", "beta_b"].map(|name| gauge(&snapshot, name))
+    };
+    let [a, beta_a, beta_b] = gauges(&text("", ""), 4.0);
+    for (gauge, value) in [(a, 0.3), (beta_a, 1.0), (beta_b, 0.5)] {
+        assert!((gauge.value - value).abs() < 1e-14 && gauge.proved, "{gauge:?}");
+        assert!(matches!(gauge.verdict, Verdict::Exact(_)), "{gauge:?}");
+    }
+
+    // x′ = 0.3 e^{−0.2 t}: the friction of a dissipation 0.1 x′² is 0.2 x′
+    let [a, beta_a, _] = gauges(&text("dissipation = \"0.1*x'^2\"\n", ""), 4.0);
+    assert!((a.value - 0.3 * (-0.8_f64).exp()).abs() < 1e-13, "{a:?}");
+    for gauge in [a, beta_a] {
+        let Verdict::Broken(law) = &gauge.verdict else { panic!("{gauge:?}") };
+        assert_eq!(law, "S leaves friction out");
+        assert!(!gauge.proved, "{gauge:?}");
+    }
+
+    let kick = "[[impulses]]\nname = \"kick\"\nat = 2.0\nchange = { p_x = \"0.5\" }\n";
+    let [a, beta_a, _] = gauges(&text("", kick), 4.0);
+    assert!((a.value - 0.8).abs() < 1e-14 && matches!(a.verdict, Verdict::Exact(_)), "{a:?}");
+    assert_eq!(a.reason, "constant of the complete integral S, between impulses");
+    // after the kick x = 1.6 + 0.8 (t − 2) = 0.8 t
+    assert!(
+        beta_a.value.abs() < 1e-14 && matches!(beta_a.verdict, Verdict::Exact(_)),
+        "{beta_a:?}"
+    );
+}

@@ -1,0 +1,174 @@
+//! Shaded surfaces, where the terminal has colours enough: a cell that a surface covers has a background, on which lines are
+//! drawn, and the edges of surfaces are blocks of a quarter of a cell.
+//!
+//! In: the dots that surfaces cover, how brightly they are lit. Out: backgrounds and blocks. Never here: lines, or
+//! terminals of few colours, where surfaces are dots.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::style::Color;
+use ratatui::symbols::pixel::QUADRANTS;
+
+use crate::view::glyphs::Glyphs;
+use crate::view::theme::{Theme, Tones};
+
+/// A surface has fewer whole cells than this part of those on its edges where it is too small or too thin for blocks.
+const WHOLE: f64 = 0.33;
+
+/// A quarter of a cell: the number of its dots that are covered, their light, and the tones of the last of them.
+#[derive(Clone, Copy, Debug, Default)]
+struct Quarter {
+    count: u8,
+    light: f32,
+    tones: u16,
+}
+
+/// The surfaces over an area of cells.
+#[derive(Debug)]
+pub(super) struct Shading {
+    area: Rect,
+    /// The number of dots in a cell: columns, rows.
+    dots: [usize; 2],
+    /// The number of dots in each quarter of a cell.
+    room: [u8; 4],
+    cells: Vec<[Quarter; 4]>,
+    tones: Vec<Tones>,
+    /// Whether what has these tones is too small or too thin for blocks: its edges are lines.
+    thin: Vec<bool>,
+}
+
+impl Shading {
+    pub(super) fn new(area: Rect, glyphs: Glyphs) -> Self {
+        let (wide, high) = glyphs.dots();
+        let dots = [usize::from(wide), usize::from(high)];
+        let mut room = [0; 4];
+        for place in 0..dots[0] * dots[1] {
+            for quarter in quarters([place % dots[0], place / dots[0]], dots) {
+                room[quarter] += 1;
+            }
+        }
+        Self { area, dots, room, cells: Vec::new(), tones: Vec::new(), thin: Vec::new() }
+    }
+
+    /// Adds the tones of a surface, and returns their number.
+    pub(super) fn add(&mut self, tones: Tones) -> usize {
+        self.tones.push(tones);
+        self.tones.len() - 1
+    }
+
+    /// Covers a dot with a surface of these tones, in a light from 0 to 1.
+    pub(super) fn cover(&mut self, [x, y]: [i32; 2], tones: usize, light: f64) {
+        let (wide, high) = (usize::from(self.area.width), usize::from(self.area.height));
+        if self.cells.is_empty() {
+            self.cells = vec![[Quarter::default(); 4]; wide * high];
+        }
+        let [columns, rows] = self.dots;
+        let (x, y) = (x as usize, y as usize);
+        let (column, row) = (x / columns, y / rows);
+        if column >= wide || row >= high {
+            return;
+        }
+        for quarter in quarters([x % columns, y % rows], self.dots) {
+            let quarter = &mut self.cells[row * wide + column][quarter];
+            *quarter = Quarter {
+                count: quarter.count + 1,
+                light: quarter.light + light as f32,
+                tones: tones as u16,
+            };
+        }
+    }
+
+    /// Whether any surface is shaded.
+    pub(super) fn is_on(&self) -> bool {
+        !self.cells.is_empty()
+    }
+
+    /// Looks at which surfaces are too small or too thin for blocks, once all dots are covered.
+    pub(super) fn finish(&mut self) {
+        let mut cells = vec![[0_u32; 2]; self.tones.len()];
+        for quarters in &self.cells {
+            let Some(covered) = quarters.iter().find(|quarter| quarter.count > 0) else { continue };
+            let whole = self.is_whole(quarters);
+            cells[usize::from(covered.tones)][usize::from(whole)] += 1;
+        }
+        let is_thin = |[edge, whole]: [u32; 2]| f64::from(whole) < WHOLE * f64::from(edge);
+        self.thin = cells.into_iter().map(is_thin).collect();
+    }
+
+    /// Whether the edges of surfaces are drawn as lines in a cell.
+    pub(super) fn has_edges(&self, index: usize) -> bool {
+        let Some(quarters) = self.cells.get(index) else { return true };
+        let thin = |quarter: &Quarter| {
+            quarter.count == 0 || self.thin.get(usize::from(quarter.tones)) == Some(&true)
+        };
+        self.is_whole(quarters) || quarters.iter().all(thin)
+    }
+
+    fn is_whole(&self, quarters: &[Quarter; 4]) -> bool {
+        (0..4).all(|k| self.is_covered(quarters[k], self.room[k]))
+    }
+
+    /// Whether at least half of a quarter is covered.
+    fn is_covered(&self, quarter: Quarter, room: u8) -> bool {
+        quarter.count > 0 && 2 * quarter.count >= room
+    }
+
+    /// Gives the covered cells their colours: those in which nothing is drawn blocks, the others a background.
+    pub(super) fn draw(&self, buffer: &mut Buffer, theme: &Theme) {
+        for (index, quarters) in self.cells.iter().enumerate() {
+            if quarters.iter().all(|quarter| quarter.count == 0) {
+                continue;
+            }
+            let (column, row) =
+                (index % usize::from(self.area.width), index / usize::from(self.area.width));
+            let at = (self.area.x + column as u16, self.area.y + row as u16);
+            let Some(cell) = buffer.cell_mut(at) else { continue };
+            let colours: [Option<Color>; 4] =
+                std::array::from_fn(|k| self.colour(quarters[k], self.room[k]));
+            if cell.symbol() != " " {
+                let least = if self.has_edges(index) { 4 } else { 2 };
+                let covered = colours.iter().flatten().count() >= least;
+                if let Some(background) = most(&colours, None).filter(|_| covered) {
+                    let style = theme.legible(cell.style(), background);
+                    cell.set_style(style.bg(background));
+                }
+                continue;
+            }
+            // A terminal's own background is none of its colours: it can only lie behind.
+            let back = if colours.contains(&None) { None } else { most(&colours, None) };
+            let Some(front) = most(&colours, back) else {
+                if let Some(back) = back {
+                    cell.set_bg(back);
+                }
+                continue;
+            };
+            let block = (0..4).filter(|&k| colours[k] != back).fold(0, |block, k| block | 1 << k);
+            cell.set_char(QUADRANTS[block]).set_fg(front);
+            if let Some(back) = back {
+                cell.set_bg(back);
+            }
+        }
+    }
+
+    /// The colour of a quarter that is covered.
+    fn colour(&self, quarter: Quarter, room: u8) -> Option<Color> {
+        let tones = self.tones.get(usize::from(quarter.tones))?;
+        let (last, light) = (tones.len() - 1, quarter.light / f32::from(quarter.count));
+        let step = (light * last as f32).round() as usize;
+        self.is_covered(quarter, room).then(|| tones[step.min(last)])
+    }
+}
+
+/// The most frequent of some colours but for one.
+fn most(colours: &[Option<Color>; 4], but: Option<Color>) -> Option<Color> {
+    let others = || colours.iter().flatten().filter(|colour| Some(**colour) != but);
+    let count = |colour: &Color| others().filter(|other| *other == colour).count();
+    others().max_by_key(|colour| count(colour)).copied()
+}
+
+/// The quarters of a cell, row by row, in which a dot lies; where a cell has one column of dots they lie in two.
+fn quarters([x, y]: [usize; 2], [columns, rows]: [usize; 2]) -> impl Iterator<Item = usize> {
+    let row = 2 * (y * 2 / rows);
+    let columns = if columns == 1 { 0..2 } else { x * 2 / columns..x * 2 / columns + 1 };
+    columns.map(move |column| row + column)
+}

@@ -1,0 +1,143 @@
+//! Shaded surfaces: where colours allow it, a cell that a surface covers has a background.
+
+use phaselab::app::App;
+use phaselab::view::RenderStyle;
+use phaselab::view::colour::{ColourDepth, Rgb};
+use phaselab::view::glyphs::Glyphs;
+use phaselab::view::theme::{PALETTES, Role, Theme};
+use ratatui::buffer::{Buffer, Cell};
+use ratatui::style::Color;
+
+use super::{rich, screen};
+use crate::app::real::Real;
+use crate::hand::lab;
+
+/// The pane of the momentum sphere at 120 × 40: its columns, its rows.
+const PANE: [std::ops::Range<u16>; 2] = [41..79, 2..22];
+
+fn momentum_sphere() -> App {
+    let mut real = Real::of("free-rigid-body");
+    real.run(600);
+    real.app
+}
+
+fn drawn(app: &App, depth: ColourDepth, glyphs: Glyphs) -> Buffer {
+    screen(app, &RenderStyle { theme: Theme::dark(depth), glyphs }, (120, 40))
+}
+
+/// The cells of the pane that have a background, row by row.
+fn painted(buffer: &Buffer) -> Vec<Vec<bool>> {
+    let [columns, rows] = PANE;
+    let is_painted = |at: (u16, u16)| buffer[at].bg != Color::Reset;
+    rows.map(|y| columns.clone().map(|x| is_painted((x, y))).collect()).collect()
+}
+
+/// The edge of a sphere is round, and inside there is not one cell without its colour.
+#[test]
+fn a_sphere_has_no_holes() {
+    let buffer = drawn(&momentum_sphere(), ColourDepth::True, Glyphs::Braille);
+    let rows = painted(&buffer);
+    let spans: Vec<(usize, usize)> = rows
+        .iter()
+        .filter_map(|row| Some((row.iter().position(|p| *p)?, row.iter().rposition(|p| *p)?)))
+        .collect();
+    assert!(spans.len() >= 16, "{rows:?}");
+    // what is not painted is connected with the border of the pane
+    let mut open: Vec<Vec<bool>> = rows.iter().map(|row| vec![false; row.len()]).collect();
+    let (high, wide) = (rows.len(), rows[0].len());
+    let cells = || (0..high).flat_map(|y| (0..wide).map(move |x| (x, y)));
+    let on_border = |(x, y)| x == 0 || y == 0 || x == wide - 1 || y == high - 1;
+    let mut reached: Vec<(usize, usize)> = cells().filter(|at| on_border(*at)).collect();
+    while let Some((x, y)) = reached.pop() {
+        if !(rows[y][x] || open[y][x]) {
+            open[y][x] = true;
+            reached.extend(
+                [(x + 1, y), (x.wrapping_sub(1), y), (x, y + 1), (x, y.wrapping_sub(1))]
+                    .into_iter()
+                    .filter(|&(x, y)| x < wide && y < high),
+            );
+        }
+    }
+    assert!(cells().all(|(x, y)| rows[y][x] || open[y][x]), "{rows:?}");
+    // a circle: the widths follow √(1 − y²)
+    let half = spans.len() as f64 / 2.0;
+    let widest = spans.iter().map(|(first, last)| last - first + 1).max().unwrap() as f64;
+    for (index, (first, last)) in spans.iter().enumerate() {
+        let y = (index as f64 + 0.5 - half) / half;
+        let expected = widest * (1.0 - y * y).sqrt();
+        let width = (last - first + 1) as f64;
+        assert!((width - expected).abs() < 5.0, "{index}: {width} for {expected}");
+    }
+    // blocks of a quarter of a cell round it off
+    let [columns, rows] = PANE;
+    let cells = rows.flat_map(|y| columns.clone().map(move |x| (x, y)));
+    let blocks = cells.filter(|at| buffer[*at].symbol().chars().any(|c| ('▀'..='▟').contains(&c)));
+    assert!(blocks.count() > 10);
+}
+
+/// The light comes from above, a little from the left.
+#[test]
+fn the_light_comes_from_above() {
+    let buffer = drawn(&momentum_sphere(), ColourDepth::True, Glyphs::Braille);
+    let bright = |at: (u16, u16)| Rgb::of(buffer[at].bg).expect("a surface").brightness();
+    let (high, low) = (bright((56, 6)), bright((63, 19)));
+    assert!(high > low + 0.1, "{high} and {low}");
+}
+
+/// Lines on a surface differ from it in brightness, in every palette.
+#[test]
+fn lines_on_a_surface_are_seen() {
+    let app = momentum_sphere();
+    for palette in &PALETTES {
+        let theme = Theme::new(palette, ColourDepth::True);
+        if theme.tones(theme[Role::Level]).is_none() {
+            continue;
+        }
+        let buffer = screen(&app, &RenderStyle { theme, glyphs: Glyphs::Braille }, (120, 40));
+        let [columns, rows] = PANE;
+        let cells = rows.flat_map(|y| columns.clone().map(move |x| (x, y)));
+        let is_line = |cell: &&Cell| {
+            let dotted = |c: char| ('\u{2801}'..='\u{28ff}').contains(&c) || c == '●';
+            cell.bg != Color::Reset && cell.symbol().chars().all(dotted)
+        };
+        let mut count = 0;
+        for cell in cells.map(|at| &buffer[at]).filter(is_line) {
+            let [line, behind] =
+                [cell.fg, cell.bg].map(|c| Rgb::of(c).expect("a colour").brightness());
+            assert!((line - behind).abs() > 0.2, "{}: {line} on {behind}", palette.name);
+            count += 1;
+        }
+        assert!(count > 40, "{}: {count}", palette.name);
+    }
+}
+
+/// With few colours, without any and in ASCII surfaces are dots, and no cell has a background.
+#[test]
+fn few_colours_shade_with_dots() {
+    let app = momentum_sphere();
+    for (depth, glyphs) in [
+        (ColourDepth::Ansi16, Glyphs::Braille),
+        (ColourDepth::None, Glyphs::Braille),
+        (ColourDepth::True, Glyphs::Ascii),
+    ] {
+        let buffer = drawn(&app, depth, glyphs);
+        assert!(painted(&buffer).iter().flatten().all(|painted| !painted), "{depth:?} {glyphs:?}");
+    }
+    let buffer = drawn(&app, ColourDepth::Ansi256, Glyphs::HalfBlock);
+    assert!(painted(&buffer).iter().flatten().filter(|painted| **painted).count() > 300);
+}
+
+/// The faces of a top differ in brightness: the upper one is the brightest.
+#[test]
+fn the_faces_of_a_top_are_told_apart() {
+    let buffer = screen(&lab("sleeping-top", 1.0), &rich(), (120, 40));
+    let cells = (2..22).flat_map(|y| (1..39).map(move |x| (x, y)));
+    let mut tones: Vec<u32> = cells
+        .filter_map(|at| Rgb::of(buffer[at].bg))
+        .map(|tone| (1000.0 * tone.brightness()) as u32)
+        .collect();
+    tones.sort_unstable();
+    tones.dedup();
+    assert!(tones.len() >= 4, "{tones:?}");
+    assert!(tones[tones.len() - 1] > tones[0] + 100, "{tones:?}");
+}
