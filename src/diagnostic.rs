@@ -12,5 +12,5 @@ mod report;
 
 pub use document::{Document, TEXT_LIMIT, too_long};
 pub use list::{Diagnostic, Diagnostics, Severity, SourceRange};
-pub use nearest::nearest;
+pub use nearest::{nearest, with_index};
 pub use report::report;

@@ -69,23 +69,30 @@ impl CrossingLog {
     }
 
     /// Forgets the crossings after a time, of a motion with this many channels; with the sign −1, those at earlier times.
+    /// Chunks that end before it stay shared.
     pub fn rewind(&mut self, time: f64, sign: f64, channels: usize) {
-        for surface in 0..self.surfaces.len() {
-            let rows: Vec<Vec<f64>> = self
-                .rows(surface, channels)
-                .filter(|row| sign * row[0] <= sign * time)
-                .map(<[f64]>::to_vec)
-                .collect();
-            let gone = self.rows(surface, channels).count() - rows.len();
-            if gone == 0 {
-                continue;
+        let width = channels + 1;
+        for (surface, crossed) in self.surfaces.iter_mut().enumerate() {
+            let mut gone = 0;
+            loop {
+                let is_later = |row: &[f64]| sign * row[0] > sign * time;
+                let later = crossed.open.chunks_exact(width).rev().take_while(|row| is_later(row));
+                let later = later.count();
+                if later > 0 {
+                    gone += later;
+                    let left = crossed.open.len() - later * width;
+                    crossed.open = Arc::new(crossed.open[..left].to_vec());
+                }
+                let last =
+                    crossed.sealed.back().and_then(|chunk| chunk.chunks_exact(width).next_back());
+                if !(crossed.open.is_empty() && last.is_some_and(is_later)) {
+                    break;
+                }
+                crossed.open = crossed.sealed.pop_back().unwrap_or_default();
             }
-            let count = self.counts[surface] - gone as u64;
-            self.surfaces[surface] = Crossed::default();
-            for row in &rows {
-                self.push(surface, row[0], &row[1..]);
+            if gone > 0 {
+                Arc::make_mut(&mut self.counts)[surface] -= gone as u64;
             }
-            Arc::make_mut(&mut self.counts)[surface] = count;
         }
     }
 

@@ -68,9 +68,14 @@ impl Lab {
         let numbers = [from, to];
         match target {
             ValueId::Parameter(index) => {
+                let steps_on = self.history.steps_on(index);
                 self.note(Change::Parameter { index, numbers });
                 self.set_pending(target, to);
-                vec![Effect::Tell(Command::Parameter { index, value: to })]
+                vec![Effect::Tell(if steps_on {
+                    Command::MoveParameter { index, value: to }
+                } else {
+                    Command::Parameter { index, value: to }
+                })]
             }
             ValueId::Initial(index) => {
                 let before = self.given();

@@ -231,7 +231,9 @@ impl App {
             (true, _) => format!("{} is no longer being checked; E resumes.", buffer.title),
             (false, true) => {
                 let key = if self.lab.is_some() { "E" } else { "Enter" };
-                format!("{} has unsaved changes; {key} returns to it.", buffer.title)
+                // the frame of the editor had the whole path
+                let name = buffer.title.rsplit('/').next().unwrap_or(&buffer.title);
+                format!("{name} has unsaved changes; {key} returns to it.")
             }
             (false, false) if self.lab.is_none() => return self.leave_alone(),
             (false, false) => return Vec::new(),

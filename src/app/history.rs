@@ -116,14 +116,28 @@ pub(super) struct UndoHistory {
     done: Vec<Entry>,
     undone: Vec<Entry>,
     since: Option<Duration>,
+    /// The parameter that was changed last, if nothing else was since, and how long ago.
+    stepped: Option<(usize, Duration)>,
     /// The number of changes made when the mouse began to drag something.
     begin_group: Option<usize>,
 }
 
 impl UndoHistory {
+    /// Whether a change of this parameter, about to be noted, is another step of the change before it: in the same drag, or
+    /// soon after it, as while a key is held.
+    pub(super) fn steps_on(&self, parameter: usize) -> bool {
+        self.stepped.is_some_and(|(last, since)| {
+            last == parameter && (since < TOGETHER || self.begin_group.is_some())
+        })
+    }
+
     /// Records a change made now. Returns whether it begins an entry of its own.
     pub(super) fn note(&mut self, change: Change) -> bool {
         self.undone.clear();
+        self.stepped = match change {
+            Change::Parameter { index, .. } => Some((index, Duration::ZERO)),
+            _ => None,
+        };
         let last = self.done.len().saturating_sub(1);
         let joining = match self.begin_group {
             // Everything changed during a drag is one change, however long it takes.
@@ -164,6 +178,7 @@ impl UndoHistory {
     /// Begins a group: the mouse begins to drag something, or values begin to move.
     pub(super) fn begin_group(&mut self) {
         self.begin_group = Some(self.done.len());
+        self.stepped = self.stepped.filter(|(_, since)| *since < TOGETHER);
     }
 
     /// Ends the group; all changes made since its start are undone as one.
@@ -181,6 +196,7 @@ impl UndoHistory {
     /// Advances the time.
     pub(super) fn tick(&mut self, elapsed: Duration) {
         self.since = self.since.map(|since| since.saturating_add(elapsed));
+        self.stepped = self.stepped.map(|(index, since)| (index, since.saturating_add(elapsed)));
     }
 
     /// Returns the change to be undone and the motion before it. The motion now is kept for when it is redone.
@@ -189,7 +205,7 @@ impl UndoHistory {
         now: Option<Checkpoint>,
     ) -> Option<(Change, Option<Box<Checkpoint>>)> {
         let mut entry = self.done.pop()?;
-        self.since = None;
+        (self.since, self.stepped) = (None, None);
         let motion = entry.motions[0].clone();
         entry.motions[1] = now.map(Box::new).filter(|_| motion.is_some());
         let change = entry.change.clone();
@@ -204,7 +220,7 @@ impl UndoHistory {
         now: Option<Checkpoint>,
     ) -> Option<(Change, Option<Box<Checkpoint>>)> {
         let mut entry = self.undone.pop()?;
-        self.since = None;
+        (self.since, self.stepped) = (None, None);
         let motion = entry.motions[1].clone();
         entry.motions[0] = now.map(Box::new).filter(|_| motion.is_some());
         let change = entry.change.clone();

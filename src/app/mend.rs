@@ -92,7 +92,11 @@ impl App {
     /// Lists the last unsaved text among the systems, unless the session is the one that runs it.
     pub(super) fn list_unsaved(&mut self) {
         let title = self.waiting_text().map(|text| text.title);
+        let is_new = title.is_some() && self.picker.unsaved.is_none();
         self.picker.unsaved = title;
+        if is_new && self.picker.is_at_its_start() {
+            self.picker.point_above(Above::Unsaved);
+        }
     }
 
     /// The last unsaved text to which no other row leads.

@@ -330,7 +330,9 @@ impl App {
             (Page::Lab, Some(lab)) if lab.zoomed => lab.zoomed = false,
             (Page::Lab, Some(_)) if !leaves => {
                 let lesson = self.hints == KeyHints::LabInLesson;
-                return self.notify(if lesson { LEAVING_LESSON } else { LEAVING });
+                let sentence = if lesson { LEAVING_LESSON } else { LEAVING };
+                self.notice = Some(Notification::info(sentence));
+                return Vec::new();
             }
             (Page::Lab, _) | (_, None) => {
                 self.notice = None;

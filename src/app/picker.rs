@@ -162,6 +162,11 @@ impl Picker {
         }
     }
 
+    /// Whether the first system is selected, and nothing is searched for.
+    pub(super) fn is_at_its_start(&self) -> bool {
+        self.search.is_none() && self.is_selected(0)
+    }
+
     /// Whether the system of this index among those shown is selected.
     pub fn is_selected(&self, place: usize) -> bool {
         self.selected == place && self.selected_above().is_none()

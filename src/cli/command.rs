@@ -404,7 +404,9 @@ fn unknown(word: &str) -> Option<String> {
     let command = Arguments::command();
     let commands: Vec<&str> = command.get_subcommands().map(clap::Command::get_name).collect();
     let file = file_here(word);
-    let help = match (file, nearest(word, commands.iter().copied().chain(presets()))) {
+    let names = || nearest(word, commands.iter().copied().chain(presets()));
+    let near = catalog.titled(word).or_else(names).or_else(|| catalog.nearest(word));
+    let help = match (file, near) {
         (Some(file), _) => format!("did you mean the file `{}`?", printable::quoted(&file)),
         (None, Some(near)) => format!("did you mean `{}`?", printable::line(near)),
         (None, None) => {

@@ -14,7 +14,7 @@ use crate::dynamics::{DynamicsError, FlowMap, flow_map};
 ///
 /// The tangent map M = ∂η(T)/∂η(0) of the flow, η = (q…, p…), or the variables of brackets, by the
 /// variational equations: its determinant beside the one that the divergence of the motion
-/// predicts, and the largest entry of |M𝕁Mᵀ − 𝕁|, which is at rounding where the map is
+/// predicts, and the largest entry of |MJMᵀ − J|, which is at rounding where the map is
 /// canonical. With a method of fixed step it is the map of that method's own steps. Under constraints it
 /// is the map of the displacements that they allow.
 #[derive(Debug, clap::Args)]
@@ -90,9 +90,9 @@ fn text(study: &Study, map: &FlowMap) -> String {
     }
     if let (Some(residual), Some(rounding)) = (map.symplectic_residual, map.symplectic_rounding) {
         let form = if study.space.is_constrained() {
-            "|Mᵀ𝕁M − Pᵀ𝕁P|, P the projection onto them"
+            "|MᵀJM − PᵀJP|, P the projection onto them"
         } else {
-            "|M𝕁Mᵀ − 𝕁|"
+            "|MJMᵀ − J|"
         };
         text.push_str(&format!(
             "largest entry of {form}: {}, of which rounding may be {rounding:.0e}\n",

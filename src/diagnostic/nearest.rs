@@ -1,4 +1,13 @@
-//! The nearest known word to a misspelt one.
+//! The nearest known words to a misspelt one.
+
+/// Returns the candidates that are a word with an index, as a list: `L_x`, `L_y` or `L_z` for `L`.
+pub fn with_index(word: &str, candidates: &[&str]) -> Option<String> {
+    let has_index = |c: &&&str| c.strip_prefix(word).is_some_and(|rest| rest.starts_with('_'));
+    let names: Vec<String> =
+        candidates.iter().filter(has_index).take(3).map(|c| format!("`{c}`")).collect();
+    let (last, others) = names.split_last()?;
+    Some(if others.is_empty() { last.clone() } else { format!("{} or {last}", others.join(", ")) })
+}
 
 /// Returns the candidate closest to a misspelt word, if one is close enough: at most a third of the
 /// letters differ, and not all of them, or one is in the wrong place. Words of more than 64 letters are not compared.

@@ -31,6 +31,14 @@ pub enum Command {
         /// Its new value.
         value: f64,
     },
+    /// Sets a parameter as another step of the change before it, such as of a slider that is dragged: the jump of the
+    /// energy is reported of the whole change.
+    MoveParameter {
+        /// Its index among the parameters.
+        index: usize,
+        /// Its new value.
+        value: f64,
+    },
     /// Sets an initial value and restarts.
     Initial {
         /// Its index: coordinates first, then velocities (Lagrangian) or momenta (Hamiltonian).
@@ -75,7 +83,8 @@ pub enum Command {
 impl Command {
     /// Whether it sets values of the system or the place of its motion.
     pub fn sets_values(&self) -> bool {
-        matches!(self, Self::Parameter { .. } | Self::Restore(_)) || self.begins_another_motion()
+        matches!(self, Self::Parameter { .. } | Self::MoveParameter { .. } | Self::Restore(_))
+            || self.begins_another_motion()
     }
 
     /// Whether it begins another motion, so that what was said about the previous one no longer holds.

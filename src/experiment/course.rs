@@ -258,7 +258,7 @@ impl Experiment {
             method: self.method_fact(),
             notices: self.notices.as_slice().into(),
             occurrences: self.occurrences.clone(),
-            crossings: self.crossings.clone(),
+            crossings: self.crossings_seen(),
             companions,
             separations,
             released: (0..self.system().constraints())
@@ -274,6 +274,16 @@ impl Experiment {
     /// The motion where it is looked at.
     pub(super) fn seen(&self) -> &ObservedMotion {
         self.scrubbed.as_ref().map_or(&self.motion, |scrubbed| &scrubbed.motion)
+    }
+
+    /// Its crossings of the surfaces of section up to there.
+    fn crossings_seen(&self) -> CrossingLog {
+        let mut crossings = self.crossings.clone();
+        if self.scrubbed.is_some() {
+            let channels = self.system().channels().len();
+            crossings.rewind(self.seen().time(), self.motion.sign(), channels);
+        }
+        crossings
     }
 
     /// What of the motion can be looked at.

@@ -40,7 +40,11 @@ impl Experiment {
             Command::Speed(speed) => {
                 self.tell(format!("a speed must be above zero; {speed} is not"));
             }
-            Command::Parameter { index, value } => self.change_parameter(index, value),
+            Command::Parameter { index, value } => {
+                self.jump = None;
+                self.change_parameter(index, value);
+            }
+            Command::MoveParameter { index, value } => self.change_parameter(index, value),
             Command::Initial { index, value } => self.change_initial(index, value),
             Command::Start(overrides) => {
                 self.setup.overrides = overrides;
@@ -162,11 +166,9 @@ impl Experiment {
     /// Reports a jump in energy beyond its rounding, and what did not jump. The steps in which a parameter is changed
     /// are one jump.
     fn report_jump(&mut self, index: usize, jump: f64, rounding: f64) {
-        let second = self.frame() / FRAME;
-        let whole = EnergyJump { parameter: index, clock: self.clock(), by: jump };
-        let whole = self.jump.map_or(whole, |earlier| whole.after(&earlier, second));
-        self.jump = Some(whole);
-        let by = whole.by;
+        let earlier = self.jump.filter(|earlier| earlier.parameter == index);
+        let by = jump + earlier.map_or(0.0, |earlier| earlier.by);
+        self.jump = Some(EnergyJump { parameter: index, by });
         let lead = format!("{}: energy jumped by", self.model.parameters[index].shown);
         if self.notices.last().is_some_and(|last| last.starts_with(&lead)) {
             self.notices.pop();

@@ -1,4 +1,4 @@
-//! `flow`: the derivative of the flow M(t) = ∂η(t)/∂η(0) of the motion from its initial values: ‖M𝕁Mᵀ − 𝕁‖ for the map of the
+//! `flow`: the derivative of the flow M(t) = ∂η(t)/∂η(0) of the motion from its initial values: ‖MJMᵀ − J‖ for the map of the
 //! method and for that of the exact flow; under friction det M beside what Liouville's theorem predicts of it.
 //!
 //! The job follows the variational equations along the motion ([`flow_course`]), over a time that is doubled when the motion has
@@ -119,7 +119,7 @@ impl Instrument for FlowPlot {
     ) -> Option<Picture> {
         let mut layers = vec![(NOW, Layer::Legend(sentences(present, answer)))];
         let Some(courses) = courses(answer) else {
-            let upwards = Upwards::Named("‖M𝕁Mᵀ − 𝕁‖".to_owned(), [0.0, 1.0]);
+            let upwards = Upwards::Named("‖MJMᵀ − J‖".to_owned(), [0.0, 1.0]);
             return Some(Picture::Axes { upwards, layers, occurrences: None });
         };
         let curve = |moments: &[FlowMoment], of: &dyn Fn(&FlowMoment) -> Option<f64>| {
@@ -131,7 +131,7 @@ impl Instrument for FlowPlot {
             let exact = courses.exact.as_deref().unwrap_or_default();
             lines.push((BESIDE, curve(exact, &power), Ink::Curve(1)));
             lines.push((CURVE, curve(&courses.own, &power), Ink::Curve(0)));
-            "log₁₀ ‖M𝕁Mᵀ − 𝕁‖"
+            "log₁₀ ‖MJMᵀ − J‖"
         } else {
             let expected = |moment: &FlowMoment| Some(moment.determinant_expected);
             lines.push((BESIDE, curve(&courses.own, &expected), Ink::Level));
@@ -292,12 +292,12 @@ fn sentences(present: &Present<'_>, answer: Option<&Answer>) -> Vec<String> {
         lines.push(match residual(own) {
             Some(x) if own.is_at_rounding() => {
                 let method = present.method;
-                format!("‖M𝕁Mᵀ − 𝕁‖ at rounding ({}) by {method}{exact}", of_square(own, x))
+                format!("‖MJMᵀ − J‖ at rounding ({}) by {method}{exact}", of_square(own, x))
             }
-            Some(x) => format!("‖M𝕁Mᵀ − 𝕁‖ = {} by {}{exact}", size(x), present.method),
+            Some(x) => format!("‖MJMᵀ − J‖ = {} by {}{exact}", size(x), present.method),
             None => {
                 let entries = short(own.matrix.amax(), 1);
-                format!("‖M𝕁Mᵀ − 𝕁‖ is lost in rounding: M has entries of {entries}{exact}")
+                format!("‖MJMᵀ − J‖ is lost in rounding: M has entries of {entries}{exact}")
             }
         });
     }
@@ -330,12 +330,12 @@ fn determinant(moment: &FlowMoment) -> Option<f64> {
     (!moment.determinant_lost).then_some(moment.determinant)
 }
 
-/// ‖M𝕁Mᵀ − 𝕁‖, where it is more than rounding of large entries.
+/// ‖MJMᵀ − J‖, where it is more than rounding of large entries.
 fn residual(moment: &FlowMoment) -> Option<f64> {
     moment.symplectic_residual.filter(|_| !moment.residual_lost)
 }
 
-/// The power of ten of ‖M𝕁Mᵀ − 𝕁‖; at rounding that of what rounding leaves, so that it is seen as a floor.
+/// The power of ten of ‖MJMᵀ − J‖; at rounding that of what rounding leaves, so that it is seen as a floor.
 fn power(moment: &FlowMoment) -> Option<f64> {
     let residual = residual(moment)?;
     let seen = if moment.is_at_rounding() { moment.rounding_floor } else { residual };

@@ -312,7 +312,7 @@ impl Instrument for TransformationPlot {
             },
             Measure {
                 word: "residual",
-                about: "the largest entry of |M 𝕁 Mᵀ − 𝕁| at points near the start",
+                about: "the largest entry of |M J Mᵀ − J| at points near the start",
                 value: |_, _, answer| judged(answer)?.residual,
             },
             Measure {

@@ -103,9 +103,10 @@ impl Dimension {
             })
     }
 
-    /// The dimension as text, with an energy in joules given by that name.
+    /// The dimension as text, with a force in newtons, an energy in joules and a power in watts given by that name.
     fn named(&self) -> String {
-        if Self::read("J").as_ref() == Some(self) { "J".to_owned() } else { self.written() }
+        let name = ["N", "J", "W"].into_iter().find(|name| Self::read(name).as_ref() == Some(self));
+        name.map_or_else(|| self.written(), str::to_owned)
     }
 
     /// The dimension as text, `kg m²/s`; empty if an exponent is not an integer.
@@ -207,8 +208,17 @@ impl Equations {
     /// The dimension of an expression, if it follows from the units of the symbols.
     fn dimension_read(&self, model: &Model, e: Expr, read: Reader) -> Option<Dimension> {
         self.dimension(e, &|symbol| {
-            of_symbol(model, symbol, read).or_else(|| self.of_body(model, symbol, read))
+            of_symbol(model, symbol, read)
+                .or_else(|| self.of_body(model, symbol, read))
+                .or_else(|| self.of_multiplier(model, symbol, read))
         })
+    }
+
+    /// The dimension of a multiplier: the unit that the file gives its constraint.
+    fn of_multiplier(&self, model: &Model, symbol: Symbol, read: Reader) -> Option<Dimension> {
+        let mut rows = self.constraints.iter().zip(&model.constraints);
+        let (_, constraint) = rows.find(|(row, _)| row.multiplier == symbol)?;
+        read(&constraint.unit).filter(|_| !constraint.unit.is_empty())
     }
 
     /// The dimension of a name that a body defines.

@@ -14,7 +14,7 @@ use std::sync::Arc;
 use rustc_hash::FxHashMap;
 
 use super::{Attitude, BodyNames, Mechanics, Model, multiplier_name};
-use crate::diagnostic::nearest;
+use crate::diagnostic::{nearest, with_index};
 use crate::expr::{
     Expr, FUNCTIONS, Node, Pool, Resolve, Span, Symbol, SymbolInfo, SyntaxError, parse_all,
 };
@@ -283,6 +283,9 @@ impl Scope {
         if let Some(table) = table_of(name).filter(|_| primes == 0) {
             let help = format!("{table} defines it; other names belong in [parameters]");
             return error.with_help(help);
+        }
+        if let Some(names) = with_index(name, &known).filter(|_| primes == 0) {
+            return error.with_help(format!("did you mean {names}?"));
         }
         match nearest(name, known) {
             Some(near) => error.with_help(format!("did you mean `{near}{}`?", "'".repeat(primes))),

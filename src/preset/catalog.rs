@@ -116,6 +116,34 @@ impl Catalog {
         }
     }
 
+    /// Returns the name of the preset with this title, in capitals or not.
+    pub fn titled(&self, title: &str) -> Option<&str> {
+        let folded = title.to_lowercase();
+        let titled = self.entries.iter().find(|entry| entry.info.title.to_lowercase() == folded);
+        titled.map(|entry| entry.name.as_str())
+    }
+
+    /// Returns the name of the preset that was meant by one that none has: with this title, or with a name or a title close
+    /// to it, or the first with the word in either.
+    pub fn nearest(&self, wanted: &str) -> Option<&str> {
+        let names = self.entries.iter().map(|entry| entry.name.as_str());
+        let titles = self.entries.iter().map(|entry| entry.info.title.as_str());
+        let folded = wanted.to_lowercase();
+        let holds = |text: &str| {
+            let text = text.to_lowercase();
+            text.split(|c: char| !c.is_alphanumeric()).any(|word| word == folded)
+        };
+        let mut entries = self.entries.iter();
+        let mut with_word = || {
+            let found = entries.find(|entry| holds(&entry.name) || holds(&entry.info.title));
+            found.filter(|_| folded.chars().count() >= LEAST_SOUGHT)
+        };
+        self.titled(wanted)
+            .or_else(|| nearest(wanted, names))
+            .or_else(|| nearest(wanted, titles).and_then(|title| self.titled(title)))
+            .or_else(|| with_word().map(|entry| entry.name.as_str()))
+    }
+
     /// Finds the document that a user names: a path if the name contains a `/` or ends in `.toml`, otherwise a
     /// preset.
     ///
@@ -130,14 +158,16 @@ impl Catalog {
             Some(entry) => entry.document(),
             None => {
                 let name = printable::os(wanted);
-                let names = self.entries.iter().map(|entry| entry.name.as_str());
-                let near = nearest(&name, names).map(str::to_owned);
+                let near = self.nearest(&name).map(str::to_owned);
                 let file = file_here(&name);
                 Err(NotFound::Name { name, near, file })
             }
         }
     }
 }
+
+/// What is sought among the words of names and titles has at least this many letters.
+const LEAST_SOUGHT: usize = 3;
 
 /// Finds the document that a user names, as [`Catalog::find`] does, without reading any other.
 ///

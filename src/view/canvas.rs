@@ -6,7 +6,7 @@ use std::borrow::Cow;
 
 use ratatui::buffer::{Buffer, Cell as ScreenCell};
 use ratatui::layout::{Margin, Position, Rect};
-use ratatui::style::Style;
+use ratatui::style::{Modifier, Style};
 use ratatui::symbols::border;
 use ratatui::widgets::{Clear, Widget};
 use unicode_width::UnicodeWidthChar;
@@ -155,7 +155,9 @@ impl Canvas<'_> {
             }
         }
         if let (true, false, Some((_, style))) = (cut, row.is_empty(), spans.last()) {
-            used += self.write(Position::new(row.x + used, row.y), 1, mark, *style);
+            // what it stands for is no match of a search, whatever the last letter is
+            let style = style.remove_modifier(Modifier::UNDERLINED);
+            used += self.write(Position::new(row.x + used, row.y), 1, mark, style);
         }
         used
     }

@@ -48,6 +48,8 @@ struct SingleRow {
     value: u16,
     drift: Option<u16>,
     verdict: u16,
+    /// Whether it is the row of a residual.
+    residual: bool,
 }
 
 impl SingleRow {
@@ -55,13 +57,16 @@ impl SingleRow {
         let glyphs = canvas.look.glyphs;
         let name = |gauge: &Gauge| glyphs.pick(&*gauge.shown, &*gauge.name).width();
         let longest = gauges.iter().map(name).max().unwrap_or(0);
-        let verdict = width.saturating_sub(VERDICT);
+        let words = |gauge: &Gauge| word(&gauge.verdict).0.width() as u16;
+        let verdict = gauges.iter().map(words).max().unwrap_or(0).max(VERDICT);
+        let verdict = width.saturating_sub(verdict);
         let drift = verdict.saturating_sub(SHORT_DRIFT + 1);
         let value = drift.saturating_sub(SHORT_VALUE + 1);
         if longest < usize::from(value) {
-            return SingleRow { value, drift: Some(drift), verdict };
+            return SingleRow { value, drift: Some(drift), verdict, residual: false };
         }
-        SingleRow { value: verdict.saturating_sub(SHORT_VALUE + 1), drift: None, verdict }
+        let value = verdict.saturating_sub(SHORT_VALUE + 1);
+        SingleRow { value, drift: None, verdict, residual: false }
     }
 }
 
@@ -110,7 +115,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, selected: Opt
         let at = columns(at, 2, area.width.saturating_sub(3));
         let residual = is_residual(lab, gauge);
         if let Some(mut single) = single {
-            single.drift = single.drift.filter(|_| !residual);
+            (single.drift, single.residual) = (single.drift.filter(|_| !residual), residual);
             in_one_row(canvas, at, single, (gauge, gauges), here);
         } else {
             name_and_reason(canvas, at, (gauge, gauges, residual), (here, all_in_full));
@@ -164,13 +169,12 @@ pub(super) fn in_full(verdict: &Verdict) -> (&'static str, Role) {
         Verdict::Exact(Growth::Faster) => "grows (rounding)",
         Verdict::Exact(_) => "conserved (exact)",
         Verdict::Broken(_) => "not conserved",
-        Verdict::OtherBranch => "other branch",
         _ => word,
     };
     (words, role)
 }
 
-/// The word for a verdict, short enough for a column, and its role.
+/// The words for a verdict, short enough for a column, and their role.
 pub(super) fn word(verdict: &Verdict) -> (&'static str, Role) {
     match verdict {
         Verdict::Open => ("…", Role::Dim),
@@ -181,7 +185,7 @@ pub(super) fn word(verdict: &Verdict) -> (&'static str, Role) {
         Verdict::Secular(_) => ("drifting", Role::Bad),
         Verdict::Lost => ("lost", Role::Bad),
         Verdict::Broken(_) => ("varies", Role::Warn),
-        Verdict::OtherBranch => ("branch", Role::Dim),
+        Verdict::OtherBranch => ("other branch", Role::Dim),
     }
 }
 
@@ -254,7 +258,7 @@ fn name_and_reason(
         (true, Verdict::Exact(_)) if changed => (BETWEEN, word(&gauge.verdict).1),
         (true, verdict) => in_full(verdict),
     };
-    let room = if full { IN_FULL + 2 } else { VERDICT };
+    let room = if full { IN_FULL + 2 } else { VERDICT.max(words.0.width() as u16) };
     let used = verdict(canvas, columns(area, area.width.saturating_sub(room), room), gauge, words);
     let area = columns(area, 0, area.width.saturating_sub(used + 1));
     let used = name(canvas, area, (gauge, all), here) + 2;
@@ -280,7 +284,7 @@ const RELEASED: &str = "released";
 
 /// Draws value, drift, and the history of the drift on a logarithmic scale. A residual is its own drift, and is shown once.
 fn numbers_and_history(canvas: &mut Canvas<'_>, area: Rect, (gauge, residual): (&Gauge, bool)) {
-    value(canvas, columns(area, 0, VALUE + 2), gauge, 6);
+    value(canvas, columns(area, 0, VALUE + 2), shown_value(gauge, residual), 6);
     if !residual {
         drift(canvas, columns(area, VALUE + 3, DRIFT), gauge);
     }
@@ -309,11 +313,12 @@ fn in_one_row(
     (gauge, all): (&Gauge, &[Gauge]),
     here: bool,
 ) {
-    verdict(canvas, columns(area, row.verdict, VERDICT), gauge, word(&gauge.verdict));
+    verdict(canvas, columns(area, row.verdict, area.width), gauge, word(&gauge.verdict));
     if let Some(at) = row.drift {
         drift(canvas, columns(area, at, SHORT_DRIFT), gauge);
     }
-    let used = value(canvas, columns(area, row.value, SHORT_VALUE), gauge, 4);
+    let shown = shown_value(gauge, row.residual);
+    let used = value(canvas, columns(area, row.value, SHORT_VALUE), shown, 4);
     // The name has the columns that the value leaves blank, too.
     let room = (row.value + SHORT_VALUE).saturating_sub(used + 1);
     name(canvas, columns(area, 0, room), (gauge, all), here);
@@ -368,9 +373,16 @@ fn name(canvas: &mut Canvas<'_>, area: Rect, (gauge, all): (&Gauge, &[Gauge]), h
     canvas.left(area, if here { Role::Title } else { Role::Text }, &text)
 }
 
+/// The value of a gauge as it is shown: zero where it is below the last digit of its terms, unless it is a residual, of which
+/// only that much is left.
+pub(super) fn shown_value(gauge: &Gauge, residual: bool) -> f64 {
+    let below = gauge.value.abs() < f64::EPSILON * gauge.scale;
+    if below && !residual { 0.0 } else { gauge.value }
+}
+
 /// Draws the value at the right. Returns the number of columns used.
-fn value(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge, digits: usize) -> u16 {
-    let text = fitted(gauge.value, digits, area.width.into(), canvas.look.glyphs);
+fn value(canvas: &mut Canvas<'_>, area: Rect, value: f64, digits: usize) -> u16 {
+    let text = fitted(value, digits, area.width.into(), canvas.look.glyphs);
     canvas.right(area, Role::Accent, text.trim_start())
 }
 

@@ -3,7 +3,7 @@
 //! In: the channels and their values. Out: a page of text. Never here: pictures.
 
 use super::companions;
-use super::gauges::{in_full, is_residual, word};
+use super::gauges::{in_full, is_residual, shown_value, word};
 use super::number::{drift, readable};
 use super::quantity::Quantities;
 use super::text_page::TextPage;
@@ -65,7 +65,8 @@ pub(super) fn document(q: &Quantities<'_>) -> TextPage {
             (role, format!("{text:<18}")),
             (Role::Dim, gauge.reason.clone()),
         ];
-        page.value(&glyphs.text(name), &readable(gauge.value, 10, glyphs), "", rest);
+        let value = readable(shown_value(gauge, residual), 10, glyphs);
+        page.value(&glyphs.text(name), &value, "", rest);
     }
     page
 }

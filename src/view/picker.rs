@@ -20,8 +20,9 @@ use super::wrap::{capitalised, ending, shortened, words};
 use crate::app::{Above, App, FuzzyMatch, HitTarget, Picker, Saved};
 use crate::preset::{CatalogEntry, PresetOrigin};
 
-/// The least and greatest width of the list if it has something beside it.
-const LIST: (u16, u16) = (34, 46);
+/// The least width of the list if it has something beside it, and of what is beside a list wider than two fifths.
+const LIST: u16 = 34;
+const BESIDE: u16 = 60;
 
 /// The height from which a narrow screen has room for the preview below the list.
 const TALL: u16 = 20;
@@ -40,7 +41,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
         }
         return;
     }
-    let (left, right) = split_columns(area, (area.width * 2 / 5).clamp(LIST.0, LIST.1));
+    let (left, right) = split_columns(area, width_of_list(canvas, area.width, &app.picker));
     list(canvas, left, &app.picker);
     let Some(entry) = app.picker.current() else {
         let title = match app.picker.selected_above() {
@@ -84,6 +85,15 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
     let used = summary(canvas, text, entry);
     let (_, below) = split_rows(inner, used + 1);
     preview(canvas, below, app, entry);
+}
+
+/// The width of the list: two fifths, or less where all titles fit in less, or more where there is room for more.
+fn width_of_list(canvas: &Canvas<'_>, width: u16, picker: &Picker) -> u16 {
+    let titles = picker.entries.iter().map(|entry| canvas.text(&entry.info.title).width());
+    // a frame, a mark and a blank at each side
+    let longest = titles.max().unwrap_or(0) + 6;
+    let longest = u16::try_from(longest).unwrap_or(u16::MAX).max(LIST);
+    longest.min((width * 2 / 5).max(width.saturating_sub(BESIDE)).max(LIST))
 }
 
 /// A line of the list.

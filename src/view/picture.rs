@@ -12,6 +12,7 @@ use super::kept::{self, Track, TrailKey};
 use super::marks::Marks;
 use super::names;
 use super::number::with_powers;
+use super::picture_title::keys_in;
 use super::plot::ticks::nice_range;
 use super::plot::{Ages, Axes, DrawnAxis, Marker, Pen, PlotFrame, Raster, Scale};
 use super::quantity::{Quantities, through};
@@ -25,9 +26,10 @@ fn keys_above(canvas: &mut Canvas<'_>, area: Rect, keys: &[Span]) {
     let top = row(area, 0);
     let blank = |x: &u16| canvas.buffer[(*x, top.y)].symbol().trim().is_empty();
     let free = (top.x..top.right()).rev().take_while(blank).count() as u16;
-    let room = free.saturating_sub(1).min(wide(keys) as u16);
+    let keys = keys_in(keys, free.saturating_sub(1).into(), canvas.look.glyphs.pick("…", "~"));
+    let room = free.saturating_sub(1).min(wide(&keys) as u16);
     if !top.is_empty() && !keys.is_empty() {
-        canvas.spans(columns(top, top.width - room, room), keys);
+        canvas.spans(columns(top, top.width - room, room), &keys);
     }
 }
 

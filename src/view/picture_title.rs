@@ -120,6 +120,33 @@ fn key(canvas: &Canvas<'_>, q: &Quantities<'_>, index: usize, channel: usize) ->
     vec![(format!("  {mark} "), theme.curve(index)), canvas.span(Role::Dim, q.name(channel))]
 }
 
+/// Keys, pairs of a mark and a name, in a width: where they are too long, words that all names begin with are left out of
+/// the names after the first, or of all of them.
+pub(super) fn keys_in(keys: &[Span], width: usize, mark: &str) -> Vec<Span> {
+    let names: Vec<&str> = keys.iter().skip(1).step_by(2).map(|(name, _)| name.as_str()).collect();
+    let same = common_words(&names);
+    if wide(keys) <= width || same == 0 || !keys.len().is_multiple_of(2) {
+        return keys.to_vec();
+    }
+    let without = |from: usize| -> Vec<Span> {
+        let shown = |(index, (text, style)): (usize, &Span)| match text.get(same..) {
+            Some(rest) if index % 2 == 1 && index > from => (format!("{mark}{rest}"), *style),
+            _ => (text.clone(), *style),
+        };
+        keys.iter().enumerate().map(shown).collect()
+    };
+    let [first_whole, none_whole] = [1, 0].map(without);
+    if wide(&first_whole) <= width { first_whole } else { none_whole }
+}
+
+/// The length of the words, with the blanks after them, that several names begin with.
+fn common_words(names: &[&str]) -> usize {
+    let [first, others @ ..] = names else { return 0 };
+    let ends = first.match_indices(' ').map(|(at, _)| at + 1);
+    let shared = |end: &usize| others.iter().all(|name| name.starts_with(&first[..*end]));
+    if others.is_empty() { 0 } else { ends.take_while(shared).last().unwrap_or(0) }
+}
+
 /// The keys of curves and of kinds of points that the title has no room for, if the picture has several.
 pub(super) fn keys_beyond(
     canvas: &Canvas<'_>,

@@ -26,9 +26,10 @@ const MEASURE: u16 = 110;
 const TWO_COLUMNS: u16 = 160;
 const BETWEEN: u16 = 2;
 
-/// Columns of an item's label, of a name and of a number; on narrow pages, the columns left for a unit.
+/// Columns of an item's label, of a name, at least and at most, and of a number; on narrow pages, the columns left for a unit.
 const LABEL: usize = 20;
 const NAME: usize = 30;
+const WIDEST_NAME: usize = 48;
 const NUMBER: usize = 20;
 const MARGIN: usize = 8;
 
@@ -207,8 +208,19 @@ impl TextPage {
         section.map(|(_, block)| label(block)).max().unwrap_or(0).min(most)
     }
 
+    /// The width of the column of names: that of the widest, if numbers and units have room beside it.
+    fn widest_name(&self, canvas: &Canvas<'_>, width: usize) -> usize {
+        let name = |block: &TextBlock| match block {
+            TextBlock::Value { name, .. } => canvas.text(name).width(),
+            _ => 0,
+        };
+        let widest = self.blocks.iter().map(name).max().unwrap_or(0);
+        widest.min(width.saturating_sub(2 + NUMBER + 2 * MARGIN).min(WIDEST_NAME)).max(NAME)
+    }
+
     fn lines(&self, canvas: &Canvas<'_>, width: usize) -> Vec<Vec<Span>> {
         let mut widest = 0;
+        let name_width = self.widest_name(canvas, width);
         let mut lines = Vec::new();
         for (place, block) in self.blocks.iter().enumerate() {
             if place == 0 || matches!(block, TextBlock::Heading(_)) {
@@ -286,7 +298,8 @@ impl TextPage {
                 TextBlock::Item { label, text } => lines.extend(item(canvas, width, label, text)),
                 TextBlock::Value { name, value, unit, rest } => {
                     let rest: Vec<Span> = rest.iter().map(|(r, t)| canvas.span(*r, t)).collect();
-                    lines.extend(self::value(canvas, width, [name, value, unit], rest));
+                    let widths = [width, name_width];
+                    lines.extend(self::value(canvas, widths, [name, value, unit], rest));
                 }
                 TextBlock::Row(pieces) => {
                     lines.push(pieces.iter().map(|(role, t)| canvas.span(*role, t)).collect());
@@ -342,7 +355,7 @@ fn item(canvas: &Canvas<'_>, width: usize, label: &str, text: &str) -> Vec<Vec<S
 /// The rows of a number between its name and its unit.
 fn value(
     canvas: &Canvas<'_>,
-    width: usize,
+    [width, name_width]: [usize; 2],
     [name, value, unit]: [&str; 3],
     rest: Vec<Span>,
 ) -> Vec<Vec<Span>> {
@@ -351,11 +364,11 @@ fn value(
     let number = canvas.span(Role::Accent, format!("{}{value}", before(value)));
     let unit = canvas.span(Role::Dim, format!(" {unit}"));
     let tail: usize = unit.0.width() + rest.iter().map(|(text, _)| text.width()).sum::<usize>();
-    let beside = 2 + NAME + NUMBER;
+    let beside = 2 + name_width + NUMBER;
     if beside + tail <= width || beside + MARGIN <= width {
         // a long name takes the columns that the number leaves
-        let gap = (NAME + 2).saturating_sub(name.width());
-        let taken = (name.width() + gap).saturating_sub(NAME + 2);
+        let gap = (name_width + 2).saturating_sub(name.width());
+        let taken = (name.width() + gap).saturating_sub(name_width + 2);
         let padding = NUMBER.saturating_sub(value.width() + taken).max(usize::from(taken > 0));
         let number = canvas.span(Role::Accent, format!("{}{value}", " ".repeat(padding)));
         let head = canvas.span(Role::Text, format!("{name}{}", " ".repeat(gap)));

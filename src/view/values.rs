@@ -144,7 +144,7 @@ fn unit(facts: &ValueInfo) -> String {
 fn ramped_in_words(about: &str, before: f64) -> String {
     let about = if about.is_empty() { String::new() } else { format!("{about}; ") };
     let before = significant(before, 6, 1e-4..1e6).replace('-', "−");
-    format!("{about}its value now; keys change what it was before the ramp, {before}")
+    format!("{about}ramped from {before}, which keys change")
 }
 
 /// Draws the bar of a value within its range, if it has one and there is room.

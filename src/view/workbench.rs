@@ -27,6 +27,9 @@ const TEXT: u16 = 56;
 /// The rows below the text, for its status and the diagnostic at the cursor.
 const FOOT: u16 = 4;
 
+/// So few of these rows have no room for a status beside a diagnostic.
+const FEW: u16 = 3;
+
 /// Draws the workbench, and the lab if there is room beside it.
 pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App, sheet: &SourceBuffer) -> Drawn {
     let mut left = area;
@@ -53,12 +56,26 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App, sheet: &Sourc
         canvas.span(Role::Dim, format!("  {}:{}", place.row + 1, place.column + 1)),
     ];
     let inner = canvas.pane(left, &title, true);
-    let foot = FOOT.min(inner.height / 3);
+    let room = usize::from(inner.width.saturating_sub(2));
+    let notice = app.notice.as_ref().map(|notice| words(&canvas.text(&notice.text), room).len());
+    let foot = rows_below(sheet, notice.unwrap_or(0) as u16, inner.height);
     let (text, below) = split_rows(inner, inner.height - foot);
     let drawn = lines(canvas, text, sheet);
     let below = columns(below, 1, below.width.saturating_sub(2));
     self::foot(canvas, below, sheet, (app.notice.as_ref(), app.lab.is_some()));
     drawn
+}
+
+/// The rows below the text: one for its status, as many as a notification of so many rows needs, or more where there are
+/// errors; a third of few rows, or two where the text is wrong.
+fn rows_below(sheet: &SourceBuffer, notice: u16, height: u16) -> u16 {
+    let wrong = sheet.state == BufferState::Wrong;
+    let wanted = if wrong || sheet.asking.is_some() || !sheet.diagnostics.is_empty() {
+        FOOT
+    } else {
+        notice.clamp(1, FOOT)
+    };
+    wanted.min((height / 3).max(if wrong { 2.min(height / 2) } else { 1 }))
 }
 
 /// Draws the text with line numbers and diagnostic marks at its left.
@@ -234,8 +251,11 @@ fn foot(
             (Role::Bad, format!("{count} errors – still running the last valid version."))
         }
     };
+    // where there are few rows, the diagnostic is worth more than that there is one
+    let few = area.height < FEW && sheet.diagnostic().is_some();
     let used = match notice {
         Some(notice) => draw_notification(canvas, area, notice),
+        None if few => 0,
         None => usize::from(canvas.left(row(area, 0), role, &text) > 0),
     };
     let area = Rect { y: area.y + used as u16, height: area.height - used as u16, ..area };

@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use phaselab::app::{App, Drawn, Effect, Event, Pane, Saved};
 use phaselab::experiment::Command;
-use phaselab::instrument::{Across, Layer, Picture, Plot, SavedVariations, Upwards};
+use phaselab::instrument::{Across, Layer, Need, Picture, Plot, SavedVariations, Upwards};
+use phaselab::job::{Progress, Share};
 use phaselab::model::Variation;
 
 use crate::hand::{begun, catalog, press};
@@ -41,6 +42,20 @@ fn points(app: &App) -> Arc<Vec<[f64; 2]>> {
         _ => None,
     });
     found.expect("points")
+}
+
+/// What is awaited is the whole picture, not its next part.
+#[test]
+fn the_progress_of_a_diagram_grows_with_it() {
+    let app = begun(DRIVEN);
+    let lab = app.lab.as_ref().unwrap();
+    let plot = diagram(&app);
+    assert_eq!(measure(&app, &plot, "columns"), 32.0);
+    let need = plot.kind.job(&plot, &lab.present().unwrap(), lab.answer(&plot));
+    let (Need::Job(job) | Need::Addition(job)) = need else { panic!("nothing is left to do") };
+    let progress = Progress::new();
+    job.run(&progress);
+    assert_eq!(progress.share(), Share { done: 48, total: Some(256) });
 }
 
 #[test]

@@ -8,6 +8,7 @@ mod hit_test;
 mod kept;
 mod labels;
 mod motion;
+mod names;
 mod panes;
 mod plain;
 mod purity;

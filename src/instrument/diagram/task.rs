@@ -69,12 +69,14 @@ impl DiagramTask {
         let first = columns.len();
         let [from, to] = conditions.window.first().copied().unwrap_or_default();
         let at = |i: usize| from + (to - from) * evenly(first + i);
-        progress.expect(PART as u64);
+        // what is awaited is the whole picture, which has a part of it already
+        progress.expect(MOST as u64);
+        progress.reach(first as u64);
         let mut refused = None;
         let places: Vec<f64> = (0..PART).map(at).collect();
         let groups: Vec<&[f64]> = places.chunks(self.group(&system)).collect();
         let group = |i: usize| self.numbers(&system, groups[i]);
-        let mut done = 0;
+        let mut done = first as u64;
         let take = |i: usize, found: Vec<Result<Vec<f64>, String>>| {
             done += found.len() as u64;
             progress.reach(done);

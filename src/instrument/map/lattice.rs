@@ -60,14 +60,15 @@ impl MapTask {
         let places = places();
         let next = places.get(values.len()..).unwrap_or_default();
         let next = &next[..next.len().min(PART)];
-        progress.expect(next.len() as u64);
+        progress.expect(places.len() as u64);
+        progress.reach(values.len() as u64);
         let mut refused = None;
         let groups: Vec<_> = next.chunks(self.group(&system)).collect();
         let group = |i: usize| {
             let starts = groups[i].iter().map(|(place, _)| self.motions.start(&self.at(*place)));
             self.numbers(&system, starts.collect())
         };
-        let mut done = 0;
+        let mut done = values.len() as u64;
         let take = |_, found: Vec<Result<f64, String>>| {
             done += found.len() as u64;
             progress.reach(done);

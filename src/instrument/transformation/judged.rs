@@ -136,7 +136,7 @@ fn lines(pool: &Pool, report: &TransformationReport) -> Vec<String> {
     let mut lines = vec![match (verdict.canonical, verdict.proved) {
         (true, true) => "canonical, proved".to_owned(),
         (true, false) if !verdict.only_here.is_empty() => "canonical at these values".to_owned(),
-        (true, false) => format!("canonical to rounding: |M 𝕁 Mᵀ − 𝕁| = {off}"),
+        (true, false) => format!("canonical to rounding: |M J Mᵀ − J| = {off}"),
         (false, _) if is_unknown(verdict) => {
             let why = verdict.why.as_ref().map_or_else(String::new, |why| format!(": {why}"));
             format!("no map is known here{why}")

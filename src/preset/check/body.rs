@@ -43,7 +43,7 @@ impl Check<'_> {
         let symbol = self.model.pool.symbol(name);
         let (unicode, latex) = match name.strip_prefix('I') {
             Some(axes @ ("xx" | "yy" | "zz" | "xy" | "xz" | "yz")) => {
-                (name.to_owned(), format!("I_{{{axes}}}"))
+                (format!("I_{axes}"), format!("I_{{{axes}}}"))
             }
             _ => (unicode_name(name), latex_name(name)),
         };

@@ -26,7 +26,7 @@ pub(super) const TRANSFORMATION: SchemaTable = SchemaTable {
         key(
             "residual",
             Text,
-            "a name for the largest entry of |M 𝕁 Mᵀ − 𝕁| of an explicit one, with M from its derivatives: zero where it is canonical",
+            "a name for the largest entry of |M J Mᵀ − J| of an explicit one, with M from its derivatives: zero where it is canonical",
         ),
     ],
 };

@@ -111,13 +111,14 @@ fn an_unsaved_text_of_a_wrong_file_is_listed_among_the_systems() {
     press(&mut app, "x Esc");
     assert_eq!(app.page, Page::Picker);
     let told = app.notice.as_ref().map(|notice| notice.text.clone()).unwrap_or_default();
-    assert_eq!(told, "./wrong.toml has unsaved changes; Enter returns to it.");
+    assert_eq!(told, "wrong.toml has unsaved changes; Enter returns to it.");
     assert_eq!(app.picker.selected_above(), Some(Above::Unsaved));
     assert!(text_of(&app).contains("Unsaved: ./wrong.toml"), "{}", text_of(&app));
     let (mut again, _) = App::new(catalog(), None);
     again.workbench.put(app.unsaved());
     again.update(Event::Tick(Duration::ZERO));
     assert_eq!(again.picker.unsaved(), Some(name));
+    assert_eq!(again.picker.selected_above(), Some(Above::Unsaved), "as a session would be");
     for mut app in [app, again] {
         app.update(Event::Loaded(Ok(crate::hand::pendulum())));
         app.picker.step(-9);

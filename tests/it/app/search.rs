@@ -102,6 +102,8 @@ fn the_palette_knows_other_words() {
         ("chaos", "measure the Lyapunov exponent"),
         ("drag", "use the mouse here"),
         ("zoom in", "look closer"),
+        ("gif", "record the screen"),
+        ("print", "write a screenshot"),
         ("action variable", "show actions: action variable"),
     ] {
         let found = lines(&lab, query);

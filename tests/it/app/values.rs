@@ -110,3 +110,27 @@ fn a_held_key_counts_every_press_before_the_experiment_answers() {
     let lab = app.lab.as_ref().unwrap();
     assert_eq!(lab.value(ValueId::Parameter(0)), Some(1.2));
 }
+
+/// The steps of a key that is held are one change, whose jump of the energy is reported; after a while another one begins.
+#[test]
+fn steps_that_follow_each_other_are_one_change_for_the_experiment() {
+    let mut app = in_lab();
+    let values = [1.02, 1.04, 1.06];
+    let [first, second, third] = values.map(|value| {
+        if value > 1.05 {
+            press(&mut app, "Wait");
+        }
+        press(&mut app, "Right")
+    });
+    let begins = |effects: &[Effect]| {
+        effects.iter().find_map(|effect| match effect {
+            Effect::Tell(Command::Parameter { index: 0, .. }) => Some(true),
+            Effect::Tell(Command::MoveParameter { index: 0, .. }) => Some(false),
+            _ => None,
+        })
+    };
+    assert_eq!(
+        [first, second, third].map(|effects| begins(&effects)),
+        [Some(true), Some(false), Some(true)]
+    );
+}

@@ -334,7 +334,7 @@ fn a_residual_of_nothing_is_zero() {
     let step = ["--method=symplectic-euler", "--step=0.1", "--until=0.1"];
     let run = phaselab(&[&["flow", "symplectic-euler"][..], &step[..]].concat());
     let text = run.text();
-    assert!(text.contains("𝕁|: 0, of which"), "{text}");
+    assert!(text.contains("J|: 0, of which"), "{text}");
 }
 
 #[test]

@@ -65,26 +65,45 @@ fn a_parameter_turned_on_and_on_is_reported_once() {
     assert_eq!(pendulum.snapshot().notices.len(), 2);
 }
 
+/// One change is one jump, however fast the motion is and whether it runs; two changes are two, however close they are.
 #[test]
-fn the_jump_of_energy_is_that_of_all_steps_of_a_parameter() {
-    let mut pendulum = shipped("pendulum");
-    run(&mut pendulum, 1.0);
-    let height = -value(&pendulum, "theta").cos();
-    let before = pendulum.model().parameters[parameter(&pendulum, "g")].value;
-    for g in [10.0, 11.0, 12.0] {
-        set(&mut pendulum, "g", g);
+fn the_jump_of_energy_is_that_of_all_steps_of_a_change() {
+    for speed in [1.0, f64::INFINITY] {
+        for pause in [0.0, 0.5] {
+            let mut pendulum = shipped("pendulum");
+            pendulum.execute(Command::Speed(speed));
+            run(&mut pendulum, 1.0);
+            let index = parameter(&pendulum, "g");
+            let mut last = pendulum.model().parameters[index].value;
+            let mut expected = 0.0;
+            for (step, value_of_g) in [10.0, 11.0, 12.0].into_iter().enumerate() {
+                // the mass and the length are 1
+                expected -= value(&pendulum, "theta").cos() * (value_of_g - last);
+                last = value_of_g;
+                pendulum.execute(match step {
+                    0 => Command::Parameter { index, value: value_of_g },
+                    _ => Command::MoveParameter { index, value: value_of_g },
+                });
+                let until = pendulum.time() + pause;
+                run(&mut pendulum, until);
+            }
+            let said = |pendulum: &Experiment| pendulum.snapshot().notices.last().cloned();
+            let jump = |by: f64| {
+                let sign = if by < 0.0 { '−' } else { '+' };
+                format!("g: energy jumped by {sign}{};", phaselab::num::short(by.abs()))
+            };
+            let notice = said(&pendulum).expect("the jump is reported");
+            assert!(notice.starts_with(&jump(expected)), "{expected} is expected: {notice}");
+            let next = -value(&pendulum, "theta").cos();
+            set(&mut pendulum, "g", 13.0);
+            let notice = said(&pendulum).expect("the jump is reported");
+            assert!(notice.starts_with(&jump(next)), "{next} is expected: {notice}");
+            if pause == 0.0 {
+                pendulum.execute(Command::MoveParameter { index, value: last });
+                assert_eq!(said(&pendulum), None, "it is as it was");
+            }
+        }
     }
-    let notice = pendulum.snapshot().notices.last().cloned().expect("the jump is reported");
-    let by = phaselab::num::short((height * (12.0 - before)).abs());
-    assert!(notice.contains(&by), "m l = 1, so {by} is expected: {notice}");
-    set(&mut pendulum, "g", before);
-    assert!(pendulum.snapshot().notices.is_empty(), "it is as it was");
-    set(&mut pendulum, "g", 10.0);
-    run(&mut pendulum, 6.0);
-    let height = -value(&pendulum, "theta").cos();
-    set(&mut pendulum, "g", 11.0);
-    let notice = pendulum.snapshot().notices.last().cloned().expect("the jump is reported");
-    assert!(notice.contains(&phaselab::num::short(height.abs())), "much later: {notice}");
 }
 
 #[test]

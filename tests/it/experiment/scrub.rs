@@ -30,6 +30,14 @@ fn what_is_seen_of_the_past_is_what_a_run_to_that_time_gives() {
                 seen.trail.rows().filter(|row| row[0] <= time).count().min(rows(&seen))
             );
             assert!(seen.trail.rows().all(|row| row[0] <= time));
+            assert_eq!(seen.crossings.counts(), there.crossings.counts(), "{name} at {time}");
+            for surface in 0..seen.crossings.counts().len() {
+                let channels = seen.values.len();
+                let times = |s: &phaselab::experiment::Snapshot| -> Vec<f64> {
+                    s.crossings.rows(surface, channels).map(|row| row[0]).collect()
+                };
+                assert_eq!(times(&seen), times(&there), "{name} at {time}");
+            }
         }
     }
 }

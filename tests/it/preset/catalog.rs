@@ -167,6 +167,15 @@ fn a_misspelt_name_gets_the_nearest() {
     let catalog = Catalog::with_folder(None);
     let error = catalog.find("pendulm").unwrap_err();
     assert_eq!(error.to_string(), "there is no preset `pendulm`; did you mean `pendulum`?");
+    for (wanted, meant) in [
+        ("Simple pendulum", "pendulum"),
+        ("simple pendulun", "pendulum"),
+        ("kepler", "kepler-brackets"),
+        ("Foucault's pendulum", "foucault"),
+    ] {
+        let said = catalog.find(wanted).unwrap_err().to_string();
+        assert_eq!(said, format!("there is no preset `{wanted}`; did you mean `{meant}`?"));
+    }
     let error = catalog.find("zzzzzz").unwrap_err();
     assert_eq!(error.to_string(), "there is no preset `zzzzzz`");
 }

@@ -8,7 +8,9 @@ use super::GOOD;
 
 fn oscillator() -> Model {
     let text = GOOD.replace("m = 1.0", "m = 1.0\nlength = 1.0");
-    let text = format!("{text}[definitions]\nV = \"k*x^2*length\"\nM = \"p_x + x'\"\n");
+    let text = format!(
+        "{text}[definitions]\nV = \"k*x^2*length\"\nM = \"p_x + x'\"\nGamma_x = \"k*x\"\nGamma_y = \"m*x\"\n"
+    );
     read(&text).unwrap().model
 }
 
@@ -76,6 +78,7 @@ fn the_nearest_name_is_one_that_may_stand_there() {
     check(Observable, "q_x", "0..3 unknown name `q_x`; did you mean `p_x`?");
     check(Parameters, "q_x", "0..3 unknown name `q_x`; give it a value in [parameters]");
     check(Observable, "X'", "0..2 unknown name `X`; did you mean `x'`?");
+    check(Observable, "Gamma", "0..5 unknown name `Gamma`; did you mean `Gamma_x` or `Gamma_y`?");
     check(Observable, "enrgy", "0..5 unknown name `enrgy`; did you mean `energy`?");
     check(
         Observable,

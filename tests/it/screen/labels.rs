@@ -121,7 +121,7 @@ fn the_hint_for_q_says_what_it_does() {
 fn the_triad_stands_in_the_corner() {
     for glyphs in [Glyphs::Braille, Glyphs::Ascii] {
         let look = RenderStyle { glyphs, ..rich() };
-        let buffer = screen(&lab("heavy-top-body", 1.0), &look, (120, 40));
+        let buffer = screen(&lab("sleeping-top", 1.0), &look, (120, 40));
         let floor = (2..40).find(|&y| "╰+".contains(buffer[(0, y)].symbol()));
         let floor = floor.unwrap_or_else(|| panic!("{:#?}", rows(&buffer)));
         let row: String = (1..9).map(|x| buffer[(x, floor - 1)].symbol()).collect();
@@ -135,7 +135,7 @@ fn the_triad_stands_in_the_corner() {
 fn every_curve_of_several_has_its_key_on_the_screen() {
     for (name, keys) in [
         ("toda-three", &["━ p_q₁", "━ p_q₂", "━ p_q₃"][..]),
-        ("free-rigid-body", &["━ L₁/I₁", "━ rate about axis 2", "━ L₃/I₃"]),
+        ("free-rigid-body", &["━ rate about axis 1", "━ rate about axis 2", "━ rate about axis 3"]),
         ("kepler-brackets", &["━ L_x", "━ L_y", "━ L_z"]),
         ("relativistic-particle", &["━ x′", "━ y′"]),
     ] {

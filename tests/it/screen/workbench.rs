@@ -208,3 +208,32 @@ fn one_line_scrolls_and_one_pane_is_focused() {
     assert!(!text.iter().any(|row| row.contains("# long")), "{text:#?}");
     assert_eq!(text.concat().matches('┏').count(), 1, "{text:#?}");
 }
+
+/// On the smallest screen an error is told, and not only that there is one.
+#[test]
+fn an_error_is_told_in_few_rows() {
+    let mut app = edited();
+    let (from, to) = (Caret { row: 0, column: 0 }, Caret { row: 0, column: 5 });
+    let sheet = app.workbench.top_mut().unwrap();
+    let message = "unknown key `xname` in this table".to_owned();
+    let help = Some("did you mean `name`?".to_owned());
+    sheet.diagnostics = vec![BufferDiagnostic { from, to, warning: false, message, help }];
+    sheet.state = BufferState::Wrong;
+    let buffer = screen(&app, &rich(), (40, 10));
+    assert!(find(&buffer, "1:1 unknown key `xname`").is_some(), "{:#?}", rows(&buffer));
+    assert!(find(&buffer, "did you mean `name`?").is_some(), "{:#?}", rows(&buffer));
+}
+
+/// Rows that nothing is said in belong to the text.
+#[test]
+fn the_text_has_the_rows_that_messages_leave() {
+    let mut app = edited();
+    for (height, least) in [(24, 18), (15, 9)] {
+        let (buffer, shown) = drawn(&app, &rich(), (80, height));
+        assert!(shown.rows >= least, "{}: {:#?}", shown.rows, rows(&buffer));
+    }
+    app.notice = Some(Notification::info("lift-off at t = 2"));
+    assert_eq!(drawn(&app, &rich(), (80, 24)).1.rows, 18, "a line in place of the status");
+    app.notice = Some(Notification::info("a message that is longer than a line ".repeat(2)));
+    assert_eq!(drawn(&app, &rich(), (80, 24)).1.rows, 17);
+}

@@ -223,6 +223,8 @@ fn momenta_and_energies_have_the_units_that_follow_from_the_file() {
         ("pendulum", "energy", "J"),
         ("planet", "p_r", "M⊕ au/yr"),
         ("elastic-pendulum", "p_r", "kg m/s"),
+        ("pendulum-rod", "tension", "N"),
+        ("smooth-sphere", "reaction", "N"),
     ] {
         let Ok(document) = crate::hand::catalog().find(name) else { panic!("no preset {name}") };
         let model = document.read().unwrap().model;
