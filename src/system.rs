@@ -98,6 +98,7 @@ mod state_layout;
 mod step_series;
 mod surface;
 mod tangent;
+mod term_sizes;
 mod term_watch;
 mod terms;
 mod underflow;

@@ -88,10 +88,22 @@ fn of_values(text: &str) -> Result<NumberTable, String> {
     })
 }
 
+/// JSON of one value a line, as `--format jsonl` writes it: an object with the names of columns, then a row in each line, and another
+/// object at the end.
+fn of_lines(text: &str) -> Option<Value> {
+    let mut values = serde_json::Deserializer::from_str(text).into_iter::<Value>();
+    let mut all = values.next()?.ok().filter(|head| head["columns"].is_array())?;
+    let values: Vec<Value> = values.collect::<Result<_, _>>().ok()?;
+    all["rows"] = Value::Array(values.into_iter().filter(Value::is_array).collect());
+    Some(all)
+}
+
 /// The table in a JSON object that a command wrote: its rows, the course of an exponent, the lines of a spectrum, or a family of
 /// orbits.
 fn of_json(text: &str) -> Result<NumberTable, String> {
-    let all: Value = serde_json::from_str(text).map_err(|why| format!("it is no JSON: {why}"))?;
+    let all = serde_json::from_str(text)
+        .or_else(|why| of_lines(text).ok_or(why))
+        .map_err(|why| format!("it is no JSON: {why}"))?;
     let word = |key: &str| all[key].as_str().map(str::to_owned);
     let list = |key: &str| all[key].as_array();
     let number = |value: &Value| value.as_f64().unwrap_or(f64::NAN);

@@ -37,7 +37,15 @@ pub(super) fn derive(document: &Document, model: Model) -> Result<Derived, Comma
     let derived =
         derived.map_err(|why| CommandError::WrongFile(format!("{}: {why}", document.path)))?;
     let diagnostics = derived.diagnostics();
-    if diagnostics.is_empty() { Ok(derived) } else { Err(refuse(document, &diagnostics)) }
+    match diagnostics.first() {
+        None => Ok(derived),
+        // what an option has added has no place in the file
+        Some(Diagnostic { place, message, help, .. }) if *place == (0..0) => {
+            let help = help.iter().map(|help| format!("; {help}")).collect::<String>();
+            Err(CommandError::WrongUse(format!("{message}{help}")))
+        }
+        Some(_) => Err(refuse(document, &diagnostics)),
+    }
 }
 
 /// The error of a file whose method is not in the table.

@@ -16,7 +16,8 @@ use super::path_function::{PathFunctions, is_momentum, of_coordinates};
 use super::{stderr, study};
 use crate::dynamics::{
     DynamicsError, Hamiltonian, Lagrangian, PathKind, PhaseSpace, abbreviated_action,
-    action_at_energy, conjugate_points, morse_index, nearest_stationary_path, stationary_path,
+    action_at_energy, conjugate_points, morse_index, nearest_stationary_path,
+    stationary_path_between,
 };
 use crate::expr::Expr;
 use crate::mechanics::{Equations, Valuation, body_constants};
@@ -173,21 +174,17 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         None => {
             let ends = ends(arguments, &laid)?;
             let [from, to] = &ends;
-            let guess = |t: f64| -> Vec<f64> {
-                let part = t / duration;
-                let straight = from
-                    .iter()
-                    .zip(to)
-                    .map(|(a, b)| if part == 1.0 { *b } else { a + part * (b - a) });
-                match &near {
-                    // the ends are those that are asked for
-                    Some(near) if part > 0.0 && part < 1.0 => at(&equations, near, t, 0),
-                    _ => straight.collect(),
-                }
-            };
             let path = match &near {
-                Some(_) => nearest_stationary_path(&mut lagrangian, &guess, duration),
-                None => stationary_path(&mut lagrangian, &guess, duration),
+                Some(near) => {
+                    // the ends are those that are asked for
+                    let guess = |t: f64| match t / duration {
+                        part if part <= 0.0 => from.clone(),
+                        part if part >= 1.0 => to.clone(),
+                        _ => at(&equations, near, t, 0),
+                    };
+                    nearest_stationary_path(&mut lagrangian, &guess, duration)
+                }
+                None => stationary_path_between(&mut lagrangian, [from, to], duration),
             };
             solved = Some(path.map_err(study::failed)?);
             true

@@ -72,7 +72,8 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     }
     let similarity = equations.similarity();
     let has_lagrangian = equations.lagrangian().is_ok();
-    let others = Others { has_lagrangian, points, similarity };
+    let listed = found.iter().flat_map(|found| &found.found).filter(|s| s.proved).count();
+    let others = Others { has_lagrangian, listed, points, similarity };
     let text = match arguments.format {
         Format::Text => {
             let script = MathScript::of_locale();
@@ -126,6 +127,7 @@ fn text(model: &Model, equations: &Equations, found: &Symmetries, script: MathSc
             found.unwritten
         ));
     }
+    text.push_str(&similar::unfinished(found.unfinished));
     text
 }
 
@@ -170,6 +172,7 @@ fn json(model: &Model, equations: &Equations, found: &Result<Symmetries, Unsuppo
         "searched": found.as_ref().ok().map(|f| f.searched.as_str()),
         "complete": found.as_ref().is_ok_and(|f| f.complete),
         "unwritten": found.as_ref().ok().map(|f| f.unwritten),
+        "unfinished": found.as_ref().ok().map(|f| f.unfinished),
     });
     if let Err(why) = found {
         object["why"] = Value::String(why.to_string());

@@ -11,33 +11,13 @@
 
 use rustc_hash::FxHashMap;
 
+use super::node_operation::{Angle, NodeOperation};
+use super::positive_roots::PositiveRoots;
 use super::radicals::Radicals;
 use super::random::Random;
 use super::units::{Units, Unsupported, least_common};
 use crate::expr::{Expr, FunctionId, Node, Pool, Symbol};
 use crate::num::{Number, PrimeField, Residue};
-
-/// One node in terms of those before it.
-#[derive(Clone, Debug)]
-enum NodeOperation {
-    Number(Number),
-    /// The same residue at every point of a seed: π, and a logarithm or arctangent of a constant.
-    Constant,
-    Symbol(Symbol),
-    Sum(Number, Vec<(Number, usize)>),
-    /// A coefficient and factors: base, the order of the root taken of it, the power of that root.
-    Product(Number, Vec<(usize, u64, i64)>),
-    /// The sine (or cosine) of the sum of multiples of the arguments of units, and quarter turns.
-    Sine(Angle, usize),
-    Cosine(Angle, usize),
-    /// Of the product of powers of units.
-    Exp(Vec<(usize, i64)>, usize),
-    Sinh(Vec<(usize, i64)>, usize),
-    Cosh(Vec<(usize, i64)>, usize),
-    /// A random residue, and the node of its argument.
-    Ln(usize),
-    Atan(usize),
-}
 
 /// Whether a node itself has a number that is not a short fraction.
 fn has_real(pool: &Pool, e: Expr) -> bool {
@@ -48,13 +28,6 @@ fn has_real(pool: &Pool, e: Expr) -> bool {
         Node::Product(c, _) => real(c),
         _ => false,
     }
-}
-
-/// Multiples of units, and quarter turns.
-#[derive(Clone, Debug)]
-struct Angle {
-    parts: Vec<(usize, i64)>,
-    quarters: i64,
 }
 
 /// Compiled expressions.
@@ -70,6 +43,7 @@ pub(super) struct ResidueEvaluator {
     /// Whether numbers are not short fractions. Their products are rounded, so that relations between them are lost.
     pub(super) inexact: bool,
     radicals: Radicals,
+    positive: PositiveRoots,
 }
 
 /// The values at one point.
@@ -190,6 +164,8 @@ impl ResidueEvaluator {
             all.order.iter().map(|&term| !pool.depends_on_any(term, moving)).collect()
         };
         let radicals = Radicals::new(pool, &roots_of, &index);
+        let orders = roots_of.iter().map(|(base, &order)| (index[base], order)).collect();
+        let positive = PositiveRoots::new(&steps, &orders);
         Ok(ResidueEvaluator {
             steps,
             index,
@@ -198,6 +174,7 @@ impl ResidueEvaluator {
             overgeneral: opaque > 1 || inexact,
             inexact,
             radicals,
+            positive,
         })
     }
 
@@ -210,6 +187,18 @@ impl ResidueEvaluator {
     pub(super) fn conjugate(&self, negative: u32) -> ResidueEvaluator {
         let radicals = Radicals { negative, ..self.radicals.clone() };
         ResidueEvaluator { radicals, ..self.clone() }
+    }
+
+    /// Draws these symbols so that roots have values where that can be seen beforehand; `state` has those that are given.
+    pub(super) fn draw(
+        &self,
+        field: PrimeField,
+        random: &mut Random,
+        symbols: impl Iterator<Item = Symbol>,
+        state: &mut FxHashMap<Symbol, Residue>,
+    ) {
+        let symbols: Vec<Symbol> = symbols.collect();
+        self.positive.draw((&self.steps, &self.radicals), (field, random), &symbols, state);
     }
 
     /// Evaluates everything at a point whose symbols have the values `at`. `None` where something has no value.
@@ -246,40 +235,11 @@ impl ResidueEvaluator {
         };
         for (i, step) in self.steps.iter().enumerate() {
             values[i] = match step {
-                NodeOperation::Number(n) => field.number(*n)?,
                 NodeOperation::Constant => same.residue(&field),
                 NodeOperation::Ln(_) | NodeOperation::Atan(_) => random.residue(&field),
                 NodeOperation::Symbol(s) => at(*s)?,
-                NodeOperation::Sum(c, terms) => {
-                    let mut sum = field.number(*c)?;
-                    for &(c, term) in terms {
-                        let term = values[term];
-                        sum = if c.is_one() {
-                            field.add(sum, term)
-                        } else {
-                            field.add(sum, field.mul(field.number(c)?, term))
-                        };
-                    }
-                    sum
-                }
-                NodeOperation::Product(c, factors) => {
-                    let mut product = field.number(*c)?;
-                    for &(base, d, n) in factors {
-                        let root = match roots.get(&(base, d)) {
-                            Some(&root) => root,
-                            None => {
-                                let root = field.root(values[base], d)?;
-                                let sign = self.radicals.of.get(&base);
-                                let negative =
-                                    sign.is_some_and(|k| self.radicals.negative >> k & 1 == 1);
-                                let root = if negative { field.neg(root) } else { root };
-                                roots.insert((base, d), root);
-                                root
-                            }
-                        };
-                        product = field.mul(product, field.integer_power(root, n)?);
-                    }
-                    product
+                NodeOperation::Number(_) | NodeOperation::Sum(..) | NodeOperation::Product(..) => {
+                    step.algebraic(field, &self.radicals, &values, &mut roots)?
                 }
                 NodeOperation::Sine(angle, _) | NodeOperation::Cosine(angle, _) => {
                     let (sine, cosine) = angle.open(&field, &circles);
@@ -378,33 +338,3 @@ impl ResidueEvaluator {
 /// The derivatives of everything along one direction.
 #[derive(Clone, Debug)]
 pub(super) struct ResidueRates(Vec<Residue>);
-
-impl Angle {
-    /// Its sine and cosine.
-    fn open(&self, field: &PrimeField, circles: &[(Residue, Residue)]) -> (Residue, Residue) {
-        let one = field.one();
-        let mut whole = match self.quarters.rem_euclid(4) {
-            0 => (Residue::ZERO, one),
-            1 => (one, Residue::ZERO),
-            2 => (Residue::ZERO, field.neg(one)),
-            _ => (field.neg(one), Residue::ZERO),
-        };
-        let turn = |a: (Residue, Residue), b: (Residue, Residue)| {
-            let sine = field.add(field.mul(a.0, b.1), field.mul(a.1, b.0));
-            (sine, field.sub(field.mul(a.1, b.1), field.mul(a.0, b.0)))
-        };
-        for &(unit, n) in &self.parts {
-            let (sine, cosine) = circles[unit];
-            let mut power = if n < 0 { (field.neg(sine), cosine) } else { (sine, cosine) };
-            let mut n = n.unsigned_abs();
-            while n > 0 {
-                if n & 1 == 1 {
-                    whole = turn(whole, power);
-                }
-                power = turn(power, power);
-                n >>= 1;
-            }
-        }
-        whole
-    }
-}

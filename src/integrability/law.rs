@@ -182,9 +182,8 @@ impl Law {
         seed: u64,
     ) -> Option<DrawnPoint> {
         let mut state = constants.clone();
-        for &symbol in self.variables.iter().chain([&self.time]) {
-            state.insert(symbol, random.residue(&field));
-        }
+        let drawn = self.variables.iter().chain([&self.time]).copied();
+        evaluator.draw(field, random, drawn, &mut state);
         let begin = random.clone();
         *random = Random::new(random.next());
         let evaluate = |state: &FxHashMap<Symbol, Residue>| {

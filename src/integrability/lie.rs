@@ -58,6 +58,8 @@ pub struct PointSymmetries {
     pub searched: String,
     /// Whether their number is proved: the ansatz has no others.
     pub complete: bool,
+    /// How many more there are that were not written when the time ran out.
+    pub unfinished: usize,
 }
 
 /// Searches for Lie point symmetries of the equations of motion, at the parameters' values. `noether` are those that come
@@ -118,6 +120,7 @@ pub fn point_symmetries(
         ExplicitMotion::of(pool, time, positions, velocities, symbolic)
     });
     let mut complete = !problem.overgeneral && !generic;
+    let mut unfinished = 0;
     let mut found = Vec::new();
     let known = noether.iter().flat_map(|known| &known.found).filter(|s| s.proved);
     for s in known {
@@ -132,7 +135,8 @@ pub fn point_symmetries(
     }
     for vector in solved {
         if is_over() {
-            return Err(Unsupported(RAN_OUT.to_owned()));
+            (complete, unfinished) = (false, unfinished + 1);
+            continue;
         }
         let Some((xi, eta)) = problem.exact(pool, &vector) else {
             complete = false;
@@ -170,7 +174,7 @@ pub fn point_symmetries(
     };
     let searched = words(pool, &shown, &problem.monomials);
     let searched = format!("changes of time and coordinates that are {searched}");
-    Ok(PointSymmetries { found, searched, complete })
+    Ok(PointSymmetries { found, searched, complete, unfinished })
 }
 
 /// The condition on the coefficients of ξ and η.
@@ -300,9 +304,8 @@ impl LieProblem {
     ) -> Option<(Vec<Residue>, Vec<Vec<Residue>>, Vec<Residue>)> {
         let motion = &self.motion;
         let mut state: FxHashMap<Symbol, Residue> = FxHashMap::default();
-        for &s in motion.positions.iter().chain(&motion.velocities).chain([&motion.time]) {
-            state.insert(s, random.residue(&field));
-        }
+        let moving = motion.positions.iter().chain(&motion.velocities).chain([&motion.time]);
+        evaluator.draw(field, random, moving.copied(), &mut state);
         let point = evaluator.point(field, random, 7, &|s| state.get(&s).copied())?;
         let value = |e: Expr| evaluator.value(&point, e);
         let speeds: Vec<Residue> = motion.velocities.iter().map(|v| state[v]).collect();

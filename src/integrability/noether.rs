@@ -72,6 +72,8 @@ pub struct Symmetries {
     pub complete: bool,
     /// How many more there are whose coefficients are no short fractions, so that they are not written.
     pub unwritten: usize,
+    /// How many more there are that were not written when the time ran out.
+    pub unfinished: usize,
 }
 
 /// Searches for Noether's symmetries of a Lagrangian, at the parameters' values.
@@ -111,28 +113,42 @@ pub fn symmetries(
     let mut problem = NoetherProblem::of(pool, lagrangian, time, positions, velocities);
     let vectors = problem.solve(pool, is_over)?;
     let mut found: Vec<Symmetry> = Vec::new();
-    let generic = stand_in::has_stand_ins(model, equations);
+    // those that occur in L
+    let generic = symbolic != lagrangian && stand_in::has_stand_ins(model, equations);
     let pool = &mut equations.pool;
     let mut complete = !problem.overgeneral && !generic;
-    let mut unwritten = 0;
+    let (mut unwritten, mut unfinished) = (0, 0);
     // the same changes with the parameters' names, where they are symmetries for all their values
     let named = (symbolic != lagrangian).then(|| problem.with(pool, symbolic));
+    let mut other_gauge: Vec<(Expr, Vec<Expr>)> = Vec::new();
     for vector in vectors {
         if is_over() {
-            return refused(RAN_OUT);
+            (complete, unfinished) = (false, unfinished + 1);
+            continue;
         }
-        let by_name = named.as_ref().and_then(|named| named.exact(pool, &vector));
-        let by_name = by_name.filter(|symmetry| symmetry.proved);
-        let here = |pool: &mut Pool| {
+        let solution = problem.exact(pool, &vector);
+        let by_name = named.as_ref().zip(solution.clone());
+        let by_name = by_name.map(|(named, (xi, eta, f))| named.symmetry(pool, xi, eta, f));
+        match (by_name.filter(|symmetry| symmetry.proved), solution) {
+            (Some(symmetry), _) => found.push(symmetry),
             // it need not be one for the values that the stand-ins are for
-            let symmetry = problem.exact(pool, &vector).filter(|_| !generic)?;
-            Some(Symmetry { for_all_parameters: named.is_none(), ..symmetry })
-        };
-        match by_name.or_else(|| here(pool)) {
-            Some(symmetry) => found.push(symmetry),
-            None => (complete, unwritten) = (false, unwritten + usize::from(!generic)),
+            (None, Some((xi, eta, _))) if generic => other_gauge.push((xi, eta)),
+            (None, Some((xi, eta, f))) => {
+                let symmetry = problem.symmetry(pool, xi, eta, f);
+                found.push(Symmetry { for_all_parameters: named.is_none(), ..symmetry });
+            }
+            (None, None) => (complete, unwritten) = (false, unwritten + usize::from(!generic)),
         }
     }
+    for (xi, eta) in other_gauge {
+        // of a boost only the gauge term has the masses
+        let Some(named) = named.as_ref().filter(|_| !is_over()) else { break };
+        let change = named.change(&mut equations.pool, xi, &eta);
+        let gauge = equations.gauge(change, Expr::ZERO).function;
+        let symmetry = gauge.map(|f| named.symmetry(&mut equations.pool, xi, eta, f));
+        found.extend(symmetry.filter(|symmetry| symmetry.proved));
+    }
+    let pool = &mut equations.pool;
     complete &= found.iter().all(|s| s.proved);
     found.sort_by_key(|s| {
         let rest = s.coordinates.iter().chain([&s.time, &s.gauge]);
@@ -148,7 +164,7 @@ pub fn symmetries(
     for symmetry in &mut found {
         symmetry.between_impulses = is_changed_by_impulse(equations, model, symmetry.conserved);
     }
-    Ok(Symmetries { found, searched, complete, unwritten })
+    Ok(Symmetries { found, searched, complete, unwritten, unfinished })
 }
 
 /// The condition on the coefficients of ξ, η and f.
@@ -285,9 +301,8 @@ impl NoetherProblem {
         random: &mut Random,
     ) -> Option<(Vec<Residue>, Vec<Residue>)> {
         let mut state: FxHashMap<Symbol, Residue> = FxHashMap::default();
-        for &s in self.positions.iter().chain(&self.velocities).chain([&self.time]) {
-            state.insert(s, random.residue(&field));
-        }
+        let moving = self.positions.iter().chain(&self.velocities).chain([&self.time]);
+        evaluator.draw(field, random, moving.copied(), &mut state);
         let point = evaluator.point(field, random, 7, &|s| state.get(&s).copied())?;
         let velocity = |s: Symbol| {
             let k = self.positions.iter().position(|&q| q == s);
@@ -323,8 +338,8 @@ impl NoetherProblem {
         Some((values, row))
     }
 
-    /// A solution with rational coefficients, its constant, and whether the condition is proved.
-    fn exact(&self, pool: &mut Pool, vector: &[Residue]) -> Option<Symmetry> {
+    /// ξ, η and f of a solution with rational coefficients.
+    fn exact(&self, pool: &mut Pool, vector: &[Residue]) -> Option<(Expr, Vec<Expr>, Expr)> {
         let (n, m) = (self.positions.len(), self.monomials.len());
         let lead = vector.iter().find(|x| !x.is_zero())?;
         let scale = self.field.inverse(*lead)?;
@@ -346,37 +361,52 @@ impl NoetherProblem {
         let common = content(pool, &sums[..=n]).recip();
         let sums: Vec<Expr> =
             sums.into_iter().map(|e| pool.linear(Number::ZERO, &[(common, e)])).collect();
-        let (xi, eta, f) = (sums[0], sums[1..=n].to_vec(), sums[n + 1]);
-        let velocities: Vec<Expr> = self.velocities.iter().map(|&v| pool.variable(v)).collect();
-        let mut seeds = vec![(self.time, Expr::ONE)];
-        seeds.extend(self.positions.iter().copied().zip(velocities.iter().copied()));
+        Some((sums[0], sums[1..=n].to_vec(), sums[n + 1]))
+    }
+
+    /// D along any curve.
+    fn along(&self, pool: &mut Pool) -> Vec<(Symbol, Expr)> {
+        let velocities = self.velocities.iter().map(|&v| pool.variable(v));
+        let both = self.positions.iter().copied().zip(velocities);
+        [(self.time, Expr::ONE)].into_iter().chain(both).collect()
+    }
+
+    /// ξ L_t + η L_q + (D η − q̇ D ξ) L_q̇ + L D ξ, by which L dt changes.
+    fn change(&self, pool: &mut Pool, xi: Expr, eta: &[Expr]) -> Expr {
+        let seeds = self.along(pool);
         let (by_time, by_position, by_velocity) = &self.slopes;
         let moved = pool.derivation(xi, &seeds);
         let mut terms = vec![pool.mul(xi, *by_time), pool.mul(self.lagrangian, moved)];
-        let mut constant = Vec::new();
-        let momenta: Vec<Expr> =
-            velocities.iter().zip(by_velocity).map(|(&v, &p)| pool.mul(v, p)).collect();
-        let energy = pool.sum(&momenta);
-        let energy = pool.sub(energy, self.lagrangian);
-        constant.push(pool.mul(xi, energy));
-        for i in 0..n {
+        for i in 0..eta.len() {
             terms.push(pool.mul(eta[i], by_position[i]));
             let change = pool.derivation(eta[i], &seeds);
-            let carried = pool.mul(velocities[i], moved);
+            let carried = pool.mul(seeds[i + 1].1, moved);
             let change = pool.sub(change, carried);
             terms.push(pool.mul(change, by_velocity[i]));
-            let work = pool.mul(eta[i], by_velocity[i]);
+        }
+        pool.sum(&terms)
+    }
+
+    /// A solution with its constant, and whether the condition is proved.
+    fn symmetry(&self, pool: &mut Pool, xi: Expr, eta: Vec<Expr>, f: Expr) -> Symmetry {
+        let seeds = self.along(pool);
+        let (change, gauge) = (self.change(pool, xi, &eta), pool.derivation(f, &seeds));
+        let condition = pool.sub(change, gauge);
+        let proved = pool.is_zero(condition) == Zero::Proved;
+        let momenta = &self.slopes.2;
+        let energy: Vec<Expr> =
+            seeds[1..].iter().zip(momenta).map(|(&(_, v), &p)| pool.mul(v, p)).collect();
+        let energy = pool.sum(&energy);
+        let energy = pool.sub(energy, self.lagrangian);
+        let mut constant = vec![pool.mul(xi, energy), f];
+        for (&change, &p) in eta.iter().zip(momenta) {
+            let work = pool.mul(change, p);
             constant.push(pool.neg(work));
         }
-        let gauge = pool.derivation(f, &seeds);
-        terms.push(pool.neg(gauge));
-        constant.push(f);
-        let condition = pool.sum(&terms);
-        let proved = pool.is_zero(condition) == Zero::Proved;
         let conserved = pool.sum(&constant);
         let conserved = pool.simplify(conserved);
         let name = name_of(pool, self.time, &self.positions, xi, &eta);
-        Some(Symmetry {
+        Symmetry {
             name,
             time: xi,
             coordinates: eta,
@@ -385,7 +415,7 @@ impl NoetherProblem {
             proved,
             for_all_parameters: true,
             between_impulses: false,
-        })
+        }
     }
 }
 

@@ -69,7 +69,9 @@ impl Scope {
         };
         constant("t", common.time, Some(SymbolRole::Time));
         constant("energy", common.energy, Some(SymbolRole::Energy));
-        constant("action", common.action, Some(SymbolRole::Action));
+        if !model.is_poisson() {
+            constant("action", common.action, Some(SymbolRole::Action));
+        }
         for p in &model.parameters {
             constant(&p.name, p.symbol, None);
         }
@@ -243,6 +245,9 @@ impl Scope {
         {
             let help = format!("variables given by their brackets have no momenta: write `{bare}`");
             return error.with_help(help);
+        }
+        if self.poisson && name == "action" && primes == 0 {
+            return error.with_help("brackets have no Lagrangian, whose integral the action is");
         }
         let usable = |(known, meaning): (&String, &Meaning)| {
             let word = known.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_');

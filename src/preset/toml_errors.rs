@@ -258,6 +258,13 @@ fn in_quotes(text: &str, place: SourceRange, quotes: Encoding) -> Slip {
         && ["\\u", "\\U", "\\x"].iter().any(|start| escape.ends_with(start))
     {
         Slip::new(place, "this escape has too few digits", Loses::Value)
+    } else if text[place.start..]
+        .chars()
+        .next()
+        .is_some_and(|c| c.is_control() && !"\r\n".contains(c))
+    {
+        Slip::new(place, "a text has no control characters but the tab", Loses::Value)
+            .help("remove it, or write it as an escape, such as \\u001b")
     } else if matches!(quotes, Encoding::MlBasicString | Encoding::MlLiteralString) {
         Slip::new(place, "this text of several lines is never closed", Loses::Track)
     } else {

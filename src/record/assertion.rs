@@ -231,7 +231,14 @@ pub(super) fn value(app: &App, written: &LineText) -> Result<f64, Diagnostic> {
         return Ok(value);
     }
     let message = format!("`{}` has no value here", written.text);
-    Err(Diagnostic::error(written.place.clone(), message))
+    let diagnostic = Diagnostic::error(written.place.clone(), message);
+    Err(if pool.depends(e, lab.loaded.equations.symbols.action) {
+        diagnostic.with_help(
+            "the action is a column where an observable of the file is made of it: give one, as S = \"action\", and assert that",
+        )
+    } else {
+        diagnostic
+    })
 }
 
 /// The value of a measure of a plot, `KIND.WORD`, or `None` if the text is not one.

@@ -344,8 +344,10 @@ impl ScriptReading {
         if let Some(diagnostic) = document.unreadable() {
             return Err(vec![diagnostic.clone()]);
         }
-        let (mut reading, mut start) = (Self::default(), 0);
-        for text in document.text.split('\n') {
+        // editors put a byte order mark in front
+        let text = document.text.strip_prefix('\u{feff}').unwrap_or(&document.text);
+        let (mut reading, mut start) = (Self::default(), document.text.len() - text.len());
+        for text in text.split('\n') {
             reading.line(text.strip_suffix('\r').unwrap_or(text), start);
             start += text.len() + 1;
             if !goes_on(&reading) {

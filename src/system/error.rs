@@ -112,8 +112,9 @@ pub enum MotionErrorKind {
 }
 
 impl MotionErrorKind {
-    /// Whether no motion continues from there, whatever follows it: not where another method passes, and not where only the
-    /// method, the clock or the number of steps is at its end.
+    /// Whether no motion is known to continue from there, whatever follows it: not where another method passes, and not where only
+    /// the method, the digits of the clock at its beginning or the number of steps is at its end. Steps that vanish on the way
+    /// count, though a motion that passes a singularity within the digits of its time has no more of them than one that ends there.
     pub fn ends_motion(&self) -> bool {
         matches!(
             self,

@@ -3,7 +3,8 @@
 //! solutions belong to the same momenta.
 //!
 //! The residual of an equation is measured relative to the size of its terms, so that a velocity of
-//! exactly zero is found like any other.
+//! exactly zero is found like any other. Where the iteration does not converge so, the rounding of what
+//! the terms are themselves sums of is taken out: a momentum may be nothing else, where M has terms that cancel.
 //!
 //! In: a relation, a guess. Out: the rates where the iteration from there ends. Never here: other guesses (`search`).
 
@@ -15,6 +16,7 @@ use super::program::{Program, Singular};
 use super::rhs::ProgramBuilder;
 use super::solve::Factored;
 use super::state::Form;
+use super::term_sizes;
 use super::value::Evaluator;
 use crate::expr::{Expr, Symbol};
 use crate::mechanics::Flow;
@@ -89,6 +91,8 @@ pub(super) struct Legendre {
     /// (q, native rates).
     state: Vec<DoubleDouble>,
     newton: NewtonWorkspace,
+    /// The size of the terms of each register of the program, if their rounding is taken out of residuals.
+    sizes: Option<Vec<f64>>,
     /// Whether solutions are searched for near the guess only.
     pub(super) near_only: bool,
 }
@@ -105,10 +109,12 @@ struct NewtonWorkspace {
     missed: Vec<DoubleDouble>,
     next: Vec<DoubleDouble>,
     before: Vec<DoubleDouble>,
+    /// All rates where the iteration began.
+    guess: Vec<DoubleDouble>,
 }
 
 impl NewtonWorkspace {
-    fn new(unknown: usize) -> NewtonWorkspace {
+    fn new(unknown: usize, degrees: usize) -> NewtonWorkspace {
         let zeros = vec![DoubleDouble::ZERO; unknown];
         NewtonWorkspace {
             factored: Factored::new(unknown),
@@ -118,6 +124,7 @@ impl NewtonWorkspace {
             missed: zeros.clone(),
             next: zeros.clone(),
             before: zeros,
+            guess: vec![DoubleDouble::ZERO; degrees],
         }
     }
 }
@@ -132,7 +139,8 @@ impl Legendre {
             values,
             degrees,
             state,
-            newton: NewtonWorkspace::new(degrees),
+            newton: NewtonWorkspace::new(degrees, degrees),
+            sizes: None,
             near_only: false,
         }
     }
@@ -168,11 +176,18 @@ impl Legendre {
         targets: &[Option<DoubleDouble>],
         unknown: &[usize],
     ) -> Result<f64, LegendreError> {
-        let mut newton = std::mem::replace(&mut self.newton, NewtonWorkspace::new(0));
+        let mut newton = std::mem::replace(&mut self.newton, NewtonWorkspace::new(0, 0));
         if newton.step.len() != unknown.len() {
-            newton = NewtonWorkspace::new(unknown.len());
+            newton = NewtonWorkspace::new(unknown.len(), self.degrees);
         }
-        let outcome = self.iterate_with(&mut newton, time, targets, unknown);
+        newton.guess.copy_from_slice(&self.state[self.degrees..]);
+        let mut outcome = self.iterate_with(&mut newton, time, targets, unknown);
+        if outcome == Err(LegendreError::NotConverging) {
+            self.state[self.degrees..].copy_from_slice(&newton.guess);
+            self.sizes = Some(Vec::new());
+            outcome = self.iterate_with(&mut newton, time, targets, unknown);
+            self.sizes = None;
+        }
         self.newton = newton;
         outcome
     }
@@ -193,6 +208,7 @@ impl Legendre {
             missed,
             next,
             before,
+            guess: _,
         } = newton;
         let halvings = if self.near_only { FEW_HALVINGS } else { HALVINGS };
         self.missing(time, targets, unknown, scales, step)?;
@@ -284,12 +300,21 @@ impl Legendre {
     ) -> Result<(), LegendreError> {
         let n = self.degrees;
         self.values.evaluate(time, &self.state)?;
+        if let Some(sizes) = &mut self.sizes {
+            let values = &self.values;
+            term_sizes::of(values.program(), |r| values.register(r).high, sizes);
+        }
         for ((x, scale), &i) in out.iter_mut().zip(scales).zip(unknown) {
             let (target, value) = (targets[i].unwrap_or(DoubleDouble::ZERO), self.values.output(i));
             *x = target - value;
             let part = |j: usize| (self.values.output(n + i * n + j) * self.state[n + j]).high;
             let parts: f64 = (0..n).map(|j| part(j).abs()).sum();
             *scale = target.high.abs() + value.high.abs() + parts;
+            // what the terms leave by their rounding is nothing that another velocity makes up for
+            let size = |sizes: &Vec<f64>| sizes[self.values.program().outputs[i] as usize];
+            if x.high.abs() <= ROUNDING * self.sizes.as_ref().map_or(0.0, size) {
+                *x = DoubleDouble::ZERO;
+            }
         }
         Ok(())
     }

@@ -89,7 +89,8 @@ impl<R: Real> Evaluator<R> {
             | Op::Multiply(..)
             | Op::Square(_)
             | Op::Linear { .. }
-            | Op::Power(..) => true,
+            | Op::Power(..)
+            | Op::ParametricPower(..) => true,
             Op::Call(_, [a, b]) if value(&a).abs().max(value(&b).abs()) > LARGEST_FACTOR => true,
             _ => value(r).is_infinite() && !self.program.inputs.contains(r),
         })
@@ -148,6 +149,11 @@ impl<R: Real> Evaluator<R> {
     /// The value of any register.
     pub(super) fn register(&self, register: Register) -> R {
         self.registers[register as usize]
+    }
+
+    /// What it evaluates.
+    pub(super) fn program(&self) -> &Program {
+        &self.program
     }
 
     /// Whether no underflow may count, so that numbers that are finite are right.

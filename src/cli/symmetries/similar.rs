@@ -15,6 +15,8 @@ use crate::num::Number;
 pub(super) struct Others {
     /// Whether the equations have a Lagrangian.
     pub(super) has_lagrangian: bool,
+    /// How many of the point symmetries, which come first, are listed with Noether's.
+    pub(super) listed: usize,
     pub(super) points: Result<PointSymmetries, Unsupported>,
     pub(super) similarity: Option<Similarity>,
 }
@@ -29,6 +31,15 @@ pub(super) fn moved(
     let pool = &equations.pool;
     let one = |(s, e)| format!("{} by {}", script.symbol(pool, s), script.math(pool, e));
     changed(equations, time, coordinates).map(one).collect::<Vec<_>>().join(", ")
+}
+
+/// What is said of those that were not written.
+pub(super) fn unfinished(count: usize) -> String {
+    match count {
+        0 => String::new(),
+        1 => "1 more is not written: the time allowed ran out (see --budget)\n".to_owned(),
+        _ => format!("{count} more are not written: the time allowed ran out (see --budget)\n"),
+    }
 }
 
 /// The exponents of a scaling by name, `t` first.
@@ -51,12 +62,11 @@ impl Others {
             Err(why) => text.push_str(&format!("\nPoint symmetries of the equations: {why}\n")),
             Ok(points) => {
                 let own = points.found.iter().filter(|s| s.noether == Some(true)).count();
-                let others: Vec<&PointSymmetry> =
-                    points.found.iter().filter(|s| s.noether != Some(true)).collect();
-                for symmetry in &others {
+                for symmetry in points.found.iter().skip(self.listed) {
                     let here =
                         if symmetry.for_all_parameters { "" } else { " at these parameters" };
                     let kind = match symmetry.noether {
+                        Some(true) => "takes motions to motions; Noether's",
                         Some(false) => "takes motions to motions; not Noether's",
                         _ => "takes motions to motions",
                     };
@@ -89,6 +99,7 @@ impl Others {
                 text.push_str(&format!(
                     "\n{count} {what} of the equations of motion, {own}{complete} among\n  {searched}\n"
                 ));
+                text.push_str(&unfinished(points.unfinished));
             }
         }
         if let Some(known) = &self.similarity {
@@ -121,7 +132,7 @@ impl Others {
         let pool = &equations.pool;
         let mut lines = Vec::new();
         let others = self.points.iter().flat_map(|points| &points.found);
-        for symmetry in others.filter(|s| s.noether != Some(true)) {
+        for symmetry in others.skip(self.listed) {
             let all = changed(equations, symmetry.time, &symmetry.coordinates);
             let terms: Vec<String> = all
                 .map(|(s, e)| {
@@ -173,6 +184,7 @@ impl Others {
                 "found": points.found.iter().map(one).collect::<Vec<_>>(),
                 "searched": points.searched,
                 "complete": points.complete,
+                "unfinished": points.unfinished,
             }),
             Err(why) => json!({ "found": [], "why": why.to_string() }),
         };

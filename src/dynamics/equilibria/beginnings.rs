@@ -2,7 +2,7 @@
 //!
 //! In: a search, the number of a beginning, or an equilibrium. Out: variables near which there may be another. Never here: the search.
 
-use super::search::{EquilibriumSearch, LawAtRest};
+use super::search::{EquilibriumSearch, LawAtRest, size_of};
 use crate::dynamics::halton::halton;
 use crate::system::Form;
 
@@ -19,6 +19,12 @@ const RADII: [f64; 5] = [0.5, 1.5, 4.0, 12.0, 40.0];
 /// How many of these are searched where the units are ordinary. In other units a start says how large a coordinate is there,
 /// which may be a small part of what the forces reach over.
 const ORDINARY_RADII: usize = 3;
+
+/// Of no more than this number of coordinates every choice is mirrored.
+const MOST_MIRRORED: usize = 8;
+
+/// At the image of an equilibrium in a symmetry of the law the rates are no larger than this part of what the variables can cause.
+const NEARLY_ZERO: f64 = 1e-10;
 
 /// How far beside an equilibrium others are searched for, in units: nearer than most beginnings are to each other.
 const BESIDE: [f64; 6] = [1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1];
@@ -65,8 +71,9 @@ impl EquilibriumSearch<'_> {
         variables
     }
 
-    /// The images of a place in each coordinate and momentum that rests, in all coordinates, and in all of both.
-    pub(super) fn images(&self, variables: &[f64]) -> Vec<Vec<f64>> {
+    /// The images of a place in each coordinate and momentum that rests, in all coordinates, and in all of both; and those in several
+    /// coordinates at which nothing moves either.
+    pub(super) fn images(&mut self, variables: &[f64]) -> Vec<Vec<f64>> {
         let moved = self.unknowns.iter().copied().filter(|&i| variables[i] != 0.0);
         let (coordinates, momenta): (Vec<usize>, Vec<usize>) =
             moved.partition(|&i| i < self.degrees);
@@ -81,9 +88,27 @@ impl EquilibriumSearch<'_> {
         images.push(image(&coordinates));
         if matches!(self.law, LawAtRest::Free(_)) && !momenta.is_empty() {
             images.extend(momenta.iter().map(|&i| image(&[i])));
-            images.push(image(&[coordinates, momenta].concat()));
+            images.push(image(&[coordinates.clone(), momenta].concat()));
+        }
+        if (3..=MOST_MIRRORED).contains(&coordinates.len()) {
+            for subset in 1_u32..(1 << coordinates.len()) - 1 {
+                let within = |k: &usize| subset >> k & 1 == 1;
+                let mirrored = (0..coordinates.len()).filter(within).map(|k| coordinates[k]);
+                let mirrored: Vec<usize> = mirrored.collect();
+                let place = image(&mirrored);
+                if mirrored.len() > 1 && self.rests(&place) {
+                    images.push(place);
+                }
+            }
         }
         images
+    }
+
+    /// Whether the rates at a place are no more than rounding of it causes.
+    fn rests(&mut self, variables: &[f64]) -> bool {
+        let size = size_of(&self.in_units(variables));
+        let rates = self.look_in_units(variables);
+        rates.is_some_and(|(f, df)| f.amax() <= NEARLY_ZERO * size * df.amax())
     }
 
     /// Places close to one, along each coordinate.

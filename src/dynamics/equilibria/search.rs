@@ -11,6 +11,9 @@ use crate::dynamics::linear;
 use crate::dynamics::phase_space::{NOTHING_MOVES, PhaseSpace, VectorField};
 use crate::system::{Form, State};
 
+/// A search ends where it began if it moves by no more than this part of the size of the place.
+const BEGAN_HERE: f64 = 1e-6;
+
 /// The number of steps from each beginning.
 const STEPS: usize = 60;
 
@@ -247,6 +250,7 @@ impl<'a> EquilibriumSearch<'a> {
 
     /// Newton's method from a beginning.
     pub(super) fn from(&mut self, beginning: Vec<f64>) -> Option<Vec<f64>> {
+        let first = beginning.clone();
         let mut variables = beginning;
         if self.unknowns.is_empty() {
             return None;
@@ -261,7 +265,7 @@ impl<'a> EquilibriumSearch<'a> {
             if f.amax() <= ZERO * size * df.amax() {
                 settled += 1;
                 if settled > 2 {
-                    return self.accepted(&variables);
+                    return self.accepted(&variables, &first);
                 }
             }
             // without directions in which little changes; where these alone are left, in them too
@@ -274,7 +278,7 @@ impl<'a> EquilibriumSearch<'a> {
             let Some(next) = next else { break };
             (variables, f, df) = next;
         }
-        if settled > 0 { self.accepted(&variables) } else { None }
+        if settled > 0 { self.accepted(&variables, &first) } else { None }
     }
 
     /// The place at the end of a step, or of the first part of it, at which the rates are smaller or need not be.
@@ -344,15 +348,17 @@ impl<'a> EquilibriumSearch<'a> {
     }
 
     /// The variables nearest to the start among their periods, if they are in reach; angles within half a turn of zero,
-    /// however often the motion has gone round.
-    fn accepted(&mut self, variables: &[f64]) -> Option<Vec<f64>> {
+    /// however often the motion has gone round. What the search began at is in reach: the image of a place that is.
+    fn accepted(&mut self, variables: &[f64], first: &[f64]) -> Option<Vec<f64>> {
+        let moved = self.in_units(variables) - self.in_units(first);
+        let began_here = moved.amax() <= BEGAN_HERE * size_of(&self.in_units(first));
         let place = self.approached(&self.in_units(variables), &[])?;
         let place = self.without_lost_digits(place);
         let mut variables = self.unscaled(&place);
         if self.is_pole(&variables) || self.has_singular_mass(&variables) {
             return None;
         }
-        if !self.within_periods(&mut variables) {
+        if !self.within_periods(&mut variables) && !began_here {
             return None;
         }
         match &mut self.law {

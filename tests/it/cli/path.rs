@@ -241,3 +241,19 @@ fn the_action_in_phase_space_is_stationary_for_both() {
         close(rise, 0.25 * (0.5 * PI - 0.5 - 0.5), 1e-13);
     }
 }
+
+/// Two coupled wells, between whose ends Newton's method comes to nothing from the straight line: a motion that begins as the path that is
+/// found does arrives where that ends.
+#[test]
+fn a_path_is_found_where_the_straight_line_leads_to_none() {
+    let file = "title = \"wells\"\n[coordinates]\nx = { initial = 0.5 }\ny = { initial = 0.2 }\n[lagrangian]\n\
+                L = \"1/2*(x'^2 + y'^2) + 1/2*x^2 - 1/4*x^4 - y^2 - 3/10*x^2*y^2\"\n";
+    let found = path(file, &["--in", "2", "--to", "x=1", "--to", "y=1"]);
+    assert_eq!(found["stationary"], true);
+    let first = |k: usize| found["rows"][0][k].as_f64().unwrap();
+    let [x, y] = [3, 4].map(|k| format!("{}'={:e}", ["x", "y"][k - 3], first(k)));
+    let run = ["run", "system.toml", "--init", &x, "--init", &y, "--until", "2", "--every", "2"];
+    let end = with_file(file, &[&run[..], &["--format", "json"]].concat()).json();
+    close(end["rows"][1][1].as_f64().unwrap(), 1.0, 1e-8);
+    close(end["rows"][1][2].as_f64().unwrap(), 1.0, 1e-8);
+}

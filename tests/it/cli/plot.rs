@@ -184,6 +184,12 @@ fn what_commands_write_as_json_is_drawn() {
     assert_eq!(axes(&family), ["Simple pendulum", "energy", "period"]);
     let sweep = written(&["sweep", "pendulum", "--grid", "g=1:2:3", "--until", "1"]);
     assert_eq!(axes(&sweep), ["Simple pendulum", "g", "theta"]);
+    // line by line as in one object
+    let [whole, lines] = ["json", "jsonl"].map(|format| {
+        let run = ["run", "pendulum", "--until", "2", "--format", format];
+        plotted(&super::phaselab(&run).success(), &["--ascii"]).success()
+    });
+    assert_eq!(whole, lines);
 }
 
 /// What has no table is refused with what does.

@@ -573,6 +573,29 @@ fn what_happens_exactly_at_the_end_of_a_run_has_its_row() {
     assert_eq!(read["rows"][1].as_array().map(|row| row[2].clone()), Some((-1.0).into()));
 }
 
+/// An impulse at t = 1 leads to where the law has no value. A run that ends there is complete, with the state after it; one that is to
+/// continue ends with an error at that time.
+#[test]
+fn a_motion_that_an_impulse_leads_out_of_its_law_ends_there() {
+    let file = "title = 'kick'\n[coordinates]\nx = { initial = 0, velocity = 1 }\n\
+                [lagrangian]\nL = \"1/2*x'^2\"\nforces = { x = \"sqrt(4 - x'^2)/1e9\" }\n\
+                [[impulses]]\nname = 'kick'\nat = 1.0\nchange = { p_x = \"2\" }\n";
+    for method in ["taylor", "dop853", "rk4"] {
+        let run = |until: &str| {
+            let options = ["--until", until, "--every", "0.5", "--method", method];
+            let step = if method == "rk4" { &["--step", "0.25"][..] } else { &[] };
+            with_file(file, &[&["run", "system.toml"], &options[..], step].concat())
+        };
+        let there = run("1");
+        assert_eq!(there.code, 0, "{method}: {}", there.stderr);
+        let last = csv(&there.stdout).pop().expect("a row");
+        assert!((last[2] - 3.0).abs() < 1e-8, "{method}: {last:?}");
+        let beyond = run("2");
+        assert_eq!(beyond.code, 1, "{method}: {}", beyond.stderr);
+        assert!(beyond.stderr.contains("t = 1"), "{method}: {}", beyond.stderr);
+    }
+}
+
 /// A ball whose bounce leaves it at rest on the floor falls on: that is said. One that bounces, a push or a brake on the way and a
 /// ball that a ceiling stops are nothing to speak of.
 #[test]

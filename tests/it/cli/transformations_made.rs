@@ -156,6 +156,25 @@ fn an_event_on_an_image_that_is_solved_numerically_is_refused() {
             &["zeros cannot be located on `P`", "`twist` has no closed form", "old variables"],
         );
     }
+    // a surface that is asked for has no place in the file
+    let plain = text("q*P + 0.1*sin(q + P)", "p_q");
+    for asked in [
+        &["section", "system.toml", "--on", "P - 0.1", "--count", "2"][..],
+        &[
+            "sweep",
+            "system.toml",
+            "--grid",
+            "q=0.3:0.4:2",
+            "--until",
+            "1",
+            "--measure",
+            "crossings=P - 0.1",
+        ],
+    ] {
+        let refused = with_file(&plain, asked);
+        assert!(!refused.stderr.contains("[coordinates]"), "{}", refused.stderr);
+        refused.fails(2, &["zeros cannot be located on `P`", "old variables"]);
+    }
     let until = ["run", "system.toml", "--until", "3"];
     assert_eq!(with_file(&text("q*P + 0.1*q^2", "P - 0.1"), &until).code, 0);
     assert_eq!(with_file(&text("q*P + 0.1*sin(q + P)", "p_q - 0.1"), &until).code, 0);

@@ -902,7 +902,8 @@ fn equilibria_differ_by_their_momenta() {
     }
 }
 
-/// A rotating bar: the narrow minimum at its centre, far from the start, and the places of corotation but (0, −y), which is out of reach.
+/// A rotating bar: the narrow minimum at its centre, far from the start, and the places of corotation; (0, −y) is out of reach, but the
+/// image of one that is not.
 #[test]
 fn a_narrow_well_at_the_origin_is_found() {
     let found = held(
@@ -910,11 +911,11 @@ fn a_narrow_well_at_the_origin_is_found() {
          [lagrangian]\nL = \"1/2*((x' - 39*y)^2 + (y' + 39*x)^2) - 1/2*220^2*ln(0.2^2 + x^2 + y^2/0.8^2)\"\n",
         &[],
     );
-    assert_eq!(found.len(), 4, "{found:?}");
+    assert_eq!(found.len(), 5, "{found:?}");
     // Ω² (r_c² + x²) = v₀², and Ω² (q² r_c² + y²) = v₀²
     let squared = (220.0_f64 / 39.0).powi(2);
     let (x, y) = ((squared - 0.04).sqrt(), (squared - 0.64 * 0.04).sqrt());
-    for place in [[0.0, 0.0], [x, 0.0], [-x, 0.0], [0.0, y]] {
+    for place in [[0.0, 0.0], [x, 0.0], [-x, 0.0], [0.0, y], [0.0, -y]] {
         let is_there = |one: &&Equilibrium| {
             place.iter().zip(&one.variables).all(|(a, b)| (a - b).abs() < 1e-10)
         };
@@ -1031,5 +1032,30 @@ fn a_singular_mass_matrix_is_no_equilibrium() {
     // ∂V/∂x = 0 at 9 x = 16 sin θ
     for one in &found {
         close(9.0 * one.variables[1], 16.0 * one.variables[0].sin(), 1e-11);
+    }
+}
+
+/// E. Lorenz's equations are the same in (−x, −y, z): both of C± = (±√(b (r − 1)), ±√(b (r − 1)), r − 1) are found, though one of them
+/// is farther from the start than the search goes.
+#[test]
+fn a_twin_is_found_beyond_the_reach_of_the_search() {
+    for start in [[1.0, 2.0, 20.0], [-1.0, -2.0, 20.0]] {
+        let [x, y, z] = start;
+        let text = format!(
+            "title = \"t\"\n[variables]\nx = {x:?}\ny = {y:?}\nz = {z:?}\n[parameters]\nr = 28.0\n[poisson]\n\
+             H = \"0\"\nbrackets = [[\"x\", \"y\", \"0\"]]\n\
+             forces = {{ x = \"10*(y - x)\", y = \"x*(r - z) - y\", z = \"x*y - 8/3*z\" }}\n"
+        );
+        let mut places: Vec<[f64; 3]> = of(&file(&text, &[]))
+            .iter()
+            .map(|one| [one.variables[0], one.variables[1], one.variables[2]])
+            .collect();
+        places.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        let c = 72.0_f64.sqrt();
+        let expected = [[-c, -c, 27.0], [0.0; 3], [c, c, 27.0]];
+        assert_eq!(places.len(), 3, "{places:?}");
+        for (place, expected) in places.iter().flatten().zip(expected.iter().flatten()) {
+            close(*place, *expected, 1e-12);
+        }
     }
 }

@@ -173,3 +173,70 @@ fn constants_are_constant_where_they_are() {
     assert!(of("-x'").between_impulses && of("-x'").for_all_parameters);
     assert!(!of("-y'").between_impulses && !of("-y'").for_all_parameters);
 }
+
+/// Bodies of masses 1, 2, … in a plane, each pair with a potential of its distance.
+fn bodies(count: usize, potential: &dyn Fn(&str) -> String) -> (Vec<String>, String) {
+    let names = (1..=count).flat_map(|k| [format!("x{k}"), format!("y{k}")]).collect();
+    let mut law = "0".to_owned();
+    for j in 1..=count {
+        law.push_str(&format!(" + {j}/2*(x{j}'^2 + y{j}'^2)"));
+        for i in 1..j {
+            law.push_str(" + ");
+            law.push_str(&potential(&format!("((x{i} - x{j})^2 + (y{i} - y{j})^2)")));
+        }
+    }
+    (names, law)
+}
+
+/// Of every number of bodies: the shifts, two boosts, the rotation, and that about the centre of mass alone.
+#[test]
+fn many_distances_have_values_at_one_point() {
+    for count in [4, 6] {
+        let (names, law) = bodies(count, &|square| format!("1/sqrt({square} + 1/10)"));
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        check(&names, &law, 7);
+    }
+}
+
+/// Masses with many digits have others in their place while boosts are searched for, whose gauge terms have them.
+#[test]
+fn the_solar_system_has_its_ten() {
+    let model =
+        crate::integrability::model(include_str!("../../../presets/gravity/solar-system.toml"));
+    let mut equations = mechanics::derive(&model).expect("derivable");
+    let found = symmetries(&model, &mut equations, &|| false).expect("it can be searched").found;
+    let count = |name: &str| found.iter().filter(|s| s.name == name && s.proved).count();
+    let names = ["time shift", "translation", "rotation", "boost"];
+    assert_eq!(names.map(count), [1, 3, 3, 3]);
+    for boost in found.iter().filter(|s| s.name == "boost") {
+        let text = equations.pool.text(boost.gauge);
+        assert!((0..5).all(|k| text.contains(&format!("m{k}*"))), "{text}");
+    }
+}
+
+/// The solutions that were written when the time ran out are reported, and how many were not.
+#[test]
+fn what_was_found_before_the_time_ran_out_is_kept() {
+    let calls = std::cell::Cell::new(0);
+    let search = |most: usize| {
+        let (coordinates, law) = (["x", "y"], "1/2*(x'^2 + y'^2)");
+        let initial = "{ initial = 1.0, velocity = 0.5 }";
+        let [x, y] = coordinates;
+        let text = format!(
+            "title = \"test\"\n[coordinates]\n{x} = {initial}\n{y} = {initial}\n[lagrangian]\nL = \"{law}\"\n"
+        );
+        let model = model(&text);
+        let mut equations = mechanics::derive(&model).expect("derivable");
+        calls.set(0);
+        symmetries(&model, &mut equations, &|| {
+            calls.set(calls.get() + 1);
+            calls.get() > most
+        })
+    };
+    let whole = search(usize::MAX).expect("it can be searched");
+    assert_eq!((whole.found.len(), whole.unfinished, whole.complete), (8, 0, true));
+    let all = calls.get();
+    let part = search(all - 3).expect("it was searched");
+    assert_eq!((part.found.len(), part.unfinished, part.complete), (5, 3, false));
+    assert!(search(1).is_err());
+}

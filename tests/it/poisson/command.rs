@@ -74,3 +74,11 @@ fn what_is_no_structure_is_refused_by_every_command_at_its_place() {
     let wrong = BODY.replace("L1^2 + L2^2 + L3^2", "L1^2 - L2^2 + L3^2");
     with_file(&wrong, &["check", "system.toml"]).fails(65, &["`|L|²` is no Casimir", ":20:"]);
 }
+
+/// Brackets have no Lagrangian, so that nothing has its integral: a column of zeros would be none.
+#[test]
+fn brackets_have_no_action() {
+    let run = ["run", "system.toml", "--observe", "action", "--until", "1"];
+    let lacks = "brackets have no Lagrangian";
+    with_file(BODY, &run).fails(2, &["unknown name `action`", lacks]);
+}

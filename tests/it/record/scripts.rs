@@ -43,6 +43,9 @@ fn errors_stand_in_their_places() {
     check("Wait 1s", &[]);
     check("  # nothing\n\nWiat 2s", &["3:1 there is no command `Wiat`; did you mean `Wait`?"]);
     check("wait 2s", &["1:1 there is no command `wait`; did you mean `Wait`?"]);
+    // a byte order mark in front is none of its words
+    check("\u{feff}Wait 1s", &[]);
+    check("\u{feff}Wait 1s\nWiat 2s", &["2:1 there is no command `Wiat`; did you mean `Wait`?"]);
     check("Wait", &["1:5 here a time is missing"]);
     check("Wait 2", &["1:6 is 2 in seconds or milliseconds?; write 2s or 2ms"]);
     check("Wait soon", &["1:6 `soon` is no time; write it as 2s, 0.5s or 150ms"]);

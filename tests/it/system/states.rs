@@ -200,3 +200,39 @@ fn states_are_copied_without_losing_what_was_cut_off() {
     b.values[1] = f64::INFINITY;
     assert!(a.is_finite() && !b.is_finite());
 }
+
+/// Links of unit length and mass on spherical joints, each by two angles. In one plane, set turning about an axis in it, they have
+/// momenta p_a that are nothing but the rounding of terms sin b cos b − cos b sin b.
+#[test]
+fn velocities_of_zero_are_found_from_momenta_that_are_rounding() {
+    for links in [5, 6] {
+        let mut text = "title = \"links\"\n[coordinates]\n".to_owned();
+        let (mut squares, mut weights) = (Vec::new(), Vec::new());
+        let mut sums = [const { String::new() }; 3];
+        for k in 0..links {
+            let angle = 0.1 * f64::from(k + 1);
+            text.push_str(&format!("a{k} = {{ initial = {angle:.1} }}\n"));
+            text.push_str(&format!("b{k} = {{ initial = 0.1, velocity = 0.3 }}\n"));
+            let along = [
+                format!(" + cos(a{k})*cos(b{k})*a{k}' - sin(a{k})*sin(b{k})*b{k}'"),
+                format!(" + cos(a{k})*sin(b{k})*a{k}' + sin(a{k})*cos(b{k})*b{k}'"),
+                format!(" + sin(a{k})*a{k}'"),
+            ];
+            for (sum, along) in sums.iter_mut().zip(along) {
+                sum.push_str(&along);
+                squares.push(format!("(0{sum})^2"));
+            }
+            weights.push(format!("{}*cos(a{k})", links - k));
+        }
+        let (squares, weights) = (squares.join(" + "), weights.join(" + "));
+        text.push_str(&format!("[lagrangian]\nL = \"1/2*({squares}) + {weights}\"\n"));
+        let (model, system) = compile(&text);
+        let p = parameters(&model);
+        let state = system.initial(0.0, &p, &[]).expect("regular");
+        let canonical = system.convert(&state, Form::Momentum, &p).expect("regular");
+        let back = system.convert(&canonical, Form::Velocity, &p).expect("regular");
+        for (found, given) in back.values.iter().zip(&state.values) {
+            assert!((found - given).abs() < 1e-15, "{links}: {found} {given}");
+        }
+    }
+}

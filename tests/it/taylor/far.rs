@@ -150,6 +150,14 @@ fn a_high_negative_power_throws_back_from_where_it_is_below_the_smallest_numbers
         run.to(1e9);
         assert!(run.steps < 1100, "{v}: {} steps", run.steps);
     }
+    // with the exponent as a parameter, too
+    for (n, place) in [("400", 6.996_516_663_929_919), ("600", 6.997_681_693_232_4)] {
+        let mut run = Run::new(&format!(
+            "title = \"F\"\n[coordinates]\nx = {{ initial = 5, velocity = -1 }}\n[parameters]\nn = {n}.0\n\
+             [lagrangian]\nL = \"1/2*x'^2 - x^(-n)\"\n"
+        ));
+        near(&run.to(10.0)[..2], &[place, 1.0], 1e-12);
+    }
 }
 
 /// About x = 0 the series of 1/(1 + x^n) begins with as many zeros, and far beyond the wall all is flat again: it is met in a
