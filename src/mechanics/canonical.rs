@@ -10,8 +10,9 @@ use std::collections::HashMap;
 
 use nalgebra::DMatrix;
 
+use super::conjugate_root::with_values_at;
 use super::equations::{Equations, ImplicitMap};
-use super::implicit_map::{guesses, matrix_at};
+use super::implicit_map::matrix_at;
 use super::isolate::{self, Solution, tidy};
 use super::sampling::TRIES;
 use super::slope::relations_with_common_roots;
@@ -21,7 +22,7 @@ use crate::model::{Model, Transformation, TransformationLaw};
 use crate::num::Number;
 
 /// The points at which a written solution has to hold, and the points looked at for them.
-const WITNESSES: usize = 8;
+pub(super) const WITNESSES: usize = 8;
 const LOOKED_AT: u64 = 64;
 
 /// A transformation as relations between the old and the new variables.
@@ -39,7 +40,7 @@ pub struct PhaseMap {
     /// The new variables as functions of the old and t, if they can be written down.
     pub forwards: Option<Solution>,
     /// The pairs whose generating function has an old and a new variable of different kinds, F2 or F3: they may be near the
-    /// identity.
+    /// identity where nothing else is known.
     pub(super) near_identity: Vec<bool>,
     /// Those that it is made of one after the other, if it cannot be written as one, and whether they are inverted.
     pub(super) parts: Vec<(PhaseMap, bool)>,
@@ -145,49 +146,15 @@ impl PhaseMap {
         }
         let points: Vec<Valuation> =
             (0..LOOKED_AT).map(|n| Valuation::near_start(model, equations, n)).collect();
-        // of a map that may be near the identity the branch that is nearest to it comes first
-        let of_pair = |k: usize| self.near_identity[k % self.near_identity.len()];
-        let all_near = self.near_identity.iter().all(|&near| near);
-        let nearest: Vec<Option<Valuation>> = if self.near_identity.contains(&true) {
-            let same = |point: &Valuation| {
-                let own: Vec<f64> = self.old.iter().map(|&s| point.at(s)).collect();
-                // of the other pairs nothing is known
-                let others = guesses(own.len()).map(|guess| {
-                    let kept = |k: usize| if of_pair(k) { own[k] } else { guess[k] };
-                    (0..own.len()).map(kept).collect::<Vec<f64>>()
-                });
-                let others: Vec<Vec<f64>> = if all_near { Vec::new() } else { others.collect() };
-                std::iter::once(own.clone()).chain(others).find_map(|values| {
-                    let values = self.implicit.new.iter().copied().zip(values);
-                    let at = point.clone().with(values.collect::<Vec<_>>());
-                    self.implicit.newton(&equations.pool, at)
-                })
-            };
-            points.iter().take(WITNESSES).map(same).collect()
-        } else {
-            Vec::new()
-        };
-        let near_one: Vec<Symbol> = (0..self.implicit.new.len())
-            .filter(|&k| of_pair(k))
-            .map(|k| self.implicit.new[k])
-            .collect();
-        let mut near = |pool: &mut Pool, found: &Solution| {
-            let same = |point: &Valuation, image: &Valuation| {
-                found.iter().filter(|(s, _)| near_one.contains(s)).all(|&(s, e)| {
-                    let (value, expected) = (point.value(pool, e), image.at(s));
-                    (value - expected).abs() <= 1e-7 * (1.0 + expected.abs())
-                })
-            };
-            let both =
-                points.iter().zip(&nearest).filter_map(|(p, image)| Some((p, image.as_ref()?)));
-            let (right, wrong): (Vec<_>, Vec<_>) = both.partition(|(p, image)| same(p, image));
-            right.len() > wrong.len()
-        };
         let (relations, new) = (self.implicit.relations.clone(), self.implicit.new.clone());
-        if nearest.iter().any(Option::is_some) {
-            let found = isolate::solve(&mut equations.pool, &relations, &new, &mut near);
-            if found.is_some() {
-                return found;
+        // the branch that a map near this one leads to comes first
+        if let Some(images) = self.nearest_images(&equations.pool, &points) {
+            let pool = &mut equations.pool;
+            let mut near = |pool: &mut Pool, found: &Solution| images.are_those_of(pool, found);
+            if let Some(found) = isolate::solve(pool, &relations, &new, &mut near) {
+                let zeros = self.old.iter().map(|&symbol| (symbol, 0.0));
+                let origin = points[0].clone().with(zeros.collect::<Vec<_>>());
+                return Some(with_values_at(pool, found, &origin));
             }
         }
         let accept = |pool: &mut Pool, found: &Solution, strict: bool| {
@@ -267,7 +234,7 @@ impl PhaseMap {
             return self.image_by_parts(pool, point);
         }
         let same = self.old.iter().map(|&s| point.at(s)).collect();
-        self.implicit.search(pool, point, same)
+        self.nearest(pool, point).or_else(|| self.implicit.search(pool, point, same))
     }
 
     /// M = ∂(Q, P)/∂(q, p) at a point with its image; `None` where the map breaks down.

@@ -10,6 +10,7 @@ use std::ops::Range;
 use super::canonical::PhaseMap;
 use super::equations::ImplicitMap;
 use super::group::in_order;
+use super::nearest_image::Linearized;
 use super::valuation::Valuation;
 use crate::expr::{Expr, Pool, Symbol};
 use crate::model::{ChainPart, Model, Transformation};
@@ -100,16 +101,34 @@ impl PhaseMap {
         for part in 0..count {
             let rows = part * size..(part + 1) * size;
             let columns = image_of_part(part, count, size);
+            let own_rows = &self.implicit.by_new[rows.clone()];
             let own = ImplicitMap {
                 new: self.implicit.new[columns.clone()].to_vec(),
-                relations: self.implicit.relations[rows.clone()].to_vec(),
-                by_new: self.implicit.by_new[rows]
-                    .iter()
-                    .map(|row| row[columns.clone()].to_vec())
-                    .collect(),
+                relations: self.implicit.relations[rows].to_vec(),
+                by_new: own_rows.iter().map(|row| row[columns.clone()].to_vec()).collect(),
                 own: Vec::new(),
             };
-            at = own.search(pool, &at, from)?;
+            // a part near a linear map is solved from the image under that
+            let by_old = if part == 0 {
+                self.by_old[..size].to_vec()
+            } else {
+                let before = image_of_part(part - 1, count, size);
+                own_rows.iter().map(|row| row[before.clone()].to_vec()).collect()
+            };
+            let symbols = if part == 0 {
+                &self.old[..]
+            } else {
+                &self.implicit.new[image_of_part(part - 1, count, size)]
+            };
+            let linearized = Linearized {
+                relations: own.relations.clone(),
+                by_old,
+                by_new: own.by_new.clone(),
+                old: symbols,
+                new: &own.new,
+            };
+            let first = linearized.image(pool, &at).unwrap_or(from);
+            at = own.search(pool, &at, first)?;
             from = own.new.iter().map(|&s| at.at(s)).collect();
         }
         Some(at)

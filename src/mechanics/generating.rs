@@ -123,23 +123,27 @@ pub(super) fn singular(pool: &Pool, matrix: &[Vec<Expr>], points: &[Valuation]) 
             let (value, size) = pool.evaluate_with_size(matrix[i][j], &|s| at.at(s));
             if value.abs() <= DEPENDENT * size { 0.0 } else { value }
         };
-        let mut values = DMatrix::from_fn(n, n, entry);
-        for k in 0..n {
-            let largest = values.row(k).amax();
-            if largest > 0.0 {
-                values.row_mut(k).unscale_mut(largest);
-            }
-        }
-        for k in 0..n {
-            let largest = values.column(k).amax();
-            if largest > 0.0 {
-                values.column_mut(k).unscale_mut(largest);
-            }
-        }
-        values.determinant().abs()
+        scaled_determinant(DMatrix::from_fn(n, n, entry))
     });
     let known: Vec<f64> = determinants.filter(|size| size.is_finite()).collect();
     !known.is_empty() && known.iter().all(|size| *size <= DEPENDENT)
+}
+
+/// The size of the determinant of a square matrix with its rows, then its columns, divided by their largest entries.
+pub(super) fn scaled_determinant(mut values: DMatrix<f64>) -> f64 {
+    for k in 0..values.nrows() {
+        let largest = values.row(k).amax();
+        if largest > 0.0 {
+            values.row_mut(k).unscale_mut(largest);
+        }
+    }
+    for k in 0..values.ncols() {
+        let largest = values.column(k).amax();
+        if largest > 0.0 {
+            values.column_mut(k).unscale_mut(largest);
+        }
+    }
+    values.determinant().abs()
 }
 
 impl PhaseMap {

@@ -29,6 +29,7 @@ mod sweep;
 mod transformations;
 mod transformations_composed;
 mod transformations_made;
+mod transformations_nearest;
 mod write;
 
 use std::path::Path;
