@@ -24,7 +24,7 @@ use super::orbit::Orbit;
 use super::orbit_units::OrbitUnits;
 use super::phase_space::PhaseSpace;
 use crate::integrate::{Method, Settings};
-use crate::num::significant;
+use crate::num::{math, significant};
 use crate::system::State;
 use equations::FamilyEquations;
 use family_end::{ended, lost};
@@ -338,6 +338,14 @@ impl Continuation<'_> {
         self.space.variables(state).iter().fold(0.1, |m: f64, x| m.max(x.abs()))
     }
 
+    /// The largest step from a point, of orbits of some size: a long period does not make it short.
+    fn largest_step(&self, point: &FamilyPoint, size: f64) -> f64 {
+        let n = self.space.dimension();
+        let tangent = &point.tangent;
+        let by_state = math::hypot(tangent.rows(0, n).norm(), tangent[n + 1]);
+        LARGEST * (size / by_state).min(point.period / tangent[n].abs())
+    }
+
     /// The side of a family along the tangent at a point.
     pub(super) fn side(&self, begin: FamilyPoint) -> FamilySide {
         let size = self.size(&begin.state);
@@ -380,7 +388,9 @@ impl Continuation<'_> {
             }
             return Ok(());
         };
-        if let Some(end) = self.between(here, &next, side.step, &mut side.members)? {
+        let shrinks = side.begin.directions > 1 && self.isolates(here, &next);
+        let way = (here, &next, side.step);
+        if let Some(end) = self.between(way, shrinks, &mut side.members)? {
             side.ended = Some(SideEnd::Before(ended(here, &end)));
             return Ok(());
         }
@@ -392,11 +402,12 @@ impl Continuation<'_> {
             )));
             return Ok(());
         }
-        if count <= 3 {
-            side.step = (1.5 * side.step).min(LARGEST * side.size);
-        }
         // orbits may become much larger along their family
+        let size = side.size;
         side.size = side.size.max(self.size(&next.state));
+        if count <= 3 {
+            side.step = (1.5 * side.step).min(self.largest_step(&next, size));
+        }
         side.here = next;
         Ok(())
     }

@@ -24,7 +24,7 @@ use crate::integrate::method_named;
 use crate::job::{Job, Progress};
 use crate::model::Variation;
 use crate::num::significant;
-use crate::system::{ChannelKind, Form};
+use crate::system::ChannelKind;
 use members::{FamilyMember, FollowedFamily, close, follow_on};
 
 /// The levels of the picture.
@@ -66,9 +66,6 @@ impl Instrument for FamilyPlot {
 
     fn offers(&self, physics: Physics<'_>) -> Vec<Offer> {
         let Some(energy) = physics.channel(ChannelKind::Energy) else { return Vec::new() };
-        if physics.system.form() == Form::Variables {
-            return Vec::new();
-        }
         let offer = |x: usize, over: Option<Variation>| {
             let along = over.map_or_else(
                 || physics.shown(energy).to_owned(),

@@ -129,6 +129,23 @@ fn a_file_has_families_over_the_energy() {
     assert!(told("q").contains("x = \"energy\""), "{}", told("q"));
 }
 
+/// Variables given by their brackets have families over the energy, too: at y = 0 it is ½ x² + ¼ x⁴.
+#[test]
+fn of_a_system_given_by_brackets() {
+    let text = "title = \"one\"\n[variables]\nx = { initial = 1.0 }\ny = { initial = 0.0 }\n[poisson]\n\
+                H = \"1/2*(x^2 + y^2) + 1/4*x^4\"\nbrackets = [[\"x\", \"y\", \"1\"]]\n[run]\nuntil = 100.0\n";
+    let app = opened(text, "family of orbits: x over E");
+    let table = table(&app);
+    assert_eq!(table.columns, ["energy", "greatest x", "period", "trace"]);
+    assert!(table.rows.len() > 30, "{}", table.rows.len());
+    let (low, high) = (table.rows[0][0], table.rows[table.rows.len() - 1][0]);
+    assert!(low < 0.2 && high > 1.2, "{low} to {high}");
+    for row in &table.rows {
+        let square = (1.0 + 4.0 * row[0]).sqrt() - 1.0;
+        assert!((row[1] - square.sqrt()).abs() < 1e-7, "{row:?}");
+    }
+}
+
 /// A motion that does not come back has no family, and it is said why.
 #[test]
 fn where_there_is_no_orbit_there_is_no_family() {

@@ -6,13 +6,20 @@ use nalgebra::{DMatrix, DVector};
 
 use super::super::direction::FlowDirection;
 use super::super::error::DynamicsError;
-use super::super::family::{Bifurcation, Member};
+use super::super::family::{Along, Bifurcation, Member};
 use super::family_end::FamilyEnd;
 use super::{Continuation, FamilyPoint};
 
 /// A bifurcation is located to this part of a step, in so many tries at most.
 const LOCATED: f64 = 1e-9;
 const MOST: usize = 40;
+
+/// So often a step is halved to come near the orbit that others shrink to.
+const HALVINGS: usize = 12;
+
+/// Then it is come nearer so often, by this part of the way that is left.
+const SECANTS: usize = 3;
+const NEARER: f64 = 0.75;
 
 /// An orbit on which nothing moves faster than this part of what does on one beside it is an equilibrium; one whose neighbours
 /// move by no more in a period is what they have shrunk to.
@@ -28,13 +35,19 @@ fn is_shrunk(from: &FamilyPoint, to: &FamilyPoint) -> bool {
 }
 
 impl Continuation<'_> {
-    /// Collects the members between two points, in their order. Returns where the family ends between them, if it does:
-    /// beyond that come the same orbits, half a period later.
+    /// Whether orbits with others of the same value beside them are isolated at the second point: what they have shrunk to, as
+    /// rosettes to a circle, belongs to another family of the same system.
+    pub(super) fn isolates(&self, from: &FamilyPoint, to: &FamilyPoint) -> bool {
+        let is_same_system = !matches!(self.along, Along::Parameter(_));
+        is_same_system && from.unit().is_none() && to.unit().is_some()
+    }
+
+    /// Collects the members between two points, a step apart, in their order. Returns where the family ends between them, if it
+    /// does: beyond that come the same orbits, half a period later, or those to which they have shrunk.
     pub(super) fn between(
         &self,
-        from: &FamilyPoint,
-        to: &FamilyPoint,
-        step: f64,
+        (from, to, step): (&FamilyPoint, &FamilyPoint, f64),
+        shrinks: bool,
         members: &mut Vec<Member>,
     ) -> Result<Option<FamilyEnd>, DynamicsError> {
         let (low, high) = self.range();
@@ -82,6 +95,11 @@ impl Continuation<'_> {
                 found.push((part, Member { value, orbit, bifurcation: Some(kind) }));
             }
         }
+        if shrinks && end.is_none() {
+            let (part, point) = self.shrunk(from, to, step)?;
+            until = part;
+            end = Some(FamilyEnd::Branching(point));
+        }
         for &value in self.values {
             if (from.value < value) == (to.value < value) || from.value == value {
                 continue;
@@ -102,6 +120,50 @@ impl Continuation<'_> {
         found.sort_by(|x, y| x.0.total_cmp(&y.0));
         members.extend(found.into_iter().map(|(_, member)| member));
         Ok(end)
+    }
+
+    /// The orbit to which those at the first of two points have shrunk before the second, which is on the family of that orbit. A
+    /// point between them leads to either family, so that the orbit itself is extrapolated along its own: the rotation across
+    /// it, whose square Π (μᵢ − 1) is, vanishes there to first order.
+    fn shrunk(
+        &self,
+        from: &FamilyPoint,
+        to: &FamilyPoint,
+        step: f64,
+    ) -> Result<(f64, FamilyPoint), DynamicsError> {
+        let (mut low, mut high, mut end, mut before) = (0.0, step, to.clone(), to.clone());
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            let by = from.part_way(to, step, middle / step);
+            let Some((point, _)) = self.corrected(from, &by)? else { break };
+            if point.unit().is_some() {
+                high = middle;
+                before = std::mem::replace(&mut end, point);
+            } else {
+                low = middle;
+            }
+        }
+        let rotation = |point: &FamilyPoint| point.unit().map(|square| square.abs().sqrt());
+        // the part of the way from the one to the other that is left
+        let left = |before: &FamilyPoint, end: &FamilyPoint| match (rotation(end), rotation(before))
+        {
+            (Some(near), Some(far)) if near < far => near / (far - near),
+            _ => 0.0,
+        };
+        for _ in 0..SECANTS {
+            let part = NEARER * left(&before, &end);
+            let by = before.change(&end) * part;
+            match self.corrected(&end, &by)? {
+                Some((point, _)) if part > 0.0 && point.unit().is_some() => {
+                    before = std::mem::replace(&mut end, point);
+                }
+                _ => break,
+            }
+        }
+        let part = left(&before, &end);
+        end.value += part * (end.value - before.value);
+        end.period += part * (end.period - before.period);
+        Ok((high, end))
     }
 
     /// Where between two points, a step apart, the orbits shrink to an equilibrium: there the direction in which they begin is

@@ -42,6 +42,13 @@ impl Continuation<'_> {
             direction.axpy(vector.dot(&guide), vector, 1.0);
         }
         let Some(unit) = direction.try_normalize(1e-9 * guide.norm()) else {
+            let error = point.orbit.rounding.unwrap_or(0.0);
+            if error > KERNEL * found.matrix.amax() {
+                return Err(DynamicsError::Unsuited(format!(
+                    "the family cannot be followed from this orbit: it passes close to a singularity of its law, or of its \
+                     coordinates, and rounding changes the matrix of its multipliers by {error:.0e}"
+                )));
+            }
             return Err(DynamicsError::Unsuited(
                 "the family cannot be followed from this orbit: it turns back right here"
                     .to_owned(),

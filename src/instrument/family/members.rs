@@ -15,6 +15,7 @@ use crate::dynamics::{
 use crate::ensemble::{Start, SystemFlow};
 use crate::integrate::{Method, Settings};
 use crate::job::Progress;
+use crate::num::DoubleDouble;
 use crate::system::{ChannelKind, System};
 
 /// The intervals of the range at whose ends orbits are asked for.
@@ -102,8 +103,9 @@ pub(super) fn close(
         None => {
             // of a small oscillation this is its energy above the bottom
             let height = orbit.action.map(|action| (action / orbit.period).abs());
+            let height = height.or_else(|| above_mean(physics, (method.0, start), &orbit));
             let height = height.filter(|height| height.is_normal());
-            let height = height.ok_or("without the action of the orbit no range of E is known")?;
+            let height = height.ok_or("no range of E is known: the orbit has neither an action nor an energy other than that of its mean state")?;
             (orbit.energy, [orbit.energy - BELOW * height, orbit.energy + ABOVE * height])
         }
     };
@@ -218,6 +220,31 @@ fn rotates(
     let flow = flow(physics.system, (method, parameters.to_vec()), orbit);
     let seen = flow.carry(&orbit.state, &ends, &[channel]).seen;
     matches!(&seen[..], [from, to] if (to[0] - from[0]).abs() > turn.abs() / 2.0)
+}
+
+/// How far the energy of an orbit without an action, as of a system given by brackets, lies from that of its mean state: of a small
+/// oscillation this is its energy above the bottom, too.
+fn above_mean(
+    physics: Physics<'_>,
+    (method, start): (&'static Method, &Start),
+    orbit: &Orbit,
+) -> Option<f64> {
+    let channels: Vec<usize> = physics.positions().map(|(_, channel)| channel).collect();
+    let mut mean = orbit.state.clone();
+    // the variables of brackets are the whole state
+    if channels.len() != mean.values.len() {
+        return None;
+    }
+    let time = |k: usize| orbit.state.time + orbit.period * k as f64 / POINTS as f64;
+    let times: Vec<f64> = (0..POINTS).map(time).collect();
+    let flow = flow(physics.system, (method, start.parameters.clone()), orbit);
+    let rows = flow.carry(&orbit.state, &times, &channels).seen;
+    for i in 0..channels.len() {
+        let sum: f64 = rows.iter().map(|row| row[i]).sum();
+        mean.set(i, DoubleDouble::from(sum / rows.len() as f64));
+    }
+    let energy = physics.system.energy(&mean, &start.parameters).ok()?;
+    Some((orbit.energy - energy).abs())
 }
 
 /// The momentum of a coordinate, or else its velocity; for anything else the same channel.

@@ -73,6 +73,44 @@ fn a_family_does_not_cross_a_separatrix() {
     }
 }
 
+/// Kepler's force and one of 1/r³: with p_φ = 1 the angle goes round twice in a period of r, T = 2π/(−2E)^(3/2), on all ellipses of
+/// E > −2. There they have shrunk to a circle, which is one of a family of circles.
+#[test]
+fn rosettes_shrink_to_a_circle_of_another_family() {
+    let text = "title = \"t\"\n[coordinates]\nr = { initial = 0.5, momentum = 0 }\n\
+                f = { initial = 0, momentum = 1, period = \"2*pi\" }\n\
+                [hamiltonian]\nH = \"1/2*p_r^2 + (p_f^2 - 3/4)/(2*r^2) - 1/r\"\n";
+    let case = file(text, &[]);
+    let period = |energy: f64| std::f64::consts::TAU / (-2.0 * energy).powf(1.5);
+    for values in [[-2.2, -1.8, -1.2], [-2.0, -1.6, -0.2]] {
+        let found = of(&case, None, (Along::Energy, Fixed::Energy(-1.5)), &values);
+        let seen: Vec<f64> = found.members.iter().map(|member| member.value).collect();
+        assert_eq!(seen, values[1..], "{:?}", found.ended);
+        assert!(!found.isolated);
+        for member in &found.members {
+            let (found, wanted) = (member.orbit.period, period(member.value));
+            assert!((found - wanted).abs() < 1e-9 * wanted, "{found} is not {wanted}");
+        }
+        let said = "the family ends near -2, at an orbit of another, from which it branches off, where its period is 0.7854";
+        assert_eq!(found.ended, [said]);
+    }
+}
+
+/// In its angles a planar swing of the spherical pendulum jumps at the bottom: nothing is said to turn back there.
+#[test]
+fn beside_a_singularity_of_its_coordinates_an_orbit_has_no_known_family() {
+    let text = "title = \"t\"\n[coordinates]\nq = { initial = 1, momentum = 0 }\n\
+                f = { initial = 0, momentum = 1e-9, period = \"2*pi\" }\n\
+                [hamiltonian]\nH = \"1/2*p_q^2 + p_f^2/(2*sin(q)^2) - cos(q)\"\n";
+    let case = file(text, &[]);
+    let fixed = Fixed::Energy(-1.0_f64.cos());
+    let orbit = periodic_orbit(&case.space, taylor(), &case.start, None, fixed).unwrap();
+    let found =
+        family(&case.space, taylor(), &orbit, (Along::Energy, fixed), (&[-0.6, -0.4], &|_| ()));
+    let why = found.unwrap_err().to_string();
+    assert!(why.contains("passes close to a singularity"), "{why}");
+}
+
 /// All of Kepler's ellipses close: their multipliers are 1, and rounding changes no sign. So do, but for less and less, the
 /// orbits of Hénon and Heiles's family below its period doubling (tr M⊥ − 2 = −1.9e-4 at E = 0.09, −8e-11 at 0.07).
 #[test]
