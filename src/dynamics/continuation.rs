@@ -388,9 +388,8 @@ impl Continuation<'_> {
             }
             return Ok(());
         };
-        let shrinks = side.begin.directions > 1 && self.isolates(here, &next);
         let way = (here, &next, side.step);
-        if let Some(end) = self.between(way, shrinks, &mut side.members)? {
+        if let Some(end) = self.between(way, &side.begin, &mut side.members)? {
             side.ended = Some(SideEnd::Before(ended(here, &end)));
             return Ok(());
         }

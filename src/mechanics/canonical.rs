@@ -14,7 +14,6 @@ use super::conjugate_root::with_values_at;
 use super::equations::{Equations, ImplicitMap};
 use super::implicit_map::matrix_at;
 use super::isolate::{self, Solution, tidy};
-use super::nearest_image::NearestImages;
 use super::sampling::TRIES;
 use super::slope::relations_with_common_roots;
 use super::valuation::Valuation;
@@ -149,7 +148,7 @@ impl PhaseMap {
             (0..LOOKED_AT).map(|n| Valuation::near_start(model, equations, n)).collect();
         let (relations, new) = (self.implicit.relations.clone(), self.implicit.new.clone());
         // the branch that a map near this one leads to comes first
-        if let Some(images) = NearestImages::of(&equations.pool, self, &points) {
+        if let Some(images) = self.nearest_images(&equations.pool, &points) {
             let pool = &mut equations.pool;
             let mut near = |pool: &mut Pool, found: &Solution| images.are_those_of(pool, found);
             if let Some(found) = isolate::solve(pool, &relations, &new, &mut near) {

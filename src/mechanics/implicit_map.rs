@@ -158,12 +158,21 @@ impl ImplicitMap {
     /// The image of a point by Newton's method from a guess.
     pub(super) fn newton(&self, pool: &Pool, mut at: Valuation) -> Option<Valuation> {
         const MOST: usize = 60;
+        // nothing is found where so many steps leave more than half of the residual: at a double root each leaves a quarter
+        const STALLED: usize = 8;
         let n = self.new.len();
         let residual = |at: &Valuation| {
             DVector::from_iterator(n, self.relations.iter().map(|&e| at.value(pool, e)))
         };
         let mut left = residual(&at);
-        for _ in 0..MOST {
+        let mut before = f64::INFINITY;
+        for count in 0..MOST {
+            if count % STALLED == 0 {
+                if left.norm() > 0.5 * before {
+                    break;
+                }
+                before = left.norm();
+            }
             if !left.iter().all(|x| x.is_finite()) {
                 return None;
             }

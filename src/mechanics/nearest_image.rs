@@ -126,6 +126,27 @@ impl PhaseMap {
             self.implicit.newton(pool, point.clone().with(values.collect::<Vec<_>>()))
         })
     }
+
+    /// The images that are meant at the first of some points; `None` if no map near this one is known.
+    pub(super) fn nearest_images<'a>(
+        &self,
+        pool: &Pool,
+        points: &'a [Valuation],
+    ) -> Option<NearestImages<'a>> {
+        let points = &points[..WITNESSES.min(points.len())];
+        let near_to: Vec<Vec<Option<f64>>> =
+            points.iter().map(|point| self.near_to(pool, point)).collect();
+        let is_known = |k: &usize| near_to.iter().all(|near| near[*k].is_some());
+        let known: Vec<Symbol> =
+            (0..self.old.len()).filter(is_known).map(|k| self.implicit.new[k]).collect();
+        if known.is_empty() {
+            return None;
+        }
+        let images: Vec<Option<Valuation>> =
+            points.iter().map(|point| self.nearest(pool, point)).collect();
+        let found = images.iter().any(Option::is_some);
+        found.then_some(NearestImages { points, images, known })
+    }
 }
 
 /// Points with the images that are meant, and the new variables of which that is known.
@@ -136,27 +157,6 @@ pub(super) struct NearestImages<'a> {
 }
 
 impl NearestImages<'_> {
-    /// Those of a map at the first of some points; `None` if no map near it is known.
-    pub(super) fn of<'a>(
-        pool: &Pool,
-        map: &PhaseMap,
-        points: &'a [Valuation],
-    ) -> Option<NearestImages<'a>> {
-        let points = &points[..WITNESSES.min(points.len())];
-        let near_to: Vec<Vec<Option<f64>>> =
-            points.iter().map(|point| map.near_to(pool, point)).collect();
-        let is_known = |k: &usize| near_to.iter().all(|near| near[*k].is_some());
-        let known: Vec<Symbol> =
-            (0..map.old.len()).filter(is_known).map(|k| map.implicit.new[k]).collect();
-        if known.is_empty() {
-            return None;
-        }
-        let images: Vec<Option<Valuation>> =
-            points.iter().map(|point| map.nearest(pool, point)).collect();
-        let found = images.iter().any(Option::is_some);
-        found.then_some(NearestImages { points, images, known })
-    }
-
     /// Whether a solution has these images at most of the points.
     pub(super) fn are_those_of(&self, pool: &Pool, found: &Solution) -> bool {
         let same = |point: &Valuation, image: &Valuation| {

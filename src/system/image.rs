@@ -22,6 +22,9 @@ use crate::num::{DoubleDouble, Real};
 const STEPS: u32 = 100;
 const HALVINGS: u32 = 12;
 
+/// Nothing is found where so many steps leave more than half of the residual: even at a double root each leaves a quarter.
+const STALLED: u32 = 8;
+
 /// A step is the last but one if it is this small relative to each number, …
 const SMALL: f64 = 1e-14;
 
@@ -259,7 +262,14 @@ impl MapImage {
         let mut image = guess.to_vec();
         let mut left = None;
         let mut size = self.residual(time, &image)?;
-        for _ in 0..STEPS {
+        let mut before = f64::INFINITY;
+        for step in 0..STEPS {
+            if step % STALLED == 0 {
+                if size > 0.5 * before {
+                    return None;
+                }
+                before = size;
+            }
             if size == 0.0 {
                 return Some((image, left.unwrap_or(0.0)));
             }

@@ -17,21 +17,55 @@ const MOST: usize = 40;
 /// So often a step is halved to come near the orbit that others shrink to.
 const HALVINGS: usize = 12;
 
+/// One beside an orbit that is the only one known of its family is this part of a step away.
+const BESIDE: f64 = 0.1;
+
 /// Then it is come nearer so often, by this part of the way that is left.
 const SECANTS: usize = 3;
 const NEARER: f64 = 0.75;
+
+/// No more than so many times the way between two orbits is extrapolated.
+const FARTHEST: f64 = 100.0;
 
 /// An orbit on which nothing moves faster than this part of what does on one beside it is an equilibrium; one whose neighbours
 /// move by no more in a period is what they have shrunk to.
 const SLOW: f64 = 0.1;
 
-/// Whether orbits beside each other shrink to one where their family turns back: then the map across it is the identity.
-fn is_shrunk(from: &FamilyPoint, to: &FamilyPoint) -> bool {
-    let moved = |point: &FamilyPoint| {
-        let across = &point.orbit.transverse;
-        (across - DMatrix::identity(across.nrows(), across.ncols())).amax()
-    };
-    from.directions > 1 && moved(to) <= SLOW * moved(from)
+/// How far the map across an orbit is from the identity, which it is where orbits beside each other shrink to one: like their
+/// distance from that in energy and period it falls with the square of their size.
+fn moved(point: &FamilyPoint) -> f64 {
+    let across = &point.orbit.transverse;
+    (across - DMatrix::identity(across.nrows(), across.ncols())).amax()
+}
+
+/// The angle by which what is across an orbit is turned, where that is small, but for a factor: Π (μᵢ − 1) is its square. Of a single
+/// pair it has a sign.
+fn rotation(point: &FamilyPoint) -> Option<f64> {
+    let across = &point.orbit.transverse;
+    let sense = if across.nrows() == 2 { across[(0, 1)] - across[(1, 0)] } else { 1.0 };
+    point.unit().map(|square| square.abs().sqrt().copysign(sense))
+}
+
+/// Whether what is across an orbit is turned, and not only sheared, as on a torus, where the rest is rounding.
+fn is_turned(point: &FamilyPoint) -> bool {
+    let sheared = if point.orbit.transverse.nrows() == 2 { SLOW * moved(point) } else { 0.0 };
+    rotation(point).is_some_and(|angle| angle.abs() > sheared)
+}
+
+/// The orbit to which these have shrunk where their family turns back at one of them, if they have: the way past that orbit comes
+/// near it, not onto it.
+fn shrunk_to(turn: &FamilyPoint, beside: [&FamilyPoint; 3]) -> Option<FamilyPoint> {
+    let left = moved(turn);
+    if left > SLOW * beside.into_iter().map(moved).fold(0.0, f64::max) {
+        return None;
+    }
+    let mut end = turn.clone();
+    if let Some(other) = beside.into_iter().find(|other| moved(other) > 2.0 * left) {
+        let part = left / (moved(other) - left);
+        end.value += part * (turn.value - other.value);
+        end.period += part * (turn.period - other.period);
+    }
+    Some(end)
 }
 
 impl Continuation<'_> {
@@ -39,15 +73,15 @@ impl Continuation<'_> {
     /// rosettes to a circle, belongs to another family of the same system.
     pub(super) fn isolates(&self, from: &FamilyPoint, to: &FamilyPoint) -> bool {
         let is_same_system = !matches!(self.along, Along::Parameter(_));
-        is_same_system && from.unit().is_none() && to.unit().is_some()
+        is_same_system && from.unit().is_none() && is_turned(to)
     }
 
     /// Collects the members between two points, a step apart, in their order. Returns where the family ends between them, if it
-    /// does: beyond that come the same orbits, half a period later, or those to which they have shrunk.
+    /// does: beyond that come the same orbits, half a period later, or those to which they have shrunk. It began at `begin`.
     pub(super) fn between(
         &self,
         (from, to, step): (&FamilyPoint, &FamilyPoint, f64),
-        shrinks: bool,
+        begin: &FamilyPoint,
         members: &mut Vec<Member>,
     ) -> Result<Option<FamilyEnd>, DynamicsError> {
         let (low, high) = self.range();
@@ -80,12 +114,19 @@ impl Continuation<'_> {
             let located = self.located((from, to, step), &*test, &close)?;
             if let Some((part, point)) = &located
                 && kind == Bifurcation::Fold
-                && is_shrunk(from, point)
+                && begin.directions > 1
             {
-                // the way past that orbit comes near it, not onto it: it is no member
-                until = *part;
-                end = Some(FamilyEnd::Branching(point.clone()));
-                continue;
+                // what is found may be on the family of the orbit that these shrink to
+                let shrunk = if self.isolates(from, point) {
+                    Some(self.shrunk(from, point, *part)?)
+                } else {
+                    shrunk_to(point, [from, to, begin]).map(|orbit| (*part, orbit))
+                };
+                if let Some((place, orbit)) = shrunk {
+                    until = place;
+                    end = Some(FamilyEnd::Branching(orbit));
+                    continue;
+                }
             }
             if let Some((part, point)) = located
                 && (low..=high).contains(&point.value)
@@ -95,7 +136,7 @@ impl Continuation<'_> {
                 found.push((part, Member { value, orbit, bifurcation: Some(kind) }));
             }
         }
-        if shrinks && end.is_none() {
+        if begin.directions > 1 && end.is_none() && self.isolates(from, to) {
             let (part, point) = self.shrunk(from, to, step)?;
             until = part;
             end = Some(FamilyEnd::Branching(point));
@@ -136,25 +177,28 @@ impl Continuation<'_> {
             let middle = 0.5 * (low + high);
             let by = from.part_way(to, step, middle / step);
             let Some((point, _)) = self.corrected(from, &by)? else { break };
-            if point.unit().is_some() {
+            if is_turned(&point) {
                 high = middle;
                 before = std::mem::replace(&mut end, point);
             } else {
                 low = middle;
             }
         }
-        let rotation = |point: &FamilyPoint| point.unit().map(|square| square.abs().sqrt());
-        // the part of the way from the one to the other that is left
-        let left = |before: &FamilyPoint, end: &FamilyPoint| match (rotation(end), rotation(before))
+        if high == step
+            && let Some((beside, _)) = self.corrected(&end, &(&end.tangent * (BESIDE * step)))?
         {
-            (Some(near), Some(far)) if near < far => near / (far - near),
-            _ => 0.0,
+            before = beside;
+        }
+        // the part of the way from the one to the other that is left; back, where the orbit lies between or behind them
+        let left = |before: &FamilyPoint, end: &FamilyPoint| {
+            let part = rotation(end).zip(rotation(before)).map(|(near, far)| near / (far - near));
+            part.filter(|part| part.abs() <= FARTHEST).unwrap_or(0.0)
         };
         for _ in 0..SECANTS {
             let part = NEARER * left(&before, &end);
             let by = before.change(&end) * part;
             match self.corrected(&end, &by)? {
-                Some((point, _)) if part > 0.0 && point.unit().is_some() => {
+                Some((point, _)) if part != 0.0 && point.unit().is_some() => {
                     before = std::mem::replace(&mut end, point);
                 }
                 _ => break,

@@ -16,7 +16,7 @@ use crate::ensemble::{Start, SystemFlow};
 use crate::integrate::{Method, Settings};
 use crate::job::Progress;
 use crate::num::DoubleDouble;
-use crate::system::{ChannelKind, System};
+use crate::system::{ChannelKind, Form, System};
 
 /// The intervals of the range at whose ends orbits are asked for.
 const INTERVALS: usize = 40;
@@ -231,8 +231,7 @@ fn above_mean(
 ) -> Option<f64> {
     let channels: Vec<usize> = physics.positions().map(|(_, channel)| channel).collect();
     let mut mean = orbit.state.clone();
-    // the variables of brackets are the whole state
-    if channels.len() != mean.values.len() {
+    if physics.system.form() != Form::Variables {
         return None;
     }
     let time = |k: usize| orbit.state.time + orbit.period * k as f64 / POINTS as f64;

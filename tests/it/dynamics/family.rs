@@ -96,6 +96,28 @@ fn rosettes_shrink_to_a_circle_of_another_family() {
     }
 }
 
+/// In the isochrone potential the angle goes round twice in three periods of r, T = 6π/(−2E)^(3/2), on all rosettes with
+/// p_φ = 1/√2: they shrink to a circle at E = −1/4, which is no fold, however near to it the way past leads.
+#[test]
+fn rosettes_that_nearly_meet_their_circle_end_there() {
+    let text = "title = \"t\"\n[coordinates]\nr = { initial = 2.0816659994661326, momentum = 0 }\n\
+                f = { initial = 0, momentum = 0.7071067811865476, period = \"2*pi\" }\n\
+                [hamiltonian]\nH = \"1/2*p_r^2 + p_f^2/(2*r^2) - 1/(1 + sqrt(1 + r^2))\"\n";
+    let case = file(text, &[]);
+    let (r, p) = (2.081_665_999_466_132_6_f64, 0.5_f64.sqrt());
+    let energy = p * p / (2.0 * r * r) - 1.0 / (1.0 + (1.0 + r * r).sqrt());
+    let period = |energy: f64| 3.0 * std::f64::consts::TAU / (-2.0 * energy).powf(1.5);
+    let first = Some(period(energy));
+    let along = (Along::Energy, Fixed::Energy(energy));
+    let found = of(&case, first, along, &[-0.25, -0.247]);
+    let seen: Vec<(f64, Option<Bifurcation>)> =
+        found.members.iter().map(|member| (member.value, member.bifurcation)).collect();
+    assert_eq!(seen, [(-0.247, None)], "{:?}", found.ended);
+    assert!((found.members[0].orbit.period - period(-0.247)).abs() < 1e-8);
+    let said = "the family ends near -0.25, at an orbit of another, from which it branches off, where its period is 53.31";
+    assert_eq!(found.ended, [said]);
+}
+
 /// In its angles a planar swing of the spherical pendulum jumps at the bottom: nothing is said to turn back there.
 #[test]
 fn beside_a_singularity_of_its_coordinates_an_orbit_has_no_known_family() {
