@@ -23,6 +23,7 @@ mod leapfrog;
 mod located_event;
 mod method;
 mod methods;
+mod piece_count;
 mod polynomial;
 mod probe;
 mod propagator;

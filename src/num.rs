@@ -9,6 +9,7 @@
 
 mod batch;
 mod batch_double;
+mod birkhoff;
 mod compensated;
 mod convolution;
 mod digest;
@@ -30,6 +31,7 @@ mod real;
 
 pub use batch::{BATCH, Batch};
 pub use batch_double::BatchDouble;
+pub use birkhoff::birkhoff_average;
 pub use compensated::accumulate;
 pub use digest::digest;
 pub use double_double::DoubleDouble;
@@ -41,7 +43,7 @@ pub use horner::{Polynomial, polynomial, slope_tails, tails};
 pub use instruction_set::{Kernel, vectorized};
 pub use number::Number;
 pub use polytope::OrientationPolytope;
-pub use power_series::{cosine_of_arctangent, square_root};
+pub use power_series::{cosine_of_arctangent, cosine_of_half, square_root};
 pub use prime_field::{PRIMES, PrimeField, Residue, Unreduced, rational};
 pub use quadrature::gauss;
 pub use real::{Analytic, Real};

@@ -5,7 +5,7 @@
 
 use crate::diagnostic::{Diagnostic, SourceRange};
 use crate::expr::Expr;
-use crate::mechanics::{Class, Conserved, Equations, class_of};
+use crate::mechanics::{Class, Conserved, Equations, Reason, class_of};
 use crate::model::Model;
 
 /// The tolerated drift of a conserved quantity, relative to the size of its terms.
@@ -41,9 +41,12 @@ pub(super) struct Claim {
 pub(super) fn open_claims(model: &Model, equations: &mut Equations) -> Vec<Claim> {
     let observed = model.observables.iter().filter(|o| o.conserved == Some(true));
     let observed = observed.map(|o| (&o.name, o.expression, &o.place));
+    let observed = observed.filter(|(name, ..)| known(equations, name).is_none());
     let expected = model.expect.conserves.iter().map(|(name, e, place)| (name, *e, place));
-    let all: Vec<(&String, Expr, &SourceRange)> =
-        observed.chain(expected).filter(|(name, ..)| known(equations, name).is_none()).collect();
+    // what is expected of the motion is expected of its impulses as well
+    let always = |known: &Conserved| !matches!(known.reason, Reason::BetweenImpulses(_));
+    let expected = expected.filter(|(name, ..)| !known(equations, name).is_some_and(always));
+    let all: Vec<(&String, Expr, &SourceRange)> = observed.chain(expected).collect();
     let claim = |(name, expression, place): (&String, Expr, &SourceRange)| {
         let classed = class_of(model, equations, name, expression);
         let rate = classed.rate.ok().filter(|_| classed.class == Class::Changing);

@@ -11,7 +11,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::num::{math, short};
+use crate::num::{birkhoff_average, math, short};
 
 /// The fewest crossings of which a rotation number is given.
 const FEWEST: usize = 16;
@@ -117,19 +117,6 @@ pub fn angle_rotation(angle: &[f64], period: f64) -> Result<Rotation, NoRotation
     }
     let turns: Vec<f64> = angle.windows(2).map(|pair| (pair[1] - pair[0]) / period).collect();
     averaged(&turns, Turning::Axis(0))
-}
-
-/// Σ w x / Σ w with the weights e^{−1/(u(1−u))}, u from 0 to 1 along the values.
-pub(super) fn birkhoff_average(values: &[f64]) -> f64 {
-    let count = values.len() as f64;
-    let (mut sum, mut weights) = (0.0, 0.0);
-    for (k, value) in values.iter().enumerate() {
-        let u = (k as f64 + 0.5) / count;
-        let weight = math::exp(-1.0 / (u * (1.0 - u)));
-        sum += weight * value;
-        weights += weight;
-    }
-    sum / weights
 }
 
 fn averaged(turns: &[f64], turning: Turning) -> Result<Rotation, NoRotation> {

@@ -11,11 +11,11 @@
 
 use std::f64::consts::TAU;
 
-use super::rotation::birkhoff_average;
 use super::spectral_fit::{SpectralFit, Wave};
 use super::spectral_line::SpectralLine;
 use crate::mechanics::Equations;
 use crate::model::Model;
+use crate::num::birkhoff_average;
 use crate::system::System;
 
 /// A line below this part of the strongest is rounding.
@@ -31,8 +31,9 @@ const BESIDE: [f64; 6] = [-1.0, -0.67, -0.33, 0.33, 0.67, 1.0];
 const STEPS: usize = 3;
 const LAST_STEPS: usize = 8;
 
-/// A slow change beside the lines is a polynomial of this degree.
-const DEGREE: usize = 3;
+/// A slow change beside the lines is a polynomial of the first of these degrees. Where it hides them altogether, as a line
+/// that makes less than a turn does, the others are tried as well.
+const DEGREES: [usize; 4] = [3, 5, 7, 9];
 
 /// Lines that make fewer turns in the whole time than this may be parts of a slow change, and are none where one is fitted.
 const SLOW: f64 = 3.0;
@@ -130,11 +131,17 @@ pub(super) fn driven_spectrum(
         return Some(plain.spectrum);
     }
     // what changes slowly would hide the lines beside it
-    let detrended = fitted(signal, spacing, wanted, (DEGREE, SLOW), look).spectrum;
-    let is_better = !detrended.lines.is_empty()
-        && detrended.part_left() < BETTER
-        && detrended.left < BETTER * plain.spectrum.left;
-    Some(if is_better { detrended } else { plain.spectrum })
+    let tried = if plain.spectrum.turns.is_some() { DEGREES.len() } else { 1 };
+    for degree in &DEGREES[..tried] {
+        let detrended = fitted(signal, spacing, wanted, (*degree, SLOW), look).spectrum;
+        let is_better = !detrended.lines.is_empty()
+            && detrended.part_left() < BETTER
+            && detrended.left < BETTER * plain.spectrum.left;
+        if is_better {
+            return Some(detrended);
+        }
+    }
+    Some(plain.spectrum)
 }
 
 /// Lines fitted to a signal.

@@ -5,8 +5,9 @@
 
 use super::clock::spacing;
 use super::dense_output::DenseOutput;
-use super::event_location::{CUT_OFF, EventLocator};
+use super::event_location::EventLocator;
 use super::lane_status::LaneStatus;
+use super::roots::CUT_OFF;
 use super::taylor::TaylorBatch;
 use super::zeno::AccumulationDetector;
 use crate::model::EventAction;

@@ -11,19 +11,16 @@
 use super::DenseOutput;
 use super::clock::{DIGITS, spacing};
 use super::located_event::{Crossing, LocatedEvent, first};
+use super::piece_count::PieceCount;
 use super::polynomial::StepPolynomial;
 use super::probe::Probe;
 use super::root_correction::RootCorrection;
-use super::roots::sign_changes;
-use super::sampling::Sampling;
+use super::roots::{CUT_OFF, root_error, sign_changes};
+use super::sampling::{SIGNLESS, Sampling, leaving};
 use super::series_piece::SeriesPiece;
 use crate::model::Direction;
 use crate::num::DoubleDouble;
-use crate::system::{EventFunctions, MotionError, MotionErrorKind, State};
-
-/// So many minimal intervals in a row are no pole, at which no function is simple on any interval: a function changes too fast
-/// for the resolution of time.
-const MOST_SHORTEST: u32 = 64;
+use crate::system::{EventFunctions, MotionError, State};
 
 /// At a root of its series a function is less than this part of its terms.
 const VANISHES: f64 = 1e-6;
@@ -31,21 +28,16 @@ const VANISHES: f64 = 1e-6;
 /// How often the minimal interval is doubled about the zero of a root: up to half of the digits of time.
 const MOST_DOUBLED: u32 = 24;
 
-/// The most pieces of one step in a row on which the functions are sampled and none crosses zero: a
-/// step with more is far beyond what its method can follow.
-const MOST_PIECES: u32 = 1 << 16;
-
 /// After an impulse the sign of a function may change again very soon, after this part of the time.
 const SOONEST: f64 = 2e-15;
-
-/// The truncation error of a series, as a part of its function.
-pub(super) const CUT_OFF: f64 = 1e-13;
 
 /// The state of the search for events.
 #[derive(Clone, Debug)]
 pub(super) struct EventLocator {
     probe: Probe,
     directions: Vec<Direction>,
+    /// Whether each function has zeros that are no rounding.
+    may_cross: Vec<bool>,
     /// The last known side of zero of each function; zero if unknown.
     sides: Vec<f64>,
     /// When each of them last crossed zero in a direction that counts; NaN before it has.
@@ -54,12 +46,12 @@ pub(super) struct EventLocator {
     beside: Vec<(LocatedEvent, f64)>,
     /// Whether an impulse has just changed the state.
     fresh: bool,
+    /// The values of the functions that leave their zeros then, that of the event that caused it and what a constraint held,
+    /// and the part of their course that is rounding.
+    leaving: Vec<Option<[f64; 2]>>,
     /// The time up to which the functions were found to be simple.
     simple: Option<f64>,
-    /// The number of minimal intervals in a row.
-    shortest: u32,
-    /// The beginning of the last step that was sampled, and in how many pieces so far.
-    pieces: (f64, u32),
+    pieces: PieceCount,
     /// The last end of an interval, with the decimal number it is written as: the next one mostly
     /// begins there.
     end: (f64, DoubleDouble),
@@ -80,16 +72,18 @@ impl EventLocator {
         blank: State,
     ) -> EventLocator {
         let count = directions.len();
+        let may_cross = (0..count).map(|event| event_functions.may_cross(event)).collect();
         EventLocator {
             probe: Probe::new(event_functions, count, blank),
             directions,
+            may_cross,
             sides: vec![0.0; count],
             last: vec![f64::NAN; count],
             beside: Vec::new(),
             fresh: false,
+            leaving: vec![None; count],
             simple: None,
-            shortest: 0,
-            pieces: (f64::NAN, 0),
+            pieces: PieceCount::NONE,
             end: (f64::NAN, DoubleDouble::ZERO),
         }
     }
@@ -146,6 +140,10 @@ impl EventLocator {
     ) -> Result<(), MotionError> {
         let old = self.probe.of(before)?.to_vec();
         let new = self.probe.of(after)?;
+        self.leaving.fill(None);
+        if let Some(event) = event {
+            self.leaving[event] = Some([old[event].abs(), 0.0]);
+        }
         for (i, (old, new)) in old.iter().zip(new).enumerate() {
             if event == Some(i) || (old - new).abs() > 1e-12 * (old.abs() + new.abs()) {
                 self.sides[i] = 0.0;
@@ -169,6 +167,8 @@ impl EventLocator {
         for (i, (old, new)) in old.iter().zip(new).enumerate() {
             let same = (old - new).abs() <= 1e-12 * (old.abs() + new.abs());
             self.sides[i] = if same { known.sides[i] } else { 0.0 };
+            let is_freed = !known.may_cross[i] && self.may_cross[i];
+            self.leaving[i] = is_freed.then_some([old.abs(), SIGNLESS]);
         }
         self.fresh = true;
         Ok(())
@@ -203,38 +203,39 @@ impl EventLocator {
             return Ok((None, to));
         }
         let Some((piece, beyond)) = self.piece(motion, from, to) else {
-            self.count_piece(motion.interval().0, from)?;
+            self.pieces.count(motion.interval().0, from)?;
             let end = self.simple_until(motion, from, to)?;
             let found = self.sampled(motion, from, end, end >= to)?;
             if found.is_some() {
-                self.pieces.1 = 0;
+                self.pieces.begin();
             }
             return Ok((found, end));
         };
         let shortest = DIGITS * spacing(from);
         let end = (piece.from + DoubleDouble::from(piece.unit) * piece.length).high.min(to);
         if end - from >= shortest || end >= to {
-            self.shortest = 0;
+            self.pieces.shortest = 0;
             let known = self.sides.clone();
             if let PieceRoots::First(found) = self.roots(motion, &piece, (from, end), end >= to)? {
                 return Ok((found, end));
             }
             // the series belong to another branch, or are rounding
             self.sides = known;
-            self.count_piece(motion.interval().0, from)?;
+            self.pieces.count(motion.interval().0, from)?;
             let end = self.simple_until(motion, from, end)?;
             return Ok((self.sampled(motion, from, end, end >= to)?, end));
         }
         // a kink or a pole; about the zero of a root its series is rounding over ever so many digits
-        let doubled = if self.probe.event_functions().has_branches() { self.shortest } else { 0 };
+        let doubled =
+            if self.probe.event_functions().has_branches() { self.pieces.shortest } else { 0 };
         let end = (from + shortest * f64::from(1 << doubled.min(MOST_DOUBLED))).min(to);
-        self.note_length(from, beyond)?;
+        self.pieces.note_length(from, beyond)?;
         Ok((self.sampled(motion, from, end, end >= to)?, end))
     }
 
     /// Passes over a piece of a step on which all functions surely stay on their known sides.
     pub(super) fn pass(&mut self) {
-        (self.fresh, self.shortest) = (false, 0);
+        (self.fresh, self.pieces.shortest) = (false, 0);
     }
 
     /// The last known side of zero of each function; zero if unknown.
@@ -280,7 +281,8 @@ impl EventLocator {
             if let Some(change) = sign_changes(&sign, length).next() {
                 // digits there, not at the end of the step, which may be much later
                 let there = (from + DoubleDouble::from(change.x) * unit).high;
-                length = (change.x - 0.5 * DIGITS * spacing(there) / unit).max(0.0);
+                let digits = 0.5 * DIGITS * spacing(there) / unit;
+                length = (change.x - digits.max(root_error(&sign, change.x))).max(0.0);
             }
         }
         Some((SeriesPiece { from, unit, length }, valid * unit))
@@ -299,6 +301,10 @@ impl EventLocator {
         let (length, soonest) = (piece.length, SOONEST * reference / piece.unit);
         let mut passed = Vec::new();
         for event in 0..self.sides.len() {
+            if !self.may_cross[event] {
+                passed.push(Vec::new());
+                continue;
+            }
             let coefficients = self.probe.event_functions().expanded(event);
             let mut polynomial = StepPolynomial { coefficients, length, soonest };
             let doubtful = polynomial.coefficients[0] * self.sides[event] <= 0.0;
@@ -395,33 +401,10 @@ impl EventLocator {
             return Ok(end.min(to));
         }
         let length = self.probe.resolved(motion, from, to - from)?.unwrap_or(f64::INFINITY);
-        self.note_length(from, length)?;
+        self.pieces.note_length(from, length)?;
         let end = from + length.max(DIGITS * spacing(from));
         self.simple = Some(end);
         Ok(end.min(to))
-    }
-
-    /// Counts a piece of the step that begins at a time, and returns an error if there are too many.
-    fn count_piece(&mut self, step: f64, from: f64) -> Result<(), MotionError> {
-        let count = if self.pieces.0 == step { self.pieces.1 + 1 } else { 1 };
-        self.pieces = (step, count);
-        if count > MOST_PIECES {
-            let kind = MotionErrorKind::Swings;
-            return Err(MotionError { time: from, kind, place: Vec::new() });
-        }
-        Ok(())
-    }
-
-    /// Records how far the functions are represented after a time, and returns an error if that is
-    /// too often less than the spacing of time.
-    fn note_length(&mut self, from: f64, length: f64) -> Result<(), MotionError> {
-        let shortest = length < DIGITS * spacing(from);
-        self.shortest = if shortest { self.shortest + 1 } else { 0 };
-        if self.shortest > MOST_SHORTEST {
-            let kind = MotionErrorKind::ClockStands(spacing(from));
-            return Err(MotionError { time: from, kind, place: Vec::new() });
-        }
-        Ok(())
     }
 
     /// The first crossing that counts on an interval on which the functions are simple.
@@ -434,13 +417,20 @@ impl EventLocator {
     ) -> Result<Option<LocatedEvent>, MotionError> {
         let soonest = SOONEST * if from == 0.0 { to } else { from.abs() };
         let soonest = std::mem::take(&mut self.fresh).then_some(soonest);
+        let leaves = soonest.is_some();
         let probe = &mut self.probe;
         let mut sampling = Sampling { probe, motion, whole: (from, to), is_last };
         let samples = sampling.looks(self.sides.len(), soonest)?;
         let mut passed: Vec<Vec<Crossing>> = Vec::new();
         for (event, samples) in samples.iter().enumerate() {
+            if !self.may_cross[event] {
+                passed.push(Vec::new());
+                continue;
+            }
             let own = (event, self.directions[event]);
             let (known, last) = (&mut self.sides[event], self.last[event]);
+            let zero = self.leaving[event].take().filter(|_| leaves);
+            let samples = zero.map_or(&samples[..], |residual| leaving(samples, residual));
             passed.push(sampling.follow(own, samples, known, last)?);
         }
         let found;

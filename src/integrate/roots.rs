@@ -6,6 +6,10 @@
 /// The maximal number of coefficients of a polynomial.
 const CAPACITY: usize = 64;
 
+/// The truncation error of a series, as a part of its function, and the multiple of it that a root is kept away by.
+pub(super) const CUT_OFF: f64 = 1e-13;
+const MARGIN: f64 = 4.0;
+
 /// Roots closer together than `end / 2^DEPTH` count as a touch, not as two crossings.
 const DEPTH: u32 = 48;
 
@@ -217,6 +221,13 @@ fn refine(coefficients: &[f64], sign: f64, mut low: f64, mut high: f64) -> f64 {
         x = next;
     }
     x
+}
+
+/// How far a root of a function may lie from that of its truncated series.
+pub(super) fn root_error(coefficients: &[f64], x: f64) -> f64 {
+    let size = coefficients.iter().rev().fold(0.0, |sum, c| sum * x + c.abs());
+    let error = MARGIN * CUT_OFF * size / value_and_slope(coefficients, x).1.abs();
+    if error.is_finite() { error } else { 0.0 }
 }
 
 /// Evaluates a polynomial and its derivative.

@@ -37,8 +37,20 @@ const SLOPE_OVER: f64 = 1e-5;
 /// distance of the times between which it lies.
 const ASIDE: f64 = 4.0;
 
+/// Values that differ by less than this part of them may be equal but for rounding.
+const ROUNDING: f64 = 1e-13;
+
+/// Beside a pole at the end of a step the function falls to this part of its value next to the pole.
+const ONE_SIDED: f64 = 0.5;
+
 /// The sign of a value below this part of those beside it is not trusted.
 pub(super) const SIGNLESS: f64 = 1e-13;
+
+/// A function has left its zero where its value is so many times that at the zero …
+const CLEAR: f64 = 4.0;
+
+/// … and grows by this factor from each sample to the next.
+const GROWS: f64 = 1.2;
 
 /// A sample of one function.
 #[derive(Clone, Copy, Debug)]
@@ -265,6 +277,9 @@ impl Sampling<'_> {
             return Ok(Crossing { exact: DoubleDouble::written(right), side, pole });
         }
         if low.high * side > 0.0 {
+            if let Some(pole) = self.was_pole(event, side, (left, low.high))? {
+                return Ok(Crossing { exact: DoubleDouble::written(left), side, pole });
+            }
             // in double-double it has crossed already
             let next = (left + spacing(left)).min(right);
             let beside = self.probe.exactly(self.motion, event, next)?;
@@ -296,7 +311,9 @@ impl Sampling<'_> {
                 (left, low) = (time, value);
             }
         }
-        let pole = self.is_pole(event, (left, low.high), (right, high.high))?;
+        // where the function begins to exist on the other side it has no zero
+        let begins = low.high.is_nan();
+        let pole = begins || self.is_pole(event, (left, low.high), (right, high.high))?;
         // the samples were taken at exactly these times
         let (left, right) = (DoubleDouble::written(left), DoubleDouble::written(right));
         let part = low / (low - high);
@@ -304,24 +321,76 @@ impl Sampling<'_> {
         Ok(Crossing { exact, side, pole })
     }
 
+    /// Whether a function jumped just before a time at which it is on `side` already; `None` if it was there before as well.
+    fn was_pole(
+        &mut self,
+        event: usize,
+        side: f64,
+        (right, high): (f64, f64),
+    ) -> Result<Option<bool>, MotionError> {
+        let (begin, _) = self.motion.interval();
+        for digits in [1.0, 2.0, 4.0, 8.0, DIGITS] {
+            let left = (right - digits * spacing(right)).max(begin);
+            let low = self.probe.exactly(self.motion, event, left)?.high;
+            if low * side < 0.0 {
+                return self.is_pole(event, (left, low), (right, high)).map(Some);
+            }
+        }
+        Ok(None)
+    }
+
     /// Whether a function that changes its sign between two neighbouring times is smaller farther
-    /// from them: beside a zero its size grows with distance, beside a pole it falls.
+    /// from them: beside a zero its size grows with distance, beside a pole it falls, and beside the cut of an angle. How
+    /// far it must be looked at depends on how slowly an angle turns.
     fn is_pole(
         &mut self,
         event: usize,
         (left, low): (f64, f64),
         (right, high): (f64, f64),
     ) -> Result<bool, MotionError> {
-        let aside = ASIDE * (right - left);
-        let (before, after) = ((left - aside).max(self.whole.0), (right + aside).min(self.whole.1));
-        if before == left || after == right {
-            // one side alone does not distinguish a pole from a jump
-            return Ok(false);
+        let (begin, end) = self.motion.interval();
+        let (begin, end) = (begin.min(self.whole.0), end.max(self.whole.1));
+        let mut aside = ASIDE * (right - left);
+        loop {
+            let (before, after) = ((left - aside).max(begin), (right + aside).min(end));
+            let earlier = self.probe.exactly(self.motion, event, before)?.high.abs();
+            let later = self.probe.exactly(self.motion, event, after)?.high.abs();
+            if before == left || after == right {
+                // one side alone does not distinguish the cut of an angle from another jump
+                return Ok(earlier < ONE_SIDED * low.abs() || later < ONE_SIDED * high.abs());
+            }
+            let differs = |a: f64, b: f64| (a - b).abs() > ROUNDING * b || a.is_nan();
+            let is_clear = differs(earlier, low.abs()) && differs(later, high.abs());
+            if is_clear || before == begin || after == end {
+                return Ok(earlier < low.abs() && later < high.abs());
+            }
+            aside *= ASIDE;
         }
-        let earlier = self.probe.exactly(self.motion, event, before)?.high.abs();
-        let later = self.probe.exactly(self.motion, event, after)?.high.abs();
-        Ok(earlier < low.abs() && later < high.abs())
     }
+}
+
+/// The samples of a function that was zero at the beginning, but for a `residual`, from the first one that shows to which
+/// side it leaves: the values before are the rounding of the zero and of its time. What leaves with its first derivatives
+/// zero as well is rounding below this part of its course.
+pub(super) fn leaving(samples: &[Sample], [residual, part]: [f64; 2]) -> &[Sample] {
+    let [first, soon, ..] = samples else { return samples };
+    let moved = |sample: &Sample| sample.value - first.value;
+    let farthest = samples.iter().map(moved).fold(0.0_f64, |most, x| most.max(x.abs()));
+    let residual = residual.max(part * farthest);
+    if first.value.abs() > moved(soon).abs().max(CLEAR * residual) {
+        return samples;
+    }
+    let rounding = CLEAR * first.value.abs().max(residual);
+    let leaves = |run: &[Sample]| {
+        let (mut last, side) = (rounding, moved(&run[0]).signum());
+        run.iter().map(moved).all(|moved| {
+            let grows = moved * side > last;
+            last = GROWS * moved.abs();
+            grows
+        })
+    };
+    let begin = samples[1..].windows(3).position(leaves).map_or(samples.len() - 1, |k| k + 1);
+    &samples[begin..]
 }
 
 /// The progress of one function through an interval.
@@ -336,8 +405,10 @@ struct Walk<'a> {
     found: Vec<Crossing>,
 }
 
-/// The side of zero a function is on; none if its value may be rounding.
+/// The side of zero a function is on; none if its value may be rounding, or if it has none. Beside a time at which it has no
+/// value it has the sign of its own.
 fn sign(here: Sample, beside: Sample) -> f64 {
     let value = here.value;
-    if value.abs() > SIGNLESS * beside.value.abs() { value.signum() } else { 0.0 }
+    let size = if beside.value.is_nan() { 0.0 } else { beside.value.abs() };
+    if value.abs() > SIGNLESS * size { value.signum() } else { 0.0 }
 }

@@ -55,6 +55,37 @@ pub(super) enum ConservedBy {
 }
 
 impl Equations {
+    /// Whether a function, written as an observable is, shows without any proof that it is constant along the motion: it is
+    /// one of the parameters, of the energy and of momenta whose rates are zero as they are written.
+    pub fn is_plainly_constant(&self, function: Expr) -> bool {
+        let rates = match &self.flow {
+            Flow::Lagrange { momentum_rates, .. } | Flow::Hamilton { momentum_rates, .. } => {
+                momentum_rates
+            }
+            Flow::Poisson { .. } => return false,
+        };
+        let mut moving: Vec<Symbol> = vec![self.symbols.time, self.symbols.action];
+        for (c, &rate) in self.coordinates.iter().zip(rates) {
+            moving.extend([c.position, c.velocity, c.acceleration]);
+            if rate != Expr::ZERO {
+                moving.push(c.momentum);
+            }
+        }
+        if self.energy_rate != Expr::ZERO {
+            moving.push(self.symbols.energy);
+        }
+        moving.extend(self.constraints.iter().map(|c| c.multiplier));
+        moving.extend(self.supplements.auxiliary.iter().flat_map(|a| a.symbols.iter().copied()));
+        !self.pool.depends_on_any(function, &moving)
+            && !self.has_images(function)
+            && !self.law_jumps()
+    }
+
+    /// Whether two functions are multiples of each other as they are written.
+    pub fn are_multiples(&self, one: Expr, other: Expr) -> bool {
+        is_multiple(&self.pool, one, other)
+    }
+
     /// How it is known that an observable is conserved, or `None` if it is not. If constraints may
     /// be `released`, only what holds for any constraint forces counts.
     pub(super) fn knowledge_of(&mut self, observable: Expr, released: bool) -> Option<ConservedBy> {

@@ -1,5 +1,7 @@
 //! Functions of power series, order by order.
 
+use super::math;
+
 /// The coefficients of √(Σ cₖ xᵏ), from r² = c order by order: 2 r₀ r_k = c_k − Σ r_j r_{k−j}. They are not finite where c₀
 /// has no positive root.
 pub fn square_root(coefficients: &[f64]) -> Vec<f64> {
@@ -31,9 +33,35 @@ pub fn cosine_of_arctangent(coefficients: &[f64]) -> Vec<f64> {
     cosine
 }
 
+/// The coefficients of cos(½ Σ cₖ xᵏ), from cos′ = −sin · u′ and sin′ = cos · u′: it passes zero where the angle is ±π.
+pub fn cosine_of_half(coefficients: &[f64]) -> Vec<f64> {
+    let half = |k: usize| 0.5 * coefficients[k];
+    let Some(first) = coefficients.first() else { return Vec::new() };
+    let (mut cosine, mut sine) = (vec![math::cos(0.5 * first)], vec![math::sin(0.5 * first)]);
+    for k in 1..coefficients.len() {
+        let slope = |other: &[f64]| {
+            (1..=k).map(|j| j as f64 * half(j) * other[k - j]).sum::<f64>() / k as f64
+        };
+        let next = (-slope(&sine), slope(&cosine));
+        cosine.push(next.0);
+        sine.push(next.1);
+    }
+    cosine
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{cosine_of_arctangent, square_root};
+    use super::{cosine_of_arctangent, cosine_of_half, square_root};
+
+    /// cos(π/2 + x) = −sin x = −x + x³/6 − x⁵/120, which passes zero where the angle is π.
+    #[test]
+    fn the_cosine_of_half_an_angle_passes_zero_at_the_cut() {
+        let angle = [core::f64::consts::PI, 2.0, 0.0, 0.0, 0.0, 0.0];
+        let expected = [0.0, -1.0, 0.0, 1.0 / 6.0, 0.0, -1.0 / 120.0];
+        for (found, expected) in cosine_of_half(&angle).iter().zip(expected) {
+            assert!((found - expected).abs() < 1e-16, "{found}, not {expected}");
+        }
+    }
 
     /// tan x = x + x³/3 + 2x⁵/15 + …, and cos x.
     #[test]

@@ -10,6 +10,7 @@ use super::batch_series::BatchSeries;
 use super::jet::Jet;
 use super::program::{Op, Program};
 use super::sign_bound::{shows_end, signs_kept, stay};
+use crate::expr::FunctionId;
 use crate::num::{Analytic, Batch, DoubleDouble, Kernel, vectorized};
 
 /// The functions of one system.
@@ -54,7 +55,13 @@ impl System {
 
     fn expanded_functions(&self, program: &Arc<Program>, order: usize) -> Option<Functions> {
         let alone = |&r: &u32| {
-            matches!(program.ops[r as usize], Op::Select { .. } | Op::ParametricPower(..))
+            let op = program.ops[r as usize];
+            matches!(
+                op,
+                Op::Select { .. }
+                    | Op::ParametricPower(..)
+                    | Op::Call(FunctionId::Atan | FunctionId::Atan2, _)
+            )
         };
         let smooth = program.switches() == 0 && program.guards.is_empty();
         let mut read = program.inputs_read();

@@ -40,6 +40,17 @@ pub struct CompiledEvent {
     pub direction: Direction,
     /// The action that an event triggers.
     pub action: EventAction,
+    /// Whether its function is constant between impulses.
+    is_constant: bool,
+    /// The constraint whose expression its function is, but for a factor.
+    constraint: Option<usize>,
+}
+
+impl CompiledEvent {
+    /// Whether its function has zeros that are no rounding, while these constraints are active.
+    pub(super) fn may_cross(&self, is_active: impl Fn(usize) -> bool) -> bool {
+        !self.is_constant && !self.constraint.is_some_and(is_active)
+    }
 }
 
 /// An impulse without its formulas.
@@ -82,12 +93,18 @@ impl Discontinuities {
         let functions: Vec<_> = functions(model).map(Some).collect();
         let changes = model.impulses.iter().flat_map(|i| i.change.iter().map(|&e| Some(e)));
         let changes: Vec<_> = changes.collect();
+        let equations = builder.equations;
+        let constraint = |when: Expr| {
+            model.constraints.iter().position(|c| equations.are_multiples(when, c.expression))
+        };
         Ok(Discontinuities {
             events: located()
                 .map(|e| CompiledEvent {
                     name: e.name.clone(),
                     direction: if builder.backwards { e.direction.reversed() } else { e.direction },
                     action: e.action,
+                    is_constant: equations.is_plainly_constant(e.when),
+                    constraint: constraint(e.when),
                 })
                 .collect(),
             impulses: model

@@ -41,6 +41,13 @@ impl EventFunctions {
         self.expansion = None;
     }
 
+    /// Whether the function of an event has zeros that are no rounding: it is neither constant along the motion nor what a
+    /// constraint in force keeps at zero.
+    pub fn may_cross(&self, event: usize) -> bool {
+        let is_active = |constraint: usize| !self.system.is_released(constraint);
+        self.system.discontinuities().events[event].may_cross(is_active)
+    }
+
     /// Expands the functions along a step whose series is known, about a time `x` after the series'
     /// origin, in its unit. Returns how far beyond it, up to the second of `within`, the expansions represent the
     /// functions up to a part of their size, the first of `within`, or `None` if there are none.

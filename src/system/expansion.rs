@@ -15,7 +15,9 @@ use super::program::{Guard, Program};
 use super::sign_bound::{LAST, bound, keeps_sign, shows_no_end, stays};
 use super::step_series::StepSeries;
 use crate::expr::FunctionId;
-use crate::num::{DoubleDouble, all_finite, cosine_of_arctangent, math, square_root};
+use crate::num::{
+    DoubleDouble, all_finite, cosine_of_arctangent, cosine_of_half, math, square_root,
+};
 
 /// The most times ahead from which functions are looked at whose last terms show nothing.
 const MOST_LOOKS: u32 = 100;
@@ -183,7 +185,7 @@ impl Expansion {
     }
 
     /// Series beyond whose first zero other branches of the functions apply: those of the switches, of the roots, of which √(y²)
-    /// goes on as y where y changes its sign, and of arctangents.
+    /// goes on as y where y changes its sign, of arctangents, and of the angles of points.
     pub(super) fn branch_signs(&self) -> impl Iterator<Item = Cow<'_, [f64]>> {
         let switches = (0..self.jet.switches()).map(|i| Cow::Borrowed(self.jet.switch(i)));
         let roots = self.guards.iter().filter_map(|guard| self.root(guard));
@@ -191,11 +193,13 @@ impl Expansion {
     }
 
     /// Of each arctangent the cosine, which passes zero at a pole of the argument: there the function jumps, and its series goes
-    /// on, as that of arctan(tan t) = t does.
+    /// on, as that of arctan(tan t) = t does. Of the angle of each point the cosine of half of it, which passes zero at the cut.
     fn angles(&self) -> impl Iterator<Item = Cow<'_, [f64]>> {
         let arguments = self.jet.arguments();
         let tangents = arguments.filter(|(function, _)| *function == FunctionId::Atan);
-        tangents.map(|(_, tangent)| Cow::Owned(cosine_of_arctangent(tangent)))
+        let tangents = tangents.map(|(_, tangent)| Cow::Owned(cosine_of_arctangent(tangent)));
+        let angles = self.jet.angles_of_points();
+        tangents.chain(angles.map(|angle| Cow::Owned(cosine_of_half(angle))))
     }
 
     /// Whether there are roots or inverse functions.

@@ -223,6 +223,14 @@ impl<R: Coefficient> Jet<R> {
         })
     }
 
+    /// The series of the angles atan2(y, x) of points that are not constant.
+    pub(super) fn angles_of_points(&self) -> impl Iterator<Item = &[R]> {
+        self.program.body.iter().filter_map(|&r| match self.program.ops[r as usize] {
+            Op::Call(FunctionId::Atan2, _) => Some(self.series(r)),
+            _ => None,
+        })
+    }
+
     /// The high negative powers c/u^n: n, c, and the series of u.
     pub fn steep_poles(&self) -> impl Iterator<Item = (R, R, &[R])> {
         self.tables.index.steep_poles.iter().map(|pole| {

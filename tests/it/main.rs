@@ -18,6 +18,7 @@ mod dynamics;
 mod elementary;
 mod ensemble;
 mod escaping_cloud;
+mod event_functions;
 mod experiment;
 mod expr;
 mod expr_parse;

@@ -27,6 +27,12 @@ impl Propagator {
         if self.passed.first.is_some() {
             return;
         }
+        // what the impulse itself changes, as a function of the velocities, is no place that is passed
+        let values = [before, after]
+            .map(|state| self.crossings.as_mut().and_then(|c| c.value(event, state)));
+        if values[0] != values[1] {
+            return;
+        }
         let rates = [before, after].map(|state| self.event_rate(event, state));
         let [Some(before), Some(rate)] = rates else { return };
         let (side, size) = (before.signum(), before.abs());

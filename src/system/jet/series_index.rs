@@ -4,6 +4,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::expr::FunctionId;
 use crate::system::program::{Op, PARAMETRIC_POWER_BITS, Program, Register};
 
 /// The registers that are read as whole series.
@@ -44,7 +45,7 @@ const STEEP_POLE: f64 = 32.0;
 const NOWHERE: u32 = u32::MAX;
 
 impl SeriesIndex {
-    /// The switches, the guards, the arguments of functions, the bases of high negative powers, all factors of parametric
+    /// The switches, the guards, the arguments of functions, the angles of points, the bases of high negative powers, all factors of parametric
     /// powers, and the outputs if these are read.
     pub(super) fn of(program: &Program, outputs: bool) -> SeriesIndex {
         let mut wanted = vec![false; program.ops.len()];
@@ -60,7 +61,12 @@ impl SeriesIndex {
         }
         for (register, op) in (0..).zip(&program.ops) {
             match *op {
-                Op::Call(_, [argument, _]) => keep(argument),
+                Op::Call(function, [argument, _]) => {
+                    keep(argument);
+                    if function == FunctionId::Atan2 {
+                        keep(register);
+                    }
+                }
                 Op::ParametricPower(base, _) => {
                     keep(base);
                     keep(register);

@@ -363,6 +363,22 @@ fn what_a_law_changes_is_not_conserved_however_little_is_seen() {
     }
 }
 
+/// The energy is expected to be the same after an impulse as before it, as any other quantity is: at x = cos 2 with x' = −sin 2
+/// an impulse of 1/2 leaves it another, one of 2 sin 2 turns the velocity round.
+#[test]
+fn an_impulse_that_changes_what_is_expected_to_be_conserved_is_seen() {
+    let file = |change: &str| {
+        format!(
+            "title = \"E\"\n[coordinates]\nx = {{ initial = 1.0 }}\n[lagrangian]\nL = \"1/2*x'^2 - 1/2*x^2\"\n\
+             [[impulses]]\nname = \"one\"\nat = [2.0]\nchange = {{ p_x = \"{change}\" }}\n\
+             [expect]\nconserves = [\"energy\"]\n"
+        )
+    };
+    with_file(&file("0.5"), &["check", "system.toml"])
+        .fails(65, &["`energy` is claimed to be conserved, but it is not"]);
+    with_file(&file("2*sin(2)"), &["check", "system.toml"]).success();
+}
+
 /// A claim of what is conserved holds until an event ends the motion, and is checked until there.
 #[test]
 fn what_is_conserved_is_checked_until_an_event_ends_the_motion() {

@@ -960,3 +960,20 @@ fn a_start_near_the_velocity_of_light_is_one() {
     assert_eq!(done.code, 1);
     assert!(done.stderr.contains("no velocities were found"), "{}", done.stderr);
 }
+
+/// Only an event at places can be one whose impulse is to turn the motion back: one of the velocities is passed by its impulse.
+#[test]
+fn an_impulse_at_an_event_of_the_velocities_is_not_said_to_miss_its_wall() {
+    let file = "title = \"Plane\"\n[coordinates]\nx = { initial = 0.3, velocity = 0.5 }\n\
+                y = { initial = 0.2, velocity = -0.4 }\n[lagrangian]\n\
+                L = \"1/2*x'^2+1/2*y'^2-(x^2+0.7*y^2+0.2*x*y^2)+0.1*y*sin(t)\"\n[[impulses]]\nname = \"k\"\n\
+                change = { p_x = \"-0.1*x'\", p_y = \"0.2*x\" }\n[[events]]\nname = \"en\"\n\
+                when = \"energy-0.4*(1+0.3*sin(t))\"\naction = \"impulse:k\"\n[[events]]\nname = \"an\"\n\
+                when = \"(x*y'-y*x')*p_x-0.05\"\ndirection = \"rising\"\naction = \"impulse:k\"\n[[events]]\n\
+                name = \"st\"\nwhen = \"sin(3*t+0.2)\"\ndirection = \"rising\"\naction = \"impulse:k\"\n";
+    for velocity in ["0.5", "0.50001", "0.49999"] {
+        let start = format!("x'={velocity}");
+        with_file(file, &["run", "system.toml", "--until=7", "--every=7", "--init", &start])
+            .success();
+    }
+}

@@ -382,3 +382,26 @@ fn noise_and_rest_are_not_taken_more_often() {
     let found = sampled_spectrum(&request, &mut sample, &mut |_| true).unwrap();
     assert!(found.count == 2048 && found.is_resolved(), "{found:?}");
 }
+
+/// cos(t/1000) + 0.01 cos t: however much of its turn the slow line has made, the fast one is there.
+#[test]
+fn a_line_that_has_made_no_turn_does_not_hide_those_beside_it() {
+    for until in [500.0, 1000.0, 2000.0, 3000.0, 6000.0] {
+        let spacing = 0.5;
+        let at = |k: usize| spacing * k as f64;
+        let signal: Vec<f64> = (0..=(until / spacing) as usize)
+            .map(|k| (1e-3 * at(k)).cos() + 0.01 * at(k).cos())
+            .collect();
+        let found = spectrum(&signal, spacing, (8, 2), &mut |_| true).unwrap();
+        let line = found.lines.first().unwrap_or_else(|| panic!("no line until {until}"));
+        assert!((line.frequency - 1.0).abs() < 1e-5, "{until}: {line:?}");
+        assert!((line.frequency - 1.0).abs() <= 3.0 * line.error, "{until}: {line:?}");
+        assert!((line.amplitude - 0.01).abs() < 1e-4, "{until}: {line:?}");
+    }
+    // what escapes has none
+    for law in [|t: f64| t * t, |t: f64| (1.0 + t * t).sqrt(), |t: f64| t.ln_1p(), f64::tanh] {
+        let signal: Vec<f64> = (0..2000).map(|k| law(0.01 * f64::from(k))).collect();
+        let found = spectrum(&signal, 0.01, (8, 2), &mut |_| true).unwrap();
+        assert!(found.lines.is_empty(), "{:?}", found.lines);
+    }
+}
