@@ -41,7 +41,7 @@ pub(super) fn derive(document: &Document, model: Model) -> Result<Derived, Comma
         None => Ok(derived),
         // what an option has added has no place in the file
         Some(Diagnostic { place, message, help, .. }) if *place == (0..0) => {
-            let help = help.iter().map(|help| format!("; {help}")).collect::<String>();
+            let help = help.iter().fold(String::new(), |all, help| all + "; " + help);
             Err(CommandError::WrongUse(format!("{message}{help}")))
         }
         Some(_) => Err(refuse(document, &diagnostics)),

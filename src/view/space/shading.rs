@@ -105,12 +105,7 @@ impl Shading {
     }
 
     fn is_whole(&self, quarters: &[Quarter; 4]) -> bool {
-        (0..4).all(|k| self.is_covered(quarters[k], self.room[k]))
-    }
-
-    /// Whether at least half of a quarter is covered.
-    fn is_covered(&self, quarter: Quarter, room: u8) -> bool {
-        quarter.count > 0 && 2 * quarter.count >= room
+        (0..4).all(|k| is_covered(quarters[k], self.room[k]))
     }
 
     /// Gives the covered cells their colours: those in which nothing is drawn blocks, the others a background.
@@ -155,8 +150,13 @@ impl Shading {
         let tones = self.tones.get(usize::from(quarter.tones))?;
         let (last, light) = (tones.len() - 1, quarter.light / f32::from(quarter.count));
         let step = (light * last as f32).round() as usize;
-        self.is_covered(quarter, room).then(|| tones[step.min(last)])
+        is_covered(quarter, room).then(|| tones[step.min(last)])
     }
+}
+
+/// Whether at least half of a quarter is covered.
+fn is_covered(quarter: Quarter, room: u8) -> bool {
+    quarter.count > 0 && 2 * quarter.count >= room
 }
 
 /// The most frequent of some colours but for one.

@@ -59,10 +59,8 @@ impl Ramps {
     pub(super) fn tones(&self, ink: &PaletteColour) -> Option<Tones> {
         let own = ink.rgb.unwrap_or(self.palette.foreground);
         // between the background and its own colour, and brighter in the light on paper of any colour
-        let share = |light: f64| match self.palette.is_dark() {
-            true => 0.2 + 0.65 * light,
-            false => 0.75 - 0.5 * light,
-        };
+        let is_dark = self.palette.is_dark();
+        let share = |light: f64| if is_dark { 0.2 + 0.65 * light } else { 0.75 - 0.5 * light };
         let tone = |step: usize| {
             let light = step as f64 / (LIGHTS - 1) as f64;
             self.palette.background.mix(own, share(light))
