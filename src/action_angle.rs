@@ -9,6 +9,7 @@ mod angle;
 mod effective_potential;
 mod extremum;
 mod held;
+mod mean_return;
 mod moment;
 mod quadrature;
 mod row;
@@ -17,6 +18,7 @@ mod separatrix;
 pub use angle::angle;
 pub use effective_potential::{AllowedInterval, EffectivePotential};
 pub use held::{HeldMotion, HeldSystem, NotHeld, OwnMotion};
+pub use mean_return::average_returns;
 pub use moment::AngleMoment;
 pub use row::{
     ActionRow, ActionSystems, NoAction, RegionKind, action_row, action_rows, cyclic_row,

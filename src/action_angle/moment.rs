@@ -5,6 +5,10 @@
 
 use super::HeldSystem;
 
+/// Why there is no angle where the rate of the coordinate depends on another one.
+const UNEVEN: &str = "its returns take different times, as its rate depends on another coordinate; ∂S/∂J has then a part of \
+                      that one as well";
+
 /// The motion of one coordinate at an instant.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct AngleMoment {
@@ -34,6 +38,9 @@ impl AngleMoment {
         let mut motion = held.at(time, parameters, state).map_err(|why| why.to_string())?;
         let own = motion.own().map_err(|why| why.to_string())?;
         let row = own.row.map_err(|why| why.to_string())?;
+        if row.is_uneven {
+            return Err(UNEVEN.to_owned());
+        }
         let angle = motion.angle(&row).map_err(|why| why.to_string())?;
         let (action, energy) = (row.action, own.energy);
         Ok(AngleMoment { time, angle, frequency: 1.0 / row.period, action, energy })

@@ -55,9 +55,17 @@ pub struct ActionRow {
     pub period: f64,
     /// The mean rate of a cyclic coordinate, in its unit per unit of time.
     pub mean_rate: Option<f64>,
+    /// Whether the returns take different times, as where the rate of the coordinate depends on another one; `period` is then
+    /// that of the first.
+    pub is_uneven: bool,
 }
 
 impl ActionRow {
+    /// The time of every return; `None` if they take different times.
+    pub fn even_period(&self) -> Option<f64> {
+        (!self.is_uneven).then_some(self.period)
+    }
+
     /// Ω = 2π ν; of a cyclic coordinate without a period, which keeps moving, its mean rate. NaN where the motion does not
     /// return.
     pub fn angular_frequency(&self) -> f64 {
@@ -139,6 +147,9 @@ pub enum NoAction {
 /// Turning points agree to this part of the width of the region.
 const RETURNS: f64 = 1e-7;
 
+/// Returns whose times differ by more than this part of them take different times.
+const EVEN: f64 = 1e-7;
+
 /// A zero of q̇ at which the momentum is off by more than this part of its typical size is a multiple one.
 const MULTIPLE_ZERO: f64 = 1e-9;
 
@@ -174,6 +185,7 @@ pub fn action_row(
             action: f64::NAN,
             period: f64::INFINITY,
             mean_rate: None,
+            is_uneven: false,
         }),
     }
 }
@@ -209,14 +221,24 @@ fn libration(
         let action = action_between(potential, left, right, energy)?;
         let turning_points = vec![left, right];
         let (kind, period) = (RegionKind::Libration, f64::INFINITY);
-        return Ok(ActionRow { energy, kind, turning_points, action, period, mean_rate: None });
+        return Ok(ActionRow {
+            energy,
+            kind,
+            turning_points,
+            action,
+            period,
+            mean_rate: None,
+            is_uneven: false,
+        });
     }
     let from = flatter_end(potential, [left, right]);
     let start = potential.at_rest(from);
     let one = systems.turning.degrees() == 1;
-    let found = follow(systems, (systems.turning, systems.turns), &start, 2)?;
+    // of several coordinates, a second return shows whether it takes as long
+    let mut found =
+        follow(systems, (systems.turning, systems.turns), &start, if one { 2 } else { 4 })?;
     let other = if from == left { right } else { left };
-    for (row, expected) in found.iter().zip([other, from]) {
+    for (row, expected) in found.iter().zip([other, from, other, from]) {
         let place = row[systems.column];
         if (place - expected).abs() > RETURNS * (right - left) {
             if !one {
@@ -226,6 +248,8 @@ fn libration(
             return Err(several.unwrap_or(NoAction::NarrowWells { found: place, expected }));
         }
     }
+    let is_uneven = !one && differs(found[3][0] - found[1][0], found[1][0]);
+    found.truncate(2);
     let (located, carried) = end(&found);
     let action = if one {
         carried + energy * located
@@ -235,7 +259,7 @@ fn libration(
     let period = located + late(potential, systems, &start, &found, (from, other, action))?;
     let turning_points = vec![left, right];
     let kind = RegionKind::Libration;
-    Ok(ActionRow { energy, kind, turning_points, action, period, mean_rate: None })
+    Ok(ActionRow { energy, kind, turning_points, action, period, mean_rate: None, is_uneven })
 }
 
 /// The error if the only coordinate has turned where at rest it would have another energy: with another momentum.
@@ -328,6 +352,7 @@ pub fn cyclic_row(
         action: turn.map_or(f64::NAN, |turn| (last[momentum] * turn).abs()),
         period: turn.map_or(f64::INFINITY, |turn| time * turn / advance.abs()),
         mean_rate: Some(advance / time),
+        is_uneven: false,
     })
 }
 
@@ -341,9 +366,11 @@ fn rotation(
         return Err(NoAction::NoReturn("the coordinate has no period".to_owned()));
     };
     let start = potential.moving(0.0, energy, way)?;
-    let found = follow(systems, rotating, &start, 1)?;
-    let (time, carried) = end(&found);
     let one = rotating.0.degrees() == 1;
+    let mut found = follow(systems, rotating, &start, if one { 1 } else { 2 })?;
+    let is_uneven = !one && differs(found[1][0] - found[0][0], found[0][0]);
+    found.truncate(1);
+    let (time, carried) = end(&found);
     let (kind, sign) = match way {
         Root::Positive => (RegionKind::Rotation, 1.0),
         Root::Negative => (RegionKind::BackwardRotation, -1.0),
@@ -356,11 +383,17 @@ fn rotation(
         })?
     };
     let turning_points = Vec::new();
-    Ok(ActionRow { energy, kind, turning_points, action, period: time, mean_rate: None })
+    let (period, mean_rate) = (time, None);
+    Ok(ActionRow { energy, kind, turning_points, action, period, mean_rate, is_uneven })
+}
+
+/// Whether the times of two returns differ.
+fn differs(one: f64, other: f64) -> bool {
+    (one - other).abs() > EVEN * other
 }
 
 /// The first crossings after a start.
-fn follow(
+pub(super) fn follow(
     systems: &ActionSystems<'_>,
     (system, event): (&System, &str),
     start: &Start,

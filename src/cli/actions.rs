@@ -1,11 +1,13 @@
 //! `phaselab actions`: action, period and frequency of one coordinate.
 
 mod along;
+mod own;
 
 use std::path::PathBuf;
 
 use serde_json::{Value, json};
 
+use self::own::{containing, own_start};
 use super::assignment::number;
 use super::cells::{self, TableCell, TableFormat};
 use super::crowd;
@@ -17,12 +19,12 @@ use super::section::surface;
 use super::stderr;
 use crate::action_angle::{
     ActionRow, ActionSystems, AllowedInterval, EffectivePotential, NoAction, RegionKind,
-    Separatrix, action_row, action_rows, cyclic_row,
+    Separatrix, action_row, action_rows, average_returns, cyclic_row,
 };
 use crate::diagnostic::nearest;
-use crate::ensemble::{Root, add_section};
+use crate::ensemble::add_section;
 use crate::expr::Expr;
-use crate::model::{Direction, Model};
+use crate::model::{Direction, Event, EventAction, Model};
 use crate::num::significant;
 use crate::printable;
 use crate::system::ChannelKind;
@@ -106,7 +108,10 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
             if interrupt.signal().is_some() {
                 break 'energies;
             }
-            rows.extend(found.map_err(|why| could_not(why.to_string()))?);
+            let mut found = found.map_err(|why| could_not(why.to_string()))?;
+            average_returns(&mut potential, &systems_of, &mut found)
+                .map_err(|why| could_not(why.to_string()))?;
+            rows.extend(found);
         }
     }
     let separatrices = match along {
@@ -133,6 +138,18 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
             "cannot move at that energy"
         };
         return Err(could_not(format!("{name} {why}")));
+    }
+    let struck = |event: &Event| matches!(event.action, EventAction::Impulse(_));
+    if systems.turning.model.events.iter().any(struck) {
+        stderr::tell(
+            "impulses at events are left out: these are the actions of the motion without them",
+        );
+    }
+    if rows.iter().any(|row| row.is_uneven) {
+        stderr::tell(&format!(
+            "the returns of {name} take different times, as its rate depends on another coordinate: period and frequency are \
+             those of their mean"
+        ));
     }
     let [first, last] = potential.resolved();
     let range = match (first.is_finite(), last.is_finite()) {
@@ -303,46 +320,6 @@ fn refuse_where_energy_is_not_conserved(laid: &Laid) -> Result<(), CommandError>
     }
     let message = "the energy of this system is not conserved, and a motion has no action";
     Err(CommandError::CouldNot(message.to_owned()))
-}
-
-/// Where the coordinate is at the start, the energy there, and which way it goes.
-struct Own {
-    place: f64,
-    energy: f64,
-    way: Root,
-}
-
-fn own_start(laid: &Laid, index: usize) -> Result<Own, String> {
-    let state = laid.start.state(&laid.system).map_err(|why| why.to_string())?;
-    let mut values = vec![0.0; laid.system.columns()];
-    let mut observer = laid.system.observer(&laid.start.parameters);
-    observer.observe_columns(&state, &mut values).map_err(|why| why.to_string())?;
-    let value = |kind| {
-        let place = laid.system.channels().iter().position(|c| c.kind == kind);
-        place.map_or(f64::NAN, |place| values[place])
-    };
-    let place = value(ChannelKind::Position(index));
-    let is_backward = value(ChannelKind::Velocity(index)) < 0.0;
-    let way = if is_backward { Root::Negative } else { Root::Positive };
-    Ok(Own { place, energy: value(ChannelKind::Energy), way })
-}
-
-/// The region that a place lies in; a start at rest lies on its edge.
-fn containing(
-    regions: &[AllowedInterval],
-    place: f64,
-    period: Option<f64>,
-) -> Vec<AllowedInterval> {
-    let distance = |region: &AllowedInterval| {
-        let at = |place: f64| {
-            let left = region.left.map_or(0.0, |left| left - place);
-            let right = region.right.map_or(0.0, |right| place - right);
-            left.max(right).max(0.0)
-        };
-        let turns = period.map_or(vec![0.0], |period| vec![-period, 0.0, period]);
-        turns.into_iter().map(|turn| at(place + turn)).fold(f64::INFINITY, f64::min)
-    };
-    regions.iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).copied().into_iter().collect()
 }
 
 /// A number of the table for reading.

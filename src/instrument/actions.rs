@@ -214,7 +214,7 @@ impl Instrument for ActionsPlot {
             Measure {
                 word: "period",
                 about: "its period",
-                value: |_, _, answer| Some(found(answer)?.own.row.as_ref().ok()?.period),
+                value: |_, _, answer| found(answer)?.own.row.as_ref().ok()?.even_period(),
             },
             Measure {
                 word: "separatrix",
@@ -390,7 +390,12 @@ fn sentences(present: &Present<'_>, answer: Option<&Answer>) -> Vec<String> {
             let [action, over] = [row.action, row.action / std::f64::consts::TAU].map(short);
             let [number, slope] = [
                 format!("J = {action} = 2π · {over}"),
-                format!("T = dJ/dE = {}, ν = {}", short(row.period), short(1.0 / row.period)),
+                match row.even_period() {
+                    Some(period) => {
+                        format!("T = dJ/dE = {}, ν = {}", short(period), short(1.0 / period))
+                    }
+                    None => "its returns take different times".to_owned(),
+                },
             ];
             // below a verdict J is what a low plot has room for
             lines.extend(if changes.is_some() {

@@ -571,3 +571,57 @@ fn a_momentum_without_velocity_counts_one_way_and_against_it() {
     assert_eq!(action["verdict"], "adiabatic", "{action}");
     near(&action["initial"], pendulum(energy) - 2.0 * PI * flux, 1e-9);
 }
+
+/// ∮ w/p dq of a coordinate with p² = 2 g(q) that librates about zero.
+fn around(g: impl Fn(f64) -> f64, weight: impl Fn(f64) -> f64) -> f64 {
+    let (mut inside, mut outside) = (0.0, 3.0);
+    for _ in 0..60 {
+        let middle = f64::midpoint(inside, outside);
+        if g(middle) > 0.0 { inside = middle } else { outside = middle }
+    }
+    let nodes = 2000;
+    let at = |k: i32| PI * ((f64::from(k) + 0.5) / f64::from(nodes) - 0.5);
+    let term = |theta: f64| {
+        let q = inside * theta.sin();
+        weight(q) * inside * theta.cos() / (2.0 * g(q)).sqrt()
+    };
+    2.0 * PI / f64::from(nodes) * (0..nodes).map(|k| term(at(k))).sum::<f64>()
+}
+
+/// Liouville's system (x⁴ + x² − cos y)/(2 + x² + cos y): with E and the separation constant α, J_x is ∮ √(2 (E f − u + α)) dx
+/// and J_y is ∮ √(2 (E g − v − α)) dy; the frequencies are ∂E/∂J at the other action constant, from the inverse of ∂J/∂(E, α).
+#[test]
+fn where_one_coordinate_sets_the_rate_of_another_its_frequency_is_that_of_the_mean() {
+    let file = "title = \"Liouville\"\n[coordinates]\nx = { initial = 0.4, velocity = 0.3 }\n\
+                y = { initial = 0.2, velocity = 0.5 }\n[lagrangian]\n\
+                L = \"1/2*(2+x^2+cos(y))*(x'^2+y'^2)-(x^4-cos(y)+x^2)/(2+x^2+cos(y))\"\n";
+    let (x, y) = (0.4_f64, 0.2_f64);
+    let f = |x: f64| 2.0 + x * x;
+    let u = |x: f64| x.powi(4) + x * x;
+    let total = f(x) + y.cos();
+    let (p_x, p_y) = (0.3 * total, 0.5 * total);
+    let energy = (0.5 * (p_x * p_x + p_y * p_y) + u(x) - y.cos()) / total;
+    let alpha = 0.5 * p_x * p_x - energy * f(x) + u(x);
+    let along_x = |q: f64| energy * f(q) - u(q) + alpha;
+    let along_y = |q: f64| energy * q.cos() + q.cos() - alpha;
+    let [a, b] = [around(along_x, f), around(along_x, |_| 1.0)];
+    let [c, d] = [around(along_y, f64::cos), -around(along_y, |_| 1.0)];
+    let determinant = a * d - b * c;
+    for (coordinate, expected) in [("x", d / determinant), ("y", -b / determinant)] {
+        let all = ["actions", "system.toml", "--format=json", "--coordinate", coordinate];
+        let found: Value = serde_json::from_str(&with_file(file, &all).stdout).unwrap();
+        near(&found["rows"][0]["frequency"], expected, 2e-10 * expected);
+        let until = ["actions", "system.toml", "--until=10", "--coordinate", coordinate];
+        with_file(file, &until).fails(1, &["take different times"]);
+    }
+}
+
+/// A ball on a floor, from which an impulse throws it back: without it the ball falls without end.
+#[test]
+fn impulses_at_events_are_said_to_be_left_out() {
+    let file = "title = \"Ball\"\n[coordinates]\nx = { initial = 0.5, velocity = 0.5 }\n[lagrangian]\n\
+                L = \"1/2*x'^2 - x\"\n[[impulses]]\nname = \"bounce\"\nchange = { p_x = \"-2*x'\" }\n[[events]]\n\
+                name = \"floor\"\nwhen = \"x\"\ndirection = \"falling\"\naction = \"impulse:bounce\"\n";
+    let said = with_file(file, &["actions", "system.toml"]).stderr;
+    assert!(said.contains("impulses at events are left out"), "{said}");
+}
