@@ -36,8 +36,8 @@ pub fn angle(
     }
     let period = potential.period();
     let mut along = TravelTime { potential, energy: row.energy };
-    match (row.kind, &row.turning_points[..], period) {
-        (RegionKind::Libration, &[left, right], period) => {
+    match (row.kind, row.turning_points, period) {
+        (RegionKind::Libration, [Some(left), Some(right)], period) => {
             let (middle, half) = (f64::midpoint(left, right), 0.5 * (right - left));
             // the turn of the coordinate in which the region lies
             let place = match period {

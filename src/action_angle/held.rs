@@ -261,9 +261,9 @@ impl HeldMotion<'_> {
     /// The least energy of the coordinate between the points where a motion turns; of one that does not turn, the least at
     /// all.
     pub fn bottom(&self, motion: &OwnMotion) -> f64 {
-        let turns = motion.row.as_ref().map_or(&[][..], |row| &row.turning_points[..]);
+        let turns = motion.row.as_ref().map_or([None, None], |row| row.turning_points);
         let between = match turns {
-            [from, .., to] => self.potential.bottom_between([*from, *to]),
+            [Some(from), Some(to)] => self.potential.bottom_between([from, to]),
             _ => None,
         };
         between.unwrap_or_else(|| self.potential.bottom())

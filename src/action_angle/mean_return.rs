@@ -69,7 +69,7 @@ impl<'a> MeanStart<'a> {
         row: &ActionRow,
     ) -> Result<MeanStart<'a>, NoAction> {
         let no_period = || NoAction::NoReturn("the coordinate has no period".to_owned());
-        if let [left, ..] = row.turning_points[..] {
+        if let [Some(left), Some(_)] = row.turning_points {
             let start = potential.at_rest(left);
             return Ok(MeanStart { start, event: (systems.turning, systems.turns), crossings: 2 });
         }

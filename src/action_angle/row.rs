@@ -47,8 +47,8 @@ pub struct ActionRow {
     pub energy: f64,
     /// The kind of motion.
     pub kind: RegionKind,
-    /// Where the coordinate turns, from left to right.
-    pub turning_points: Vec<f64>,
+    /// Where the coordinate turns at the left and at the right.
+    pub turning_points: [Option<f64>; 2],
     /// ∮ p dq; NaN where the motion is unbounded.
     pub action: f64,
     /// The time of a return, or of a turn; infinite where there is none.
@@ -181,7 +181,7 @@ pub fn action_row(
         (left, right, _) => Ok(ActionRow {
             energy,
             kind: RegionKind::Unbounded,
-            turning_points: left.into_iter().chain(right).collect(),
+            turning_points: [left, right],
             action: f64::NAN,
             period: f64::INFINITY,
             mean_rate: None,
@@ -219,7 +219,7 @@ fn libration(
     let region = AllowedInterval { left: Some(left), right: Some(right) };
     if potential.is_separatrix(region, energy) {
         let action = action_between(potential, left, right, energy)?;
-        let turning_points = vec![left, right];
+        let turning_points = [Some(left), Some(right)];
         let (kind, period) = (RegionKind::Libration, f64::INFINITY);
         return Ok(ActionRow {
             energy,
@@ -257,7 +257,7 @@ fn libration(
         action_between(potential, left, right, energy)?
     };
     let period = located + late(potential, systems, &start, &found, (from, other, action))?;
-    let turning_points = vec![left, right];
+    let turning_points = [Some(left), Some(right)];
     let kind = RegionKind::Libration;
     Ok(ActionRow { energy, kind, turning_points, action, period, mean_rate: None, is_uneven })
 }
@@ -348,7 +348,7 @@ pub fn cyclic_row(
     Ok(ActionRow {
         energy,
         kind,
-        turning_points: Vec::new(),
+        turning_points: [None, None],
         action: turn.map_or(f64::NAN, |turn| (last[momentum] * turn).abs()),
         period: turn.map_or(f64::INFINITY, |turn| time * turn / advance.abs()),
         mean_rate: Some(advance / time),
@@ -382,7 +382,7 @@ fn rotation(
             Ok(potential.momentum_at(place, energy, way)?.unwrap_or(0.0))
         })?
     };
-    let turning_points = Vec::new();
+    let turning_points = [None, None];
     let (period, mean_rate) = (time, None);
     Ok(ActionRow { energy, kind, turning_points, action, period, mean_rate, is_uneven })
 }

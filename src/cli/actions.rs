@@ -353,7 +353,7 @@ fn written(
             json!({
                 "energy": row.energy,
                 "kind": row.kind.word(),
-                "turning_points": row.turning_points,
+                "turning_points": row.turning_points.iter().flatten().collect::<Vec<_>>(),
                 "action": action(row),
                 "period": period(row),
                 "frequency": frequency(row),
@@ -379,12 +379,12 @@ fn written(
         if legible { TableCell::Word(legibly(x)) } else { TableCell::Number(x) }
     };
     let cell = |row: &ActionRow| {
-        let point = |i: usize| row.turning_points.get(i).copied().unwrap_or(f64::NAN);
+        let [left, right] = row.turning_points.map(|point| point.unwrap_or(f64::NAN));
         vec![
             number(row.energy),
             TableCell::Word(row.kind.word().to_owned()),
-            number(point(0)),
-            number(point(1)),
+            number(left),
+            number(right),
             number(action(row)),
             number(period(row)),
             number(frequency(row)),

@@ -127,6 +127,13 @@ impl Rgb {
         Self(channel(self.0, other.0), channel(self.1, other.1), channel(self.2, other.2))
     }
 
+    /// The grey of the same brightness.
+    #[must_use]
+    pub fn grey(self) -> Self {
+        let level = (255.0 * self.brightness()).round() as u8;
+        Self(level, level, level)
+    }
+
     /// How bright a colour looks, 0 to 1: the luma of its channels. Source: ITU-R BT.709.
     pub fn brightness(self) -> f64 {
         let Self(r, g, b) = self;

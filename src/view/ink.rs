@@ -1,12 +1,14 @@
 //! Inks: the colours of a picture by their purpose, in those of the theme.
 //!
-//! In: an ink, a layer. Out: a pen. Never here: what is drawn with it.
+//! In: an ink, a layer. Out: a pen, or the marker that tells it from others where there is no colour. Never here: what is drawn
+//! with it.
 
 use super::canvas::Canvas;
+use super::colour::ColourDepth;
 use super::companions;
-use super::plot::Pen;
+use super::plot::{Marker, Pen};
 use super::theme::Role;
-use crate::instrument::{Ink, Level};
+use crate::instrument::{Ink, Level, MarkerShape};
 
 /// The pen of an ink on a layer.
 pub(super) fn pen(canvas: &Canvas<'_>, ink: Ink, level: Level) -> Pen {
@@ -20,4 +22,28 @@ pub(super) fn pen(canvas: &Canvas<'_>, ink: Ink, level: Level) -> Pen {
         Ink::Curve(index) => Pen::new(theme.curve(index), level),
         Ink::Companion(number) => Pen::new(companions::ink(theme, number), level),
     }
+}
+
+/// The marker of a shape.
+pub(super) fn marker(shape: MarkerShape) -> Marker {
+    match shape {
+        MarkerShape::Disc => Marker::Disc,
+        MarkerShape::Ring => Marker::Ring,
+        MarkerShape::Cross => Marker::Cross,
+    }
+}
+
+/// The marker that tells points of a verdict from others where there is no colour: crosses for what calls for attention, rings
+/// for what is plain, and dots for the rest.
+pub(super) fn colourless_mark(canvas: &Canvas<'_>, ink: Ink) -> Option<MarkerShape> {
+    match ink {
+        _ if !is_colourless(canvas) => None,
+        Ink::Warn => Some(MarkerShape::Cross),
+        Ink::Plain => Some(MarkerShape::Ring),
+        _ => None,
+    }
+}
+
+pub(super) fn is_colourless(canvas: &Canvas<'_>) -> bool {
+    canvas.look.theme.depth() == ColourDepth::None
 }

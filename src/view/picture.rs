@@ -6,20 +6,19 @@
 use ratatui::layout::Rect;
 
 use super::canvas::{Canvas, Span, columns, row, wide};
-use super::colour::ColourDepth;
-use super::ink::pen;
+use super::ink::{colourless_mark, is_colourless, marker, pen};
 use super::kept::{self, Track, TrailKey};
 use super::marks::Marks;
 use super::names;
 use super::number::with_powers;
 use super::picture_title::keys_in;
 use super::plot::ticks::nice_range;
-use super::plot::{Ages, Axes, DrawnAxis, Marker, Pen, PlotFrame, Raster, Scale};
+use super::plot::{Ages, Axes, DrawnAxis, Pen, PlotFrame, Raster, Scale};
 use super::quantity::{Quantities, through};
 use super::theme::Role;
 use super::time_window::time_window;
 use super::{companions, cursor, field, legend, level_curves, prediction, space};
-use crate::instrument::{Across, Ink, Layer, Level, MarkerShape, Picture, Plot, Upwards, Viewport};
+use crate::instrument::{Across, Ink, Layer, Level, Picture, Plot, Upwards, Viewport};
 
 /// Writes the keys of curves above the axes, to the right of their title.
 fn keys_above(canvas: &mut Canvas<'_>, area: Rect, keys: &[Span]) {
@@ -272,29 +271,6 @@ fn draw_layer(
             raster.marker(frame, *at, marker(*shape), &pen(canvas, *ink, level));
         }
     }
-}
-
-pub(super) fn marker(shape: MarkerShape) -> Marker {
-    match shape {
-        MarkerShape::Disc => Marker::Disc,
-        MarkerShape::Ring => Marker::Ring,
-        MarkerShape::Cross => Marker::Cross,
-    }
-}
-
-/// The marker that tells points of a verdict from others where there is no colour: crosses for what calls for attention, rings
-/// for what is plain, and dots for the rest.
-pub(super) fn colourless_mark(canvas: &Canvas<'_>, ink: Ink) -> Option<MarkerShape> {
-    match ink {
-        _ if !is_colourless(canvas) => None,
-        Ink::Warn => Some(MarkerShape::Cross),
-        Ink::Plain => Some(MarkerShape::Ring),
-        _ => None,
-    }
-}
-
-pub(super) fn is_colourless(canvas: &Canvas<'_>) -> bool {
-    canvas.look.theme.depth() == ColourDepth::None
 }
 
 /// Where the running motion has crossed a surface of section.

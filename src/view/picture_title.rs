@@ -5,9 +5,9 @@
 use super::canvas::{Canvas, Span, groups, wide};
 use super::colour::ColourDepth;
 use super::ink::pen;
+use super::ink::{colourless_mark, is_colourless, marker};
 use super::marks;
 use super::number::{readable, with_powers};
-use super::picture::{colourless_mark, is_colourless, marker};
 use super::quantity::Quantities;
 use super::theme::Role;
 use crate::instrument::{Entry, Heading, Ink, Plot};

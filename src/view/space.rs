@@ -8,6 +8,7 @@ mod body;
 mod circle;
 mod colours;
 mod line;
+mod names;
 mod reference_frame;
 mod rod;
 mod scene;

@@ -71,10 +71,12 @@ impl Theme {
             curves: palette.curves.map(|ink| ink.style(depth)),
             trails: palette.curves.iter().map(|ink| ramps.trail(ink, AGES)).collect(),
             density: ramps.density(DENSITIES),
-            tones: std::iter::once(&palette.roles[Role::Level as usize])
-                .chain(&palette.curves)
-                .filter_map(|ink| Some((ink.style(depth).fg?, ramps.tones(ink)?)))
-                .collect(),
+            tones: {
+                let level = &palette.roles[Role::Level as usize];
+                let of = |ink: &PaletteColour, tones| Some((ink.style(depth).fg?, tones?));
+                let series = palette.curves.iter().map(|ink| of(ink, ramps.tones(ink)));
+                series.chain([of(level, ramps.level_tones(level))]).flatten().collect()
+            },
         }
     }
 

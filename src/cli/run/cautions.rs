@@ -3,11 +3,19 @@
 use crate::cli::stderr;
 use crate::experiment::Experiment;
 use crate::integrate::{METHODS, Method};
+use crate::mechanics::Equations;
 use crate::printable;
 use crate::system::System;
 
-/// Warns before the run about a method that ignores the kinks of the motion.
-pub(super) fn before(system: &System, method: &Method) {
+/// Warns before the run about a law with a step, and about a method that ignores the kinks of the motion.
+pub(super) fn before(system: &System, equations: &Equations, method: &Method) {
+    if equations.law_jumps() {
+        let law = if equations.is_lagrangian() { "L" } else { "H" };
+        stderr::tell(&format!(
+            "{law} has a step, where the force is an impulse that no derivative shows: the motion goes over it without one; \
+             make the step a steep slope, as with tanh, or give the impulse as an event"
+        ));
+    }
     if system.has_kinks() && !method.locates_kinks {
         let others: Vec<&str> =
             METHODS.iter().filter(|m| m.locates_kinks).map(|m| m.name).collect();

@@ -1,16 +1,13 @@
 //! What is written and drawn beside the picture in space: the directions of the axes, the names of apparent forces and of
 //! two mechanics side by side.
 //!
-//! In: the camera, the forces present, names beside points. Out: cells. Never here: how the shapes are drawn.
+//! In: the camera, the forces present, names beside points. Out: cells. Never here: the shapes.
 
 use ratatui::layout::{Position, Rect};
 use unicode_width::UnicodeWidthStr;
 
-use super::ScenePainter;
-use crate::expr::Symbol;
-use crate::model::Shape;
 use crate::view::canvas::{Canvas, row};
-use crate::view::plot::{Camera, Pen, PlotFrame, Raster, Scale, Visibility};
+use crate::view::plot::{Camera, Pen, PlotFrame, Raster, Scale};
 use crate::view::theme::Role;
 
 /// The apparent forces, in the order of their colours.
@@ -72,38 +69,6 @@ pub(super) struct Label {
     pub(super) leftwards: bool,
     pub(super) text: String,
     pub(super) role: Role,
-}
-
-impl ScenePainter<'_> {
-    /// Writes words beside a point, away from another one.
-    pub(super) fn label(&mut self, at: [f64; 3], foot: Option<[f64; 3]>, text: &str) {
-        let veiled = self.sight(at) == Visibility::Veiled;
-        let [tip, foot] = [at, foot.unwrap_or(at)].map(|point| self.flat(point));
-        let role = match () {
-            () if veiled => Role::Dim,
-            () if foot == tip => Role::Text,
-            () => Role::Accent,
-        };
-        let text = self.q.look.glyphs.text(text).into_owned();
-        self.labels.push(Label { tip, leftwards: tip[0] < foot[0], text, role });
-    }
-
-    /// The colours of the traces of the right mechanics and of the wrong one beside it, where both leave one.
-    pub(super) fn mechanics(&self) -> Option<[usize; 2]> {
-        let other = &self.q.lab.loaded.model.comparison.as_ref()?.symbols;
-        let other: Vec<Symbol> = other.iter().flat_map(|&(place, rate)| [place, rate]).collect();
-        let pool = &self.q.lab.loaded.equations.pool;
-        let trace = |wrong: bool| {
-            self.q.lab.shapes(self.eye).find_map(|(shape, _)| match shape {
-                Shape::Trace { at } => {
-                    let is_wrong = at.iter().any(|&e| pool.depends_on_any(e, &other));
-                    (is_wrong == wrong).then(|| self.colour(at))
-                }
-                _ => None,
-            })
-        };
-        Some([trace(false)?, trace(true)?])
-    }
 }
 
 /// Writes names beside their points. Where there is no room on one side the name is above the point, and ends at the edge.

@@ -55,6 +55,13 @@ impl Ramps {
         })
     }
 
+    /// The colours of a surface of level curves from shade to full light: among 256 colours greys, as no other has steps fine
+    /// enough. `None` where colours are too few.
+    pub(super) fn level_tones(&self, ink: &PaletteColour) -> Option<Tones> {
+        let rgb = ink.rgb.filter(|_| self.depth == ColourDepth::Ansi256).map(Rgb::grey);
+        self.tones(&PaletteColour { rgb: rgb.or(ink.rgb), ..*ink })
+    }
+
     /// The colours of a surface from shade to full light; `None` where colours are too few.
     pub(super) fn tones(&self, ink: &PaletteColour) -> Option<Tones> {
         let own = ink.rgb.unwrap_or(self.palette.foreground);

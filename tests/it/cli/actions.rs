@@ -235,6 +235,25 @@ fn without_energies_it_is_the_region_of_the_start() {
     assert!(rows[0]["turning_points"][1].as_f64().unwrap() < 0.0);
 }
 
+/// A particle that is pushed to the left comes from there and turns at its right: at x = E of a potential x.
+#[test]
+fn a_region_with_one_end_has_it_on_its_side() {
+    let of = |potential: &str| {
+        let text = format!(
+            "title = \"A slope\"\n[coordinates]\nx = {{ initial = -1.0 }}\n[lagrangian]\nL = \"1/2*x'^2 - {potential}\"\n"
+        );
+        let done =
+            with_file(&text, &["actions", "system.toml", "--energy", "1", "--format", "csv"]);
+        assert_eq!(done.code, 0, "{}", done.stderr);
+        let row = done.stdout.lines().find(|line| line.contains("unbounded")).expect("a row");
+        row.split(',').skip(2).take(2).map(|end| end.parse::<f64>().ok()).collect::<Vec<_>>()
+    };
+    let [left, right] = of("x")[..] else { panic!("two ends") };
+    assert!(left.is_none_or(f64::is_nan) && (right.unwrap() - 1.0).abs() < 1e-12);
+    let [left, right] = of("(-x)")[..] else { panic!("two ends") };
+    assert!(right.is_none_or(f64::is_nan) && (left.unwrap() + 1.0).abs() < 1e-12);
+}
+
 /// Above its dissociation a Morse oscillator goes away.
 #[test]
 fn an_unbounded_motion_has_no_action() {

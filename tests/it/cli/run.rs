@@ -692,6 +692,26 @@ fn a_method_that_passes_over_kinks_says_which_one_does_not() {
     run("taylor").success();
 }
 
+/// With E = 0.2 a particle would be thrown back by a step of 0.6 that is a slope; of −0.3 sign x no derivative shows the force.
+#[test]
+fn a_step_of_the_law_is_told() {
+    let law = |potential: &str| {
+        let text = format!(
+            "title = \"A step\"\n[coordinates]\nx = {{ initial = -1.0, velocity = 1.0 }}\n\
+             [lagrangian]\nL = \"1/2*x'^2 - {potential}\"\n"
+        );
+        with_file(&text, &["run", "system.toml", "--until", "4", "--at", "4"])
+    };
+    let done = law("0.3*sign(x)");
+    assert!(done.code == 0 && done.stderr.contains("phaselab: L has a step"), "{}", done.stderr);
+    let slope = law("0.3*tanh(50*x)");
+    assert_eq!((slope.code, slope.stderr.as_str()), (0, ""));
+    let x: f64 = slope.stdout.lines().last().unwrap().split(',').nth(1).unwrap().parse().unwrap();
+    assert!(x < -1.0, "thrown back: {x}");
+    // |x| has a kink and no step
+    law("abs(x)").success();
+}
+
 /// cosh t overflows at t = 710.5, far from all singularities.
 #[test]
 fn what_grows_beyond_the_range_of_numbers_is_not_called_a_collision() {

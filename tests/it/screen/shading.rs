@@ -127,6 +127,17 @@ fn few_colours_shade_with_dots() {
     assert!(painted(&buffer).iter().flatten().filter(|painted| **painted).count() > 300);
 }
 
+/// Among 256 colours a sphere is shaded in greys: a hue that comes and goes from step to step would look like paint.
+#[test]
+fn among_256_colours_a_sphere_is_grey() {
+    let buffer = drawn(&momentum_sphere(), ColourDepth::Ansi256, Glyphs::Braille);
+    let [columns, rows] = PANE;
+    let cells = rows.flat_map(|y| columns.clone().map(move |x| (x, y)));
+    let tones: Vec<Rgb> = cells.filter_map(|at| Rgb::of(buffer[at].bg)).collect();
+    assert!(tones.len() > 300, "{tones:?}");
+    assert!(tones.iter().all(|Rgb(r, g, b)| r == g && g == b), "{tones:?}");
+}
+
 /// The faces of a top differ in brightness: the upper one is the brightest.
 #[test]
 fn the_faces_of_a_top_are_told_apart() {
