@@ -70,7 +70,8 @@ impl ConstrainedBalance {
         };
         projector.take_levels(&native);
         if projector.surface(&native).iter().any(|one| one.rate != 0.0) {
-            let why = "a constraint prescribes a velocity, and nothing stays at rest under it";
+            let why = "a constraint prescribes a velocity at the start: only where it prescribes none can anything \
+                       rest, and such places are not searched for";
             return Err(DynamicsError::Unsuited(why.to_owned()));
         }
         let displaced = system.with_tangents(2 * system.degrees());

@@ -123,7 +123,9 @@ pub fn stationary_path(
         }
         before = Some(path);
     }
-    Err(no_path("the path is not resolved by polynomials of degree 112: take a shorter time"))
+    Err(no_path(
+        "the path is not resolved by polynomials of degree 112: take a shorter time; over a kink of L none resolves it",
+    ))
 }
 
 /// The multiples of a guess that the search for the nearest path begins with: Newton's method may come to another one from a

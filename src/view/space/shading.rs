@@ -172,3 +172,47 @@ fn quarters([x, y]: [usize; 2], [columns, rows]: [usize; 2]) -> impl Iterator<It
     let columns = if columns == 1 { 0..2 } else { x * 2 / columns..x * 2 / columns + 1 };
     columns.map(move |column| row + column)
 }
+
+#[cfg(test)]
+mod tests {
+    use ratatui::style::Color;
+
+    use super::*;
+
+    /// A row of cells, of which some are covered whole and some on their left half.
+    fn row(whole: u16, half: u16) -> Shading {
+        let area = Rect::new(0, 0, whole + half, 1);
+        let mut shading = Shading::new(area, Glyphs::Braille);
+        let tones = shading.add([Color::Blue; 10]);
+        for cell in 0..whole + half {
+            for dot in 0..8 {
+                let (x, y) = (dot % 2, dot / 2);
+                if cell < whole || x == 0 {
+                    shading.cover([2 * i32::from(cell) + x, y], tones, 0.5);
+                }
+            }
+        }
+        shading.finish();
+        shading
+    }
+
+    #[test]
+    fn a_surface_is_thin_where_a_third_of_its_edge_is_more_than_the_rest() {
+        // whole cells always have their edges, those on the edge if the surface is thin
+        assert!(!row(1, 3).has_edges(1));
+        assert!(row(1, 4).has_edges(1));
+        assert!(row(0, 2).has_edges(0));
+        assert!(row(2, 0).has_edges(0) && row(1, 3).has_edges(0));
+    }
+
+    #[test]
+    fn an_edge_is_a_block_and_the_inside_a_background() {
+        let shading = row(3, 1);
+        let mut buffer = Buffer::empty(Rect::new(0, 0, 4, 1));
+        let theme = Theme::dark(crate::view::colour::ColourDepth::True);
+        shading.draw(&mut buffer, &theme);
+        assert_eq!((buffer[(1, 0)].symbol(), buffer[(1, 0)].bg), (" ", Color::Blue));
+        assert_eq!((buffer[(3, 0)].symbol(), buffer[(3, 0)].fg), ("▌", Color::Blue));
+        assert_eq!(buffer[(3, 0)].bg, Color::Reset);
+    }
+}
