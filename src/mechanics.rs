@@ -61,6 +61,7 @@ mod symmetry;
 mod symplectic_inverse;
 mod vakonomic;
 mod valuation;
+mod weighted_degree;
 
 pub use bracket::{
     ChainRule, Recognised, bracket, in_phase_space, rate_by_bracket, recognise, unreduced_bracket,
@@ -102,3 +103,4 @@ pub use similarity::Similarity;
 pub use structure::{Holonomy, Separation};
 pub use structure_error::StructureError;
 pub use valuation::Valuation;
+pub use weighted_degree::weighted_degree;

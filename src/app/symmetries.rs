@@ -29,8 +29,8 @@ impl FoundSymmetries {
     ) -> Result<FoundSymmetries, String> {
         let (model, mut equations) = searched_law(model, equations, &parameters, progress)?;
         let is_over = || progress.is_cancelled() || progress.is_spent();
-        let noether = symmetries(&model, &mut equations, &is_over).ok();
-        let found = point_symmetries(&model, &mut equations, noether.as_ref(), &is_over);
+        let mut noether = symmetries(&model, &mut equations, &is_over).ok();
+        let found = point_symmetries(&model, &mut equations, noether.as_mut(), &is_over);
         let found = found.map_err(|why| why.to_string())?.found;
         Ok(FoundSymmetries { model, equations, parameters, found })
     }

@@ -11,7 +11,7 @@ use super::motion::{self, ClaimedMotion};
 use super::own_method;
 use super::step::false_steps;
 use crate::diagnostic::{Diagnostic, SourceRange};
-use crate::mechanics::{self, Equations, HamiltonJacobi};
+use crate::mechanics::{self, Equations, HamiltonJacobi, StructureError};
 use crate::model::Model;
 use crate::system::{State, System};
 
@@ -68,9 +68,7 @@ pub fn false_claims(model: &Model, equations: &Equations) -> Vec<Diagnostic> {
 /// Returns the errors in the brackets and Casimirs of a file, with which it has no motion.
 pub fn structure_diagnostics(model: &Model, equations: &Equations) -> Vec<Diagnostic> {
     let errors = mechanics::structure_errors(model, equations).into_iter();
-    errors
-        .map(|error| Diagnostic::error(error.place, error.message).with_help(error.help))
-        .collect()
+    errors.filter_map(StructureError::diagnostic).collect()
 }
 
 /// Why the motion cannot start at a state, which is empty if there is none: a coordinate has no inertia, or a term of the

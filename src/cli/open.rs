@@ -7,6 +7,7 @@ use crate::diagnostic::nearest;
 use crate::diagnostic::{Diagnostic, Document};
 use crate::experiment::{Derived, choose_method};
 use crate::integrate::{METHODS, Settings, method_named};
+use crate::mechanics::{StructureError, structure_errors};
 use crate::model::Model;
 use crate::preset;
 use crate::system::System;
@@ -36,15 +37,20 @@ pub(super) fn derive(document: &Document, model: Model) -> Result<Derived, Comma
     let derived = Derived::of(model);
     let derived =
         derived.map_err(|why| CommandError::WrongFile(format!("{}: {why}", document.path)))?;
-    let diagnostics = derived.diagnostics();
-    match diagnostics.first() {
-        None => Ok(derived),
-        // what an option has added has no place in the file
-        Some(Diagnostic { place, message, help, .. }) if *place == (0..0) => {
-            let help = help.iter().fold(String::new(), |all, help| all + "; " + help);
-            Err(CommandError::WrongUse(format!("{message}{help}")))
+    let errors = structure_errors(&derived.model, &derived.equations);
+    // what an option has added has no place in the file
+    let (own, added): (Vec<StructureError>, _) =
+        errors.into_iter().partition(|e| e.place.is_some());
+    let added: Vec<String> = added.iter().map(|e| format!("{}; {}", e.message, e.help)).collect();
+    match (own.is_empty(), added.first()) {
+        (true, None) => Ok(derived),
+        (true, Some(first)) => Err(CommandError::WrongUse(first.clone())),
+        (false, _) => {
+            added.iter().for_each(|sentence| stderr::tell(sentence));
+            let own: Vec<Diagnostic> =
+                own.into_iter().filter_map(StructureError::diagnostic).collect();
+            Err(refuse(document, &own))
         }
-        Some(_) => Err(refuse(document, &diagnostics)),
     }
 }
 

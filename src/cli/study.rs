@@ -148,7 +148,8 @@ pub(super) fn failed(error: DynamicsError) -> CommandError {
         DynamicsError::Motion(_)
         | DynamicsError::Unsuited(_)
         | DynamicsError::Unclosed(_)
-        | DynamicsError::Singular(_) => CommandError::CouldNot(error.to_string()),
+        | DynamicsError::Singular(_)
+        | DynamicsError::Unresolved(_) => CommandError::CouldNot(error.to_string()),
     }
 }
 

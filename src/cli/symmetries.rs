@@ -65,8 +65,8 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     let most = arguments.budget.unwrap_or(BUDGET);
     let begin = Instant::now();
     let is_over = || begin.elapsed().as_secs_f64() > most;
-    let found = symmetries(&model, &mut equations, &is_over);
-    let points = point_symmetries(&model, &mut equations, found.as_ref().ok(), &is_over);
+    let mut found = symmetries(&model, &mut equations, &is_over);
+    let points = point_symmetries(&model, &mut equations, found.as_mut().ok(), &is_over);
     if let (Err(why), Err(_)) = (&found, &points) {
         return Err(CommandError::CouldNot(why.to_string()));
     }
@@ -121,13 +121,7 @@ fn text(model: &Model, equations: &Equations, found: &Symmetries, script: MathSc
     let count = found.found.len();
     let complete = if found.complete { ", and there are no others (proved)" } else { "" };
     text.push_str(&format!("\n{count} found{complete} among\n  {}\n", found.searched));
-    if found.unwritten > 0 {
-        text.push_str(&format!(
-            "{} more there are not written: their coefficients are no short fractions\n",
-            found.unwritten
-        ));
-    }
-    text.push_str(&similar::unfinished(found.unfinished));
+    text.push_str(&similar::missing(found.unwritten, found.unfinished));
     text
 }
 

@@ -30,6 +30,8 @@ pub struct Lagrangian {
     /// The number of kinks of its values.
     switches: usize,
     cancel: Cancel,
+    /// What its expansions took, see [`Lagrangian::work`].
+    work: f64,
 }
 
 /// A path: q and q̇ at a time from its beginning.
@@ -123,6 +125,7 @@ impl Lagrangian {
             timed,
             start: model.run.start,
             cancel: Cancel::new(),
+            work: 0.0,
         })
     }
 
@@ -146,6 +149,11 @@ impl Lagrangian {
     /// The number of coordinates.
     pub fn degrees(&self) -> usize {
         self.degrees
+    }
+
+    /// The multiplications that Newton's steps along all paths so far took: the cube of the number of their unknowns each.
+    pub(super) fn work(&self) -> f64 {
+        self.work
     }
 
     /// Whether it has kinks.
@@ -261,6 +269,8 @@ impl Lagrangian {
         duration: f64,
     ) -> Option<ActionExpansion> {
         let (n, last) = (self.degrees, rule.nodes.len() - 1);
+        let unknowns = (n * (last - 1)) as f64;
+        self.work += unknowns * unknowns * unknowns;
         let rate = 2.0 / duration;
         let velocities = path * rule.derivative.transpose() * rate;
         let inner = last - 1;

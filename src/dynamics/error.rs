@@ -15,6 +15,9 @@ pub enum DynamicsError {
     /// The question does not apply to the system.
     #[error("{0}")]
     Unsuited(String),
+    /// Newton's method came to a path that no polynomial resolves.
+    #[error("{0}")]
+    Unresolved(String),
     /// No periodic orbit was found near the start; what the motion is instead can be asked for.
     #[error("{0}")]
     Unclosed(String),

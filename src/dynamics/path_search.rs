@@ -4,7 +4,7 @@
 //! nothing from there, with what the path of a shorter time becomes as the time grows, and then with arcs beside the line. Never here:
 //! Newton's method, paths that somebody gives.
 
-use super::action::Lagrangian;
+use super::action::{Lagrangian, unsuited};
 use super::error::DynamicsError;
 use super::stationary_path::{StationaryPath, stationary_path};
 use crate::num::math;
@@ -17,13 +17,17 @@ const PARTS: u32 = 16;
 const HALF_WAVES: [f64; 2] = [1.0, 2.0];
 const HEIGHTS: [f64; 3] = [0.3, 1.0, 3.0];
 
+/// What the paths after the straight line may take in all, in multiplications: some seconds.
+const WORK: f64 = 4e9;
+
 /// The number of intervals at whose ends paths are compared.
 const COMPARED: u32 = 64;
 
 /// Finds a stationary path between two places.
 ///
 /// # Errors
-/// Returns the error from the straight line, if Newton's method comes to none from the others either, or the search is cancelled.
+/// Returns the error from the straight line, if Newton's method comes to none from the others either, or the search is cancelled;
+/// and the first path that is not resolved, as it will be from elsewhere.
 pub fn stationary_path_between(
     lagrangian: &mut Lagrangian,
     [from, to]: [&[f64]; 2],
@@ -34,12 +38,13 @@ pub fn stationary_path_between(
         from.iter().zip(to).map(between).collect()
     };
     let first = match stationary_path(lagrangian, &|t| straight(t / duration), duration) {
-        Ok(path) => return Ok(path),
-        Err(why) if lagrangian.is_cancelled() => return Err(why),
-        Err(why) => why,
+        Err(why @ DynamicsError::Unsuited(_)) if !lagrangian.is_cancelled() => why,
+        outcome => return outcome,
     };
-    if let Some(path) = continued(lagrangian, &straight, duration) {
-        return Ok(path);
+    let most = lagrangian.work() + WORK;
+    match continued(lagrangian, &straight, (duration, most)) {
+        Err(DynamicsError::Unsuited(_)) => {}
+        outcome => return outcome,
     }
     let size = from.iter().chain(to).fold(0.0_f64, |most, x| most.max(x.abs()));
     let size = if size > 0.0 { size } else { 1.0 };
@@ -48,8 +53,8 @@ pub fn stationary_path_between(
         let sides = [height, -height].into_iter().flat_map(|h| HALF_WAVES.map(|waves| (h, waves)));
         let arcs = (0..from.len()).flat_map(|k| sides.clone().map(move |(h, w)| (k, h, w)));
         for (coordinate, height, waves) in arcs {
-            if lagrangian.is_cancelled() {
-                return Err(first);
+            if lagrangian.is_cancelled() || lagrangian.work() > most {
+                return nearest.map(|(_, path)| path).ok_or(first);
             }
             let arc = |time: f64| {
                 let mut place = straight(time / duration);
@@ -59,7 +64,12 @@ pub fn stationary_path_between(
                 }
                 place
             };
-            let Ok(path) = stationary_path(lagrangian, &arc, duration) else { continue };
+            let path = match stationary_path(lagrangian, &arc, duration) {
+                Ok(path) => path,
+                Err(DynamicsError::Unsuited(_)) => continue,
+                Err(why) if nearest.is_none() => return Err(why),
+                Err(_) => continue,
+            };
             let apart = |k: u32| -> f64 {
                 let part = f64::from(k) / f64::from(COMPARED);
                 let both = straight(part).into_iter().zip(path.at(part * duration));
@@ -77,29 +87,28 @@ pub fn stationary_path_between(
     nearest.map(|(_, path)| path).ok_or(first)
 }
 
-/// What the path of a short time, which is nearly straight, becomes as the time grows; `None` where it ends on the way.
+/// What the path of a short time, which is nearly straight, becomes as the time grows.
 fn continued(
     lagrangian: &mut Lagrangian,
     straight: &dyn Fn(f64) -> Vec<f64>,
-    duration: f64,
-) -> Option<StationaryPath> {
-    let mut path: Option<StationaryPath> = None;
-    for k in 1..=PARTS {
-        let shorter = duration * f64::from(k) / f64::from(PARTS);
-        let before = path.take();
-        let guess = |time: f64| {
-            let part = time / shorter;
-            match &before {
-                Some(path) if part > 0.0 && part < 1.0 => {
-                    let last = shorter - duration / f64::from(PARTS);
-                    let mut place = path.at(part * last);
-                    place.truncate(straight(part).len());
-                    place
-                }
-                _ => straight(part),
+    (duration, most): (f64, f64),
+) -> Result<StationaryPath, DynamicsError> {
+    let part = duration / f64::from(PARTS);
+    let mut path = stationary_path(lagrangian, &|time| straight(time / part), part)?;
+    for k in 2..=PARTS {
+        if lagrangian.work() > most {
+            return Err(unsuited("the path of a shorter time was not followed to the end"));
+        }
+        let (last, shorter) = (part * f64::from(k - 1), part * f64::from(k));
+        let guess = |time: f64| match time / shorter {
+            part if part > 0.0 && part < 1.0 => {
+                let mut place = path.at(part * last);
+                place.truncate(place.len() / 2);
+                place
             }
+            part => straight(part),
         };
-        path = Some(stationary_path(lagrangian, &guess, shorter).ok()?);
+        path = stationary_path(lagrangian, &guess, shorter)?;
     }
-    path
+    Ok(path)
 }

@@ -4,7 +4,7 @@
 //! A line is looked for where the transform of what is left, under the square of Hann's window, is largest (J. Laskar,
 //! Physica D 67 (1993) 257). All lines found so far are then fitted together under the window by Gauss's and Newton's method, so that they
 //! do not disturb each other. Where the strongest of what is left makes hardly a turn, the mean changes slowly, by a polynomial of
-//! third degree that is fitted together with the lines. The mean rate of an angle is a weighted Birkhoff average, which converges faster than any
+//! third to ninth degree that is fitted together with the lines. The mean rate of an angle is a weighted Birkhoff average, which converges faster than any
 //! power where the motion is quasi-periodic (S. Das, Y. Saiki, E. Sander and J. Yorke, Nonlinearity 30 (2017) 4111).
 //!
 //! In: numbers at equal intervals of time. Out: lines with what they are sure of. Never here: motions, pictures.
@@ -31,8 +31,8 @@ const BESIDE: [f64; 6] = [-1.0, -0.67, -0.33, 0.33, 0.67, 1.0];
 const STEPS: usize = 3;
 const LAST_STEPS: usize = 8;
 
-/// A slow change beside the lines is a polynomial of the first of these degrees. Where it hides them altogether, as a line
-/// that makes less than a turn does, the others are tried as well.
+/// A slow change beside the lines is a polynomial of the first of these degrees. Where what was found without it is no sum of few
+/// lines, the others are tried as well, and each takes the place of a lower one if it leaves much less.
 const DEGREES: [usize; 4] = [3, 5, 7, 9];
 
 /// Lines that make fewer turns in the whole time than this may be parts of a slow change, and are none where one is fitted.
@@ -131,17 +131,19 @@ pub(super) fn driven_spectrum(
         return Some(plain.spectrum);
     }
     // what changes slowly would hide the lines beside it
-    let tried = if plain.spectrum.turns.is_some() { DEGREES.len() } else { 1 };
+    let hidden = plain.spectrum.turns.is_some() || plain.spectrum.is_continuous();
+    let tried = if hidden { DEGREES.len() } else { 1 };
+    let mut best = plain.spectrum;
     for degree in &DEGREES[..tried] {
         let detrended = fitted(signal, spacing, wanted, (*degree, SLOW), look).spectrum;
         let is_better = !detrended.lines.is_empty()
             && detrended.part_left() < BETTER
-            && detrended.left < BETTER * plain.spectrum.left;
+            && detrended.left < BETTER * best.left;
         if is_better {
-            return Some(detrended);
+            best = detrended;
         }
     }
-    Some(plain.spectrum)
+    Some(best)
 }
 
 /// Lines fitted to a signal.
@@ -175,6 +177,8 @@ fn fitted(
         if amplitude <= FAINTEST * strongest.max(fit.size) || fit.lines.iter().any(near) {
             break;
         }
+        // where there are no lines the first one goes anywhere
+        slowest = slowest.min(at * fit.length() / TAU);
         let before = (fit.lines.clone(), fit.mean, fit.trend.clone());
         fit.lines.push(Wave { frequency: at, cosine: 0.0, sine: 0.0 });
         fit.polish(STEPS);

@@ -123,9 +123,21 @@ pub fn stationary_path(
         }
         before = Some(path);
     }
-    Err(no_path(
-        "the path is not resolved by polynomials of degree 112: take a shorter time; over a kink of L none resolves it",
-    ))
+    let over_kink = before.is_some_and(|path| passes_kink(lagrangian, &path));
+    let why = if over_kink {
+        "the path passes a kink of L, which no polynomial resolves: it cannot be computed"
+    } else {
+        "the path is not resolved by polynomials of degree 112: take a shorter time"
+    };
+    Err(DynamicsError::Unresolved(why.to_owned()))
+}
+
+/// Whether L has a kink between the nodes of a path.
+fn passes_kink(lagrangian: &mut Lagrangian, path: &StationaryPath) -> bool {
+    let times = path.rule.nodes.iter().map(|x| 0.5 * path.duration * (1.0 + x));
+    let sides: Vec<Vec<bool>> =
+        times.map(|time| lagrangian.switches(time, &path.at(time))).collect();
+    sides.windows(2).any(|pair| pair[0] != pair[1])
 }
 
 /// The multiples of a guess that the search for the nearest path begins with: Newton's method may come to another one from a

@@ -140,7 +140,7 @@ pub fn add_section(model: &mut Model, when: Expr, direction: Direction) -> Strin
         when,
         direction,
         action: EventAction::Mark,
-        place: 0..0,
+        place: None,
     });
     name
 }

@@ -13,8 +13,10 @@ use crate::num::math;
 /// The error of one rounding, in units of ε times the value.
 const HALF: f64 = 0.5;
 
-/// The relative change of an argument by which the slope of a function is estimated.
+/// The change of an argument by which the slope of a function is estimated: relative, but where the argument is large no more than
+/// functions change little in, and no less than its error.
 const NUDGE: f64 = 1e-7;
+const WIDEST: f64 = 1e-4;
 
 impl Pool {
     /// The value of `e`, and its error in units of ε if every input is rounded to an `f64` and
@@ -56,7 +58,7 @@ impl Pool {
                     let mut error = HALF * value.abs();
                     for (i, argument) in arguments.iter().enumerate() {
                         let (x, own) = known[argument];
-                        let nudge = NUDGE * x.abs().max(own);
+                        let nudge = (NUDGE * x.abs()).min(WIDEST).max(own * f64::EPSILON);
                         if nudge > 0.0 {
                             let mut beside = values.clone();
                             beside[i] = x + nudge;
@@ -87,4 +89,27 @@ fn product(c: f64, factors: &[(Expr, Number)], known: &FxHashMap<Expr, (f64, f64
         error += (others * slope).abs() * own;
     }
     (value, error)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of exp(x − y) at places of size 1e9 the difference is off by their rounding, half a unit of each, and that is all.
+    #[test]
+    fn rounding_is_carried_to_first_order() {
+        let mut pool = Pool::new();
+        let [x, y] = ["x", "y"].map(|name| pool.symbol(name));
+        let at = |s: Symbol| if s == x { 1e9 + 0.25 } else { 1e9 };
+        let (a, b) = (pool.variable(x), pool.variable(y));
+        let difference = pool.sub(a, b);
+        let exponential = pool.call(crate::expr::FunctionId::Exp, &[difference]);
+        let (value, error) = pool.evaluate_with_error(exponential, &at);
+        assert!((value - math::exp(0.25)).abs() < 1e-15);
+        assert!((error / (2e9 * value) - 1.0).abs() < 1e-3, "{error}");
+        let wave = pool.call(crate::expr::FunctionId::Sin, &[a]);
+        let (_, error) = pool.evaluate_with_error(wave, &at);
+        let slope = math::cos(1e9 + 0.25).abs();
+        assert!((error / (0.5e9 * slope) - 1.0).abs() < 1e-2, "{error}");
+    }
 }

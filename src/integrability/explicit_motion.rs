@@ -8,7 +8,8 @@ use std::collections::HashMap;
 
 use super::units::Unsupported;
 use crate::expr::{Expr, Pool, Symbol, Zero};
-use crate::mechanics::{Equations, Flow};
+use crate::mechanics::{Equations, Flow, weighted_degree};
+use crate::num::Number;
 
 /// q̈ as a function of (q, q̇, t).
 pub(super) fn accelerations(equations: &mut Equations) -> Result<Vec<Expr>, Unsupported> {
@@ -96,8 +97,36 @@ impl ExplicitMotion {
         (rate, all)
     }
 
+    /// The exponents of a scaling t → λ^a t, q_i → λ^{b_i} q_i: a and the b_i.
+    pub(super) fn scaling(&self, pool: &mut Pool, xi: Expr, eta: &[Expr]) -> Option<Vec<Number>> {
+        let symbols = [self.time].into_iter().chain(self.positions.iter().copied());
+        let changes = [xi].into_iter().chain(eta.iter().copied());
+        let exponents = symbols.zip(changes).map(|(s, e)| {
+            let x = pool.variable(s);
+            let ratio = pool.div(e, x);
+            pool.as_number(ratio)
+        });
+        exponents.collect()
+    }
+
+    /// Whether a scaling leaves q̈ = F as it is: F^i is of degree b_i − 2a as it is written.
+    fn is_scaled(&self, pool: &mut Pool, exponents: &[Number]) -> bool {
+        let [a, b @ ..] = exponents else { return false };
+        let mut weights = vec![(self.time, *a)];
+        weights.extend(self.positions.iter().copied().zip(b.iter().copied()));
+        weights.extend(self.velocities.iter().copied().zip(b.iter().map(|&b| b + -*a)));
+        self.accelerations.iter().zip(b).all(|(&f, &b)| {
+            let expected = pool.number(b + -*a + -*a);
+            f == Expr::ZERO || weighted_degree(pool, f, &weights) == Some(expected)
+        })
+    }
+
     /// Whether the second prolongation is proved to leave q̈ = F as it is.
     pub(super) fn is_symmetry(&self, pool: &mut Pool, xi: Expr, eta: &[Expr]) -> bool {
+        // this is seen where terms are too many to be multiplied out
+        if self.scaling(pool, xi, eta).is_some_and(|exponents| self.is_scaled(pool, &exponents)) {
+            return true;
+        }
         let (rate, first) = self.prolonged(pool, xi, eta);
         let seeds = self.along(pool);
         (0..eta.len()).all(|i| {
@@ -112,22 +141,5 @@ impl ExplicitMotion {
             let condition = pool.sum(&terms);
             pool.is_zero(condition) == Zero::Proved
         })
-    }
-
-    /// X⁽¹⁾L + L Dξ.
-    pub(super) fn change_of(
-        &self,
-        pool: &mut Pool,
-        lagrangian: Expr,
-        xi: Expr,
-        eta: &[Expr],
-    ) -> Expr {
-        let (rate, first) = self.prolonged(pool, xi, eta);
-        let mut seeds = vec![(self.time, xi)];
-        seeds.extend(self.positions.iter().copied().zip(eta.iter().copied()));
-        seeds.extend(self.velocities.iter().copied().zip(first));
-        let moved = pool.derivation(lagrangian, &seeds);
-        let stretched = pool.mul(lagrangian, rate);
-        pool.add(moved, stretched)
     }
 }

@@ -23,8 +23,9 @@ use super::random::Random;
 use super::stand_in;
 use super::transformations::{generators_of, products};
 use super::units::Unsupported;
+use super::varied_lagrangian::{Symmetry, VariedLagrangian};
 use crate::expr::{Expr, Pool, Symbol};
-use crate::mechanics::Equations;
+use crate::mechanics::{Equations, is_changed_by_impulse};
 use crate::model::Model;
 use crate::num::{Number, PRIMES, PrimeField, Residue, rational};
 
@@ -58,12 +59,14 @@ pub struct PointSymmetries {
     pub searched: String,
     /// Whether their number is proved: the ansatz has no others.
     pub complete: bool,
+    /// How many more there are whose coefficients are no short fractions, or that are not proved, so that they are not written.
+    pub unwritten: usize,
     /// How many more there are that were not written when the time ran out.
     pub unfinished: usize,
 }
 
 /// Searches for Lie point symmetries of the equations of motion, at the parameters' values. `noether` are those that come
-/// from the Lagrangian, if they are known.
+/// from the Lagrangian, if they are known; those that are met here, as their gauge terms are of higher degree, are added.
 ///
 /// # Errors
 /// Returns an error if there are constraints, the equations cannot be solved for the accelerations, or they have a function
@@ -71,7 +74,7 @@ pub struct PointSymmetries {
 pub fn point_symmetries(
     model: &Model,
     equations: &mut Equations,
-    noether: Option<&Symmetries>,
+    noether: Option<&mut Symmetries>,
     is_over: &dyn Fn() -> bool,
 ) -> Result<PointSymmetries, Unsupported> {
     if !model.constraints.is_empty() {
@@ -102,6 +105,7 @@ pub fn point_symmetries(
     let generators = generators_of(pool, law, time, &positions, &velocities);
     let monomials = products(pool, &generators, DEGREE, MOST / (positions.len() + 2));
     let first: Vec<(Expr, Vec<Expr>)> = noether
+        .as_deref()
         .iter()
         .flat_map(|known| &known.found)
         .filter(|s| s.proved)
@@ -120,9 +124,9 @@ pub fn point_symmetries(
         ExplicitMotion::of(pool, time, positions, velocities, symbolic)
     });
     let mut complete = !problem.overgeneral && !generic;
-    let mut unfinished = 0;
+    let (mut unwritten, mut unfinished) = (0, 0);
     let mut found = Vec::new();
-    let known = noether.iter().flat_map(|known| &known.found).filter(|s| s.proved);
+    let known = noether.as_deref().into_iter().flat_map(|known| &known.found).filter(|s| s.proved);
     for s in known {
         found.push(PointSymmetry {
             name: s.name.clone(),
@@ -130,7 +134,7 @@ pub fn point_symmetries(
             coordinates: s.coordinates.clone(),
             noether: Some(true),
             for_all_parameters: s.for_all_parameters,
-            scaling: scaling(pool, &motion, s.time, &s.coordinates),
+            scaling: motion.scaling(pool, s.time, &s.coordinates),
         });
     }
     for vector in solved {
@@ -139,31 +143,50 @@ pub fn point_symmetries(
             continue;
         }
         let Some((xi, eta)) = problem.exact(pool, &vector) else {
-            complete = false;
+            (complete, unwritten) = (false, unwritten + usize::from(!generic));
             continue;
         };
         let by_name = named.as_ref().is_none_or(|named| named.is_symmetry(pool, xi, &eta));
         // for stand-ins it need not be one for the values that they are for
         if !by_name && (generic || !motion.is_symmetry(pool, xi, &eta)) {
-            complete = false;
+            (complete, unwritten) = (false, unwritten + usize::from(!generic));
             continue;
         }
         found.push(PointSymmetry {
             name: name_of(pool, motion.time, &motion.positions, xi, &eta),
-            scaling: scaling(pool, &motion, xi, &eta),
+            scaling: motion.scaling(pool, xi, &eta),
             time: xi,
             coordinates: eta,
             noether: None,
             for_all_parameters: by_name,
         });
     }
-    if noether.is_some() {
-        // the change of L dt: X⁽¹⁾L + L Dξ
-        for symmetry in found.iter_mut().filter(|s| s.noether.is_none()) {
-            let change =
-                motion.change_of(&mut equations.pool, law, symmetry.time, &symmetry.coordinates);
+    if let Some(noether) = noether {
+        let ExplicitMotion { time, positions, velocities, .. } = motion.clone();
+        let varied = VariedLagrangian::of(&mut equations.pool, law, time, positions, velocities);
+        let mut laws: Vec<VariedLagrangian> = Vec::new();
+        laws.extend(by_names.map(|named| varied.with(&mut equations.pool, named)));
+        // what holds for stand-ins need not hold for the values
+        laws.extend((!generic).then(|| varied.clone()));
+        let mut others = Vec::new();
+        for mut symmetry in found.split_off(first.len()) {
+            let change = varied.change(&mut equations.pool, symmetry.time, &symmetry.coordinates);
             symmetry.noether = equations.gauge(change, Expr::ZERO).total_derivative;
+            let is_noether = symmetry.noether == Some(true);
+            let charge = is_noether.then(|| charge(equations, &laws, &symmetry)).flatten();
+            let Some(mut charge) = charge else {
+                others.push(symmetry);
+                continue;
+            };
+            charge.between_impulses = is_changed_by_impulse(equations, model, charge.conserved);
+            let is_other = |s: &Symmetry| {
+                s.proved || (s.time, &s.coordinates) != (symmetry.time, &symmetry.coordinates)
+            };
+            noether.found.retain(is_other);
+            noether.found.push(charge);
+            found.push(symmetry);
         }
+        found.extend(others);
     }
     let pool = &mut equations.pool;
     let shown = match by_names {
@@ -174,7 +197,22 @@ pub fn point_symmetries(
     };
     let searched = words(pool, &shown, &problem.monomials);
     let searched = format!("changes of time and coordinates that are {searched}");
-    Ok(PointSymmetries { found, searched, complete, unfinished })
+    Ok(PointSymmetries { found, searched, complete, unwritten, unfinished })
+}
+
+/// A symmetry of one of some Lagrangians with its gauge term and constant, the first of them for all values of the parameters.
+fn charge(
+    equations: &mut Equations,
+    laws: &[VariedLagrangian],
+    symmetry: &PointSymmetry,
+) -> Option<Symmetry> {
+    let (xi, eta) = (symmetry.time, &symmetry.coordinates);
+    laws.iter().enumerate().find_map(|(k, law)| {
+        let change = law.change(&mut equations.pool, xi, eta);
+        let gauge = equations.gauge(change, Expr::ZERO).function?;
+        let found = law.symmetry(&mut equations.pool, xi, eta.clone(), gauge);
+        found.proved.then_some(Symmetry { for_all_parameters: k == 0, ..found })
+    })
 }
 
 /// The condition on the coefficients of ξ and η.
@@ -385,22 +423,4 @@ impl LieProblem {
         let xi = sums.next()?;
         Some((xi, sums.collect()))
     }
-}
-
-/// The exponents of a scaling of time and coordinates, t first.
-fn scaling(
-    pool: &mut Pool,
-    motion: &ExplicitMotion,
-    xi: Expr,
-    eta: &[Expr],
-) -> Option<Vec<Number>> {
-    let mut exponents = Vec::new();
-    for (&s, &e) in
-        [&motion.time].into_iter().chain(&motion.positions).zip([&xi].into_iter().chain(eta))
-    {
-        let x = pool.variable(s);
-        let ratio = pool.div(e, x);
-        exponents.push(pool.as_number(ratio)?);
-    }
-    Some(exponents)
 }

@@ -15,13 +15,13 @@ use super::ansatz::orders;
 use super::echelon::{Echelon, reduced};
 use super::evaluator::ResidueEvaluator;
 use super::formula::{cleared, content};
-use super::naming::name_of;
 use super::ramps;
 use super::random::Random;
 use super::stand_in;
 use super::transformations::{generators_of, products};
 use super::units::Unsupported;
-use crate::expr::{Expr, Node, Pool, Symbol, Zero};
+use super::varied_lagrangian::{Symmetry, VariedLagrangian};
+use crate::expr::{Expr, Node, Pool, Symbol};
 use crate::mechanics::{Equations, is_changed_by_impulse};
 use crate::model::Model;
 use crate::num::{Number, PRIMES, PrimeField, Residue, rational};
@@ -37,28 +37,6 @@ pub(super) const RAN_OUT: &str = "the time allowed ran out";
 
 /// Rows beyond the rank that have to add nothing.
 pub(super) const SPARE: usize = 12;
-
-/// A symmetry of a Lagrangian.
-#[derive(Clone, Debug)]
-pub struct Symmetry {
-    /// What it is called: a time shift, a translation, a rotation, a boost, a dilation, where it is one; else what it
-    /// changes.
-    pub name: String,
-    /// ξ, the change of time.
-    pub time: Expr,
-    /// η, the change of each coordinate.
-    pub coordinates: Vec<Expr>,
-    /// f, by whose derivative L dt changes.
-    pub gauge: Expr,
-    /// ξ (Σ q̇ p − L) − Σ η p + f, which is constant.
-    pub conserved: Expr,
-    /// Whether that is proved symbolically.
-    pub proved: bool,
-    /// Whether it is so for all values of the parameters, and not only at the current ones.
-    pub for_all_parameters: bool,
-    /// Whether an impulse of the file may change the constant.
-    pub between_impulses: bool,
-}
 
 /// The symmetries that were found, and where.
 #[derive(Clone, Debug)]
@@ -110,7 +88,8 @@ pub fn symmetries(
     let time = equations.symbols.time;
     let (positions, velocities): (Vec<Symbol>, Vec<Symbol>) =
         equations.coordinates.iter().map(|c| (c.position, c.velocity)).unzip();
-    let mut problem = NoetherProblem::of(pool, lagrangian, time, positions, velocities);
+    let law = VariedLagrangian::of(pool, lagrangian, time, positions, velocities);
+    let mut problem = NoetherProblem::of(pool, law);
     let vectors = problem.solve(pool, is_over)?;
     let mut found: Vec<Symmetry> = Vec::new();
     // those that occur in L
@@ -119,7 +98,7 @@ pub fn symmetries(
     let mut complete = !problem.overgeneral && !generic;
     let (mut unwritten, mut unfinished) = (0, 0);
     // the same changes with the parameters' names, where they are symmetries for all their values
-    let named = (symbolic != lagrangian).then(|| problem.with(pool, symbolic));
+    let named = (symbolic != lagrangian).then(|| problem.law.with(pool, symbolic));
     let mut other_gauge: Vec<(Expr, Vec<Expr>)> = Vec::new();
     for vector in vectors {
         if is_over() {
@@ -134,7 +113,7 @@ pub fn symmetries(
             // it need not be one for the values that the stand-ins are for
             (None, Some((xi, eta, _))) if generic => other_gauge.push((xi, eta)),
             (None, Some((xi, eta, f))) => {
-                let symmetry = problem.symmetry(pool, xi, eta, f);
+                let symmetry = problem.law.symmetry(pool, xi, eta, f);
                 found.push(Symmetry { for_all_parameters: named.is_none(), ..symmetry });
             }
             (None, None) => (complete, unwritten) = (false, unwritten + usize::from(!generic)),
@@ -155,7 +134,7 @@ pub fn symmetries(
         rest.map(|&e| pool.weight(e)).sum::<u64>()
     });
     let shown = if generic {
-        generators_of(pool, symbolic, time, &problem.positions, &problem.velocities)
+        generators_of(pool, symbolic, time, &problem.law.positions, &problem.law.velocities)
     } else {
         problem.generators.clone()
     };
@@ -169,12 +148,7 @@ pub fn symmetries(
 
 /// The condition on the coefficients of ξ, η and f.
 struct NoetherProblem {
-    time: Symbol,
-    positions: Vec<Symbol>,
-    velocities: Vec<Symbol>,
-    lagrangian: Expr,
-    /// L_t, L_q, L_q̇.
-    slopes: (Expr, Vec<Expr>, Vec<Expr>),
+    law: VariedLagrangian,
     /// What ξ, η and f are polynomials in.
     generators: Vec<Expr>,
     monomials: Vec<Expr>,
@@ -184,41 +158,12 @@ struct NoetherProblem {
 }
 
 impl NoetherProblem {
-    fn of(
-        pool: &mut Pool,
-        lagrangian: Expr,
-        time: Symbol,
-        positions: Vec<Symbol>,
-        velocities: Vec<Symbol>,
-    ) -> NoetherProblem {
-        let slopes = slopes_of(pool, lagrangian, time, &positions, &velocities);
-        let generators = generators_of(pool, lagrangian, time, &positions, &velocities);
+    fn of(pool: &mut Pool, law: VariedLagrangian) -> NoetherProblem {
+        let VariedLagrangian { time, positions, velocities, lagrangian, .. } = &law;
+        let generators = generators_of(pool, *lagrangian, *time, positions, velocities);
         let monomials = products(pool, &generators, DEGREE, MOST / (positions.len() + 2));
-        NoetherProblem {
-            time,
-            positions,
-            velocities,
-            lagrangian,
-            slopes,
-            generators,
-            monomials,
-            field: PrimeField::nth(0),
-            overgeneral: false,
-        }
-    }
-
-    /// The same problem with another Lagrangian.
-    fn with(&self, pool: &mut Pool, lagrangian: Expr) -> NoetherProblem {
-        let slopes = slopes_of(pool, lagrangian, self.time, &self.positions, &self.velocities);
-        NoetherProblem {
-            lagrangian,
-            slopes,
-            positions: self.positions.clone(),
-            velocities: self.velocities.clone(),
-            generators: self.generators.clone(),
-            monomials: self.monomials.clone(),
-            ..*self
-        }
+        let field = PrimeField::nth(0);
+        NoetherProblem { law, generators, monomials, field, overgeneral: false }
     }
 
     /// The solutions modulo a prime, without those that are gauge alone, as sparse as they come.
@@ -228,13 +173,19 @@ impl NoetherProblem {
         is_over: &dyn Fn() -> bool,
     ) -> Result<Vec<Vec<Residue>>, Unsupported> {
         let mut roots = self.monomials.clone();
-        roots.extend([self.lagrangian, self.slopes.0]);
-        roots.extend(self.slopes.1.iter().chain(&self.slopes.2));
-        let moving: Vec<Symbol> =
-            self.positions.iter().chain(&self.velocities).chain([&self.time]).copied().collect();
+        roots.extend([self.law.lagrangian, self.law.slopes.0]);
+        roots.extend(self.law.slopes.1.iter().chain(&self.law.slopes.2));
+        let moving: Vec<Symbol> = self
+            .law
+            .positions
+            .iter()
+            .chain(&self.law.velocities)
+            .chain([&self.law.time])
+            .copied()
+            .collect();
         let evaluator = ResidueEvaluator::new(pool, &roots, &moving)?;
         self.overgeneral = evaluator.overgeneral;
-        let (n, m) = (self.positions.len(), self.monomials.len());
+        let (n, m) = (self.law.positions.len(), self.monomials.len());
         let mut random = Random::new(3);
         let works = |k: &usize| {
             let mut random = Random::new(5);
@@ -301,25 +252,25 @@ impl NoetherProblem {
         random: &mut Random,
     ) -> Option<(Vec<Residue>, Vec<Residue>)> {
         let mut state: FxHashMap<Symbol, Residue> = FxHashMap::default();
-        let moving = self.positions.iter().chain(&self.velocities).chain([&self.time]);
+        let moving = self.law.positions.iter().chain(&self.law.velocities).chain([&self.law.time]);
         evaluator.draw(field, random, moving.copied(), &mut state);
         let point = evaluator.point(field, random, 7, &|s| state.get(&s).copied())?;
         let velocity = |s: Symbol| {
-            let k = self.positions.iter().position(|&q| q == s);
-            k.map(|k| state[&self.velocities[k]])
+            let k = self.law.positions.iter().position(|&q| q == s);
+            k.map(|k| state[&self.law.velocities[k]])
         };
         let seed = |s: Symbol| {
-            if s == self.time { field.one() } else { velocity(s).unwrap_or_default() }
+            if s == self.law.time { field.one() } else { velocity(s).unwrap_or_default() }
         };
         let rates = evaluator.rates(&point, &seed)?;
         let value = |e: Expr| evaluator.value(&point, e);
-        let (by_time, by_position, by_velocity) = &self.slopes;
+        let (by_time, by_position, by_velocity) = &self.law.slopes;
         let mut momentum = Residue::ZERO;
         for (k, &p) in by_velocity.iter().enumerate() {
-            momentum = field.add(momentum, field.mul(state[&self.velocities[k]], value(p)));
+            momentum = field.add(momentum, field.mul(state[&self.law.velocities[k]], value(p)));
         }
         // L − Σ q̇ p
-        let rest = field.sub(value(self.lagrangian), momentum);
+        let rest = field.sub(value(self.law.lagrangian), momentum);
         let values: Vec<Residue> = self.monomials.iter().map(|&e| value(e)).collect();
         let moved: Vec<Residue> =
             self.monomials.iter().map(|&e| evaluator.rate(&rates, e)).collect();
@@ -340,7 +291,7 @@ impl NoetherProblem {
 
     /// ξ, η and f of a solution with rational coefficients.
     fn exact(&self, pool: &mut Pool, vector: &[Residue]) -> Option<(Expr, Vec<Expr>, Expr)> {
-        let (n, m) = (self.positions.len(), self.monomials.len());
+        let (n, m) = (self.law.positions.len(), self.monomials.len());
         let lead = vector.iter().find(|x| !x.is_zero())?;
         let scale = self.field.inverse(*lead)?;
         let mut entries = Vec::new();
@@ -363,60 +314,6 @@ impl NoetherProblem {
             sums.into_iter().map(|e| pool.linear(Number::ZERO, &[(common, e)])).collect();
         Some((sums[0], sums[1..=n].to_vec(), sums[n + 1]))
     }
-
-    /// D along any curve.
-    fn along(&self, pool: &mut Pool) -> Vec<(Symbol, Expr)> {
-        let velocities = self.velocities.iter().map(|&v| pool.variable(v));
-        let both = self.positions.iter().copied().zip(velocities);
-        [(self.time, Expr::ONE)].into_iter().chain(both).collect()
-    }
-
-    /// ξ L_t + η L_q + (D η − q̇ D ξ) L_q̇ + L D ξ, by which L dt changes.
-    fn change(&self, pool: &mut Pool, xi: Expr, eta: &[Expr]) -> Expr {
-        let seeds = self.along(pool);
-        let (by_time, by_position, by_velocity) = &self.slopes;
-        let moved = pool.derivation(xi, &seeds);
-        let mut terms = vec![pool.mul(xi, *by_time), pool.mul(self.lagrangian, moved)];
-        for i in 0..eta.len() {
-            terms.push(pool.mul(eta[i], by_position[i]));
-            let change = pool.derivation(eta[i], &seeds);
-            let carried = pool.mul(seeds[i + 1].1, moved);
-            let change = pool.sub(change, carried);
-            terms.push(pool.mul(change, by_velocity[i]));
-        }
-        pool.sum(&terms)
-    }
-
-    /// A solution with its constant, and whether the condition is proved.
-    fn symmetry(&self, pool: &mut Pool, xi: Expr, eta: Vec<Expr>, f: Expr) -> Symmetry {
-        let seeds = self.along(pool);
-        let (change, gauge) = (self.change(pool, xi, &eta), pool.derivation(f, &seeds));
-        let condition = pool.sub(change, gauge);
-        let proved = pool.is_zero(condition) == Zero::Proved;
-        let momenta = &self.slopes.2;
-        let energy: Vec<Expr> =
-            seeds[1..].iter().zip(momenta).map(|(&(_, v), &p)| pool.mul(v, p)).collect();
-        let energy = pool.sum(&energy);
-        let energy = pool.sub(energy, self.lagrangian);
-        let mut constant = vec![pool.mul(xi, energy), f];
-        for (&change, &p) in eta.iter().zip(momenta) {
-            let work = pool.mul(change, p);
-            constant.push(pool.neg(work));
-        }
-        let conserved = pool.sum(&constant);
-        let conserved = pool.simplify(conserved);
-        let name = name_of(pool, self.time, &self.positions, xi, &eta);
-        Symmetry {
-            name,
-            time: xi,
-            coordinates: eta,
-            gauge: f,
-            conserved,
-            proved,
-            for_all_parameters: true,
-            between_impulses: false,
-        }
-    }
 }
 
 /// What was searched: polynomials of a degree in these functions.
@@ -430,19 +327,4 @@ pub(super) fn words(pool: &Pool, generators: &[Expr], monomials: &[Expr]) -> Str
     };
     let highest = monomials.last().map_or(0, |&e| degree(e));
     format!("polynomials of degree up to {highest} in {}", all.join(", "))
-}
-
-/// L_t, L_q, L_q̇.
-fn slopes_of(
-    pool: &mut Pool,
-    lagrangian: Expr,
-    time: Symbol,
-    positions: &[Symbol],
-    velocities: &[Symbol],
-) -> (Expr, Vec<Expr>, Vec<Expr>) {
-    (
-        pool.derivative(lagrangian, time),
-        positions.iter().map(|&q| pool.derivative(lagrangian, q)).collect(),
-        velocities.iter().map(|&v| pool.derivative(lagrangian, v)).collect(),
-    )
 }

@@ -77,7 +77,7 @@ impl Structure<'_> {
             2 => format!("{identity}; and for one other three"),
             n => format!("{identity}; and for {} other threes", n - 1),
         };
-        Some(StructureError { place: place.clone(), message, help })
+        Some(StructureError { place: Some(place.clone()), message, help })
     }
 
     /// Σ B_ij ∂_j C = 0 for every x_i.
@@ -102,7 +102,7 @@ impl Structure<'_> {
             if self.equations.is_conserved(casimir) == Some(Zero::Proved) {
                 help.push_str("; but this H conserves it: it is an observable");
             }
-            return Some(StructureError { place: place.clone(), message, help });
+            return Some(StructureError { place: Some(place.clone()), message, help });
         }
         None
     }

@@ -16,8 +16,15 @@ pub(super) fn potential(pool: &mut Pool, form: &[Expr], variables: &[Symbol]) ->
     }
     let mut found = Expr::ZERO;
     let mut rest = form.to_vec();
-    for (i, &x) in variables.iter().enumerate() {
-        let part = antiderivative(pool, rest[i], x)?;
+    let mut pending: Vec<usize> = (0..variables.len()).collect();
+    while !pending.is_empty() {
+        // what is left of a component may be integrated once others are
+        let integrated = pending
+            .iter()
+            .enumerate()
+            .find_map(|(k, &i)| Some((k, antiderivative(pool, rest[i], variables[i])?)));
+        let (k, part) = integrated?;
+        pending.remove(k);
         for (left, &y) in rest.iter_mut().zip(variables) {
             let slope = pool.derivative(part, y);
             let difference = pool.sub(*left, slope);

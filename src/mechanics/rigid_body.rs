@@ -318,7 +318,7 @@ pub(super) fn structure_errors(
     let mut structure_errors = Vec::new();
     let mut report = |place: &crate::diagnostic::SourceRange, message: String, help: &str| {
         structure_errors.push(StructureError {
-            place: place.clone(),
+            place: Some(place.clone()),
             message,
             help: help.to_owned(),
         });

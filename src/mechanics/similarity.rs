@@ -8,7 +8,8 @@
 use std::collections::HashMap;
 
 use super::equations::Equations;
-use crate::expr::{Expr, Node, Pool, Symbol, Zero};
+use super::weighted_degree::weighted_degree;
+use crate::expr::{Expr, Pool, Symbol, Zero};
 use crate::num::Number;
 
 /// The largest number of coordinates of which subsets are tried.
@@ -130,44 +131,7 @@ fn degree_of(
             return Some(degree);
         }
     }
-    let variables: Vec<Symbol> = scaled.iter().map(|(s, _)| *s).collect();
-    structural(pool, potential, &variables).filter(|&degree| !pool.depends_on_any(degree, moving))
-}
-
-/// The degree of an expression as it is written: sums of terms of one degree, products, powers, functions of what has
-/// degree 0. An exponent may be a parameter.
-fn structural(pool: &mut Pool, e: Expr, scaled: &[Symbol]) -> Option<Expr> {
-    if !pool.depends_on_any(e, scaled) {
-        return Some(Expr::ZERO);
-    }
-    match pool.node(e).clone() {
-        Node::Number(_) | Node::Pi => Some(Expr::ZERO),
-        Node::Symbol(_) => Some(Expr::ONE),
-        Node::Sum(constant, terms) => {
-            let mut degrees = Vec::new();
-            for &(_, term) in &terms {
-                degrees.push(structural(pool, term, scaled)?);
-            }
-            if !constant.is_zero() {
-                degrees.push(Expr::ZERO);
-            }
-            degrees.iter().all(|d| *d == degrees[0]).then(|| degrees[0])
-        }
-        Node::Product(_, factors) => {
-            let mut parts = Vec::new();
-            for &(base, n) in &factors {
-                parts.push((n, structural(pool, base, scaled)?));
-            }
-            Some(pool.linear(Number::ZERO, &parts))
-        }
-        Node::Power(base, exponent) if !pool.depends_on_any(exponent, scaled) => {
-            let degree = structural(pool, base, scaled)?;
-            Some(pool.mul(degree, exponent))
-        }
-        Node::Power(..) => None,
-        Node::Call(_, arguments) => {
-            let free = arguments.iter().all(|&u| structural(pool, u, scaled) == Some(Expr::ZERO));
-            free.then_some(Expr::ZERO)
-        }
-    }
+    let weights: Vec<(Symbol, Number)> = scaled.iter().map(|(s, _)| (*s, Number::ONE)).collect();
+    weighted_degree(pool, potential, &weights)
+        .filter(|&degree| !pool.depends_on_any(degree, moving))
 }

@@ -32,8 +32,8 @@ pub struct Event {
     pub direction: Direction,
     /// The action it triggers.
     pub action: EventAction,
-    /// Its place in the file.
-    pub place: SourceRange,
+    /// Its place in the file; `None` for what an option has added.
+    pub place: Option<SourceRange>,
 }
 
 /// The direction of a zero crossing.

@@ -33,13 +33,15 @@ pub(super) fn moved(
     changed(equations, time, coordinates).map(one).collect::<Vec<_>>().join(", ")
 }
 
-/// What is said of those that were not written.
-pub(super) fn unfinished(count: usize) -> String {
-    match count {
+/// What is said of those that are not written, and of those that were not when the time ran out.
+pub(super) fn missing(unwritten: usize, unfinished: usize) -> String {
+    let line = |count: usize, why: &str| match count {
         0 => String::new(),
-        1 => "1 more is not written: the time allowed ran out (see --budget)\n".to_owned(),
-        _ => format!("{count} more are not written: the time allowed ran out (see --budget)\n"),
-    }
+        1 => format!("1 more is not written: {why}\n"),
+        _ => format!("{count} more are not written: {why}\n"),
+    };
+    line(unwritten, "no short fractions were found as coefficients with which it is proved")
+        + &line(unfinished, "the time allowed ran out (see --budget)")
 }
 
 /// The exponents of a scaling by name, `t` first.
@@ -99,7 +101,7 @@ impl Others {
                 text.push_str(&format!(
                     "\n{count} {what} of the equations of motion, {own}{complete} among\n  {searched}\n"
                 ));
-                text.push_str(&unfinished(points.unfinished));
+                text.push_str(&missing(points.unwritten, points.unfinished));
             }
         }
         if let Some(known) = &self.similarity {
@@ -184,6 +186,7 @@ impl Others {
                 "found": points.found.iter().map(one).collect::<Vec<_>>(),
                 "searched": points.searched,
                 "complete": points.complete,
+                "unwritten": points.unwritten,
                 "unfinished": points.unfinished,
             }),
             Err(why) => json!({ "found": [], "why": why.to_string() }),

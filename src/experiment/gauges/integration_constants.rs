@@ -14,8 +14,8 @@ use super::formula_monitors::{ChannelValues, Formula, FormulaMonitors};
 use crate::analysis::{Errors, Verdict};
 use crate::experiment::{Gauge, Reference};
 use crate::expr::{Expr, Pool, Symbol, Zero};
-use crate::mechanics::{Equations, HamiltonJacobi, Valuation};
-use crate::model::{Mechanics, Model};
+use crate::mechanics::{Equations, HamiltonJacobi, Valuation, is_changed_by_impulse};
+use crate::model::Model;
 use crate::system::TermWatch;
 
 /// p and ∂S/∂q are the same number if they differ by less than this part of their size.
@@ -50,7 +50,7 @@ impl IntegrationConstants {
         let Some(all) = all.collect::<Option<Vec<_>>>() else { return Self::default() };
         let mut own = equations.clone();
         let proved = HamiltonJacobi::of(model, &mut own).is_some_and(|found| found.complete);
-        let mut pool = own.pool;
+        let mut pool = std::mem::take(&mut own.pool);
         let map = all.iter().map(|&(constant, alpha, _)| (constant.symbol, alpha)).collect();
         let mut relations = Vec::new();
         for c in &model.coordinates {
@@ -64,15 +64,17 @@ impl IntegrationConstants {
             }
         }
         let broken = acting(model).map(|cause| format!("S leaves {cause} out"));
-        let between = if model.impulses.is_empty() { "" } else { ", between impulses" };
-        let formula = |symbol: Symbol, expression: Expr, reason: String| {
-            let info = pool.symbol_info(symbol);
+        own.pool = pool;
+        let mut formula = |symbol: Symbol, expression: Expr, reason: String| {
+            let jumps = is_changed_by_impulse(&mut own, model, expression);
+            let between = if jumps { ", between impulses" } else { "" };
+            let info = own.pool.symbol_info(symbol);
             let (name, shown) = (info.name.clone(), info.unicode.clone());
             let (reason, broken) = (format!("{reason}{between}"), broken.clone());
             Formula { name, shown, reason, proved, broken, expression }
         };
         let is_new = |symbol: Symbol| {
-            let info = pool.symbol_info(symbol);
+            let info = equations.pool.symbol_info(symbol);
             !gauged.contains(&info.name) && !gauged.contains(&info.unicode)
         };
         let alpha = all.iter().filter(|(constant, ..)| is_new(constant.symbol));
@@ -81,11 +83,11 @@ impl IntegrationConstants {
         });
         let alpha: Vec<Formula> = alpha.collect();
         let beta = all.iter().map(|&(constant, _, beta)| {
-            let name = &pool.symbol_info(constant.symbol).unicode;
+            let name = &equations.pool.symbol_info(constant.symbol).unicode;
             formula(constant.conjugate, beta, format!("∂S/∂{name}, while p = ∂S/∂q"))
         });
         let beta: Vec<Formula> = beta.collect();
-        let pool = Arc::new(pool);
+        let pool = Arc::new(own.pool);
         let [alpha, beta] =
             [alpha, beta].map(|formulas| FormulaMonitors::new(Arc::clone(&pool), formulas));
         Self { pool, relations, alpha, beta, ..Self::default() }
@@ -188,13 +190,8 @@ impl IntegrationConstants {
 
 /// What acts beside the function whose Hamilton–Jacobi equation S solves.
 fn acting(model: &Model) -> Option<&'static str> {
-    let (friction, forces) = match &model.mechanics {
-        Mechanics::Lagrangian { dissipation, forces, .. } => (*dissipation != Expr::ZERO, forces),
-        Mechanics::Hamiltonian { forces, .. } | Mechanics::Poisson { forces, .. } => {
-            (false, forces)
-        }
-    };
-    let forced = forces.iter().any(|&force| force != Expr::ZERO);
+    let friction = model.mechanics.dissipation() != Expr::ZERO;
+    let forced = model.mechanics.forces().iter().any(|&force| force != Expr::ZERO);
     match (friction, forced) {
         (true, true) => Some("friction and the forces"),
         (true, false) => Some("friction"),

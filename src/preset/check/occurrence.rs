@@ -146,7 +146,7 @@ impl Check<'_> {
                 when: when.unwrap_or(Expr::ZERO),
                 direction,
                 action: action.unwrap_or(EventAction::Mark),
-                place: event.when.as_ref().map_or(event.place.clone(), Spanned::span),
+                place: Some(event.when.as_ref().map_or(event.place.clone(), Spanned::span)),
             });
         }
     }

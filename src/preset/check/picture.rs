@@ -122,7 +122,7 @@ impl Check<'_> {
         let name = section_name(&self.model);
         let index = self.model.sections.len();
         let action = EventAction::Section(index);
-        let place = place.clone();
+        let place = Some(place.clone());
         self.model.sections.push(Event { name, when, direction, action, place });
         Some((WrittenExpr { written: on.get_ref().trim().to_owned(), expression: when }, index))
     }

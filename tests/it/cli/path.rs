@@ -257,3 +257,11 @@ fn a_path_is_found_where_the_straight_line_leads_to_none() {
     close(end["rows"][1][1].as_f64().unwrap(), 1.0, 1e-8);
     close(end["rows"][1][2].as_f64().unwrap(), 1.0, 1e-8);
 }
+
+/// No polynomial follows a motion over a kink of L, in however short a time.
+#[test]
+fn a_path_over_a_kink_is_refused_for_the_kink() {
+    let file = "title = \"kink\"\n[coordinates]\nx = { initial = -1.0 }\n[lagrangian]\nL = \"1/2*x'^2 - abs(x)\"\n";
+    let ends = ["path", "system.toml", "--in", "3", "--to", "x=1"];
+    with_file(file, &ends).fails(1, &["the path passes a kink of L"]);
+}

@@ -331,6 +331,26 @@ fn the_constants_of_a_complete_integral_are_gauged() {
     assert_eq!(known, [0.0, 1.0, 2.0]);
 }
 
+/// Three particles of Toda's far from the origin, whose forces depend on differences alone: what moves is as near there as anywhere, the
+/// energy swings as leapfrog's does and is not called exact.
+#[test]
+fn what_depends_on_differences_is_gauged_far_from_the_origin() {
+    let text = "[coordinates]\nx = { initial = 1000000000.125, momentum = 0.3 }\ny = { initial = 999999999.75, momentum = -0.1 }\n\
+                z = { initial = 1000000000.375, momentum = 0.2 }\n[hamiltonian]\n\
+                H = \"(p_x^2 + p_y^2 + p_z^2)/2 + exp(x - y) + exp(y - z) + exp(z - x)\"\n\
+                [run]\nmethod = \"leapfrog\"\nstep = 0.2\n\
+                [[observables]]\nname = \"I3\"\nconserved = true\n\
+                expression = \"p_x*p_y*p_z - p_x*exp(y - z) - p_y*exp(z - x) - p_z*exp(x - y)\"\n";
+    let mut chain = build(text, |_| ());
+    run(&mut chain, 100.0);
+    let snapshot = chain.snapshot();
+    for name in ["energy", "I3"] {
+        let gauge = gauge(&snapshot, name);
+        assert_eq!(gauge.verdict, Verdict::Bounded, "{gauge:?}");
+        assert!(gauge.max_drift > 1e-4 && gauge.max_drift < 1e-1, "{gauge:?}");
+    }
+}
+
 /// A free particle in a plane with S = a x + b y − (a² + b²) t/2, where α is the momentum itself and S has one branch:
 /// β = ∂S/∂α = x − a t is where the particle started. S leaves friction out, and an impulse ends both constants.
 /// Source: *The Principles of Dynamics*, § 3.5.
@@ -368,6 +388,11 @@ fn a_complete_integral_of_one_branch_is_gauged() {
     let [a, beta_a, _] = gauges(&text("", kick), 4.0);
     assert!((a.value - 0.8).abs() < 1e-14 && matches!(a.verdict, Verdict::Exact(_)), "{a:?}");
     assert_eq!(a.reason, "constant of the complete integral S, between impulses");
+    // of another momentum it says nothing
+    let kick = "[[impulses]]\nname = \"kick\"\nat = 2.0\nchange = { p_y = \"0.5\" }\n";
+    let [a, _, beta_b] = gauges(&text("", kick), 4.0);
+    assert_eq!(a.reason, "constant of the complete integral S");
+    assert!(beta_b.reason.ends_with(", between impulses"), "{beta_b:?}");
     // after the kick x = 1.6 + 0.8 (t − 2) = 0.8 t
     assert!(
         beta_a.value.abs() < 1e-14 && matches!(beta_a.verdict, Verdict::Exact(_)),

@@ -189,7 +189,7 @@ action = "stop"
         ]
     );
     assert_eq!(text(&model, model.events[0].when), "m*x - x''");
-    assert_eq!(&file[model.events[1].place.clone()], "\"lambda_no_slip\"");
+    assert_eq!(&file[model.events[1].place.clone().expect("a place")], "\"lambda_no_slip\"");
 }
 
 /// An impulse at the start or before it is allowed, but probably an error.
