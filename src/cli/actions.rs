@@ -64,7 +64,13 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "T", allow_hyphen_values = true, value_parser = number, conflicts_with = "energy")]
     until: Option<f64>,
     /// Into how many equal intervals the time until then is divided.
-    #[arg(long, value_name = "N", default_value_t = 24, requires = "until")]
+    #[arg(
+        long,
+        allow_hyphen_values = true,
+        value_name = "N",
+        default_value_t = 24,
+        requires = "until"
+    )]
     #[arg(value_parser = clap::value_parser!(u32).range(1..=100_000))]
     count: u32,
     /// How the table is written.

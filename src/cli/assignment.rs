@@ -142,13 +142,23 @@ pub(super) fn initial(
     parameters: &[f64],
     set: &[Assignment],
 ) -> Result<Vec<InitialOverride>, CommandError> {
+    given_by("--init", model, parameters, set)
+}
+
+/// The same given by another option.
+pub(super) fn given_by(
+    option: &str,
+    model: &Model,
+    parameters: &[f64],
+    set: &[Assignment],
+) -> Result<Vec<InitialOverride>, CommandError> {
     let mut all: Vec<InitialOverride> = Vec::new();
-    refuse_twice("--init", set)?;
+    refuse_twice(option, set)?;
     for assignment in set.iter().filter(|assignment| assignment.name != "t") {
         let value = initial_value(model, parameters, assignment)?;
         if let Some(name) = multiplied(model, &assignment.value) {
             stderr::tell(&format!(
-                "--init {}={}: `{name}` is the parameter and no unit, so that this is {value:?}",
+                "{option} {}={}: `{name}` is the parameter and no unit, so that this is {value:?}",
                 printable::quoted(&assignment.name),
                 printable::quoted(&assignment.value)
             ));
@@ -161,7 +171,7 @@ pub(super) fn initial(
         if has(InitialOverride::Velocity(i, 0.0)) && has(InitialOverride::Momentum(i, 0.0)) {
             let name = &c.name;
             let message =
-                format!("--init gives both {name}' and p_{name}; one follows from the other");
+                format!("{option} gives both {name}' and p_{name}; one follows from the other");
             return Err(CommandError::WrongUse(message));
         }
     }

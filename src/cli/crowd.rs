@@ -22,7 +22,7 @@ use crate::printable;
 #[derive(Debug, clap::Args)]
 pub(super) struct Crowd {
     /// The number of threads; by default all cores; the output is the same.
-    #[arg(long, value_name = "N")]
+    #[arg(long, allow_hyphen_values = true, value_name = "N")]
     threads: Option<NonZeroUsize>,
 }
 

@@ -40,11 +40,11 @@ pub(super) struct Arguments {
     #[arg(value_name = "PRESET|FILE")]
     name: OsString,
     /// The greatest degree in the momenta; 6 by default.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=12))]
+    #[arg(long, allow_hyphen_values = true, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=12))]
     degree: Option<u32>,
     /// The seconds the search may take; 1 by default, and no limit where a degree is
     /// given.
-    #[arg(long, value_name = "S", value_parser = number)]
+    #[arg(long, allow_hyphen_values = true, value_name = "S", value_parser = number)]
     budget: Option<f64>,
     /// Adds the brackets of all constants: which commute, and what the others are.
     #[arg(long)]

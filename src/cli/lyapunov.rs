@@ -32,10 +32,10 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "T", allow_hyphen_values = true, value_parser = number)]
     until: Option<f64>,
     /// How many exponents are written, the largest first.
-    #[arg(long, value_name = "K|all", default_value = "all", value_parser = count)]
+    #[arg(long, allow_hyphen_values = true, value_name = "K|all", default_value = "all", value_parser = count)]
     exponents: Count,
     /// Measures GALI2 to GALIK too: the volumes that tangent vectors span, which fall exponentially in chaos.
-    #[arg(long, value_name = "K", value_parser = clap::value_parser!(u8).range(2..=64))]
+    #[arg(long, allow_hyphen_values = true, value_name = "K", value_parser = clap::value_parser!(u8).range(2..=64))]
     gali: Option<u8>,
 }
 

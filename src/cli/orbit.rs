@@ -36,7 +36,7 @@ pub(super) struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
     /// The period of the orbit, or beside --energy where to begin with it.
-    #[arg(long, value_name = "T", value_parser = number)]
+    #[arg(long, allow_hyphen_values = true, value_name = "T", value_parser = number)]
     period: Option<f64>,
     /// The energy of the orbit; that of the start where neither is given.
     #[arg(long, value_name = "E", allow_hyphen_values = true, value_parser = number)]

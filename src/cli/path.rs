@@ -95,7 +95,8 @@ impl Epsilons {
 /// The number of intervals between rows.
 const INTERVALS: u32 = 200;
 
-/// The equations of motion hold along a written path if what is left of them is below this part of their terms.
+/// The equations of motion hold along a written path if what is left of them is below this part of their terms, and a variation
+/// vanishes at an end below this part of its largest value.
 const HOLDS: f64 = 1e-9;
 
 /// A path with what is known of it.
@@ -231,6 +232,16 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let abbreviated = abbreviated.ok();
     let energy = lagrangian.energy(0.0, &base(0.0));
     let n = model.coordinates.len();
+    if let Some(vary) = &vary {
+        let size =
+            |t: f64| at(&equations, vary, t, 0).iter().fold(0.0_f64, |most, d| most.max(d.abs()));
+        let greatest = divisions(0.0, duration, INTERVALS).map(size).fold(0.0, f64::max);
+        if size(0.0).max(size(duration)) > HOLDS * greatest {
+            stderr::tell(
+                "the variation does not vanish at both ends: where it does not, the action changes by p δq, also on a true path",
+            );
+        }
+    }
     let mut varied = Vec::new();
     for &epsilon in vary.iter().chain(&vary_momenta).take(1).flat_map(|_| &arguments.epsilons.0) {
         let mut path = |t: f64| -> Vec<f64> {
@@ -278,7 +289,7 @@ fn ends(arguments: &Arguments, laid: &Laid) -> Result<[Vec<f64>; 2], CommandErro
             Some(own) => own.iter().map(|&x| Some(x)).collect(),
             None => vec![None; n],
         };
-        for one in assignment::initial(model, parameters, given)? {
+        for one in assignment::given_by(option, model, parameters, given)? {
             let InitialOverride::Position(i, x) = one else {
                 let why = "the ends of a path are coordinates";
                 return Err(CommandError::WrongUse(format!("{option}: {why}")));

@@ -52,7 +52,7 @@ pub(super) struct Arguments {
     #[arg(long, value_enum)]
     direction: Option<Sense>,
     /// The number of crossings after which an orbit ends; 100 where there is no --until either.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=MOST))]
+    #[arg(long, allow_hyphen_values = true, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=MOST))]
     count: Option<u64>,
     /// The time at which an orbit ends.
     #[arg(long, value_name = "T", allow_hyphen_values = true, value_parser = number)]

@@ -144,7 +144,9 @@ pub(super) fn head(
 #[expect(clippy::needless_pass_by_value, reason = "it is handed to map_err")]
 pub(super) fn failed(error: DynamicsError) -> CommandError {
     match error {
-        DynamicsError::Method(_) => CommandError::WrongUse(error.to_string()),
+        DynamicsError::Method(_) | DynamicsError::WrongRequest(_) => {
+            CommandError::WrongUse(error.to_string())
+        }
         DynamicsError::Motion(_)
         | DynamicsError::Unsuited(_)
         | DynamicsError::Unclosed(_)

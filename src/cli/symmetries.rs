@@ -39,7 +39,7 @@ pub(super) struct Arguments {
     #[arg(value_name = "PRESET|FILE")]
     name: OsString,
     /// The seconds the search may take; 10 by default.
-    #[arg(long, value_name = "S", value_parser = number)]
+    #[arg(long, allow_hyphen_values = true, value_name = "S", value_parser = number)]
     budget: Option<f64>,
     /// Sets a parameter.
     #[arg(long, value_name = "NAME=VALUE", allow_hyphen_values = true)]

@@ -15,6 +15,9 @@ pub enum DynamicsError {
     /// The question does not apply to the system.
     #[error("{0}")]
     Unsuited(String),
+    /// The question itself is wrong, whatever the system.
+    #[error("{0}")]
+    WrongRequest(String),
     /// Newton's method came to a path that no polynomial resolves.
     #[error("{0}")]
     Unresolved(String),

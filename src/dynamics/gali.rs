@@ -62,11 +62,11 @@ pub fn gali(
         let why = format!(
             "GALI takes from 2 to {dimension} tangent vectors here, as many as are independent"
         );
-        return Err(DynamicsError::Unsuited(why));
+        return Err(DynamicsError::WrongRequest(why));
     }
     if until <= start.time {
         let why = "GALI is measured over the time to come: the end lies after the start";
-        return Err(DynamicsError::Unsuited(why.to_owned()));
+        return Err(DynamicsError::WrongRequest(why.to_owned()));
     }
     // vectors in general position
     let general = DMatrix::from_fn(n, count, |i, j| {

@@ -103,7 +103,7 @@ pub fn lyapunov(
     look: &mut dyn FnMut(f64),
 ) -> Result<Lyapunov, DynamicsError> {
     if until <= start.time {
-        return Err(DynamicsError::Unsuited(
+        return Err(DynamicsError::WrongRequest(
             "exponents are means over the time to come: the end lies after the start".to_owned(),
         ));
     }

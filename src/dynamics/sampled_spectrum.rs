@@ -26,6 +26,9 @@ const ROUNDING: f64 = 1e-12;
 /// Lines that leave more than this part of the quantity between the values are not there.
 const FALSE: f64 = 0.5;
 
+/// A line that leaves more than this part of itself between the values is the image of a faster one.
+const IMAGE: f64 = 0.3;
+
 /// What is wanted of a quantity.
 #[derive(Clone, Copy, Debug)]
 pub struct SpectrumRequest {
@@ -54,6 +57,8 @@ pub struct SampledSpectrum {
     pub drift: Option<FrequencyDrift>,
     /// The root mean square of what the lines leave between the values.
     pub between: f64,
+    /// Whether lines were left out that are images of faster ones, as a motion that jumps has them without end.
+    pub has_images: bool,
     /// What may be rounding.
     rounding: f64,
 }
@@ -71,7 +76,7 @@ impl SampledSpectrum {
     /// Whether the lines give the quantity between the values too.
     pub fn is_resolved(&self) -> bool {
         let Spectrum { left, size, .. } = self.spectrum;
-        self.between <= (MORE * left).max(NOTICED * size).max(self.rounding)
+        !self.has_images && self.between <= (MORE * left).max(NOTICED * size).max(self.rounding)
     }
 
     /// Whether the lines are not those of the quantity at all: it is faster than the values can show.
@@ -126,17 +131,68 @@ fn taken(
     let rate = mean_rate(&values, spacing).filter(|_| request.is_angle);
     let straight = straightened(&values, spacing, rate);
     let spectrum = driven_spectrum(&straight, spacing, request.lines, request.drive, look);
-    let spectrum = spectrum.ok_or(NoSpectrum::NotFinite)?;
+    let mut spectrum = spectrum.ok_or(NoSpectrum::NotFinite)?;
     let drift = frequency_drift(&spectrum.without_trend(&straight), spacing, &spectrum.lines);
     let rate_taken = advance(count, spacing, rate);
     let off = |(k, value): (usize, &f64)| {
         let time = (k as f64 + BETWEEN) * spacing;
         value - rate_taken * time - given(&spectrum, k, time)
     };
-    let squares: f64 = others.iter().enumerate().map(off).map(|off| off * off).sum();
+    let off: Vec<f64> = others.iter().enumerate().map(off).collect();
+    let squares: f64 = off.iter().map(|off| off * off).sum();
     let between = (squares / count as f64).sqrt();
+    // what is no sum of lines at all, as noise, has no lines that others could be images of
+    let is_image = |frequency: f64, size: f64| amplitude(&off, frequency * spacing) > IMAGE * size;
+    let images: Vec<bool> =
+        spectrum.lines.iter().map(|line| is_image(line.frequency, line.amplitude)).collect();
+    let has_images = images.contains(&true) && images.contains(&false);
+    if has_images {
+        without(&mut spectrum, &images);
+    }
     let rounding = ROUNDING * all.iter().fold(0.0_f64, |size, x| size.max(x.abs()));
-    Ok(SampledSpectrum { count, spectrum, rate, drift, between, rounding })
+    Ok(SampledSpectrum { count, spectrum, rate, drift, between, has_images, rounding })
+}
+
+/// Takes lines out of a spectrum, with the names that others have by them.
+fn without(spectrum: &mut Spectrum, images: &[bool]) {
+    let gone: Vec<f64> = spectrum
+        .lines
+        .iter()
+        .zip(images)
+        .filter(|(_, image)| **image)
+        .map(|(line, _)| line.frequency)
+        .collect();
+    spectrum.lines.retain(|line| !gone.contains(&line.frequency));
+    let is_gone: Vec<bool> = spectrum.fundamentals.iter().map(|f| gone.contains(f)).collect();
+    for line in &mut spectrum.lines {
+        let by_the_rest = |k: Vec<_>| {
+            let mut rest = Vec::new();
+            for (n, &gone) in k.into_iter().zip(&is_gone) {
+                match (gone, n) {
+                    (false, n) => rest.push(n),
+                    (true, 0) => {}
+                    (true, _) => return None,
+                }
+            }
+            Some(rest)
+        };
+        line.combination = line.combination.take().and_then(by_the_rest);
+    }
+    spectrum.fundamentals.retain(|f| !gone.contains(f));
+}
+
+/// The amplitude of numbers at this advance of the phase from each to the next, under Hann's window.
+fn amplitude(numbers: &[f64], advance: f64) -> f64 {
+    let turn = std::f64::consts::TAU / numbers.len() as f64;
+    let (mut re, mut im, mut weights) = (0.0, 0.0, 0.0);
+    for (k, x) in numbers.iter().enumerate() {
+        let weight = 1.0 - math::cos(turn * (k as f64 + 0.5));
+        let (sin, cos) = math::sin_cos(advance * k as f64);
+        re += weight * x * cos;
+        im += weight * x * sin;
+        weights += weight;
+    }
+    2.0 * math::hypot(re, im) / weights
 }
 
 /// What the lines give at a time from the beginning, behind the value of this index.

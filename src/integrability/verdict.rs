@@ -9,7 +9,7 @@ use super::invariants::{Invariants, Proof};
 use super::involution::{self, Commuting, Given};
 use super::stand_in;
 use super::vanishing::vanishes;
-use crate::expr::{Expr, Symbol};
+use crate::expr::{Expr, Symbol, Zero};
 use crate::mechanics::{Equations, bracket};
 use crate::model::Model;
 
@@ -91,8 +91,12 @@ pub fn relations(
     let commute = |i: usize, j: usize| brackets[i][j] == Some(Expr::ZERO);
     let in_involution = if hamiltonian { largest(&independent, &commute) } else { Vec::new() };
     let casimirs = (0..n)
-        .filter(|&i| model.is_poisson() && is_casimir(model, equations, functions[i].1))
-        .filter(|&i| independent.get(i) == Some(&true))
+        .filter(|&i| model.is_poisson() && independent.get(i) == Some(&true))
+        .filter(|&i| {
+            // at the parameters' values, or for all of them, as the brackets are written
+            let (named, here) = functions[i];
+            is_casimir(model, equations, here) || is_casimir(model, equations, named)
+        })
         .count();
     let freedoms =
         hamiltonian.then(|| (invariants.dimension - casimirs.min(invariants.dimension)) / 2);
@@ -129,7 +133,8 @@ fn is_casimir(model: &Model, equations: &mut Equations, f: Expr) -> bool {
     let variables: Vec<Symbol> = equations.coordinates.iter().map(|c| c.position).collect();
     variables.into_iter().all(|x| {
         let x = equations.pool.variable(x);
-        bracket(model, equations, f, x).is_ok_and(|e| e == Expr::ZERO)
+        let bracket = bracket(model, equations, f, x);
+        bracket.is_ok_and(|e| equations.pool.is_zero(e) == Zero::Proved)
     })
 }
 

@@ -66,11 +66,10 @@ impl BatchEvents {
     /// Begins the search along an orbit.
     pub(super) fn begin(&mut self, lane: usize, state: &State, parameters: &[f64]) {
         let events = &self.system.discontinuities().events;
-        let directions = events.iter().map(|event| event.direction).collect();
         let blank = State::new(0.0, self.system.form(), Vec::new());
         let functions = self.system.event_functions(parameters);
         self.lanes[lane] = functions.map(|functions| LaneSearch {
-            locator: EventLocator::new(functions, directions, blank),
+            locator: EventLocator::new(functions, events, blank),
             start: state.time,
             clear: state.time,
             accumulation: vec![AccumulationDetector::NONE; events.len()],

@@ -1,8 +1,7 @@
 //! Locates zero crossings of the events' functions along a step, beyond the last digit of time,
 //! since the effect of an impulse there shows in the last digits after it.
 //!
-//! In: a motion that has taken a step, the functions. Out: the first crossing that counts. Never
-//! here: what follows from it.
+//! In: a motion that has taken a step, the functions. Out: the first crossing that counts. Never here: what follows from it.
 //!
 //! If the step is a power series in time, so is every function along it wherever it is analytic,
 //! and all roots of these polynomials are found piece by piece. Without a series, and across kinks
@@ -10,7 +9,7 @@
 
 use super::DenseOutput;
 use super::clock::{DIGITS, spacing};
-use super::located_event::{Crossing, LocatedEvent, first};
+use super::located_event::{Crossing, LocatedEvent, LocatedEvents, first, is_same_time};
 use super::piece_count::PieceCount;
 use super::polynomial::StepPolynomial;
 use super::probe::Probe;
@@ -20,7 +19,7 @@ use super::sampling::{SIGNLESS, Sampling, leaving};
 use super::series_piece::SeriesPiece;
 use crate::model::Direction;
 use crate::num::DoubleDouble;
-use crate::system::{EventFunctions, MotionError, State};
+use crate::system::{CompiledEvent, EventFunctions, MotionError, State};
 
 /// At a root of its series a function is less than this part of its terms.
 const VANISHES: f64 = 1e-6;
@@ -36,14 +35,16 @@ const SOONEST: f64 = 2e-15;
 pub(super) struct EventLocator {
     probe: Probe,
     directions: Vec<Direction>,
+    /// Whether each event acts on the motion.
+    acts: Vec<bool>,
     /// Whether each function has zeros that are no rounding.
     may_cross: Vec<bool>,
     /// The last known side of zero of each function; zero if unknown.
     sides: Vec<f64>,
     /// When each of them last crossed zero in a direction that counts; NaN before it has.
     last: Vec<f64>,
-    /// The events at the time of the one that was found last, each with the side of its function afterwards.
-    beside: Vec<(LocatedEvent, f64)>,
+    /// What else is at the time of the event that was found last.
+    beside: LocatedEvents,
     /// Whether an impulse has just changed the state.
     fresh: bool,
     /// The values of the functions that leave their zeros then, that of the event that caused it and what a constraint held,
@@ -68,18 +69,19 @@ enum PieceRoots {
 impl EventLocator {
     pub(super) fn new(
         event_functions: EventFunctions,
-        directions: Vec<Direction>,
+        events: &[CompiledEvent],
         blank: State,
     ) -> EventLocator {
-        let count = directions.len();
+        let count = events.len();
         let may_cross = (0..count).map(|event| event_functions.may_cross(event)).collect();
         EventLocator {
             probe: Probe::new(event_functions, count, blank),
-            directions,
+            directions: events.iter().map(|event| event.direction).collect(),
+            acts: events.iter().map(|event| event.action.acts()).collect(),
             may_cross,
             sides: vec![0.0; count],
             last: vec![f64::NAN; count],
-            beside: Vec::new(),
+            beside: LocatedEvents::default(),
             fresh: false,
             leaving: vec![None; count],
             simple: None,
@@ -104,13 +106,12 @@ impl EventLocator {
     /// Forgets how far the functions are simple and what else happens now, when the motion changes.
     pub(super) fn turn(&mut self) {
         self.simple = None;
-        self.beside.clear();
+        self.beside = LocatedEvents::default();
     }
 
     /// The next event at a time at which one has been found, if the state is still the same.
     pub(super) fn next_at(&mut self, time: f64) -> Option<LocatedEvent> {
-        self.beside.first().filter(|(next, _)| next.exact.high == time)?;
-        let (next, side) = self.beside.remove(0);
+        let (next, side) = self.beside.next_at(time)?;
         self.sides[next.event] = side;
         self.last[next.event] = next.exact.high;
         Some(next)
@@ -141,11 +142,17 @@ impl EventLocator {
         let old = self.probe.of(before)?.to_vec();
         let new = self.probe.of(after)?;
         self.leaving.fill(None);
-        if let Some(event) = event {
-            self.leaving[event] = Some([old[event].abs(), 0.0]);
-        }
+        // the event that caused it, and those that saw its time as one of their zeros
+        let leaves = |i: usize| {
+            let is_last = is_same_time(before.time, self.last[i]);
+            let is_seen = is_last || self.beside.crossing.contains(&i);
+            event == Some(i) || event.is_some() && !self.acts[i] && is_seen
+        };
         for (i, (old, new)) in old.iter().zip(new).enumerate() {
-            if event == Some(i) || (old - new).abs() > 1e-12 * (old.abs() + new.abs()) {
+            if leaves(i) {
+                self.leaving[i] = Some([old.abs(), 0.0]);
+            }
+            if leaves(i) || (old - new).abs() > 1e-12 * (old.abs() + new.abs()) {
                 self.sides[i] = 0.0;
             }
         }
@@ -326,9 +333,7 @@ impl EventLocator {
             }
             passed.push(crossings);
         }
-        let found;
-        (found, self.beside) = first(&passed, &self.directions, &mut self.sides, to);
-        Ok(PieceRoots::First(found))
+        Ok(PieceRoots::First(self.take(&passed, to)))
     }
 
     /// The crossings of one function, in order of time, up to the first that counts.
@@ -433,8 +438,13 @@ impl EventLocator {
             let samples = zero.map_or(&samples[..], |residual| leaving(samples, residual));
             passed.push(sampling.follow(own, samples, known, last)?);
         }
-        let found;
-        (found, self.beside) = first(&passed, &self.directions, &mut self.sides, to);
-        Ok(found)
+        Ok(self.take(&passed, to))
+    }
+
+    /// The first of all crossings that counts; what else happens at its time is kept.
+    fn take(&mut self, passed: &[Vec<Crossing>], to: f64) -> Option<LocatedEvent> {
+        let how = (&self.directions[..], &self.acts[..]);
+        self.beside = first(passed, how, &mut self.sides, to);
+        self.beside.next().map(|(found, _)| found)
     }
 }

@@ -3,6 +3,7 @@
 //! In: a time, a side. Out: whether it counts. Never here: how it is found, and what follows from
 //! it.
 
+use super::clock::{DIGITS, spacing};
 use super::probe::earlier;
 use crate::model::Direction;
 use crate::num::DoubleDouble;
@@ -43,39 +44,81 @@ impl Crossing {
     }
 }
 
+/// What was found at one time.
+#[derive(Clone, Debug, Default)]
+pub(super) struct LocatedEvents {
+    /// The events, each with the side of its function afterwards, in the order in which they happen.
+    pub(super) events: Vec<(LocatedEvent, f64)>,
+    /// Those whose functions cross zero there, in a direction that counts or not.
+    pub(super) crossing: Vec<usize>,
+}
+
+impl LocatedEvents {
+    /// The next of them, with the side of its function afterwards.
+    pub(super) fn next(&mut self) -> Option<(LocatedEvent, f64)> {
+        (!self.events.is_empty()).then(|| self.events.remove(0))
+    }
+
+    /// The next of them, if it is at this time.
+    pub(super) fn next_at(&mut self, time: f64) -> Option<(LocatedEvent, f64)> {
+        self.events.first().filter(|(next, _)| next.exact.high == time)?;
+        self.next()
+    }
+}
+
+/// Whether two times are the same but for the rounding of roots.
+pub(super) fn is_same_time(a: f64, b: f64) -> bool {
+    (a - b).abs() <= DIGITS * spacing(a)
+}
+
 /// The first crossing that counts of all functions, where each list has the crossings up to its own
-/// first, and the others at its time, with the sides afterwards. Also updates the side of each function that has crossed by
-/// then; the others at its time have not.
+/// first, and the others at its time. What `acts` on the motion comes after what only sees it there. Also updates the side of
+/// each function that has crossed by then, with that of the first event; the others at its time have not.
 pub(super) fn first(
     passed: &[Vec<Crossing>],
-    directions: &[Direction],
+    (directions, acts): (&[Direction], &[bool]),
     sides: &mut [f64],
     to: f64,
-) -> (Option<LocatedEvent>, Vec<(LocatedEvent, f64)>) {
-    let counted: Vec<(LocatedEvent, f64)> = passed
-        .iter()
-        .enumerate()
-        .filter_map(|(event, crossings)| {
-            let last = crossings.last().filter(|crossing| crossing.counts(directions[event]))?;
-            Some((LocatedEvent { event, exact: last.exact }, last.side))
-        })
-        .collect();
+) -> LocatedEvents {
+    let counted = passed.iter().enumerate().filter_map(|(event, crossings)| {
+        let last = crossings.last().filter(|crossing| crossing.counts(directions[event]))?;
+        Some((LocatedEvent { event, exact: last.exact }, last.side))
+    });
+    let counted: Vec<(LocatedEvent, f64)> = counted.collect();
     let mut found: Option<LocatedEvent> = None;
     for (event, _) in &counted {
         if found.is_none_or(|first| earlier(event.exact, first.exact)) {
             found = Some(*event);
         }
     }
-    let until = found.map_or(to, |found| found.exact.high);
+    let mut here = LocatedEvents::default();
+    if let Some(found) = found {
+        let time = found.exact.high;
+        let is_here = |event: &LocatedEvent| {
+            let is_seen = acts[found.event] && !acts[event.event];
+            event.exact.high == time || is_seen && is_same_time(time, event.exact.high)
+        };
+        let all = counted.into_iter().filter(|(event, _)| is_here(event));
+        let at_time = |(event, side): (LocatedEvent, f64)| {
+            let exact = if event.exact.high == time { event.exact } else { found.exact };
+            (LocatedEvent { exact, ..event }, side)
+        };
+        here.events = all.map(at_time).collect();
+        here.events.sort_by_key(|(event, _)| (acts[event.event], event.event != found.event));
+        let crosses = |crossings: &&Vec<Crossing>| {
+            crossings.iter().any(|crossing| is_same_time(time, crossing.exact.high))
+        };
+        let crossing = passed.iter().enumerate().filter(|(_, crossings)| crosses(crossings));
+        here.crossing = crossing.map(|(event, _)| event).collect();
+    }
+    let first = here.events.first().map(|(event, _)| *event);
+    let until = first.map_or(to, |first| first.exact.high);
     for (event, crossings) in passed.iter().enumerate() {
-        let mine = found.is_some_and(|found| found.event == event);
+        let mine = first.is_some_and(|first| first.event == event);
         let mut gone = crossings.iter().filter(|c| c.exact.high < until || mine);
         if let Some(last) = gone.next_back() {
             sides[event] = last.side;
         }
     }
-    let others = counted.into_iter().filter(|(event, _)| {
-        found.is_some_and(|found| found.event != event.event) && event.exact.high == until
-    });
-    (found, others.collect())
+    here
 }

@@ -130,9 +130,9 @@ impl Propagator {
     fn take_system(&mut self) {
         self.projector = self.system.projector(&self.parameters);
         let event_functions = self.system.event_functions(&self.parameters);
-        let directions = self.system.discontinuities().events.iter().map(|e| e.direction).collect();
+        let events = &self.system.discontinuities().events;
         let blank = State::new(0.0, self.system.form(), Vec::new());
-        self.crossings = event_functions.map(|t| EventLocator::new(t, directions, blank));
+        self.crossings = event_functions.map(|t| EventLocator::new(t, events, blank));
         self.impulse_schedule.reschedule(self.system.schedule(&self.parameters));
     }
 

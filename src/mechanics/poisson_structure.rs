@@ -2,7 +2,7 @@
 //! are Casimirs (B ∇C = 0): by proof, or to 1e-10 of the size of the terms at twenty points near
 //! the start and wherever they have values at sixty far from it.
 //!
-//! In: a Poisson system's model and equations. Out: a [`StructureError`] with its place for each
+//! In: a model and its equations. Out: a [`StructureError`] with its place for each
 //! false statement. Never here: antisymmetry, which the reader of files ensures.
 //! Source: *The Principles of Dynamics*, § 3.2.3; Hairer, Lubich & Wanner, *Geometric Numerical
 //! Integration*, § VII.2.
@@ -31,6 +31,7 @@ pub fn structure_errors(model: &Model, equations: &Equations) -> Vec<StructureEr
     let mut structure_errors =
         rigid_body::structure_errors(model, &equations.pool, equations.supplements.body.as_ref());
     structure_errors.extend(super::group::structure_errors(model, equations));
+    structure_errors.extend(super::vakonomic::structure_errors(model, equations));
     let Mechanics::Poisson { brackets, casimirs, place, .. } = &model.mechanics else {
         return structure_errors;
     };

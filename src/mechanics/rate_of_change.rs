@@ -28,6 +28,19 @@ fn is_multiple(pool: &Pool, a: Expr, b: Expr) -> bool {
         && pairs().all(|(&(m, a), &(n, b))| a == b && same(m, ratio * n))
 }
 
+/// The same but for constant terms.
+fn is_multiple_but_constants(pool: &Pool, a: Expr, b: Expr) -> bool {
+    let terms = |e: Expr| match pool.node(e) {
+        Node::Sum(_, terms) => terms.to_vec(),
+        _ => vec![(Number::ONE, e)],
+    };
+    let (a, b) = (terms(a), terms(b));
+    let Some(ratio) = a.first().zip(b.first()).map(|(a, b)| a.0 * b.0.recip()) else {
+        return false;
+    };
+    a.len() == b.len() && a.iter().zip(&b).all(|(&(m, a), &(n, b))| a == b && m == ratio * n)
+}
+
 /// Whether a product has the factors of an expression, so that it vanishes where that does; what does not depend on the
 /// `moving` symbols never does.
 fn has_factors_of(pool: &Pool, factors: &[(Expr, Number)], of: Expr, moving: &[Symbol]) -> bool {
@@ -56,7 +69,7 @@ pub(super) enum ConservedBy {
 
 impl Equations {
     /// Whether a function, written as an observable is, shows without any proof that it is constant along the motion: it is
-    /// one of the parameters, of the energy and of momenta whose rates are zero as they are written.
+    /// one of the parameters, of the energy and of momenta whose rates are zero as they are written, or the energy written out.
     pub fn is_plainly_constant(&self, function: Expr) -> bool {
         let rates = match &self.flow {
             Flow::Lagrange { momentum_rates, .. } | Flow::Hamilton { momentum_rates, .. } => {
@@ -76,7 +89,9 @@ impl Equations {
         }
         moving.extend(self.constraints.iter().map(|c| c.multiplier));
         moving.extend(self.supplements.auxiliary.iter().flat_map(|a| a.symbols.iter().copied()));
-        !self.pool.depends_on_any(function, &moving)
+        let is_energy = self.energy_rate == Expr::ZERO
+            && is_multiple_but_constants(&self.pool, function, self.energy);
+        (is_energy || !self.pool.depends_on_any(function, &moving))
             && !self.has_images(function)
             && !self.law_jumps()
     }

@@ -18,7 +18,8 @@ use std::collections::HashMap;
 
 use super::equations::{Auxiliary, AuxiliaryRates, Equations, Flow, NoClosedForm, Vakonomic};
 use super::linear;
-use crate::expr::{Expr, Pool, Symbol};
+use super::structure_error::StructureError;
+use crate::expr::{Expr, Pool, Symbol, Zero};
 use crate::model::{Comparison, Model};
 use crate::num::Number;
 
@@ -106,6 +107,41 @@ pub(super) fn vakonomic(
     });
     let lagrangian = shortened(equations, model, comparison);
     Vakonomic { lagrangian }
+}
+
+/// The error of a comparison whose constraints cannot be solved for the velocities that are to be eliminated: one of them has none of
+/// these, or none of them has one.
+pub(super) fn structure_errors(model: &Model, equations: &Equations) -> Option<StructureError> {
+    let comparison = model.comparison.as_ref()?;
+    let rows = &equations.constraints;
+    let mut pool = equations.pool.clone();
+    let mut is_there = |e: Expr| pool.is_zero(e) != Zero::Proved;
+    let has: Vec<Vec<bool>> =
+        rows.iter().map(|row| row.row.iter().map(|&e| is_there(e)).collect()).collect();
+    let has = |k: usize, e: usize| has[k][e];
+    let eliminated = &comparison.eliminate;
+    if rows.len() != eliminated.len() {
+        return None;
+    }
+    let velocity = |e: usize| format!("{}'", model.coordinates[e].name);
+    let all: Vec<String> = eliminated.iter().map(|&e| velocity(e)).collect();
+    let bare = (0..rows.len()).find(|&k| !eliminated.iter().any(|&e| has(k, e)));
+    let absent = eliminated.iter().find(|&&e| !(0..rows.len()).any(|k| has(k, e)));
+    let message = match (bare, absent) {
+        (Some(k), _) => {
+            let name = &model.constraints[k].name;
+            format!(
+                "the constraint `{name}` cannot be solved for {}, which it has not",
+                all.join(", ")
+            )
+        }
+        (None, Some(&e)) => format!("no constraint can be solved for {}", velocity(e)),
+        (None, None) => return None,
+    };
+    let could = (0..model.coordinates.len()).filter(|&e| (0..rows.len()).any(|k| has(k, e)));
+    let could: Vec<String> = could.map(|e| format!("`{}`", model.coordinates[e].name)).collect();
+    let help = format!("the constraints have the velocities of {}", could.join(", "));
+    Some(StructureError { place: Some(comparison.place.clone()), message, help })
 }
 
 /// L with the eliminated velocities substituted from the constraints.

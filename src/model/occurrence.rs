@@ -73,3 +73,10 @@ pub enum EventAction {
     /// The surface of section of this index is crossed, which is recorded for its picture only.
     Section(usize),
 }
+
+impl EventAction {
+    /// Whether it acts on the motion, and does not only see it.
+    pub fn acts(self) -> bool {
+        !matches!(self, EventAction::Mark | EventAction::Section(_))
+    }
+}

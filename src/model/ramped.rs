@@ -46,6 +46,8 @@ impl RampForm {
 pub struct Ramped {
     functions: HashMap<Symbol, Expr>,
     named: Vec<NamedRamp>,
+    /// Whether the rate of one jumps.
+    has_corners: bool,
     instant: Option<Symbol>,
 }
 
@@ -157,8 +159,19 @@ impl RampForm {
 }
 
 impl Ramped {
+    /// Takes note of how the ramp of a parameter goes.
+    pub(super) fn note(&mut self, form: RampForm) {
+        self.has_corners |= form == RampForm::Linear;
+    }
+
+    /// Whether the rate of a parameter jumps at the ends of its ramp.
+    pub fn has_corners(&self) -> bool {
+        self.has_corners
+    }
+
     /// Makes a parameter follow its schedule from its own value, which stays what it is before the first part.
     pub fn lead(&mut self, pool: &mut Pool, time: Symbol, parameter: Symbol, parts: &[RampPart]) {
+        parts.iter().for_each(|part| self.note(part.form));
         let own = pool.variable(parameter);
         let time = pool.variable(time);
         let mut value = own;
@@ -195,6 +208,7 @@ impl Ramped {
         (parameter, parts): (&Parameter, &[RampPart]),
         taken: &dyn Fn(&str) -> bool,
     ) -> Vec<Parameter> {
+        parts.iter().for_each(|part| self.note(part.form));
         let (name, shown) = (&parameter.name, &parameter.shown);
         let latex = latex_of_unicode(shown);
         let mut introduce = |written: &str, shown: &str, latex: &str, rank| {

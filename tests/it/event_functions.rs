@@ -176,6 +176,7 @@ fn a_constant_of_the_motion_has_no_zeros() {
     for method in METHODS.iter().take(4) {
         for (when, law, start) in [
             ("energy - 0.5", OSCILLATOR, "initial = 1.0, velocity = 0.0"),
+            ("x^2 + x'^2 - 1", OSCILLATOR, "initial = 1.0, velocity = 0.0"),
             ("p_x - 0.7", FREE, "initial = 0.0, velocity = 0.7"),
         ] {
             let found = times(&moving((law, start), (when, "either", "mark"), 10.0, *method));

@@ -11,7 +11,8 @@ use crate::integrate::Settings;
 use crate::model::Model;
 use crate::system::{Form, State, System};
 
-/// The action is an adiabatic invariant if it changes by less than this part of the change of the parameter.
+/// The action is an adiabatic invariant if it changes by less than this part of the change of the parameter, and of itself: beside
+/// a parameter that grows manifold or changes its sign it must not change with it.
 const FAR_LESS: f64 = 0.1;
 
 /// What is needed to know the action at any time of the run.
@@ -71,7 +72,7 @@ impl Adiabatic {
         let (before, after) = (self.action(system, first)?, self.action(system, last)?);
         let driven = self.driven([first.time, last.time]);
         let change = (after.action - before.action).abs() / before.action.abs();
-        let verdict = match (driven > 0.0, change <= FAR_LESS * driven) {
+        let verdict = match (driven > 0.0, change <= FAR_LESS * driven.min(1.0)) {
             (false, _) => "open",
             (true, true) => "adiabatic",
             (true, false) => "not conserved",

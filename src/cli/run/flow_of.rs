@@ -37,6 +37,13 @@ pub(super) fn carried(
     let could_not = |why: String| {
         CommandError::CouldNot(format!("--flow-of {}: {why}", printable::quoted(written)))
     };
+    if equations.pool.depends(generator, model.symbols.action) {
+        let why = "the action is an integral along the motion, not a function of its state";
+        return Err(CommandError::WrongUse(format!(
+            "--flow-of {}: {why}",
+            printable::quoted(written)
+        )));
+    }
     let time = model.run.start;
     let before = Derived { model, equations: equations.clone() };
     let given = start(&before, parameters, given).map_err(could_not)?;

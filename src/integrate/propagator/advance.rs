@@ -46,7 +46,6 @@ impl Propagator {
             if self.clear <= time {
                 let due = self.impulse_schedule.due(self.clear);
                 if self.waiting.is_none()
-                    && (due.is_some() || self.clear >= self.stepper.time())
                     && let Some(crossings) = &mut self.crossings
                 {
                     self.waiting = crossings.next_at(self.clear);

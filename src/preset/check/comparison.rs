@@ -41,7 +41,7 @@ impl Check<'_> {
             }
             seen.push(name);
         }
-        let place = written.place.clone();
+        let place = if written.list == (0..0) { &written.place } else { &written.list }.clone();
         self.model.comparison = Some(Comparison { eliminate, symbols, place });
     }
 

@@ -79,8 +79,18 @@ impl Check<'_> {
         };
         let [to, start, duration] =
             [&written.to, &written.start, &written.duration].map(|formula| read(self, formula));
+        let written = [&written.to, &written.start, &written.duration];
+        for (formula, e) in written.iter().zip([to, start, duration]) {
+            let depends = |e: &Expr| symbol.is_some_and(|s| self.model.pool.depends(*e, s));
+            if let (Some(formula), true) = (formula, e.as_ref().is_some_and(depends)) {
+                let message = format!("the ramp of `{}` may not depend on it", name.get_ref());
+                let help = "write a number, or another parameter";
+                self.diagnostics.push(Diagnostic::error(formula.span(), message).with_help(help));
+                return None;
+            }
+        }
         let part = RampPart { to: to?, start: start?, duration: duration?, form: form? };
-        let place = written.duration.as_ref()?;
+        let place = written[2].as_ref()?;
         if self.finite(part.duration, "the duration of this ramp", place)
             && self.at_start(part.duration) <= 0.0
         {

@@ -10,8 +10,8 @@ use super::names::{Names, report_twice};
 use crate::diagnostic::{Diagnostic, SourceRange, nearest};
 use crate::expr::{Expr, Rank, Symbol};
 use crate::model::{
-    Allowed, CompleteIntegral, GeneratingType, Generator, IntegralConstant, Scope, Transformation,
-    TransformationLaw,
+    Allowed, CompleteIntegral, GeneratingType, Generator, IntegralConstant, Model, Scope,
+    Transformation, TransformationLaw,
 };
 use crate::preset::draft::{Draft, DraftTransformation, Formula, NamedFormula};
 
@@ -26,6 +26,10 @@ impl Check<'_> {
             self.error(place, message);
         }
         if poisson {
+            if let Some(integral) = &draft.integral {
+                let message = "brackets of variables have no Hamilton–Jacobi equation";
+                self.error(integral.place.clone(), message);
+            }
             return;
         }
         let mut taken: Vec<&Spanned<String>> = Vec::new();
@@ -225,8 +229,9 @@ impl Check<'_> {
             return None;
         };
         let function = self.formula(&mut scope, "a generating function", formula)?;
-        self.has_its_variables(function, &types, &new, formula)
-            .then_some(TransformationLaw::Generating { types, function })
+        let is_its_own = self.has_its_variables(function, &types, &new, formula)
+            && self.has_no_others(function, k, formula);
+        is_its_own.then_some(TransformationLaw::Generating { types, function })
     }
 
     /// The inverse of a transformation, or several one after the other: of those that stand above.
@@ -375,6 +380,27 @@ impl Check<'_> {
             }
         }
         found.into_iter().collect()
+    }
+
+    /// Whether a generating function has no new variables of other transformations, which are functions of q, p and t.
+    fn has_no_others(&mut self, function: Expr, k: usize, formula: &Formula) -> bool {
+        let Model { pool, transformations, .. } = &self.model;
+        let own = transformations[k].new.concat();
+        let name = |symbol: Symbol| format!("`{}`", pool.symbol_info(symbol).name);
+        let others =
+            transformations.iter().flat_map(|t| t.new.iter().flatten().map(move |s| (t, *s)));
+        let wrong =
+            others.filter(|(_, s)| !own.contains(s)).find(|(_, s)| pool.depends(function, *s));
+        let Some((other, symbol)) = wrong else { return true };
+        let message = format!(
+            "this generating function may not depend on {}, a new variable of `{}`",
+            name(symbol),
+            other.name
+        );
+        let own: Vec<String> = own.into_iter().map(name).collect();
+        let help = format!("its own new variables are {}", own.join(", "));
+        self.diagnostics.push(Diagnostic::error(place_of(formula), message).with_help(help));
+        false
     }
 
     /// Whether a generating function depends on the variables of its types only.

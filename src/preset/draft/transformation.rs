@@ -36,6 +36,8 @@ pub(in crate::preset) struct DraftGenerator {
 pub(in crate::preset) struct DraftIntegral {
     pub(in crate::preset) function: Option<Formula>,
     pub(in crate::preset) constants: Vec<Spanned<String>>,
+    /// The range of the table.
+    pub(in crate::preset) place: SourceRange,
 }
 
 pub(super) fn transformations(
@@ -117,6 +119,7 @@ pub(super) fn integral(
     let mut table = top.table("hamilton_jacobi", diagnostics)?;
     let function = table.formula("S", diagnostics);
     let constants = names(&mut table, "constants", "a constant", diagnostics);
+    let place = table.place.clone();
     table.finish(diagnostics);
-    Some(DraftIntegral { function, constants })
+    Some(DraftIntegral { function, constants, place })
 }

@@ -440,3 +440,20 @@ fn a_dissipation_that_feeds_energy_in_one_direction_is_warned_of() {
         assert!(!warned(dissipation), "{dissipation}");
     }
 }
+
+/// A comparison whose constraint has not the velocity that is to be eliminated: the reason is said where it is asked for.
+#[test]
+fn a_coordinate_that_no_constraint_has_is_not_eliminated() {
+    let text = |eliminate: &str| {
+        format!(
+            "title = \"T\"\n[coordinates]\nx = {{ initial = 1.0 }}\ny = {{ initial = 0.5, velocity = 0.2 }}\n[lagrangian]\n\
+             L = \"1/2*(x'^2 + y'^2) - 1/2*y^2\"\n[[constraints]]\nname = \"c\"\nexpression = \"x'\"\n\
+             [comparison]\neliminate = [\"{eliminate}\"]\n"
+        )
+    };
+    for command in ["check", "run"] {
+        let said = ["`c` cannot be solved for y'", "11 | eliminate = [\"y\"]", "velocities of `x`"];
+        with_file(&text("y"), &[command, "system.toml"]).fails(65, &said);
+    }
+    with_file(&text("x"), &["check", "system.toml"]).success();
+}

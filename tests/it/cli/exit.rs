@@ -65,3 +65,21 @@ fn every_code_of_the_table_is_given() {
         assert!(EXITS.iter().any(|exit| exit.code == given.to_string()), "{given} has no row");
     }
 }
+
+/// What is asked for wrongly ends alike in every command, also with numbers that begin with a sign.
+#[test]
+fn wrong_use_ends_with_two() {
+    for (words, said) in [
+        (&["lyapunov", "pendulum", "--until", "0"][..], "the end lies after the start"),
+        (&["lyapunov", "pendulum", "--gali", "9", "--until", "10"], "GALI takes from 2"),
+        (&["run", "pendulum", "--flow-of", "action"], "not a function of its state"),
+        (&["orbit", "pendulum", "--period", "-1"], "a period is above zero"),
+        (&["section", "pendulum", "--on", "theta", "--count", "-1"], "invalid value '-1'"),
+        (
+            &["path", "pendulum", "--in", "1", "--to", "theta=1", "--to", "theta=2"],
+            "--to gives theta twice",
+        ),
+    ] {
+        phaselab(words).fails(2, &[said]);
+    }
+}

@@ -285,3 +285,15 @@ fn the_energy_is_written_as_the_hamiltonian_is() {
     assert_eq!(energy, hamiltonian);
     assert_eq!(energy, Some("((p_x + m ω y)² + (p_y − m ω x)²)/(2 m) + ½ (k − m ω²) (x² + y²)"));
 }
+
+/// A Casimir is one whose brackets vanish once they are simplified, for all values of a parameter in them: of three variables one
+/// degree of freedom is left, with the energy as its constant.
+#[test]
+fn a_casimir_is_no_constant_of_the_motion_beside_the_energy() {
+    let text = "title = \"Nambu\"\n[variables]\nx = 0.5\ny = 1.0\nz = -0.3\n[parameters]\na = 0.7\n[definitions]\n\
+                C = \"x^3/3 + y^2*z + a*z^2 + x*y\"\n[poisson]\nH = \"x^2 + y^2/2 + z*y\"\n\
+                brackets = [[\"x\", \"y\", \"y^2 + 2*a*z\"], [\"y\", \"z\", \"x^2 + y\"], [\"z\", \"x\", \"2*y*z + x\"]]\n\
+                casimirs = { C = \"C\" }\n";
+    let found = with_file(text, &["invariants", "system.toml"]).success();
+    assert!(found.contains("1 degree of freedom, 1 in involution: integrable"), "{found}");
+}

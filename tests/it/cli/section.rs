@@ -435,3 +435,37 @@ fn a_section_without_a_surface_is_the_one_of_the_file() {
     assert_eq!(other["direction"], "rising");
     phaselab(&["section", "pendulum"]).fails(2, &["no surface of section", "--on x"]);
 }
+
+/// The impacts on a wall as crossings of its own surface, however that is written: each once by every method, in the direction in
+/// which it is reached, with the velocity before it.
+#[test]
+fn impacts_are_crossings_of_their_wall() {
+    const DISC: &str = "title = \"disc\"\n[coordinates]\nx = { initial = 0.1, velocity = 0.6 }\n\
+                        y = { initial = 0.2, velocity = 0.37 }\n[lagrangian]\nL = \"1/2*(x'^2 + y'^2)\"\n\
+                        [[impulses]]\nname = \"bounce\"\n\
+                        change = { p_x = \"-2*x*(x*x' + y*y')\", p_y = \"-2*y*(x*x' + y*y')\" }\n\
+                        [[events]]\nname = \"wall\"\nwhen = \"x^2 + y^2 - 1\"\ndirection = \"rising\"\naction = \"impulse:bounce\"\n";
+    // the first impact, and the chord between impacts, on which the speed and the angle with the wall stay
+    let (v, q, qv): (f64, f64, f64) =
+        (0.6_f64 * 0.6 + 0.37 * 0.37, 0.1 * 0.1 + 0.2 * 0.2, 0.1 * 0.6 + 0.2 * 0.37);
+    let root = (qv * qv + v * (1.0 - q)).sqrt();
+    let (first, chord) = ((root - qv) / v, 2.0 * root / v);
+    for method in ["taylor", "dop853", "rk4", "gauss6", "leapfrog"] {
+        for on in ["x^2 + y^2 - 1", "sqrt(x^2 + y^2) - 1", "3*(1 - x^2 - y^2)"] {
+            for direction in ["rising", "falling", "either"] {
+                let words =
+                    ["--on", on, "--direction", direction, "--until", "20", "--method", method];
+                let words = [&["section", "system.toml", "--format", "json"], &words[..]].concat();
+                let found = with_file(DISC, &words).json();
+                let rows = rows(&found);
+                let rises = (direction == "rising") == !on.starts_with('3');
+                let expected = if direction == "either" || rises { 7 } else { 0 };
+                assert_eq!(rows.len(), expected, "{method} {on} {direction}");
+                for (k, row) in rows.iter().enumerate() {
+                    near(row[2], first + chord * k as f64, 1e-7);
+                    assert!(row[3] * row[5] + row[4] * row[6] > 0.0, "{row:?}");
+                }
+            }
+        }
+    }
+}

@@ -426,3 +426,25 @@ fn lines_are_found_beside_a_slow_change_of_higher_degree() {
     let line = found.lines.first().expect("a line");
     assert!((line.frequency - 3.1).abs() <= 3.0 * line.error && line.error < 1e-2, "{line:?}");
 }
+
+/// A sawtooth of period 1 has a line at every multiple of 2π, of amplitude 1/(πn): those too fast for the values have images among
+/// them, which are no lines of it, and that it has faster ones is said.
+#[test]
+fn the_images_of_a_motion_that_jumps_are_no_lines() {
+    let mut sample = |times: &[f64]| times.iter().map(|t| 0.5 - t.rem_euclid(1.0)).collect();
+    let request = SpectrumRequest {
+        span: [0.0, 300.0],
+        counts: [2048, 4096],
+        is_angle: false,
+        lines: (10, 1),
+        drive: None,
+    };
+    let found = sampled_spectrum(&request, &mut sample, &mut |_| true).unwrap();
+    assert!(!found.is_resolved() && found.has_images);
+    assert!(found.spectrum.lines.len() >= 3, "{:?}", found.spectrum.lines);
+    for line in &found.spectrum.lines {
+        let multiple = line.frequency / std::f64::consts::TAU;
+        assert!((multiple - multiple.round()).abs() < 1e-3, "{line:?}");
+        assert!((line.amplitude * multiple * std::f64::consts::PI - 1.0).abs() < 0.1, "{line:?}");
+    }
+}
