@@ -14,7 +14,6 @@ mod pool;
 mod region;
 mod section;
 mod section_batch;
-mod side_by_side;
 mod start;
 
 pub use closed_curve::{Circulation, ClosedCurve};
@@ -29,5 +28,4 @@ pub use section::{
     Crossings, OrbitStatus, SectionPlan, add_section, crossings, crossings_from, section_name,
 };
 pub use section_batch::{crossings_of_all, section_group};
-pub use side_by_side::{Follower, OrbitCourse, side_by_side};
 pub use start::Start;

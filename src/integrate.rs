@@ -34,6 +34,7 @@ mod roots;
 mod roundoff;
 mod sampling;
 mod series_piece;
+mod side_by_side;
 mod splitting;
 mod stability;
 mod stage_lanes;
@@ -55,6 +56,7 @@ pub use method::{ACCURACIES, Method, MethodError, Preserves, Settings, StepperRe
 pub use methods::{METHODS, method_named};
 pub use propagator::{Occurrence, OccurrenceKind, Propagator, Reached};
 pub use roots::first_crossing;
+pub use side_by_side::{Follower, OrbitCourse, side_by_side};
 pub use stability::Unstable;
 pub use step_block::StepBlock;
 pub use stepper::Stepper;

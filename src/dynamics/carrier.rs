@@ -6,10 +6,11 @@
 //! Where impulses act or constraints hold, the motion is that of a [`Propagator`]. Each impulse carries the vectors on by its
 //! [`Saltation`]; the projection of states onto their constraints leaves vectors that the constraints allow as they are.
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 use super::error::DynamicsError;
 use super::phase_space::PhaseSpace;
+use super::tangent_step::{TangentStates, TangentStep, vectors_of};
 use crate::integrate::{
     Method, OccurrenceKind, Propagator, Reached, Settings, Stepper, Stepping, StoppedMotion,
 };
@@ -24,6 +25,7 @@ pub struct Carrier {
     space: PhaseSpace,
     /// The system with tangent vectors.
     system: System,
+    states: TangentStates,
     method: &'static Method,
     settings: Settings,
     stepper: Box<dyn Stepper>,
@@ -93,8 +95,9 @@ impl Carrier {
                 determinant: 1.0,
             });
         }
+        let states = TangentStates::new(space, &system);
         let (space, begun, steps) = (space.clone(), None, 0);
-        Ok(Carrier { space, system, method, settings, stepper, jumping, begun, steps })
+        Ok(Carrier { space, system, states, method, settings, stepper, jumping, begun, steps })
     }
 
     /// Starts at a state of the space, with the columns of `vectors`.
@@ -102,13 +105,7 @@ impl Carrier {
     /// # Errors
     /// Returns an error if the motion cannot begin there.
     pub fn start(&mut self, state: &State, vectors: &DMatrix<f64>) -> Result<(), DynamicsError> {
-        let mut full = self.system.extended(state, self.space.system());
-        for (j, column) in vectors.column_iter().enumerate() {
-            let first = self.system.tangent_place(j);
-            for (i, &x) in column.iter().enumerate() {
-                full.values[first + i] = x;
-            }
-        }
+        let full = self.states.join(state, vectors);
         if self.method.stepping == Stepping::Fixed && self.settings.step.is_none() {
             self.stepper.start(&full, self.space.parameters())?;
             // the same step from now on, wherever the motion is started again
@@ -241,33 +238,43 @@ impl Carrier {
     /// # Errors
     /// Returns an error if they cannot be evaluated.
     pub fn at(&mut self, time: f64) -> Result<(State, DMatrix<f64>), MotionError> {
-        let state = match &mut self.jumping {
-            None => {
-                let mut state = self.stepper.state().clone();
-                if time != state.time {
-                    self.stepper.at(time, &mut state)?;
-                }
-                state
-            }
-            Some(jumping) => {
-                let mut state = jumping.motion.computed().clone();
-                if time != state.time {
-                    jumping.motion.inside(time, &mut state)?;
-                }
-                state
-            }
+        let full = self.inside(time)?;
+        self.states.part(&full)
+    }
+
+    /// The state with its vectors, as they are carried, at a time within the last step.
+    fn inside(&mut self, time: f64) -> Result<State, MotionError> {
+        let mut state = match &self.jumping {
+            None => self.stepper.state().clone(),
+            Some(jumping) => jumping.motion.computed().clone(),
         };
-        let full = self.system.convert(&state, self.space.form(), self.space.parameters())?;
-        let vectors = vectors_of(&self.system, &full);
-        Ok((self.space.system().extended(&full, &self.system), vectors))
+        if time != state.time {
+            match &mut self.jumping {
+                None => self.stepper.at(time, &mut state)?,
+                Some(jumping) => jumping.motion.inside(time, &mut state)?,
+            }
+        }
+        Ok(state)
     }
 }
 
-/// The tangent vectors of a state, as columns.
-fn vectors_of(system: &System, state: &State) -> DMatrix<f64> {
-    let (n, count) = (system.moving(), system.tangents());
-    let first = system.tangent_place(0);
-    DMatrix::from_column_slice(n, count, &state.values[first..first + n * count])
+impl TangentStep for Carrier {
+    fn interval(&self) -> (f64, f64) {
+        Carrier::interval(self)
+    }
+
+    fn at(&mut self, time: f64) -> Result<(State, DMatrix<f64>), MotionError> {
+        Carrier::at(self, time)
+    }
+
+    fn vector(&mut self, vector: usize, time: f64) -> Result<DVector<f64>, MotionError> {
+        let full = self.inside(time)?;
+        self.states.vector(vector, full)
+    }
+
+    fn awaits_occurrence(&self) -> bool {
+        Carrier::awaits_occurrence(self)
+    }
 }
 
 impl Jumping {

@@ -13,8 +13,8 @@ use nalgebra::{DMatrix, DVector};
 
 use super::carrier::Carrier;
 use super::direction::basis_of_range;
+use super::displacement_units::{displacement_units, scaled};
 use super::error::DynamicsError;
-use super::lyapunov::{displacement_units, scaled};
 use super::phase_space::PhaseSpace;
 use crate::integrate::{Method, Settings};
 use crate::num::math;

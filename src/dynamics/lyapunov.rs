@@ -9,24 +9,16 @@
 //! In: a state, a time. Out: exponents with their uncertainty, MEGNO, a verdict with its reason.
 //! Never here: text.
 
-use nalgebra::{DMatrix, DVector};
-
 use super::carrier::Carrier;
-use super::direction::{FlowDirection, basis_of_range};
 use super::error::DynamicsError;
+use super::lyapunov_course::{CarriedMotion, LyapunovCourse};
 use super::megno::Megno;
-use super::phase_space::{NOTHING_MOVES, PhaseSpace};
+use super::phase_space::PhaseSpace;
 use super::tangent_growth::TangentGrowth;
-use super::transverse::{self, Removed};
+use super::transverse::Removed;
 use crate::integrate::{Method, Settings};
 use crate::num::{math, short};
-use crate::system::{Form, State};
-
-/// Vectors are made orthonormal where one has grown or shrunk by this factor, …
-const GROWN: f64 = 8.0;
-
-/// … and at least so often on the way.
-const LEAST_ROUNDS: f64 = 256.0;
+use crate::system::State;
 
 /// The points of the curve.
 const POINTS: usize = 200;
@@ -44,9 +36,6 @@ const RISING: f64 = 1.5;
 
 /// A chaotic motion has grown by this many powers of e.
 const GROWTH: f64 = 8.0;
-
-/// A momentum over its displacement that differs from 1 by no more than this factor needs no units.
-const ORDINARY: f64 = 1e3;
 
 /// Whether neighbouring motions part exponentially.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -102,137 +91,54 @@ pub fn lyapunov(
     until: f64,
     look: &mut dyn FnMut(f64),
 ) -> Result<Lyapunov, DynamicsError> {
-    if until <= start.time {
-        return Err(DynamicsError::WrongRequest(
-            "exponents are means over the time to come: the end lies after the start".to_owned(),
-        ));
-    }
-    let n = space.dimension();
-    let mut direction = FlowDirection::new(space);
-    let what = removed(space, direction.moves(start, until - start.time)?);
-    let units = displacement_units(space, start, until - start.time);
-    let rates = direction.at(start)?.component_div(&units);
-    let (allowed, dimension) = space.allowed_displacements(start)?;
-    if dimension == 0 {
-        return Err(DynamicsError::Unsuited(NOTHING_MOVES.to_owned()));
-    }
-    let frame = if space.is_constrained() {
-        transverse::frame_within(&basis_of_range(&allowed, dimension), &rates, what)
-    } else {
-        transverse::frame(&rates, what, space.is_hamiltonian())
-    };
-    let count = frame.ncols();
-    // one more vector, in general position, that is never turned: for MEGNO
-    let free = DVector::from_fn(n, |i, _| 0.5 + math::sin(2.4 * (i as f64 + 1.0)).abs());
-    let free = allowed * free;
-    let mut vectors = frame.insert_column(count, 0.0);
-    vectors.set_column(count, &free.normalize());
-    let mut carrier = Carrier::new(space, method, settings, count + 1)?;
-    carrier.start(start, &scaled(&vectors, &units))?;
-    let in_units = units.map(|unit| 1.0 / unit);
-
-    let mut growth = TangentGrowth { times: vec![start.time], logarithms: vec![vec![0.0; count]] };
-    let mut megno = Megno::new(start.time);
+    let (mut course, vectors) = LyapunovCourse::begin(space, start, until)?;
+    let mut carrier = Carrier::new(space, method, settings, course.vectors())?;
+    carrier.start(start, &vectors)?;
     let mut failure = None;
-    let round = (until - start.time) / LEAST_ROUNDS;
     while carrier.is_before(until, true) {
         if let Err(fault) = carrier.step(until) {
             failure = Some(DynamicsError::Motion(fault));
             break;
         }
-        let (begin, end) = carrier.interval();
-        for part in 1..=MEGNO_PARTS {
-            let now = begin + (end - begin) * f64::from(part) / f64::from(MEGNO_PARTS);
-            let (_, vectors) = carrier.at(now)?;
-            megno.add(now, math::ln(vectors.column(count).component_mul(&in_units).norm()));
-        }
-        let (state, vectors) = carrier.at(end)?;
-        let mut vectors = scaled(&vectors, &in_units);
-        look(end);
-        let due = end - growth.times[growth.times.len() - 1] >= round || end >= until;
-        let sizes = vectors.column_iter().map(|v| v.norm());
-        let due = due || sizes.into_iter().any(|size| !(1.0 / GROWN..GROWN).contains(&size));
-        if due && !carrier.awaits_occurrence() {
-            let rates = direction.at(&state)?.component_div(&units);
-            let free = vectors.column(count).into_owned();
-            megno.rescale(free.norm());
-            let mut turned = vectors.columns(0, count).into_owned();
-            let lengths = if space.is_constrained() {
-                let (allowed, dimension) = space.allowed_displacements(&state)?;
-                let basis = basis_of_range(&allowed, dimension);
-                transverse::orthonormalise_within(&mut turned, &basis, &rates, what)
-            } else {
-                transverse::orthonormalise(&mut turned, &rates, what)
-            };
-            let last = &growth.logarithms[growth.logarithms.len() - 1];
-            let now = last.iter().zip(&lengths).map(|(sum, x)| sum + math::ln(*x)).collect();
-            growth.times.push(end);
-            growth.logarithms.push(now);
-            vectors.columns_mut(0, count).copy_from(&turned);
-            vectors.set_column(count, &free.normalize());
-            carrier.start(&state, &scaled(&vectors, &units))?;
+        let renewed = course.look(space, &mut carrier)?;
+        look(carrier.time());
+        if let Some((state, vectors)) = renewed {
+            carrier.start(&state, &vectors)?;
         }
     }
-    if growth.times.len() < 2 {
+    let motion = CarriedMotion {
+        settings: carrier.settings(),
+        fixed: carrier.is_fixed(),
+        steps: carrier.steps(),
+    };
+    exponents(space, &course, &motion, failure)
+}
+
+/// The exponents of a motion that has been followed to its end, or to a failure.
+///
+/// # Errors
+/// Returns an error if it is too short for any exponent.
+pub(super) fn exponents(
+    space: &PhaseSpace,
+    course: &LyapunovCourse,
+    motion: &CarriedMotion,
+    failure: Option<DynamicsError>,
+) -> Result<Lyapunov, DynamicsError> {
+    if course.growth().times.len() < 2 {
         return Err(failure.unwrap_or_else(|| {
             DynamicsError::Unsuited("the motion is too short for any exponent".to_owned())
         }));
     }
-    Ok(result(space, &carrier, what, &growth, &megno, failure))
-}
-
-/// Units of displacements, in which a momentum is as large as the velocity that it causes moves its coordinate in the time
-/// of the motion: else a growth that is one of the units, as of a vector from p to q, hides that of the motion. The product of
-/// the units of a pair is 1, so that symplectic frames stay symplectic, and they are powers of two, so that no digit changes.
-pub(super) fn displacement_units(space: &PhaseSpace, start: &State, duration: f64) -> DVector<f64> {
-    let n = space.dimension();
-    let mut units = DVector::from_element(n, 1.0);
-    let mut field = space.vector_field();
-    let is_plain = space.form() == Form::Momentum && !space.is_constrained();
-    if !is_plain || field.evaluate(start.time, space.variables(start)).is_err() {
-        return units;
-    }
-    let (derivative, degrees) = (field.derivative(), n / 2);
-    let mobility = |i: usize| derivative[(i, degrees + i)].abs();
-    // the fastest oscillation about the start, or the whole time where nothing pulls
-    let squares = (0..degrees).map(|i| mobility(i) * derivative[(degrees + i, i)].abs());
-    let rate = squares.fold(0.0, f64::max).sqrt().max(1.0 / duration);
-    for i in 0..degrees {
-        let impedance = rate / mobility(i);
-        if impedance.is_normal() && !(1.0 / ORDINARY..=ORDINARY).contains(&impedance) {
-            let power = math::powi(2.0, (0.5 * math::log2(impedance)).round() as i32);
-            (units[i], units[degrees + i]) = (1.0 / power, power);
-        }
-    }
-    units
-}
-
-/// Columns with each row multiplied by a factor.
-pub(super) fn scaled(vectors: &DMatrix<f64>, factors: &DVector<f64>) -> DMatrix<f64> {
-    DMatrix::from_fn(vectors.nrows(), vectors.ncols(), |i, j| vectors[(i, j)] * factors[i])
-}
-
-/// The parts of a step at which MEGNO is summed.
-const MEGNO_PARTS: u32 = 4;
-
-/// Which directions are taken out.
-fn removed(space: &PhaseSpace, moves: bool) -> Removed {
-    match (space.is_hamiltonian(), moves && space.is_autonomous()) {
-        (true, true) => Removed::FlowAndEnergy,
-        (false, true) if space.is_conservative() => Removed::Flow,
-        // with friction a motion may come to rest, and has no direction there
-        _ => Removed::Nothing,
-    }
+    Ok(result(space, course, motion, failure))
 }
 
 fn result(
     space: &PhaseSpace,
-    carrier: &Carrier,
-    what: Removed,
-    growth: &TangentGrowth,
-    megno: &Megno,
+    course: &LyapunovCourse,
+    motion: &CarriedMotion,
     failure: Option<DynamicsError>,
 ) -> Lyapunov {
+    let (what, growth, megno) = (course.removed(), course.growth(), course.megno());
     let (begin, end) = (growth.begin(), growth.end());
     let count = growth.logarithms[0].len();
     let mut all: Vec<(f64, (f64, bool))> = (0..count)
@@ -248,7 +154,7 @@ fn result(
     let largest = |time| if count > 0 { growth.plain(0, begin, time) } else { 0.0 };
     let curve: Vec<(f64, f64)> = curve.map(|time| (time, largest(time))).collect();
     let mean = megno.mean();
-    let judged = judged(carrier, growth, (&exponents, &uncertainty), megno);
+    let judged = judged(motion, growth, (&exponents, &uncertainty), megno);
     // what ends is not followed for as long as one wishes
     let (verdict, reason) = match (&failure, judged) {
         (Some(why), (Chaos::Regular, _)) if !why.is_cancelled() => {
@@ -275,14 +181,14 @@ fn result(
         reason,
         pairing_residual: space.is_hamiltonian().then_some(pairing),
         curve,
-        settings: carrier.settings(),
+        settings: motion.settings,
         failure,
     }
 }
 
 /// The verdict and its reason.
 fn judged(
-    carrier: &Carrier,
+    motion: &CarriedMotion,
     growth: &TangentGrowth,
     (exponents, uncertainty): (&[f64], &[f64]),
     mean_growth: &Megno,
@@ -294,12 +200,12 @@ fn judged(
         return (Chaos::Regular, reason.to_owned());
     }
     let grown = growth.at(0, growth.end());
-    let least = if carrier.is_fixed() { 10 * STEPS } else { STEPS };
+    let least = if motion.fixed { 10 * STEPS } else { STEPS };
     let (largest, off) = (exponents[0], uncertainty[0]);
     let time = short(growth.end() - growth.begin());
-    if carrier.steps() < least {
+    if motion.steps < least {
         let reason =
-            format!("the motion is too short: {} steps, and {least} are needed", carrier.steps());
+            format!("the motion is too short: {} steps, and {least} are needed", motion.steps);
         return (Chaos::Undecided, reason);
     }
     if grown >= GROWTH && megno >= CHAOTIC && largest > 2.0 * off {
@@ -310,7 +216,7 @@ fn judged(
         return (Chaos::Chaotic, reason);
     }
     let rises = megno > SETTLED && mean_growth.growth() > RISING;
-    if !rises && megno <= REGULAR && grown < GROWTH + math::ln(carrier.steps() as f64) {
+    if !rises && megno <= REGULAR && grown < GROWTH + math::ln(motion.steps as f64) {
         let reason = format!(
             "neighbouring motions part no faster than in proportion to time: MEGNO is \
              {megno:.2}, and chaotic motion exceeds {CHAOTIC}"

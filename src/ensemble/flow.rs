@@ -6,9 +6,9 @@
 use std::ops::ControlFlow;
 
 use super::pool::{PoolError, in_order};
-use super::side_by_side::{Follower, OrbitCourse, side_by_side};
 use crate::integrate::{
-    BatchPropagator, LaneStatus, Method, Propagator, Reached, Settings, Stepping,
+    BatchPropagator, Follower, LaneStatus, Method, OrbitCourse, Propagator, Reached, Settings,
+    Stepping, side_by_side,
 };
 use crate::num::BATCH;
 use crate::system::{MotionError, Observer, State, System};

@@ -8,8 +8,9 @@ use super::section::{
     Crossings, OrbitStatus, SectionPlan, crossings, first_limit, next_limit, stopped_by_a_signal,
     too_coarse,
 };
-use super::side_by_side::{Follower, OrbitCourse, side_by_side};
-use crate::integrate::{BatchPropagator, LaneStatus, Method, Settings};
+use crate::integrate::{
+    BatchPropagator, Follower, LaneStatus, Method, OrbitCourse, Settings, side_by_side,
+};
 use crate::num::BATCH;
 use crate::system::{Observer, State, System};
 

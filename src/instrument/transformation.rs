@@ -207,7 +207,7 @@ impl Instrument for TransformationPlot {
             Some((images, old))
         });
         let unwritten = implicit(equations, new)
-            .filter(|map| map.new.len() == 2)
+            .filter(|map| map.new.len() == 2 || model.coordinates.len() == 1)
             .and_then(|map| old_variables(&equations.pool, present.physics, &map.relations));
         let timed = depends_on_time(equations, model, (place, new));
         let axes = old.map(|(_, old)| old).or(unwritten);
@@ -276,16 +276,13 @@ impl Instrument for TransformationPlot {
                 let mut own = (*equations).clone();
                 own.pool.set_cancel(progress.token().clone());
                 let map = relations_of(&model, &mut own, place)?;
-                if map.new.len() == 2 {
-                    let found = Branches::around((Arc::new(own), map), &at, (new, periods), axes)?;
-                    return Some((found.0, Some(found.1)));
+                // maps of several pairs one after the other have no plane of old variables
+                if map.new.len() > 2 && model.coordinates.len() > 1 {
+                    return None;
                 }
-                // of maps one after the other the branch on which the start is
-                let at = (model.coordinates.len() == 1).then(|| own.with_images(at.clone()))?;
-                Some((grid::solved(&own.pool, &map, &at, (new, axes)).0, None))
+                Branches::around((Arc::new(own), map), &at, (new, periods), axes)
             });
             let (solved, branches) = known.unzip();
-            let branches = branches.flatten();
             let grid = match (written, axes) {
                 (Some(images), Some(old)) => grid::written(&equations.pool, &at, images, old),
                 _ => solved.unwrap_or_default(),

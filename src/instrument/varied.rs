@@ -6,11 +6,12 @@
 use std::sync::Arc;
 
 use super::{Physics, Plot, Present};
-use crate::dynamics::{Chaos, PhaseSpace, lyapunov};
+use crate::dynamics::{Chaos, DynamicsError, LyapunovOrbit, PhaseSpace, lyapunov_of_all};
 use crate::ensemble::Start;
-use crate::integrate::{Method, Settings, Stepping, method_named};
+use crate::integrate::{BatchPropagator, Method, Settings, Stepping, method_named};
 use crate::mechanics::{Equations, Valuation};
 use crate::model::{Model, Variation, View};
+use crate::num::BATCH;
 use crate::system::{ChannelKind, InitialOverride, System};
 
 /// The tolerance of the method: a dot is a thousandth of the picture.
@@ -108,25 +109,46 @@ impl VariedMotions {
         self.conditions.start(self.physics(), at)
     }
 
-    /// The largest Lyapunov exponent of a motion over a time; `system` may be cancelled. What a regular motion has of it
+    /// The largest Lyapunov exponents of motions over a time; `system` may be cancelled. What a regular motion has of it
     /// falls off with the time it was followed, and counts as zero.
-    pub(super) fn exponent(
+    pub(super) fn exponents(
         &self,
         system: &System,
-        start: &Start,
+        starts: &[Start],
         length: f64,
-    ) -> Result<Option<f64>, String> {
-        let space =
-            PhaseSpace::on_constraints(&self.model, &self.equations, system, &start.parameters);
-        let space = space.map_err(|why| why.to_string())?;
-        let state = start.state(system).and_then(|state| space.state(&state));
-        let state = state.map_err(|why| why.to_string())?;
-        let until = start.time + length;
-        let found = lyapunov(&space, self.method, &state, until, &mut |_| ());
-        let found = found.map_err(|why| why.to_string())?;
-        let regular = found.verdict == Chaos::Regular;
-        let seen = |&exponent: &f64| if regular { exponent.min(0.0) } else { exponent };
-        Ok(found.exponents.first().map(seen))
+    ) -> Vec<Result<Option<f64>, String>> {
+        let in_phase_space = |start: &Start| {
+            let parameters = &start.parameters;
+            let space =
+                PhaseSpace::on_constraints(&self.model, &self.equations, system, parameters)?;
+            let until = start.time + length;
+            let start = start.state(system).and_then(|state| space.state(&state))?;
+            Ok(LyapunovOrbit { space, start, until })
+        };
+        let mut orbits = Vec::new();
+        let begun: Vec<Result<(), DynamicsError>> = starts
+            .iter()
+            .map(|start| in_phase_space(start).map(|orbit| orbits.push(orbit)))
+            .collect();
+        let mut found = lyapunov_of_all(&orbits, self.method).into_iter();
+        let exponent = |begun: Result<(), DynamicsError>| {
+            begun.map_err(|why| why.to_string())?;
+            let Some(found) = found.next() else { return Ok(None) };
+            let found = found.map_err(|why| why.to_string())?;
+            let regular = found.verdict == Chaos::Regular;
+            let seen = |&exponent: &f64| if regular { exponent.min(0.0) } else { exponent };
+            Ok(found.exponents.first().map(seen))
+        };
+        begun.into_iter().map(exponent).collect()
+    }
+
+    /// How many motions one thread follows at a time to their exponents.
+    pub(super) fn exponent_group(&self, system: &System) -> usize {
+        let (method, settings) = self.method;
+        match BatchPropagator::new(&system.without_marks(), method, settings) {
+            Some(_) => BATCH,
+            None => 1,
+        }
     }
 }
 

@@ -4,7 +4,7 @@
 //! where an orbit has none. A new measure is a constant below and a line in [`MEASURES`]; what it needs of the system beyond
 //! the equations of motion, it does with the [`System`] that it is handed. Never here: tables, names of columns.
 
-use crate::dynamics::{PhaseSpace, lyapunov};
+use crate::dynamics::{LyapunovOrbit, PhaseSpace, lyapunov_of_all};
 use crate::ensemble::{Crossings, OrbitStatus, SectionPlan, Start, crossings_of_all};
 use crate::integrate::{Method, Settings};
 use crate::mechanics::Equations;
@@ -74,15 +74,29 @@ impl MeasuredOrbits<'_> {
         found.iter().map(|found| (!cancelled).then(|| number(found))).collect()
     }
 
-    /// The largest Lyapunov exponent of an orbit up to the end, if it has one and reaches it.
-    fn exponent(&self, (start, end): (&Start, f64)) -> Option<f64> {
+    /// An orbit in its phase space, if it can begin there.
+    fn in_phase_space(&self, (start, until): (&Start, f64)) -> Option<LyapunovOrbit> {
         let parameters = &start.parameters;
         let space =
             PhaseSpace::on_constraints(self.model, self.equations, self.system, parameters).ok()?;
-        let state = start.state(self.system).and_then(|state| space.state(&state)).ok()?;
-        let method = (self.method, self.settings);
-        let found = lyapunov(&space, method, &state, end, &mut |_| ()).ok()?;
-        found.exponents.first().copied().filter(|_| found.failure.is_none())
+        let start = start.state(self.system).and_then(|state| space.state(&state)).ok()?;
+        Some(LyapunovOrbit { space, start, until })
+    }
+
+    /// The largest Lyapunov exponent of each orbit up to its end; NaN where it has none or does not reach it.
+    fn exponents(&self) -> Vec<f64> {
+        let mut exponents = vec![f64::NAN; self.orbits.len()];
+        let begun = self.orbits.iter().enumerate();
+        let begun = begun.filter_map(|(i, &orbit)| Some((i, self.in_phase_space(orbit)?)));
+        let (places, orbits): (Vec<usize>, Vec<LyapunovOrbit>) = begun.unzip();
+        let found = lyapunov_of_all(&orbits, (self.method, self.settings));
+        for (place, found) in places.into_iter().zip(found) {
+            let reached = found.ok().filter(|found| found.failure.is_none());
+            if let Some(&largest) = reached.as_ref().and_then(|found| found.exponents.first()) {
+                exponents[place] = largest;
+            }
+        }
+        exponents
     }
 }
 
@@ -134,10 +148,8 @@ const LYAPUNOV: OrbitMeasure = OrbitMeasure {
     about: "the largest Lyapunov exponent over the time of the run; empty where the orbit cannot be followed to its end",
     of: Zeros::None,
     measure: |orbits| {
-        let one = |&orbit| {
-            let found = orbits.exponent(orbit);
-            (!orbits.system.cancel().is_cancelled()).then_some(found.unwrap_or(f64::NAN))
-        };
-        orbits.orbits.iter().map(one).collect()
+        let found = orbits.exponents();
+        let cancelled = orbits.system.cancel().is_cancelled();
+        found.into_iter().map(|exponent| (!cancelled).then_some(exponent)).collect()
     },
 };

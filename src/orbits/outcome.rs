@@ -8,9 +8,11 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Deserializer, Serialize};
 
-use crate::ensemble::{Follower, OrbitCourse, OrbitStatus, Start, side_by_side};
+use crate::ensemble::{OrbitStatus, Start};
 use crate::experiment::{DriftWatch, Experiment, Gauge, Setup, Status, energy_drift};
-use crate::integrate::{BatchPropagator, LaneStatus, Settings, method_named};
+use crate::integrate::{
+    BatchPropagator, Follower, LaneStatus, OrbitCourse, Settings, method_named, side_by_side,
+};
 use crate::mechanics::Equations;
 use crate::model::Model;
 use crate::num::{BATCH, short};

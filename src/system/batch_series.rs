@@ -34,7 +34,7 @@ pub struct BatchSeries {
 impl System {
     /// Allocates series of several orbits, up to an order. There are none where an orbit may take
     /// another course than its neighbours: with kinks, roots or powers that leave their branch,
-    /// constraints, events, impulses, tangent vectors.
+    /// constraints, events, impulses.
     pub fn batch_series(&self, order: usize) -> Option<BatchSeries> {
         let program = &self.motion().native;
         let alone = |&r: &u32| {
@@ -60,12 +60,10 @@ impl System {
 }
 
 impl System {
-    /// Whether nothing acts on a motion but its law, nothing is watched, and no tangent vectors are
-    /// carried.
+    /// Whether nothing acts on a motion but its law, and nothing is watched.
     pub(super) fn is_undisturbed(&self) -> bool {
         self.constraints() == 0
             && self.attitude_place().is_none()
-            && self.tangents() == 0
             && !self.locates_events()
             && self.discontinuities().impulses.is_empty()
     }

@@ -8,6 +8,7 @@
 //!
 //! A tangent vector has the form of its state: (δq, δq̇), (δq, δp), or the variables of brackets.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use super::compiled::System;
@@ -102,41 +103,74 @@ impl System {
         to: &mut State,
         parameters: &[f64],
     ) -> Result<(), MotionError> {
-        let Some(tangents) = self.variational().filter(|_| from.form != to.form) else {
+        if from.form == to.form {
             return Ok(());
-        };
-        let (n, time) = (self.degrees(), from.exact_time());
-        let native = if from.form == self.form() { from } else { &*to };
-        let mut numbers: Vec<DoubleDouble> = (0..2 * n).map(|i| native.exact(i)).collect();
-        numbers.resize(4 * n, DoubleDouble::ZERO);
-        let forwards = from.form == self.form();
+        }
+        let Some(mut conversion) = self.tangent_conversion(parameters) else { return Ok(()) };
+        conversion.convert(self, from, to, 0..self.tangents())
+    }
+
+    /// How tangent vectors are converted at these parameters, if there are any.
+    pub(super) fn tangent_conversion(&self, parameters: &[f64]) -> Option<TangentConversion> {
+        let tangents = self.variational()?;
         let mut values: Evaluator<DoubleDouble> = Evaluator::new(Arc::clone(&tangents.legendre));
         values.set_parameters(&self.inputs(parameters));
-        let mut factored = Factored::new(n);
-        for vector in 0..tangents.count {
-            let first = self.tangent_place(vector);
+        Some(TangentConversion { values, numbers: Vec::new() })
+    }
+}
+
+/// The conversion of tangent vectors between velocities and momenta.
+pub(super) struct TangentConversion {
+    values: Evaluator<DoubleDouble>,
+    numbers: Vec<DoubleDouble>,
+}
+
+impl TangentConversion {
+    /// Converts some of the vectors of `from` into `to`, the same motion in another form.
+    pub(super) fn convert(
+        &mut self,
+        system: &System,
+        from: &State,
+        to: &mut State,
+        vectors: Range<usize>,
+    ) -> Result<(), MotionError> {
+        let Some(tangents) = system.variational() else { return Ok(()) };
+        let TangentConversion { values, numbers } = self;
+        let (n, time) = (system.degrees(), from.exact_time());
+        let forwards = from.form == system.form();
+        let native = if forwards { from } else { &*to };
+        numbers.clear();
+        numbers.extend((0..2 * n).map(|i| native.exact(i)));
+        numbers.resize(4 * n, DoubleDouble::ZERO);
+        let mut factored = Factored::new(if forwards { 0 } else { n });
+        for vector in vectors {
+            let first = system.tangent_place(vector);
             for i in 0..n {
                 numbers[2 * n + i] = from.exact(first + i);
                 let rate = if forwards { from.exact(first + n + i) } else { DoubleDouble::ZERO };
                 numbers[3 * n + i] = rate;
             }
-            let outcome = values.evaluate(time, &numbers);
+            let outcome = values.evaluate(time, numbers);
             let fail = |why| {
                 let values: Vec<f64> = numbers.iter().map(|x| x.high).collect();
-                self.singular(&tangents.legendre, why, from.time, &values)
+                system.singular(&tangents.legendre, why, from.time, &values)
             };
             outcome.map_err(fail)?;
             let along = |i: usize| values.output(n + n * n + i);
-            let mut rates: Vec<DoubleDouble> = (0..n).map(along).collect();
-            if !forwards {
-                if !factored.factor(|i, j| values.output(n + i * n + j)) {
-                    return Err(self.fault(self.without_momenta(), from.time, &from.values));
+            if forwards {
+                for i in 0..n {
+                    to.set(first + n + i, along(i));
                 }
-                for (i, rate) in rates.iter_mut().enumerate() {
-                    *rate = from.exact(first + n + i) - *rate;
-                }
-                factored.solve(&mut rates);
+                continue;
             }
+            let mut rates: Vec<DoubleDouble> = (0..n).map(along).collect();
+            if !factored.factor(|i, j| values.output(n + i * n + j)) {
+                return Err(system.fault(system.without_momenta(), from.time, &from.values));
+            }
+            for (i, rate) in rates.iter_mut().enumerate() {
+                *rate = from.exact(first + n + i) - *rate;
+            }
+            factored.solve(&mut rates);
             for (i, &rate) in rates.iter().enumerate() {
                 to.set(first + n + i, rate);
             }

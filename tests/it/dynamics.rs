@@ -10,6 +10,7 @@ mod flow;
 mod gali;
 mod impulses;
 mod lyapunov;
+mod lyapunov_batch;
 mod method_step;
 mod orbit;
 mod principles;

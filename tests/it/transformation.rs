@@ -477,6 +477,35 @@ fn five_branches_are_drawn() {
     }
 }
 
+/// Maps one after the other have the branches of each: of p = P³ − 3P, Q = q ∂p/∂P, then Y = 2 Q, Z = P/2 three, where |p| < 2.
+#[test]
+fn maps_one_after_the_other_have_all_branches() {
+    let text = "title = \"t\"\n[coordinates]\nq = { initial = 0.3, momentum = 0.4 }\n[hamiltonian]\n\
+        H = \"p_q^2/2 + q^2/2\"\n[[transformations]]\nname = \"a\"\nkind = \"F2\"\nnew = [\"Q\", \"P\"]\n\
+        F = \"q*(P^3 - 3*P)\"\n[[transformations]]\nname = \"b\"\nkind = \"explicit\"\n\
+        Q = { X = \"2*q\" }\nP = { W = \"p_q/2\" }\n[[transformations]]\nname = \"c\"\nkind = \"compose\"\n\
+        of = [\"a\", \"b\"]\nnew = [\"Y\", \"Z\"]\n[[views]]\nkind = \"transformation\"\nx = \"Y\"\ny = \"Z\"\n";
+    let mut course = Course::with(text);
+    for time in [0.2, 0.9] {
+        course.go(time);
+        let ([whole, dim], others, words) = course.seen();
+        let [q, p, own] = ["q", "p_q", "Z"].map(|name| course.value(name));
+        // P = 2 cos((arccos(p/2) + 2πk)/3)
+        let root =
+            |k: i32| 2.0 * (((p / 2.0).acos() + std::f64::consts::TAU * f64::from(k)) / 3.0).cos();
+        let (mine, rest): (Vec<f64>, Vec<f64>) =
+            (0..3).map(root).partition(|root| (0.5 * root - own).abs() < 1e-9);
+        assert_eq!((mine.len(), rest.len(), others.len()), (1, 2, 2), "{others:?}, {words:?}");
+        for root in rest {
+            let [y, z] = [2.0 * q * (3.0 * root * root - 3.0), 0.5 * root];
+            let drawn = others.iter().filter(|at| (at[0] - y).hypot(at[1] - z) < 1e-9);
+            assert_eq!(drawn.count(), 1, "{root} in {others:?}");
+        }
+        assert!(!whole.is_empty() && !dim.is_empty(), "{words:?}");
+        assert!(words.iter().any(|line| line.contains("2 other branches")), "{words:?}");
+    }
+}
+
 /// Galilei: the grid of (q, p) is that of the instant, on which q = Q + u t or p = P + m u is constant.
 #[test]
 fn a_map_that_moves_has_the_grid_of_the_instant() {

@@ -108,7 +108,11 @@ impl DiagramTask {
     /// How many motions one thread follows at a time.
     fn group(&self, system: &System) -> usize {
         let (method, settings) = self.motions.method;
-        self.section.map_or(1, |_| section_group(system, method, settings))
+        match (self.number, self.section) {
+            (Number::Crossings, None) => self.motions.exponent_group(system),
+            (_, Some(_)) => section_group(system, method, settings),
+            (_, None) => 1,
+        }
     }
 
     /// The crossings of the motions at values of the parameter, or their largest exponents.
@@ -125,9 +129,8 @@ impl DiagramTask {
         }
         let (Some(section), Some(channel)) = (self.section, self.channel) else {
             let length = SECONDS * model.run.speed;
-            let exponent =
-                |start| Ok(self.motions.exponent(system, start, length)?.into_iter().collect());
-            return starts.iter().map(exponent).collect();
+            let found = self.motions.exponents(system, &starts, length).into_iter();
+            return found.map(|found| Ok(found?.into_iter().collect())).collect();
         };
         let dissipates = model.mechanics.dissipation() != Expr::ZERO;
         let transient = if dissipates { TRANSIENT } else { 0 };

@@ -102,7 +102,7 @@ impl MapTask {
         match self.number {
             MapNumber::FirstCrossing(_) => section_group(system, method, settings),
             MapNumber::AtTheEnd(_) => self.flow(system).group(),
-            MapNumber::Exponent => 1,
+            MapNumber::Exponent => self.motions.exponent_group(system),
         }
     }
 
@@ -110,8 +110,7 @@ impl MapTask {
     fn numbers(&self, system: &System, starts: Vec<Start>) -> Vec<Result<f64, String>> {
         match self.number {
             MapNumber::Exponent => {
-                let exponent = |start| self.motions.exponent(system, start, self.length);
-                let found = starts.iter().map(exponent);
+                let found = self.motions.exponents(system, &starts, self.length).into_iter();
                 found.map(|found| Ok(found?.unwrap_or(f64::NAN))).collect()
             }
             MapNumber::FirstCrossing(section) => self.first_crossings(system, section, starts),

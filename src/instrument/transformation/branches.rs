@@ -1,6 +1,6 @@
 //! The branches of a map whose relations have several images at a point, as both square roots.
 //!
-//! In: the relations of one pair of variables, a point with an image. Out: the grid of that image's branch and of the
+//! In: the relations of one pair of variables, or of maps of it one after the other, a point with an image. Out: the grid of that image's branch and of the
 //! others, and the images of the moving point on each, found next to those of the grid. Never here: drawing.
 //!
 //! An image found next to one of the grid belongs to the branch on which that was drawn; where the motion's own image is
@@ -62,7 +62,8 @@ impl Branches {
         old: Old,
     ) -> Option<(Vec<Vec<[f64; 2]>>, Branches)> {
         let pool = &equations.pool;
-        let at = grid::with_image(pool, &map, at, (new, old))?;
+        let at =
+            whole(&equations, &map, grid::with_image(pool, &map, at, (new, old))?, new, periods)?;
         let (lines, main) = grid::solved(pool, &map, &at, (new, old));
         let of = |image: &Valuation| new.map(|s| image.at(s));
         let mut images = vec![at.clone()];
@@ -127,19 +128,20 @@ impl Branches {
     fn next_to(&self, nodes: &[GridNode], at: &Valuation) -> Option<[f64; 2]> {
         let (symbols, window) = self.old;
         let here = symbols.map(|s| at.at(s));
-        let distance = |(place, _): &GridNode| {
-            let part = |k: usize| (place[k] - here[k]) / (window[k][1] - window[k][0]);
+        let distance = |node: &GridNode| {
+            let part = |k: usize| (node.place[k] - here[k]) / (window[k][1] - window[k][0]);
             part(0) * part(0) + part(1) * part(1)
         };
         let mut nearest: Vec<(f64, &GridNode)> =
             nodes.iter().map(|node| (distance(node), node)).collect();
         nearest.sort_by(|a, b| a.0.total_cmp(&b.0));
         RANKS.into_iter().filter_map(|rank| nearest.get(rank)).find_map(|(_, node)| {
-            let begin = at.clone().with(self.new.into_iter().zip(node.1));
+            let begin = at.clone().with(self.map.new.iter().copied().zip(node.image.clone()));
             let found = (1..=WAY).try_fold(begin, |near, k| {
                 let share = f64::from(k) / f64::from(WAY);
                 let place = |i: usize| {
-                    if k == WAY { here[i] } else { node.0[i] + (here[i] - node.0[i]) * share }
+                    let from = node.place[i];
+                    if k == WAY { here[i] } else { from + (here[i] - from) * share }
                 };
                 let next = near.with([0, 1].map(|i| (symbols[i], place(i))));
                 self.map.near(&self.equations.pool, next)
@@ -147,6 +149,27 @@ impl Branches {
             Some(self.new.map(|s| found.at(s)))
         })
     }
+}
+
+/// A point with all new variables of a map, of which maps one after the other have others than the two shown: those with which
+/// these are the image. `None` if none are found.
+fn whole(
+    equations: &Equations,
+    map: &ImplicitMap,
+    at: Valuation,
+    new: [Symbol; 2],
+    periods: [Option<f64>; 2],
+) -> Option<Valuation> {
+    if map.new.iter().all(|&s| at.at(s).is_finite()) {
+        return Some(at);
+    }
+    let own = new.map(|s| at.at(s));
+    let is_own = |image: &Valuation| same(own, new.map(|s| image.at(s)), periods);
+    let near_start = equations.with_images(at.clone());
+    let known = map.near(&equations.pool, near_start);
+    known
+        .filter(is_own)
+        .or_else(|| map.images(&equations.pool, &at, 2 * MOST + 3).into_iter().find(is_own))
 }
 
 /// Whether two images are the same, but for whole turns.

@@ -25,8 +25,11 @@ const ACROSS: usize = 5;
 /// Two old variables, and the range of each.
 pub(super) type Old = ([Symbol; 2], [[f64; 2]; 2]);
 
-/// A point of a grid, and its image.
-pub(super) type GridNode = ([f64; 2], [f64; 2]);
+/// A point of a grid, and the image there: all new variables of the map, in maps one after the other those in between too.
+pub(super) struct GridNode {
+    pub(super) place: [f64; 2],
+    pub(super) image: Vec<f64>,
+}
 
 /// The lines of new variables that are written down.
 pub(super) fn written(
@@ -58,8 +61,11 @@ pub(super) fn solved(
     at: &Valuation,
     (new, (old, window)): ([Symbol; 2], Old),
 ) -> (Vec<Vec<[f64; 2]>>, Vec<GridNode>) {
-    let here = [old, new].map(|symbols| symbols.map(|s| at.at(s)));
-    let (mut all, mut nodes) = (Vec::new(), vec![(here[0], here[1])]);
+    let node = |at: &Valuation| GridNode {
+        place: old.map(|s| at.at(s)),
+        image: map.new.iter().map(|&s| at.at(s)).collect(),
+    };
+    let (mut all, mut nodes) = (Vec::new(), vec![node(at)]);
     for constant in [0, 1] {
         let other = 1 - constant;
         for line in 0..LINES {
@@ -82,7 +88,7 @@ pub(super) fn solved(
                     let next = last.with([(old[other], place(window[other], k, POINTS))]);
                     let Some(image) = map.near(pool, next) else { break };
                     line[k] = new.map(|s| image.at(s));
-                    nodes.push((old.map(|s| image.at(s)), line[k]));
+                    nodes.push(node(&image));
                     last = image;
                 }
             }

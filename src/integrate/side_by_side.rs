@@ -3,7 +3,7 @@
 //! In: how many orbits, and what is done with each: a [`Follower`]. Out: what that keeps. Never here: what is seen of an
 //! orbit, threads.
 
-use crate::integrate::{BatchPropagator, LaneStatus};
+use super::{BatchPropagator, LaneStatus};
 use crate::num::BATCH;
 
 /// How an orbit continues.

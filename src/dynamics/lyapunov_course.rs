@@ -1,0 +1,186 @@
+//! What is done with a motion on the way to its Lyapunov exponents, whoever takes its steps.
+//!
+//! Tangent vectors are carried along and made orthonormal again and again; the logarithms of their growth add up. One more
+//! vector, in general position, is never turned: MEGNO is that of its length.
+//!
+//! In: a start, then each step of the motion from there with its vectors. Out: the vectors to begin with, after a step those
+//! to go on with where they are renewed, at last the growth. Never here: steps, verdicts.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::direction::{FlowDirection, basis_of_range};
+use super::displacement_units::{displacement_units, scaled};
+use super::error::DynamicsError;
+use super::megno::Megno;
+use super::phase_space::{NOTHING_MOVES, PhaseSpace};
+use super::tangent_growth::TangentGrowth;
+use super::tangent_step::TangentStep;
+use super::transverse::{self, Removed};
+use crate::integrate::Settings;
+use crate::num::math;
+use crate::system::State;
+
+/// Vectors are made orthonormal where one has grown or shrunk by this factor, …
+const GROWN: f64 = 8.0;
+
+/// … and at least so often on the way.
+const LEAST_ROUNDS: f64 = 256.0;
+
+/// The parts of a step at which MEGNO is summed.
+const MEGNO_PARTS: u32 = 4;
+
+/// How a motion was carried.
+pub(super) struct CarriedMotion {
+    pub(super) settings: Settings,
+    /// Whether all steps are equal.
+    pub(super) fixed: bool,
+    pub(super) steps: u64,
+}
+
+/// The course of a motion and its vectors.
+pub(super) struct LyapunovCourse {
+    direction: FlowDirection,
+    what: Removed,
+    units: DVector<f64>,
+    in_units: DVector<f64>,
+    /// The vectors that are made orthonormal.
+    count: usize,
+    until: f64,
+    /// The longest time between two renewals.
+    round: f64,
+    growth: TangentGrowth,
+    megno: Megno,
+}
+
+impl LyapunovCourse {
+    /// A course from a state of a space until a time, and the vectors to be carried from there.
+    ///
+    /// # Errors
+    /// Returns an error if the motion has no direction there, or nothing can move.
+    pub(super) fn begin(
+        space: &PhaseSpace,
+        start: &State,
+        until: f64,
+    ) -> Result<(LyapunovCourse, DMatrix<f64>), DynamicsError> {
+        if until <= start.time {
+            return Err(DynamicsError::WrongRequest(
+                "exponents are means over the time to come: the end lies after the start"
+                    .to_owned(),
+            ));
+        }
+        let n = space.dimension();
+        let mut direction = FlowDirection::new(space);
+        let what = removed(space, direction.moves(start, until - start.time)?);
+        let units = displacement_units(space, start, until - start.time);
+        let rates = direction.at(start)?.component_div(&units);
+        let (allowed, dimension) = space.allowed_displacements(start)?;
+        if dimension == 0 {
+            return Err(DynamicsError::Unsuited(NOTHING_MOVES.to_owned()));
+        }
+        let frame = if space.is_constrained() {
+            transverse::frame_within(&basis_of_range(&allowed, dimension), &rates, what)
+        } else {
+            transverse::frame(&rates, what, space.is_hamiltonian())
+        };
+        let count = frame.ncols();
+        // one more vector, in general position, that is never turned: for MEGNO
+        let free = DVector::from_fn(n, |i, _| 0.5 + math::sin(2.4 * (i as f64 + 1.0)).abs());
+        let free = allowed * free;
+        let mut vectors = frame.insert_column(count, 0.0);
+        vectors.set_column(count, &free.normalize());
+        let vectors = scaled(&vectors, &units);
+        let course = LyapunovCourse {
+            direction,
+            what,
+            in_units: units.map(|unit| 1.0 / unit),
+            units,
+            count,
+            until,
+            round: (until - start.time) / LEAST_ROUNDS,
+            growth: TangentGrowth { times: vec![start.time], logarithms: vec![vec![0.0; count]] },
+            megno: Megno::new(start.time),
+        };
+        Ok((course, vectors))
+    }
+
+    /// The number of vectors to be carried.
+    pub(super) fn vectors(&self) -> usize {
+        self.count + 1
+    }
+
+    /// Which directions are taken out.
+    pub(super) fn removed(&self) -> Removed {
+        self.what
+    }
+
+    pub(super) fn growth(&self) -> &TangentGrowth {
+        &self.growth
+    }
+
+    pub(super) fn megno(&self) -> &Megno {
+        &self.megno
+    }
+
+    /// Looks at a step. Returns the state and the vectors to go on from, where they are others than those reached.
+    ///
+    /// # Errors
+    /// Returns an error if the states or the vectors in it cannot be evaluated.
+    pub(super) fn look(
+        &mut self,
+        space: &PhaseSpace,
+        step: &mut dyn TangentStep,
+    ) -> Result<Option<(State, DMatrix<f64>)>, DynamicsError> {
+        let (begin, end) = step.interval();
+        let mut at_end = None;
+        for part in 1..=MEGNO_PARTS {
+            let now = begin + (end - begin) * f64::from(part) / f64::from(MEGNO_PARTS);
+            let free = if now == end {
+                let (_, vectors) = at_end.insert(step.at(end)?);
+                vectors.column(self.count).into_owned()
+            } else {
+                step.vector(self.count, now)?
+            };
+            self.megno.add(now, math::ln(free.component_mul(&self.in_units).norm()));
+        }
+        let (state, vectors) = match at_end {
+            Some(found) => found,
+            None => step.at(end)?,
+        };
+        let mut vectors = scaled(&vectors, &self.in_units);
+        let last = self.growth.times.len() - 1;
+        let due = end - self.growth.times[last] >= self.round || end >= self.until;
+        let sizes = vectors.column_iter().map(|v| v.norm());
+        let due = due || sizes.into_iter().any(|size| !(1.0 / GROWN..GROWN).contains(&size));
+        if !due || step.awaits_occurrence() {
+            return Ok(None);
+        }
+        let rates = self.direction.at(&state)?.component_div(&self.units);
+        let free = vectors.column(self.count).into_owned();
+        self.megno.rescale(free.norm());
+        let mut turned = vectors.columns(0, self.count).into_owned();
+        let lengths = if space.is_constrained() {
+            let (allowed, dimension) = space.allowed_displacements(&state)?;
+            let basis = basis_of_range(&allowed, dimension);
+            transverse::orthonormalise_within(&mut turned, &basis, &rates, self.what)
+        } else {
+            transverse::orthonormalise(&mut turned, &rates, self.what)
+        };
+        let sums = self.growth.logarithms[last].iter().zip(&lengths);
+        let now = sums.map(|(sum, x)| sum + math::ln(*x)).collect();
+        self.growth.times.push(end);
+        self.growth.logarithms.push(now);
+        vectors.columns_mut(0, self.count).copy_from(&turned);
+        vectors.set_column(self.count, &free.normalize());
+        Ok(Some((state, scaled(&vectors, &self.units))))
+    }
+}
+
+/// Which directions are taken out.
+fn removed(space: &PhaseSpace, moves: bool) -> Removed {
+    match (space.is_hamiltonian(), moves && space.is_autonomous()) {
+        (true, true) => Removed::FlowAndEnergy,
+        (false, true) if space.is_conservative() => Removed::Flow,
+        // with friction a motion may come to rest, and has no direction there
+        _ => Removed::Nothing,
+    }
+}
