@@ -7,6 +7,7 @@ mod arrow;
 mod body;
 mod circle;
 mod colours;
+mod filling;
 mod line;
 mod names;
 mod reference_frame;
@@ -31,6 +32,7 @@ use crate::num::math;
 use annotation::{Label, compass, legend};
 use body::Outline;
 use colours::colours;
+use filling::Filling;
 use reference_frame::ReferenceFrame;
 use scene::Scene;
 use shading::Shading;
@@ -107,8 +109,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
     let mechanics = artist.mechanics();
     artist.raster.draw(canvas.buffer);
     let shading = &artist.shading;
-    artist.edges.draw_on_blank(canvas.buffer, |index| shading.has_edges(index));
-    shading.draw(canvas.buffer, &canvas.look.theme);
+    // What is written comes before the surfaces, so that it has their backgrounds and is told from them.
     annotation::labels(canvas, area, &artist.frame, &artist.labels);
     let mut lines = annotation::forces(canvas, &forces);
     lines.extend(mechanics.into_iter().flat_map(|both| annotation::mechanics(canvas, both)));
@@ -116,6 +117,8 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
     if eye.pitch < std::f64::consts::FRAC_PI_2 {
         compass(canvas, area, &camera);
     }
+    artist.edges.draw_on_blank(canvas.buffer, |index| shading.has_edges(index));
+    shading.draw(canvas.buffer, &canvas.look.theme);
 }
 
 /// Draws the shapes of a scene.
@@ -137,8 +140,8 @@ struct ScenePainter<'a> {
     depth: DepthBuffer,
     /// The surfaces as they are lit.
     shading: Shading,
-    /// The pens of the surfaces, with their shares of dots in the shade and in full light.
-    surfaces: Vec<(Pen, [f64; 2])>,
+    /// The surfaces, until they are filled.
+    surfaces: Vec<Filling>,
     /// How near to the eye the back and the front of the scene are; `None` in a plane.
     range: Option<[f64; 2]>,
     /// The model's body, if there is one in the picture.
@@ -203,6 +206,7 @@ impl ScenePainter<'_> {
             }
             Shape::Circle { centre, radius, normal } => {
                 let turns = !scene::rests(self.q, normal);
+                let solid = self.own_pen(centre, solid);
                 let (centre, normal) = (self.point(centre), self.direction(normal));
                 let rim = circle::circle(centre, self.q.number(*radius), normal);
                 // In space a circle that does not turn is part of the scenery.
@@ -230,15 +234,18 @@ impl ScenePainter<'_> {
                 }
             }
             Shape::Disc { centre, radius, normal } => {
+                let pen = self.own_pen(centre, solid);
                 let (centre, normal) = (self.point(centre), self.direction(normal));
-                let rim = self.rim(centre, self.q.number(*radius), normal);
-                self.edge(|artist| artist.curve(&rim, &solid));
+                let radius = self.q.number(*radius);
+                let rim = self.rim(centre, radius, normal);
+                self.edge(solid::disc(radius), |artist| artist.curve(&rim, &pen));
             }
             Shape::Cone { tip, base, radius } => {
                 let (tip, base) = (self.point(tip), self.point(base));
                 let axis = [0, 1, 2].map(|k| base[k] - tip[k]);
-                let rim = self.rim(base, self.q.number(*radius), axis);
-                self.edge(|artist| {
+                let radius = self.q.number(*radius);
+                let rim = self.rim(base, radius, axis);
+                self.edge(solid::along(tip, base, radius), |artist| {
                     artist.curve(&rim, &solid);
                     artist.silhouette(&vec![tip; rim.len()], &rim, &solid);
                 });
@@ -247,19 +254,14 @@ impl ScenePainter<'_> {
                 let ends = [self.point(from), self.point(to)];
                 let radius = self.q.number(*radius);
                 let [low, high] = solid::rims(ends, radius, self.spacing(radius));
-                self.edge(|artist| {
+                self.edge(solid::along(ends[0], ends[1], radius), |artist| {
                     artist.curve(&low, &solid);
                     artist.curve(&high, &solid);
                     artist.silhouette(&low, &high, &solid);
                 });
             }
-            // A shaded sphere ends where its cells do.
-            Shape::Sphere { .. } if self.shading.is_on() => {}
             Shape::Sphere { centre, radius } => {
-                let centre = self.point(centre);
-                let outline = circle::circle(centre, self.q.number(*radius), self.camera.towards());
-                let flat: Vec<_> = outline.iter().map(|point| self.flat(*point)).collect();
-                self.raster.polyline(&self.frame, flat, &ground);
+                self.limb(self.point(centre), self.q.number(*radius).abs(), &ground);
             }
             Shape::Path { points } => {
                 let points: Vec<_> = points.iter().map(|point| self.point(point)).collect();
@@ -273,16 +275,6 @@ impl ScenePainter<'_> {
                 self.curve(&corners, &ground);
             }
         }
-    }
-
-    /// Draws edges of a surface.
-    fn edge(&mut self, draw: impl FnOnce(&mut Self)) {
-        if !self.shading.is_on() {
-            return draw(self);
-        }
-        std::mem::swap(&mut self.raster, &mut self.edges);
-        draw(self);
-        std::mem::swap(&mut self.raster, &mut self.edges);
     }
 
     /// The current position of a point of a shape in the reference frame.
@@ -325,11 +317,15 @@ impl ScenePainter<'_> {
         Pen { style: self.receding(pen.style)[DISTANCES - 1], ..*pen }
     }
 
+    /// The width of a column of cells.
+    fn column(&self) -> f64 {
+        (self.frame.x.hi - self.frame.x.lo).abs() / f64::from(self.frame.area.width.max(1))
+    }
+
     /// A radius in cells, if it is large enough to be drawn.
     fn cells(&self, radius: f64) -> Option<f64> {
-        let cell = (self.frame.x.hi - self.frame.x.lo) / f64::from(self.frame.area.width.max(1));
         let least = LEAST[usize::from(self.range.is_some())];
-        Some(radius / cell).filter(|cells| cells.is_finite() && *cells > least)
+        Some(radius / self.column()).filter(|cells| cells.is_finite() && *cells > least)
     }
 
     /// The rim of a solid, with as many corners as its size on the screen needs.
@@ -401,14 +397,18 @@ impl ScenePainter<'_> {
         let placed = |lines: &[Vec<[f64; 3]>]| -> Vec<Vec<[f64; 3]>> {
             lines.iter().map(|line| line.iter().map(place).collect()).collect()
         };
-        let (axes, edges) = (placed(&outline.axes), placed(&outline.edges));
+        let axes = placed(&outline.axes);
+        let edges: Vec<_> =
+            outline.pieces.iter().map(|piece| (piece.extents, placed(&piece.edges))).collect();
         let points: Vec<_> = outline.points.iter().map(place).collect();
         let theme = &self.q.look.theme;
         for line in axes {
             self.curve(&line, &Pen::shaded(theme.line(Role::Separatrix), TRACK));
         }
         let pen = Pen::new(theme[Role::Text], SOLID);
-        self.edge(|artist| edges.iter().for_each(|line| artist.curve(line, &pen)));
+        for (extents, edges) in edges {
+            self.edge(extents, |artist| edges.iter().for_each(|line| artist.curve(line, &pen)));
+        }
         for point in points {
             if let Some(pen) = self.seen_at(point, &Pen::new(theme.curve(0), BODY)) {
                 let flat = self.flat(point);

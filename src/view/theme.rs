@@ -163,23 +163,29 @@ impl Theme {
         self.tones.iter().find(|(own, _)| Some(*own) == style.fg).map(|(_, tones)| tones)
     }
 
-    /// A style whose colour is told from this background: its own, or one nearer to the foreground.
+    /// A style whose colour is told from this background: its own, one nearer to the foreground, or where neither is, whichever
+    /// of the foreground and the palette's own background differs more.
     pub fn legible(&self, style: Style, background: Color) -> Style {
         let foreground = self.palette.foreground;
         let own = style.fg.and_then(Rgb::of).unwrap_or(foreground);
         let behind = Rgb::of(background).unwrap_or(self.palette.background).brightness();
-        let shares = (0..=LEGIBLE_STEPS).map(|step| f64::from(step) / f64::from(LEGIBLE_STEPS));
-        let mut colours = shares.map(|share| own.towards(foreground, share));
-        let Rgb(r, g, b) = colours
-            .find(|colour| (colour.brightness() - behind).abs() >= LEGIBLE)
-            .unwrap_or(foreground);
-        match self.depth {
-            ColourDepth::True => style.fg(Color::Rgb(r, g, b)),
-            ColourDepth::Ansi256 if own != Rgb(r, g, b) => {
-                style.fg(Color::Indexed(Rgb(r, g, b).nearest256()))
-            }
-            _ => style,
+        let apart = |colour: Rgb| (colour.brightness() - behind).abs();
+        if apart(own) >= LEGIBLE {
+            return style;
         }
+        let shown = |colour: Rgb| match self.depth {
+            ColourDepth::Ansi256 => {
+                let index = colour.nearest256();
+                (Rgb::of_index(index), Color::Indexed(index))
+            }
+            _ => (colour, Color::Rgb(colour.0, colour.1, colour.2)),
+        };
+        let shares = (1..=LEGIBLE_STEPS).map(|step| f64::from(step) / f64::from(LEGIBLE_STEPS));
+        let mut colours = shares.map(|share| shown(own.towards(foreground, share)));
+        let ends = || [foreground, self.palette.background].map(shown);
+        let farthest = || ends().into_iter().max_by(|a, b| apart(a.0).total_cmp(&apart(b.0)));
+        let found = colours.find(|(colour, _)| apart(*colour) >= LEGIBLE).or_else(farthest);
+        found.map_or(style, |(_, colour)| style.fg(colour))
     }
 
     /// The fading trail of the n-th series, from nearly the background to its colour, brightened.

@@ -6,7 +6,7 @@
 use std::f64::consts::TAU;
 use std::sync::LazyLock;
 
-use super::solid::{self, Occluder as Surface};
+use super::solid::{self, Occluder as Surface, Piece as DrawnPiece};
 use crate::expr::Expr;
 use crate::instrument::CameraPose;
 use crate::mechanics::principal;
@@ -33,12 +33,10 @@ type Polyline3 = Vec<[f64; 3]>;
 
 /// The body's lines about its centre of mass, in the axes of space.
 pub(super) struct Outline {
-    /// Rims and edges.
-    pub(super) edges: Vec<Polyline3>,
+    /// What has an extent: surfaces, which hide what is behind them, rims and edges.
+    pub(super) pieces: Vec<DrawnPiece>,
     /// The principal axes, from the centre of mass.
     pub(super) axes: Vec<Polyline3>,
-    /// The surfaces, which hide what is behind them.
-    pub(super) surfaces: Vec<Surface>,
     /// Pieces that are points.
     pub(super) points: Vec<[f64; 3]>,
 }
@@ -54,8 +52,7 @@ impl Outline {
         let now = q.lab.valuation();
         let value = |e: Expr| now.value(&model.pool, e);
         let centre = body.names.centre.map(|symbol| now.at(symbol));
-        let mut outline =
-            Self { edges: Vec::new(), axes: Vec::new(), surfaces: Vec::new(), points: Vec::new() };
+        let mut outline = Self { pieces: Vec::new(), axes: Vec::new(), points: Vec::new() };
         for piece in &body.pieces {
             let at = piece.at.map(value);
             let turn = turns(piece, &value);
@@ -67,12 +64,12 @@ impl Outline {
             if matches!(piece.solid, Solid::Point) && value(piece.mass) != 0.0 {
                 outline.points.push(place([0.0; 3]));
             }
-            let surfaces = surfaces(&piece.solid, &value).into_iter();
-            outline.surfaces.extend(surfaces.map(|surface| surface.moved(place)));
-            let lines = lines(&piece.solid, &value);
-            outline
-                .edges
-                .extend(lines.into_iter().map(|line| line.into_iter().map(place).collect()));
+            let drawn = DrawnPiece {
+                surfaces: surfaces(&piece.solid, &value),
+                edges: lines(&piece.solid, &value),
+                extents: extents(&piece.solid, &value),
+            };
+            outline.pieces.push(drawn.moved(place));
         }
         let reach = AXES * outline.reach();
         let inertia = body.names.inertia.map(|symbol| DoubleDouble::from(now.at(symbol)));
@@ -83,7 +80,8 @@ impl Outline {
 
     /// The distance of the farthest part from the centre of mass.
     pub(super) fn reach(&self) -> f64 {
-        let all = self.edges.iter().chain(&self.axes).flatten().chain(&self.points);
+        let edges = self.pieces.iter().flat_map(|piece| &piece.edges);
+        let all = edges.chain(&self.axes).flatten().chain(&self.points);
         let far = all.map(|p| p.iter().map(|x| x * x).sum::<f64>().sqrt());
         far.filter(|r| r.is_finite()).fold(0.0, f64::max)
     }
@@ -97,12 +95,12 @@ impl Outline {
         };
         let Some(a) = (0..9).map(entry).collect::<Option<Vec<f64>>>() else { return self };
         let rotate = |b: [f64; 3]| [0, 1, 2].map(|k| (0..3).map(|i| a[3 * i + k] * b[i]).sum());
-        let all = |lines: Vec<Polyline3>| {
-            lines.into_iter().map(|line| line.into_iter().map(rotate).collect()).collect()
-        };
-        let points = self.points.into_iter().map(rotate).collect();
-        let surfaces = self.surfaces.into_iter().map(|surface| surface.moved(rotate)).collect();
-        Self { edges: all(self.edges), axes: all(self.axes), surfaces, points }
+        let axes = self.axes.into_iter();
+        Self {
+            pieces: self.pieces.into_iter().map(|piece| piece.moved(rotate)).collect(),
+            axes: axes.map(|line| line.into_iter().map(rotate).collect()).collect(),
+            points: self.points.into_iter().map(rotate).collect(),
+        }
     }
 }
 
@@ -230,6 +228,24 @@ fn surfaces(solid: &Solid, value: &impl Fn(Expr) -> f64) -> Vec<Surface> {
             };
             solid::tube(&square(-half[2]), &square(half[2]), true)
         }
+    }
+}
+
+/// The two smaller extents of a solid, the smallest first.
+fn extents(solid: &Solid, value: &impl Fn(Expr) -> f64) -> [f64; 2] {
+    match solid {
+        Solid::Point | Solid::Ring(_) | Solid::Rod(_) => [0.0; 2],
+        Solid::Sphere(radius) | Solid::SphericalShell(radius) => {
+            solid::smaller([2.0 * value(*radius); 3])
+        }
+        Solid::Cylinder { radius, length: along }
+        | Solid::CylindricalShell { radius, length: along }
+        | Solid::Cone { radius, height: along } => {
+            let across = 2.0 * value(*radius);
+            solid::smaller([across, across, value(*along)])
+        }
+        Solid::Disc(radius) => solid::disc(value(*radius)),
+        Solid::Cuboid(edges) => solid::smaller(edges.map(value)),
     }
 }
 

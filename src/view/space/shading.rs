@@ -12,8 +12,12 @@ use ratatui::symbols::pixel::QUADRANTS;
 use crate::view::glyphs::Glyphs;
 use crate::view::theme::{Theme, Tones};
 
-/// A surface has fewer whole cells than this part of those on its edges where it is too small or too thin for blocks.
-const WHOLE: f64 = 0.33;
+/// A cell in which something is drawn has the background of a surface that covers this many of its quarters
+/// if blocks are its edges, and this many …
+const HALF: usize = 2;
+
+/// … if lines are, outside of which there should be none of it.
+const MOST: usize = 3;
 
 /// A quarter of a cell: the number of its dots that are covered, their light, and the tones of the last of them.
 #[derive(Clone, Copy, Debug, Default)]
@@ -32,9 +36,8 @@ pub(super) struct Shading {
     /// The number of dots in each quarter of a cell.
     room: [u8; 4],
     cells: Vec<[Quarter; 4]>,
-    tones: Vec<Tones>,
-    /// Whether what has these tones is too small or too thin for blocks: its edges are lines.
-    thin: Vec<bool>,
+    /// The tones of each surface, and whether lines are its edges.
+    tones: Vec<(Tones, bool)>,
 }
 
 impl Shading {
@@ -47,12 +50,12 @@ impl Shading {
                 room[quarter] += 1;
             }
         }
-        Self { area, dots, room, cells: Vec::new(), tones: Vec::new(), thin: Vec::new() }
+        Self { area, dots, room, cells: Vec::new(), tones: Vec::new() }
     }
 
-    /// Adds the tones of a surface, and returns their number.
-    pub(super) fn add(&mut self, tones: Tones) -> usize {
-        self.tones.push(tones);
+    /// Adds the tones of a surface, and whether lines are its edges; returns their number.
+    pub(super) fn add(&mut self, tones: Tones, lined: bool) -> usize {
+        self.tones.push((tones, lined));
         self.tones.len() - 1
     }
 
@@ -83,25 +86,10 @@ impl Shading {
         !self.cells.is_empty()
     }
 
-    /// Looks at which surfaces are too small or too thin for blocks, once all dots are covered.
-    pub(super) fn finish(&mut self) {
-        let mut cells = vec![[0_u32; 2]; self.tones.len()];
-        for quarters in &self.cells {
-            let Some(covered) = quarters.iter().find(|quarter| quarter.count > 0) else { continue };
-            let whole = self.is_whole(quarters);
-            cells[usize::from(covered.tones)][usize::from(whole)] += 1;
-        }
-        let is_thin = |[edge, whole]: [u32; 2]| f64::from(whole) < WHOLE * f64::from(edge);
-        self.thin = cells.into_iter().map(is_thin).collect();
-    }
-
-    /// Whether the edges of surfaces are drawn as lines in a cell.
+    /// Whether the edges of solids are drawn as lines in a cell: not where they are blocks.
     pub(super) fn has_edges(&self, index: usize) -> bool {
         let Some(quarters) = self.cells.get(index) else { return true };
-        let thin = |quarter: &Quarter| {
-            quarter.count == 0 || self.thin.get(usize::from(quarter.tones)) == Some(&true)
-        };
-        self.is_whole(quarters) || quarters.iter().all(thin)
+        self.is_whole(quarters) || quarters.iter().all(|quarter| quarter.count == 0)
     }
 
     fn is_whole(&self, quarters: &[Quarter; 4]) -> bool {
@@ -121,8 +109,9 @@ impl Shading {
             let colours: [Option<Color>; 4] =
                 std::array::from_fn(|k| self.colour(quarters[k], self.room[k]));
             if cell.symbol() != " " {
-                let least = if self.has_edges(index) { 4 } else { 2 };
-                let covered = colours.iter().flatten().count() >= least;
+                let lined = |k: usize| self.tones[usize::from(quarters[k].tones)].1;
+                let lined = (0..4).filter(|&k| quarters[k].count > 0).all(lined);
+                let covered = colours.iter().flatten().count() >= if lined { MOST } else { HALF };
                 if let Some(background) = most(&colours, None).filter(|_| covered) {
                     let style = theme.legible(cell.style(), background);
                     cell.set_style(style.bg(background));
@@ -147,7 +136,7 @@ impl Shading {
 
     /// The colour of a quarter that is covered.
     fn colour(&self, quarter: Quarter, room: u8) -> Option<Color> {
-        let tones = self.tones.get(usize::from(quarter.tones))?;
+        let (tones, _) = self.tones.get(usize::from(quarter.tones))?;
         let (last, light) = (tones.len() - 1, quarter.light / f32::from(quarter.count));
         let step = (light * last as f32).round() as usize;
         is_covered(quarter, room).then(|| tones[step.min(last)])
@@ -183,7 +172,7 @@ mod tests {
     fn row(whole: u16, half: u16) -> Shading {
         let area = Rect::new(0, 0, whole + half, 1);
         let mut shading = Shading::new(area, Glyphs::Braille);
-        let tones = shading.add([Color::Blue; 10]);
+        let tones = shading.add([Color::Blue; 10], false);
         for cell in 0..whole + half {
             for dot in 0..8 {
                 let (x, y) = (dot % 2, dot / 2);
@@ -192,17 +181,7 @@ mod tests {
                 }
             }
         }
-        shading.finish();
         shading
-    }
-
-    #[test]
-    fn a_surface_is_thin_where_a_third_of_its_edge_is_more_than_the_rest() {
-        // whole cells always have their edges, those on the edge if the surface is thin
-        assert!(!row(1, 3).has_edges(1));
-        assert!(row(1, 4).has_edges(1));
-        assert!(row(0, 2).has_edges(0));
-        assert!(row(2, 0).has_edges(0) && row(1, 3).has_edges(0));
     }
 
     #[test]

@@ -3,6 +3,43 @@
 //! In: points in space, radii. Out: flat convex faces, balls. Never here: the camera, or colours.
 
 use super::circle;
+use crate::num::math;
+
+/// A piece: its surfaces, the lines along its edges, and its two smaller extents, the smallest first.
+#[derive(Clone, Debug)]
+pub(super) struct Piece {
+    pub(super) surfaces: Vec<Occluder>,
+    pub(super) edges: Vec<Vec<[f64; 3]>>,
+    pub(super) extents: [f64; 2],
+}
+
+impl Piece {
+    /// The same piece with its points at other places; they keep their distances.
+    pub(super) fn moved(self, place: impl Fn([f64; 3]) -> [f64; 3]) -> Self {
+        let surfaces = self.surfaces.into_iter().map(|surface| surface.moved(&place)).collect();
+        let edges = self.edges.into_iter();
+        let edges = edges.map(|line| line.into_iter().map(&place).collect()).collect();
+        Self { surfaces, edges, extents: self.extents }
+    }
+}
+
+/// The two smaller ones of three extents, the smallest first.
+pub(super) fn smaller(extents: [f64; 3]) -> [f64; 2] {
+    let mut extents = extents.map(f64::abs);
+    extents.sort_by(f64::total_cmp);
+    [extents[0], extents[1]]
+}
+
+/// The smaller extents of a disc.
+pub(super) fn disc(radius: f64) -> [f64; 2] {
+    smaller([0.0, 2.0 * radius, 2.0 * radius])
+}
+
+/// The smaller extents of a cone or a cylinder between two points of its axis.
+pub(super) fn along(from: [f64; 3], to: [f64; 3], radius: f64) -> [f64; 2] {
+    let length = (0..3).map(|k| math::powi(to[k] - from[k], 2)).sum::<f64>().sqrt();
+    smaller([2.0 * radius, 2.0 * radius, length])
+}
 
 /// What hides the things behind it.
 #[derive(Clone, Debug)]

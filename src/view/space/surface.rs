@@ -2,11 +2,13 @@
 //!
 //! In: the shapes of a scene. Out: depths, dots. Never here: lines and masses.
 
-use super::solid::{self, Occluder};
+use super::circle;
+use super::filling::{Filling, PieceStyle};
+use super::solid::{self, Occluder, Piece};
 use super::{BODY, SURFACE, ScenePainter};
 use crate::model::Shape;
 use crate::view::colour::ColourDepth;
-use crate::view::plot::Pen;
+use crate::view::plot::{DepthBuffer, Pen, Visibility};
 use crate::view::theme::Role;
 
 /// The share of a surface's dots that are drawn in the shade, and in full light: of spheres, on which curves are drawn,
@@ -19,6 +21,9 @@ const WHOLE: [f64; 2] = [1.0, 1.0];
 /// The share of its light that a shaded surface has behind a veil.
 const BEHIND: f64 = 0.5;
 
+/// How far inside of its outline, in radii, a sphere is asked whether it is the nearest one.
+const INSIDE: f64 = 0.9;
+
 impl ScenePainter<'_> {
     /// Adds the surfaces of a shape to what hides others.
     pub(super) fn surfaces(&mut self, shape: &Shape) {
@@ -26,29 +31,40 @@ impl ScenePainter<'_> {
             return;
         }
         let theme = &self.q.look.theme;
-        let faint = (Pen::new(theme[Role::Level], SURFACE), OPAQUE);
-        let (pen, solids) = match shape {
+        let faint = |own: Option<usize>| {
+            let style = own.map_or(theme[Role::Level], |series| theme.curve(series));
+            (Pen::new(style, SURFACE), OPAQUE)
+        };
+        let piece = |surfaces, extents| Piece { surfaces, edges: Vec::new(), extents };
+        let ((pen, shares), pieces) = match shape {
             Shape::Disc { centre, radius, normal } => {
+                let own = self.own_colour(centre);
                 let (centre, normal) = (self.point(centre), self.direction(normal));
-                let rim = self.rim(centre, self.q.number(*radius), normal);
-                (faint, vec![Occluder::Face(rim)])
+                let radius = self.q.number(*radius);
+                let rim = self.rim(centre, radius, normal);
+                (faint(own), vec![piece(vec![Occluder::Face(rim)], solid::disc(radius))])
             }
             Shape::Cone { tip, base, radius } => {
+                let own = self.own_colour(base);
                 let (tip, base) = (self.point(tip), self.point(base));
                 let radius = self.q.number(*radius);
-                (faint, solid::cone(tip, base, radius, self.spacing(radius)))
+                let cone = solid::cone(tip, base, radius, self.spacing(radius));
+                (faint(own), vec![piece(cone, solid::along(tip, base, radius))])
             }
             Shape::Cylinder { from, to, radius } => {
+                let own = self.own_colour(from);
                 let (from, to) = (self.point(from), self.point(to));
                 let radius = self.q.number(*radius);
                 let [low, high] = solid::rims([from, to], radius, self.spacing(radius));
-                (faint, solid::tube(&low, &high, true))
+                let tube = solid::tube(&low, &high, true);
+                (faint(own), vec![piece(tube, solid::along(from, to, radius))])
             }
             Shape::Sphere { centre, radius } => {
                 let colourless = theme.depth() == ColourDepth::None;
                 let shares = if colourless { COLOURLESS_SPHERE } else { SPHERE };
-                let ball = Occluder::Ball(self.point(centre), self.q.number(*radius).abs());
-                ((faint.0, shares), vec![ball])
+                let radius = self.q.number(*radius).abs();
+                let ball = Occluder::Ball(self.point(centre), radius);
+                ((faint(None).0, shares), vec![piece(vec![ball], [2.0 * radius; 2])])
             }
             Shape::Mass { at, radius: Some(radius) } => {
                 let radius = self.q.number(*radius).abs();
@@ -56,56 +72,107 @@ impl ScenePainter<'_> {
                     return;
                 }
                 let style = theme.curve(self.colour(at));
-                ((Pen::new(style, BODY), WHOLE), vec![Occluder::Ball(self.point(at), radius)])
+                let ball = Occluder::Ball(self.point(at), radius);
+                ((Pen::new(style, BODY), WHOLE), vec![piece(vec![ball], [2.0 * radius; 2])])
             }
             Shape::Body { at } => {
                 let Some(outline) = self.outline else { return };
                 let centre = self.q.point(at);
-                let solids = outline.surfaces.iter().cloned();
-                (faint, solids.map(|solid| solid.moved(|own| self.place(centre, own))).collect())
+                let pieces = outline.pieces.iter().cloned();
+                let place = |own| self.place(centre, own);
+                (faint(None), pieces.map(|piece| piece.moved(place)).collect())
             }
             _ => return,
         };
         // What moves on a sphere or inside it is seen through it.
         let see_through = matches!(shape, Shape::Sphere { .. });
-        let (number, projection) = (self.surfaces.len(), self.camera.projection());
-        self.surfaces.push(pen);
-        for solid in solids {
-            match solid.moved(|point| projection.of(point)) {
-                Occluder::Face(corners) => self.depth.face(&corners, number),
-                Occluder::Ball(centre, radius) if see_through => {
-                    self.depth.veil(centre, radius, number);
-                }
-                Occluder::Ball(centre, radius) => self.depth.ball(centre, radius, number),
-            }
+        let (column, projection) = (self.column(), self.camera.projection());
+        for piece in pieces {
+            let style = PieceStyle::of(piece.extents, column);
+            let surfaces = piece.surfaces.into_iter();
+            let solids = surfaces.map(|s| s.moved(|point| projection.of(point))).collect();
+            self.surfaces.push(Filling { pen, shares, style, solids, see_through });
         }
     }
 
-    /// Fills the surfaces, each dot with the nearest one: with tones where the terminal has them, else with some of the dots.
+    /// Fills the surfaces, each dot with the nearest one: with tones where the terminal has them and the piece is thick enough, else
+    /// with some of the dots.
     pub(super) fn fill(&mut self) {
-        let pens: Vec<_> = std::mem::take(&mut self.surfaces)
-            .into_iter()
-            .map(|(pen, shares)| ([pen, self.dim(&pen)], shares))
-            .collect();
+        let surfaces = std::mem::take(&mut self.surfaces);
         let look = self.q.look;
-        let tones: Vec<Option<usize>> = pens
+        let tones: Vec<Option<usize>> = surfaces
             .iter()
-            .map(|([pen, _], _)| {
-                let tones = look.theme.tones(pen.style).filter(|_| !look.glyphs.is_ascii())?;
-                Some(self.shading.add(*tones))
+            .map(|surface| {
+                let tones = look.theme.tones(surface.pen.style).filter(|_| !look.glyphs.is_ascii());
+                let tones = tones.filter(|_| surface.style != PieceStyle::Lines)?;
+                Some(self.shading.add(*tones, surface.style == PieceStyle::Sheet))
             })
             .collect();
-        for (dot, covered) in self.depth.dots() {
-            let Some((pen, [shade, light])) = pens.get(covered.surface) else { continue };
-            if let Some(tones) = tones[covered.surface] {
-                let light = if covered.veiled { BEHIND * covered.light } else { covered.light };
-                self.shading.cover(dot, tones, light);
-                continue;
+        // What is thin leaves its dots, and the tones behind it, on the screen.
+        let all = |_: usize| true;
+        self.depth = self.depth_of(&surfaces, all);
+        let has_tones = |number: usize| tones[number].is_some();
+        if tones.iter().any(Option::is_some) {
+            let some_lines = tones.iter().any(Option::is_none);
+            let toned = some_lines.then(|| self.depth_of(&surfaces, has_tones));
+            for (dot, covered) in toned.as_ref().unwrap_or(&self.depth).dots() {
+                if let Some(tones) = tones[covered.surface] {
+                    let light = if covered.veiled { BEHIND * covered.light } else { covered.light };
+                    self.shading.cover(dot, tones, light);
+                }
             }
-            let pen = pen[usize::from(covered.veiled)];
+        }
+        let pens: Vec<_> = surfaces.iter().map(|s| [s.pen, self.dim(&s.pen)]).collect();
+        for (dot, covered) in self.depth.dots().filter(|(_, covered)| !has_tones(covered.surface)) {
+            let pen = pens[covered.surface][usize::from(covered.veiled)];
+            let [shade, light] = surfaces[covered.surface].shares;
             let coverage = shade + (light - shade) * covered.light * covered.light;
             self.raster.shade(dot, &pen.covering(coverage));
         }
-        self.shading.finish();
+    }
+
+    /// What hides what among some of the surfaces.
+    fn depth_of(&self, surfaces: &[Filling], counts: impl Fn(usize) -> bool) -> DepthBuffer {
+        let mut depth = DepthBuffer::new(&self.frame, self.raster.size());
+        for (number, surface) in surfaces.iter().enumerate().filter(|(number, _)| counts(*number)) {
+            for solid in &surface.solids {
+                match solid {
+                    Occluder::Face(corners) => depth.face(corners, number),
+                    Occluder::Ball(centre, radius) if surface.see_through => {
+                        depth.veil(*centre, *radius, number);
+                    }
+                    Occluder::Ball(centre, radius) => depth.ball(*centre, *radius, number),
+                }
+            }
+        }
+        depth
+    }
+
+    /// Draws edges of a piece with these extents: those of a solid are lines only where they are no blocks.
+    pub(super) fn edge(&mut self, extents: [f64; 2], draw: impl FnOnce(&mut Self)) {
+        if !self.shading.is_on() || PieceStyle::of(extents, self.column()) != PieceStyle::Solid {
+            return draw(self);
+        }
+        std::mem::swap(&mut self.raster, &mut self.edges);
+        draw(self);
+        std::mem::swap(&mut self.raster, &mut self.edges);
+    }
+
+    /// Draws the outline of a sphere where it has no tones of its own: all of it if it is small, and otherwise what is seen through
+    /// another sphere.
+    pub(super) fn limb(&mut self, centre: [f64; 3], radius: f64, pen: &Pen) {
+        let is_small = PieceStyle::of([2.0 * radius; 2], self.column()) != PieceStyle::Solid;
+        let is_dotted = is_small || self.range.is_none() || !self.shading.is_on();
+        let towards = self.camera.towards();
+        let out = radius * (1.0 - INSIDE * INSIDE).sqrt();
+        let front = [0, 1, 2].map(|k| centre[k] + out * towards[k]);
+        let inside = circle::circle(front, INSIDE * radius, towards);
+        let outline = circle::circle(centre, radius, towards);
+        let flat = outline.into_iter().zip(inside).map(|(point, inside)| {
+            let is_seen = is_dotted || self.sight(inside) == Visibility::Veiled;
+            if is_seen { self.flat(point) } else { [f64::NAN; 2] }
+        });
+        let flat: Vec<_> = flat.collect();
+        self.raster.polyline(&self.frame, flat, pen);
     }
 }

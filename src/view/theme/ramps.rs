@@ -12,6 +12,9 @@ use crate::view::colour::{ColourDepth, Rgb};
 /// The number of steps from shade to full light; with fewer steps, a frame in which a body turns changes fewer cells.
 const LIGHTS: usize = 10;
 
+/// The least contrast of a surface's tones with the background: a side in the shade is no hole.
+const LEAST_CONTRAST: f64 = 1.5;
+
 /// The colours of a surface from shade to full light.
 pub type Tones = [Color; LIGHTS];
 
@@ -66,11 +69,16 @@ impl Ramps {
     pub(super) fn tones(&self, ink: &PaletteColour) -> Option<Tones> {
         let own = ink.rgb.unwrap_or(self.palette.foreground);
         // between the background and its own colour, and brighter in the light on paper of any colour
-        let is_dark = self.palette.is_dark();
-        let share = |light: f64| if is_dark { 0.2 + 0.65 * light } else { 0.75 - 0.5 * light };
+        let background = self.palette.background;
+        let (most, steps) = if self.palette.is_dark() { (0.85, 4..17) } else { (0.75, 5..15) };
+        let nearest = steps.map(|step| 0.05 * f64::from(step));
+        let is_seen =
+            |share: &f64| background.mix(own, *share).contrast(background) >= LEAST_CONTRAST;
+        let least = nearest.into_iter().find(is_seen).unwrap_or(most);
+        let ends = if self.palette.is_dark() { [least, most] } else { [most, least] };
         let tone = |step: usize| {
             let light = step as f64 / (LIGHTS - 1) as f64;
-            self.palette.background.mix(own, share(light))
+            background.mix(own, ends[0] + (ends[1] - ends[0]) * light)
         };
         match self.depth {
             ColourDepth::True => Some(std::array::from_fn(|step| {

@@ -10,7 +10,7 @@ use ratatui::style::Color;
 
 use super::{rich, screen};
 use crate::app::real::Real;
-use crate::hand::lab;
+use crate::hand::{begun, lab};
 
 /// The pane of the momentum sphere at 120 × 40: its columns, its rows.
 const PANE: [std::ops::Range<u16>; 2] = [41..79, 2..22];
@@ -151,4 +151,103 @@ fn the_faces_of_a_top_are_told_apart() {
     tones.dedup();
     assert!(tones.len() >= 4, "{tones:?}");
     assert!(tones[tones.len() - 1] > tones[0] + 100, "{tones:?}");
+}
+
+/// A piece is drawn in one style while it turns: thin ones as lines and dots in every frame, thick ones with tones.
+#[test]
+fn the_style_of_a_body_does_not_change_while_it_turns() {
+    for (name, size) in [("t-handle", (60, 15)), ("t-handle", (40, 10))] {
+        let mut real = Real::of(name);
+        let (mut painted, mut dotted) = (0, 0);
+        for _ in 0..40 {
+            real.run(4);
+            let buffer = screen(&real.app, &rich(), size);
+            let is_painted = |cell: &&Cell| Rgb::of(cell.bg).is_some();
+            painted += usize::from(buffer.content.iter().any(|cell| is_painted(&cell)));
+            let is_dot =
+                |cell: &Cell| cell.symbol().chars().any(|c| ('\u{2801}'..='\u{28ff}').contains(&c));
+            dotted += usize::from(buffer.content.iter().filter(|cell| is_dot(cell)).count() > 8);
+        }
+        assert!((painted, dotted) == (0, 40), "{name} {size:?}: {painted} {dotted}");
+    }
+}
+
+/// The side in the shade is told from the background in every palette, and so is the brightest one.
+#[test]
+fn no_tone_is_lost_in_the_background() {
+    for palette in &PALETTES {
+        let theme = Theme::new(palette, ColourDepth::True);
+        let styles = [theme[Role::Level]].into_iter().chain((0..7).map(|n| theme.curve(n)));
+        for tones in styles.filter_map(|style| theme.tones(style)) {
+            for tone in tones {
+                let ratio = Rgb::of(*tone).expect("a colour").contrast(palette.background);
+                assert!(ratio >= 1.45, "{}: {tone:?} {ratio}", palette.name);
+            }
+        }
+    }
+}
+
+/// A line on any tone differs from it in brightness, whatever its own colour, at both depths that have tones.
+#[test]
+fn whatever_is_written_on_a_tone_is_legible() {
+    for palette in &PALETTES {
+        for depth in [ColourDepth::True, ColourDepth::Ansi256] {
+            let theme = Theme::new(palette, depth);
+            let styles: Vec<_> =
+                [theme[Role::Level]].into_iter().chain((0..7).map(|n| theme.curve(n))).collect();
+            for tone in styles.iter().filter_map(|style| theme.tones(*style)).flatten() {
+                for style in styles.iter().chain([&theme[Role::Dim], &theme[Role::Accent]]) {
+                    let written = theme.legible(*style, *tone).fg.and_then(Rgb::of);
+                    let written = written.unwrap_or(palette.foreground).brightness();
+                    let behind = Rgb::of(*tone).expect("a colour").brightness();
+                    let apart = (written - behind).abs();
+                    assert!(apart >= 0.25, "{} {depth:?}: {style:?} on {tone:?}", palette.name);
+                }
+            }
+        }
+    }
+}
+
+/// Bodies that stand for a motion have its colour: the discs of the right and the wrong mechanics differ in hue.
+#[test]
+fn the_discs_of_two_mechanics_have_the_colours_of_the_legend() {
+    let theme = Theme::dark(ColourDepth::True);
+    let mut real = Real::of("rolling-disc");
+    let mut buffers = Vec::new();
+    for _ in 0..20 {
+        real.run(12);
+        buffers.push(screen(&real.app, &rich(), (200, 60)));
+    }
+    let painted = |style| {
+        let tones = theme.tones(style).expect("tones");
+        let cells = buffers.iter().flat_map(|buffer| &buffer.content);
+        cells.filter(|cell| tones.contains(&cell.bg)).count()
+    };
+    let [right, wrong] = [0, 1].map(|series| painted(theme.curve(series)));
+    assert!(right >= 3 && wrong >= 3, "{right} {wrong}");
+    assert_eq!(painted(theme[Role::Level]), 0, "no disc is grey");
+}
+
+/// A sphere inside a shaded one is drawn, as a line.
+#[test]
+fn a_sphere_inside_another_one_is_drawn() {
+    let file = |others: &str| {
+        format!(
+            "title = \"Spheres\"\nsummary = \"x\"\n[coordinates]\nx = {{ initial = 1.0, velocity = 0.0 }}\n[lagrangian]\n\
+             L = \"1/2*x'^2 - 1/2*x^2\"\n[space]\nshapes = [{{ sphere = [\"0\", \"0\", \"0\"], radius = \"1\" }}, {others}]\n\
+             [[views]]\nkind = \"space\"\n"
+        )
+    };
+    let dotted = |others: &str| {
+        let buffer = screen(&begun(&file(others)), &rich(), (120, 40));
+        let cells = (3..21).flat_map(|y| (1..39).map(move |x| (x, y)));
+        let dots = |c: char| ('\u{2801}'..='\u{28ff}').contains(&c);
+        // but for the corner of axes
+        let inside = cells.filter(|(x, y)| *x > 12 || *y < 14);
+        inside.filter(|at| buffer[*at].symbol().chars().any(dots)).count()
+    };
+    let twice = dotted("{ sphere = [\"0\", \"0\", \"0\"], radius = \"1\" }");
+    assert!(twice < 10, "a shaded sphere has no outline: {twice}");
+    let inner = dotted("{ sphere = [\"0\", \"0\", \"0\"], radius = \"0.5\" }");
+    assert!(inner > twice + 15, "{inner} and {twice}");
 }
