@@ -46,7 +46,9 @@ pub(super) fn derive(document: &Document, model: Model) -> Result<Derived, Comma
         (true, None) => Ok(derived),
         (true, Some(first)) => Err(CommandError::WrongUse(first.clone())),
         (false, _) => {
-            added.iter().for_each(|sentence| stderr::tell(sentence));
+            for sentence in &added {
+                stderr::tell(sentence);
+            }
             let own: Vec<Diagnostic> =
                 own.into_iter().filter_map(StructureError::diagnostic).collect();
             Err(refuse(document, &own))

@@ -171,7 +171,9 @@ impl Ramped {
 
     /// Makes a parameter follow its schedule from its own value, which stays what it is before the first part.
     pub fn lead(&mut self, pool: &mut Pool, time: Symbol, parameter: Symbol, parts: &[RampPart]) {
-        parts.iter().for_each(|part| self.note(part.form));
+        for part in parts {
+            self.note(part.form);
+        }
         let own = pool.variable(parameter);
         let time = pool.variable(time);
         let mut value = own;
@@ -208,7 +210,9 @@ impl Ramped {
         (parameter, parts): (&Parameter, &[RampPart]),
         taken: &dyn Fn(&str) -> bool,
     ) -> Vec<Parameter> {
-        parts.iter().for_each(|part| self.note(part.form));
+        for part in parts {
+            self.note(part.form);
+        }
         let (name, shown) = (&parameter.name, &parameter.shown);
         let latex = latex_of_unicode(shown);
         let mut introduce = |written: &str, shown: &str, latex: &str, rank| {
