@@ -458,7 +458,7 @@ fn impacts_are_crossings_of_their_wall() {
                 let words = [&["section", "system.toml", "--format", "json"], &words[..]].concat();
                 let found = with_file(DISC, &words).json();
                 let rows = rows(&found);
-                let rises = (direction == "rising") == !on.starts_with('3');
+                let rises = (direction == "rising") != on.starts_with('3');
                 let expected = if direction == "either" || rises { 7 } else { 0 };
                 assert_eq!(rows.len(), expected, "{method} {on} {direction}");
                 for (k, row) in rows.iter().enumerate() {
