@@ -178,7 +178,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         choose_method(&system, name).map_err(|why| CommandError::WrongUse(why.to_string()))?;
 
     misplaced(arguments.step, arguments.tolerance, method)?;
-    cautions::before(&model, &system, &equations, method);
+    cautions::before(&system, &equations, method);
 
     let header = header(&model, &system, &parameters, method, settings);
     let setup = Setup {

@@ -99,8 +99,5 @@ pub fn replace_by_ramps(model: &mut Model, ramps: &[Ramp]) -> Result<Ramped, Ram
         *e = ramped.replace(pool, *e);
     }
     ramped.functions().for_each(|(symbol, e)| model.ramped.insert(symbol, e));
-    for ramp in ramps {
-        model.ramped.note(ramp.form);
-    }
     Ok(ramped)
 }

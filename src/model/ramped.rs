@@ -46,8 +46,6 @@ impl RampForm {
 pub struct Ramped {
     functions: HashMap<Symbol, Expr>,
     named: Vec<NamedRamp>,
-    /// Whether the rate of one jumps.
-    has_corners: bool,
     instant: Option<Symbol>,
 }
 
@@ -159,21 +157,8 @@ impl RampForm {
 }
 
 impl Ramped {
-    /// Takes note of how the ramp of a parameter goes.
-    pub(super) fn note(&mut self, form: RampForm) {
-        self.has_corners |= form == RampForm::Linear;
-    }
-
-    /// Whether the rate of a parameter jumps at the ends of its ramp.
-    pub fn has_corners(&self) -> bool {
-        self.has_corners
-    }
-
     /// Makes a parameter follow its schedule from its own value, which stays what it is before the first part.
     pub fn lead(&mut self, pool: &mut Pool, time: Symbol, parameter: Symbol, parts: &[RampPart]) {
-        for part in parts {
-            self.note(part.form);
-        }
         let own = pool.variable(parameter);
         let time = pool.variable(time);
         let mut value = own;
@@ -210,9 +195,6 @@ impl Ramped {
         (parameter, parts): (&Parameter, &[RampPart]),
         taken: &dyn Fn(&str) -> bool,
     ) -> Vec<Parameter> {
-        for part in parts {
-            self.note(part.form);
-        }
         let (name, shown) = (&parameter.name, &parameter.shown);
         let latex = latex_of_unicode(shown);
         let mut introduce = |written: &str, shown: &str, latex: &str, rank| {

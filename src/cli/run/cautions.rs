@@ -4,12 +4,11 @@ use crate::cli::stderr;
 use crate::experiment::Experiment;
 use crate::integrate::{METHODS, Method};
 use crate::mechanics::Equations;
-use crate::model::Model;
 use crate::printable;
 use crate::system::System;
 
 /// Warns before the run about a law with a step, and about a method that ignores the kinks of the motion.
-pub(super) fn before(model: &Model, system: &System, equations: &Equations, method: &Method) {
+pub(super) fn before(system: &System, equations: &Equations, method: &Method) {
     if equations.law_jumps() {
         let law = if equations.is_lagrangian() { "L" } else { "H" };
         stderr::tell(&format!(
@@ -17,10 +16,7 @@ pub(super) fn before(model: &Model, system: &System, equations: &Equations, meth
              make the step a steep slope, as with tanh, or give the impulse as an event"
         ));
     }
-    // the forces of a smooth ramp have no corner
-    let is_smooth = !model.ramped.is_empty() && !model.ramped.has_corners();
-    let has_kinks = system.has_kinks_of_states() || system.has_kinks() && !is_smooth;
-    if has_kinks && !method.locates_kinks {
+    if system.has_kinks() && !method.locates_kinks {
         let others: Vec<&str> =
             METHODS.iter().filter(|m| m.locates_kinks).map(|m| m.name).collect();
         stderr::tell(&format!(

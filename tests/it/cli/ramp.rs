@@ -239,19 +239,3 @@ fn corners_of_ramps_are_no_singularities_to_any_adaptive_method() {
         near(row[1], 1.75, 1e-12);
     }
 }
-
-/// The forces of a smooth ramp have no corner, those of a linear one have two.
-#[test]
-fn a_smooth_ramp_has_no_kinks_to_step_over() {
-    for (form, corners) in [("smooth", false), ("cubic", false), ("linear", true)] {
-        let ramp = format!("g=9.81:12:1:5:{form}");
-        let words = ["run", "pendulum", "--ramp", &ramp, "--method", "leapfrog", "--until", "10"];
-        let done = phaselab(&words);
-        assert_eq!(
-            done.stderr.contains("steps over the kinks"),
-            corners,
-            "{form}: {}",
-            done.stderr
-        );
-    }
-}
