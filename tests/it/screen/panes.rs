@@ -13,7 +13,7 @@ use phaselab::view::RenderStyle;
 use phaselab::view::colour::ColourDepth;
 use phaselab::view::glyphs::Glyphs;
 use phaselab::view::theme::{Role, Theme};
-use ratatui::style::Modifier;
+use ratatui::style::{Color, Modifier};
 
 use super::{find, rich, rows, screen};
 use crate::app::real::Real;
@@ -372,6 +372,35 @@ fn the_cursor_reads_the_cell_it_stands_on() {
     assert!(numbers[0].abs() < 0.2 && numbers[1].abs() < 0.8, "{numbers:?}");
 }
 
+/// The key that puts a cursor on a plot also takes it off.
+#[test]
+fn the_key_of_the_cursor_says_what_it_does() {
+    let mut app = in_lab();
+    press(&mut app, "Tab Tab Tab Tab");
+    let last = |app: &App| rows(&screen(app, &rich(), (200, 40))).pop().unwrap();
+    assert!(last(&app).contains("c cursor"), "{}", last(&app));
+    press(&mut app, "c");
+    assert!(last(&app).contains("c no cursor"), "{}", last(&app));
+}
+
+/// Why a key does nothing here is told, but is no error.
+#[test]
+fn a_hint_has_not_the_colour_of_an_error() {
+    let theme = rich().theme;
+    for (keys, text) in [
+        ("f", "This system has no frames"),
+        ("Tab Tab Tab Tab A", "A motion is added at the cursor"),
+        ("u", "Nothing to undo."),
+    ] {
+        let mut app = in_lab();
+        press(&mut app, keys);
+        let buffer = screen(&app, &rich(), (120, 40));
+        let at = find(&buffer, text).unwrap_or_else(|| panic!("{:#?}", rows(&buffer)));
+        assert_eq!(Some(buffer[at].fg), theme[Role::Text].fg.or(Some(Color::Reset)), "{text}");
+        assert_ne!(Some(buffer[at].fg), theme[Role::Bad].fg, "{text}");
+    }
+}
+
 #[test]
 fn the_picker_shows_what_a_system_is() {
     let buffer = screen(&at_picker(), &rich(), (120, 40));
@@ -544,6 +573,24 @@ fn a_body_seen_from_itself_stands_still() {
     };
     let (from_space, from_body) = (kept("z"), kept("z f"));
     assert!(from_body > 0.8 && from_space < 0.5, "{from_body} of {from_space}");
+}
+
+/// Seen from itself a body is about as large as in space, though its own frame turns any way.
+#[test]
+fn a_body_seen_from_itself_keeps_its_size() {
+    let few = RenderStyle { theme: Theme::dark(ColourDepth::Ansi16), glyphs: Glyphs::Braille };
+    for name in ["t-handle", "free-rigid-body"] {
+        let mut real = Real::of(name);
+        real.run(300);
+        press(&mut real.app, "Tab Tab Tab z");
+        let mut drawn = |keys: &str| {
+            press(&mut real.app, keys);
+            let screen = rows(&screen(&real.app, &few, (120, 40)));
+            screen.concat().chars().filter(|c| ('⠁'..='⣿').contains(c)).count() as f64
+        };
+        let (from_space, from_body) = (drawn(""), drawn("f"));
+        assert!(from_body > 0.6 * from_space, "{name}: {from_body} of {from_space}");
+    }
 }
 
 #[test]
