@@ -96,6 +96,26 @@ impl OrientationPolytope {
         bound
     }
 
+    /// A distance from the origin that no point in it exceeds.
+    ///
+    /// For directions between an axis, a diagonal of a face beside it and the diagonal of the cube beside both, the reach is the
+    /// product with one vector: a unit vector has none greater than its length.
+    pub fn farthest(&self) -> f64 {
+        let orders = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
+        let cones = orders.iter().flat_map(|order| (0..8).map(move |signs| (order, signs)));
+        let squares = cones.map(|(order, signs)| {
+            let (mut corner, mut before, mut square) = ([0.0; 3], 0.0, 0.0);
+            for &k in order {
+                corner[k] = if signs >> k & 1 == 0 { 1.0 } else { -1.0 };
+                let along = self.along(corner);
+                square += (along - before) * (along - before);
+                before = along;
+            }
+            square
+        });
+        squares.fold(0.0, f64::max).sqrt()
+    }
+
     /// The greatest product with one of the fixed directions or its opposite.
     fn along(&self, direction: [f64; 3]) -> f64 {
         let opposite = direction.map(|x| 0.0 - x);
@@ -155,6 +175,18 @@ mod tests {
                 corners.iter().map(|c| dot(*c, direction)).fold(f64::NEG_INFINITY, f64::max);
             assert!((all.reach(direction) - farthest).abs() < 1e-12, "{direction:?}");
         }
+    }
+
+    #[test]
+    fn the_farthest_point_of_a_ball_and_of_a_box() {
+        let mut ball = OrientationPolytope::EMPTY;
+        everywhere(4000).for_each(|point| ball.include(point));
+        assert!((0.999..1.13).contains(&ball.farthest()), "{}", ball.farthest());
+        let point = OrientationPolytope::around([1.0, -2.0, 2.0]);
+        assert!((point.farthest() - 3.0).abs() < 1e-12, "{}", point.farthest());
+        let mut segment = OrientationPolytope::around([-2.0, 3.0, -6.0]);
+        segment.include([0.0, 0.0, 1.0]);
+        assert!((segment.farthest() - 7.0).abs() < 1e-12, "{}", segment.farthest());
     }
 
     /// A circle that is seen from its edge is a line: the box around it would be higher.

@@ -4,8 +4,9 @@
 //! Never here: the camera, which is fixed in the frame; forces.
 
 use crate::expr::Expr;
-use crate::num::math;
+use crate::num::{OrientationPolytope, math};
 use crate::system::ChannelKind;
+use crate::view::plot::Extent;
 use crate::view::quantity::{Quantities, QuantitySource};
 
 /// A frame, with the channels of its origin and orientation.
@@ -64,28 +65,63 @@ impl ReferenceFrame {
         })
     }
 
-    /// A box that contains the given box as seen from the frame at any time.
-    pub(super) fn around(&self, q: &Quantities<'_>, [low, high]: [[f64; 3]; 2]) -> [[f64; 3]; 2] {
-        let span = |source: QuantitySource| match source {
-            QuantitySource::Number(number) => (number, number),
-            QuantitySource::Channel(channel) => q.bounds(channel),
-        };
-        let origin = self.origin.map(span);
-        let low = [0, 1, 2].map(|k| low[k] - origin[k].1);
-        let high = [0, 1, 2].map(|k| high[k] - origin[k].0);
+    /// What contains the given extent as seen from the frame at any time: where the frame turns about the vertical what is
+    /// around it, where it tumbles the ball around its origin.
+    pub(super) fn around(&self, q: &Quantities<'_>, extent: &Extent) -> Extent {
+        let origin = self.origin.map(|source| span(q, source));
+        let shift = origin.map(|(least, _)| -least);
+        let fixed = origin.iter().all(|(least, greatest)| least == greatest);
+        let shift = fixed.then(|| OrientationPolytope::around(shift));
+        let hull = extent.hull.zip(shift).map(|(hull, shift)| hull.plus(&shift));
+        let low = [0, 1, 2].map(|k| extent.low[k] - origin[k].1);
+        let high = [0, 1, 2].map(|k| extent.high[k] - origin[k].0);
         let far = [0, 1, 2].map(|k| low[k].abs().max(high[k].abs()));
-        let upright = match &self.turn {
-            FrameOrientation::Axis { angle, .. } if span(*angle) == (0.0, 0.0) => {
-                return [low, high];
+        match self.turning(q) {
+            Turning::Not => Extent { low, high, hull, ..*extent },
+            Turning::Upright => {
+                let radius = math::hypot(far[0], far[1]);
+                let (low, high) = ([-radius, -radius, low[2]], [radius, radius, high[2]]);
+                Extent { low, high, hull: None, ..*extent }
             }
-            FrameOrientation::Axis { axis, .. } => [0, 1].map(|k| span(axis[k])) == [(0.0, 0.0); 2],
-            FrameOrientation::Body(_) => false,
-        };
-        if upright {
-            let radius = math::hypot(far[0], far[1]);
-            return [[-radius, -radius, low[2]], [radius, radius, high[2]]];
+            Turning::Any => {
+                let corner = math::hypot(math::hypot(far[0], far[1]), far[2]);
+                let farthest = hull.map_or(corner, |hull| hull.farthest().min(corner));
+                let radius = farthest + extent.radius;
+                Extent { low: [0.0; 3], high: [0.0; 3], radius, hull: None }
+            }
         }
-        let radius = math::hypot(math::hypot(far[0], far[1]), far[2]);
-        [[-radius; 3], [radius; 3]]
+    }
+
+    /// Whether it leaves what is in a horizontal plane in one.
+    pub(super) fn keeps_planes(&self, q: &Quantities<'_>) -> bool {
+        !matches!(self.turning(q), Turning::Any)
+    }
+
+    fn turning(&self, q: &Quantities<'_>) -> Turning {
+        match &self.turn {
+            FrameOrientation::Axis { angle, .. } if span(q, *angle) == (0.0, 0.0) => Turning::Not,
+            FrameOrientation::Axis { axis: [x, y, _], .. }
+                if [x, y].map(|source| span(q, *source)) == [(0.0, 0.0); 2] =>
+            {
+                Turning::Upright
+            }
+            FrameOrientation::Axis { .. } | FrameOrientation::Body(_) => Turning::Any,
+        }
+    }
+}
+
+/// How a frame turns.
+enum Turning {
+    Not,
+    /// About the vertical.
+    Upright,
+    Any,
+}
+
+/// The least and the greatest value so far.
+fn span(q: &Quantities<'_>, source: QuantitySource) -> (f64, f64) {
+    match source {
+        QuantitySource::Number(number) => (number, number),
+        QuantitySource::Channel(channel) => q.bounds(channel),
     }
 }

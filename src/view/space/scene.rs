@@ -46,17 +46,6 @@ impl Scene {
         for (shape, rod) in q.lab.shapes(eye) {
             scene.include((q, body), (shape, rod), &mut reached);
         }
-        if let (Some(ends), Some(reference_frame)) = (scene.bounds.ends(), reference_frame) {
-            scene.bounds = Bounds::around(reference_frame.around(q, ends));
-            let around = scene.bounds.ends().map(|[low, high]| Extent {
-                low,
-                high,
-                radius: 0.0,
-                hull: None,
-            });
-            scene.extents = around.into_iter().collect();
-            scene.points.clear();
-        }
         // What moves is rounded outwards, so that the picture does not move while the motion grows a little.
         if let Some([low, high]) = scene.bounds.ends() {
             let longest = (0..3).map(|k| high[k] - low[k]).fold(0.0, f64::max);
@@ -69,12 +58,28 @@ impl Scene {
                 }
             }
         }
+        match reference_frame {
+            Some(reference_frame) => scene.seen_from(q, reference_frame),
+            None => scene,
+        }
+    }
+
+    /// The same scene as seen from a frame.
+    fn seen_from(self, q: &Quantities<'_>, reference_frame: &ReferenceFrame) -> Self {
+        let mut scene = Self { bounds: Bounds::EMPTY, extents: Vec::new(), points: Vec::new() };
+        let still = |&point: &[f64; 3]| Extent { low: point, high: point, radius: 0.0, hull: None };
+        let still = self.points.iter().map(still);
+        for extent in self.extents.iter().copied().chain(still) {
+            let seen = reference_frame.around(q, &extent);
+            let flat = is_level([seen.low, seen.high]) && reference_frame.keeps_planes(q);
+            scene.include_extent(seen, flat);
+        }
         scene
     }
 
     /// The frame over an area in which the whole scene is seen.
     pub(super) fn frame(&self, camera: &Camera, area: Rect) -> PlotFrame {
-        let flat = self.bounds.ends().is_some_and(|[low, high]| low[2] == 0.0 && high[2] == 0.0);
+        let flat = self.bounds.ends().is_some_and(is_level);
         let face_on = camera.pitch == Camera::FACE_ON.pitch && camera.yaw == Camera::FACE_ON.yaw;
         if flat && face_on || self.extents.is_empty() && self.points.is_empty() {
             camera.frame(&self.bounds, area)
@@ -193,11 +198,14 @@ impl Scene {
     }
 
     fn add(&mut self, [low, high]: Span3, radius: f64, hull: Option<OrientationPolytope>) {
-        let flat = low[2] == 0.0 && high[2] == 0.0;
-        let [lowest, highest] = grown([low, high], radius, flat);
+        self.include_extent(Extent { low, high, radius, hull }, is_level([low, high]));
+    }
+
+    fn include_extent(&mut self, extent: Extent, flat: bool) {
+        let [lowest, highest] = grown([extent.low, extent.high], extent.radius, flat);
         if [lowest, highest].as_flattened().iter().all(|v| v.is_finite()) {
             self.bounds = self.bounds.with(lowest).with(highest);
-            self.extents.push(Extent { low, high, radius, hull });
+            self.extents.push(extent);
         }
     }
 
@@ -338,6 +346,11 @@ fn hull(q: &Quantities<'_>, point: &Point) -> Option<OrientationPolytope> {
 
 fn is_flat(q: &Quantities<'_>, point: &Point) -> bool {
     matches!(q.place(point[2]), QuantitySource::Number(z) if z == 0.0)
+}
+
+/// Whether a box is in the plane z = 0.
+fn is_level([low, high]: Span3) -> bool {
+    low[2] == 0.0 && high[2] == 0.0
 }
 
 fn grown([low, high]: Span3, by: f64, flat: bool) -> Span3 {

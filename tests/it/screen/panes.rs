@@ -546,6 +546,24 @@ fn a_body_seen_from_itself_stands_still() {
     assert!(from_body > 0.8 && from_space < 0.5, "{from_body} of {from_space}");
 }
 
+/// Seen from itself a body is about as large as in space, though its own frame turns any way.
+#[test]
+fn a_body_seen_from_itself_keeps_its_size() {
+    let few = RenderStyle { theme: Theme::dark(ColourDepth::Ansi16), glyphs: Glyphs::Braille };
+    for name in ["t-handle", "free-rigid-body"] {
+        let mut real = Real::of(name);
+        real.run(300);
+        press(&mut real.app, "Tab Tab Tab z");
+        let mut drawn = |keys: &str| {
+            press(&mut real.app, keys);
+            let screen = rows(&screen(&real.app, &few, (120, 40)));
+            screen.concat().chars().filter(|c| ('⠁'..='⣿').contains(c)).count() as f64
+        };
+        let (from_space, from_body) = (drawn(""), drawn("f"));
+        assert!(from_body > 0.6 * from_space, "{name}: {from_body} of {from_space}");
+    }
+}
+
 #[test]
 fn a_potential_is_drawn_with_the_energy_and_where_the_motion_is_allowed() {
     let planet = loaded("planet", 1);
