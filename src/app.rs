@@ -86,7 +86,7 @@ pub use hit_target::{Grab, HitTarget};
 pub use lab::Lab;
 pub use loaded::{LoadError, Loaded};
 pub use menu::{Choice, Choosing, Item, Menu};
-pub use notification::Notification;
+pub use notification::{Notification, NotificationKind};
 pub use page::{EquationsSection, Page};
 pub use pane::{Pane, Selection};
 pub use picker::{Above, Picker};

@@ -13,9 +13,8 @@ impl App {
     /// Adds a motion that begins at the cursor of the focused plot.
     pub(super) fn add_start_here(&mut self) -> Vec<Effect> {
         let Some(lab) = &self.lab else { return Vec::new() };
-        let Some((index, plot)) = lab.focused_plot() else { return Vec::new() };
-        let has_cursor = plot.viewport().is_some_and(|viewport| viewport.cursor.is_some());
-        match self.drawn.reading.filter(|_| has_cursor) {
+        let Some((index, _)) = lab.focused_plot() else { return Vec::new() };
+        match self.drawn.reading.filter(|_| lab.has_cursor()) {
             Some(at) => self.add_start_at(index, at),
             None => self.notify("A motion is added at the cursor; c puts one on the plot."),
         }
@@ -42,7 +41,7 @@ impl App {
                 vec![Effect::Tell(Command::AddStart(given))]
             }
             Ok(_) => self.notify(full()),
-            Err(NoStart::Refused(why)) => self.notify(why),
+            Err(NoStart::Refused(why)) => self.fail(why),
             Err(NoStart::Nothing) => self.notify(NO_START),
         }
     }

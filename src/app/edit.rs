@@ -77,7 +77,7 @@ impl App {
     /// Opens the file of the loaded system.
     pub(super) fn edit_file(&mut self) -> Vec<Effect> {
         // The row of the editor's state is not taken by what was said of the motion before.
-        self.notice.take_if(|notice| !notice.error);
+        self.notice.take_if(|notice| !notice.is_error());
         if self.ready_buffer().is_some() {
             self.overlay = Some(Overlay::Workbench);
         }
@@ -112,7 +112,7 @@ impl App {
         if self.notice.as_ref().is_some_and(|notice| notice.text == message) {
             return vec![Effect::Quit];
         }
-        self.notify(message)
+        self.fail(message)
     }
 
     /// Cancels the end of the program because a text could not be stored.

@@ -49,11 +49,11 @@ impl App {
         self.notice = None;
         let found = match outcome {
             Outcome::Cancelled => return Some(Vec::new()),
-            Outcome::Failed(sentence) => return Some(self.notify(sentence.clone())),
+            Outcome::Failed(sentence) => return Some(self.fail(sentence.clone())),
             Outcome::Done(answer) => answer.of::<Result<Arc<FoundEquilibria>, String>>()?,
         };
         Some(match found {
-            Err(why) => self.notify(format!("Equilibria cannot be searched for here: {why}.")),
+            Err(why) => self.fail(format!("Equilibria cannot be searched for here: {why}.")),
             Ok(found) if found.found.is_empty() => {
                 self.notify("There is no equilibrium near the current state.")
             }

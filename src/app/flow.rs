@@ -329,7 +329,7 @@ impl App {
         let values = if system.exact_rates().depends_on_time() {
             match Experiment::new(model, law, system, (*snapshot.setup).clone()) {
                 Ok(experiment) => experiment.snapshot().values,
-                Err(why) => return self.notify(format!("The flow cannot be followed: {why}.")),
+                Err(why) => return self.fail(format!("The flow cannot be followed: {why}.")),
             }
         } else {
             Arc::clone(&snapshot.values)
@@ -376,7 +376,7 @@ impl App {
                 self.notice = Some(Notification::info(end.sentence()));
                 effects
             }
-            Err(why) => self.notify(format!("The flow cannot be followed: {why}.")),
+            Err(why) => self.fail(format!("The flow cannot be followed: {why}.")),
         })
     }
 }

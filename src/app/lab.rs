@@ -313,6 +313,12 @@ impl Lab {
         }
     }
 
+    /// Whether there is a cursor on the focused plot.
+    pub fn has_cursor(&self) -> bool {
+        let viewport = self.focused_plot().and_then(|(_, plot)| plot.viewport());
+        viewport.is_some_and(|viewport| viewport.cursor.is_some())
+    }
+
     /// Returns the value that keys would change.
     pub fn selected(&self) -> Option<ValueId> {
         let target = match self.focus {

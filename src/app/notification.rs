@@ -16,10 +16,21 @@ const WAITING: usize = 8;
 pub struct Notification {
     /// The sentence.
     pub text: String,
-    /// Whether something went wrong.
-    pub error: bool,
+    /// What it is about.
+    pub kind: NotificationKind,
     left: Duration,
     shown: Duration,
+}
+
+/// What a notification is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NotificationKind {
+    /// A success or a change.
+    Info,
+    /// Why a key does nothing here, and what would.
+    Hint,
+    /// Something went wrong.
+    Error,
 }
 
 /// Sentences that wait until earlier ones have been shown.
@@ -83,22 +94,27 @@ impl Notification {
 
     /// Creates a notification of success or of a change.
     pub fn info(text: impl Into<String>) -> Self {
-        Self {
-            text: text.into(),
-            error: false,
-            left: Duration::from_secs(5),
-            shown: Duration::ZERO,
-        }
+        Self::new(text, NotificationKind::Info, 5)
+    }
+
+    /// Creates a notification that says why a key does nothing here.
+    pub fn hint(text: impl Into<String>) -> Self {
+        Self::new(text, NotificationKind::Hint, 10)
     }
 
     /// Creates a notification of an error.
     pub fn error(text: impl Into<String>) -> Self {
-        Self {
-            text: text.into(),
-            error: true,
-            left: Duration::from_secs(10),
-            shown: Duration::ZERO,
-        }
+        Self::new(text, NotificationKind::Error, 10)
+    }
+
+    fn new(text: impl Into<String>, kind: NotificationKind, seconds: u64) -> Self {
+        let left = Duration::from_secs(seconds);
+        Self { text: text.into(), kind, left, shown: Duration::ZERO }
+    }
+
+    /// Whether something went wrong.
+    pub fn is_error(&self) -> bool {
+        self.kind == NotificationKind::Error
     }
 
     /// Returns the notification after this time, or `None` if it has expired.

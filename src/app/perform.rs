@@ -80,7 +80,7 @@ impl App {
             Action::PlayPause => match lab.snapshot.as_ref().map(|s| &s.status) {
                 Some(Status::Running) => vec![Effect::Tell(Command::Pause)],
                 Some(Status::Failed(_)) => {
-                    self.notify("It cannot continue from here: reset it with r.")
+                    self.fail("It cannot continue from here: reset it with r.")
                 }
                 Some(Status::Ended(_)) => {
                     self.notify("The motion has ended: begin it again with r.")
@@ -206,8 +206,14 @@ impl App {
         effects
     }
 
-    /// Shows an error to the user.
+    /// Tells the user why a key does nothing here.
     pub(super) fn notify(&mut self, text: impl Into<String>) -> Vec<Effect> {
+        self.notice = Some(Notification::hint(text));
+        Vec::new()
+    }
+
+    /// Shows an error to the user.
+    pub(super) fn fail(&mut self, text: impl Into<String>) -> Vec<Effect> {
         self.notice = Some(Notification::error(text));
         Vec::new()
     }

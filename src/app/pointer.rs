@@ -155,7 +155,7 @@ impl App {
                     Ok(effects) => effects,
                     Err(NoStart::Refused(why)) => {
                         lab.history.end_group();
-                        return self.notify(why);
+                        return self.fail(why);
                     }
                     Err(NoStart::Nothing) => {
                         lab.redraw(index, |plot, _| {
@@ -228,12 +228,12 @@ impl App {
     /// Begins the motion at the cursor of the focused plot. Without a cursor, chooses what the plot shows.
     pub(super) fn start_here(&mut self) -> Vec<Effect> {
         let Some(lab) = &mut self.lab else { return Vec::new() };
-        let Some((index, plot)) = lab.focused_plot() else { return Vec::new() };
-        let has_cursor = plot.viewport().is_some_and(|viewport| viewport.cursor.is_some());
-        let Some(at) = self.drawn.reading.filter(|_| has_cursor) else { return self.open_axes() };
+        let Some((index, _)) = lab.focused_plot() else { return Vec::new() };
+        let reading = self.drawn.reading.filter(|_| lab.has_cursor());
+        let Some(at) = reading else { return self.open_axes() };
         match lab.begun_at(index, at) {
             Ok(effects) => effects,
-            Err(NoStart::Refused(why)) => self.notify(why),
+            Err(NoStart::Refused(why)) => self.fail(why),
             Err(NoStart::Nothing) => self.notify(
                 "No motion can start from a point of this plot: that takes a coordinate and its rate, or a section.",
             ),
@@ -254,7 +254,7 @@ impl App {
         if let Some(at) = through
             && let Err(NoStart::Refused(why)) = lab.beginning_at(index, at)
         {
-            return self.notify(why);
+            return self.fail(why);
         }
         let mut changed = plot.clone();
         let added = match lab.present() {
@@ -263,7 +263,7 @@ impl App {
         };
         if !added {
             let why = if plot.seeds.is_empty() { NO_STARTS } else { NO_MORE };
-            return self.notify(why);
+            return self.fail(why);
         }
         lab.redraw(index, |plot, _| *plot = changed);
         Vec::new()
@@ -283,7 +283,7 @@ impl App {
         };
         if !filled {
             let why = if plot.seeds.is_empty() { NO_STARTS } else { NO_MORE };
-            return self.notify(why);
+            return self.fail(why);
         }
         lab.redraw(index, |plot, _| *plot = changed);
         Vec::new()

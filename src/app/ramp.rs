@@ -73,7 +73,7 @@ impl App {
         let RampRequest { to, duration, form } = request;
         let ramp = NewRamp { parameter: name.clone(), to, start, duration, form };
         if let Some(why) = self.remind_of_what_does_not_run() {
-            return self.notify(why);
+            return self.fail(why);
         }
         let Some(buffer) = self.ready_buffer() else { return Vec::new() };
         match ramp.added_to(&buffer.editor.text()) {
@@ -81,7 +81,7 @@ impl App {
                 buffer.editor.become_text(&text);
                 buffer.touch_at_once(false);
             }
-            Err(why) => return self.notify(format!("The text cannot be changed: {why}.")),
+            Err(why) => return self.fail(format!("The text cannot be changed: {why}.")),
         }
         if let Some(lab) = &mut self.lab {
             lab.hold_for_ramp(&name);

@@ -156,7 +156,7 @@ impl App {
         if let Some(found) = self.lab.as_mut().and_then(|lab| lab.take_search(ticket, &outcome)) {
             self.renew_flows();
             return match outcome {
-                Outcome::Failed(sentence) => self.notify(sentence),
+                Outcome::Failed(sentence) => self.fail(sentence),
                 _ => found.into_iter().map(|found| Effect::Tell(Command::Follow(found))).collect(),
             };
         }
@@ -182,7 +182,7 @@ impl App {
             }),
         };
         match outcome {
-            Outcome::Failed(sentence) if waited => self.notify(sentence),
+            Outcome::Failed(sentence) if waited => self.fail(sentence),
             _ => Vec::new(),
         }
     }

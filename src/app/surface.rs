@@ -101,7 +101,7 @@ impl App {
         sentence: String,
     ) -> Vec<Effect> {
         if let Some(why) = self.remind_of_what_does_not_run() {
-            return self.notify(why);
+            return self.fail(why);
         }
         let Some(buffer) = self.ready_buffer() else { return Vec::new() };
         match surface.written_to(&buffer.editor.text(), view) {
@@ -109,7 +109,7 @@ impl App {
                 buffer.editor.become_text(&text);
                 buffer.touch_at_once(false);
             }
-            Err(why) => return self.notify(format!("The text cannot be changed: {why}.")),
+            Err(why) => return self.fail(format!("The text cannot be changed: {why}.")),
         }
         if matches!(view, SurfaceView::New(_)) {
             self.new_section = Some(plot);

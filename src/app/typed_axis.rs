@@ -25,7 +25,7 @@ impl App {
             let what = what.unwrap_or_else(|| "it cannot be read".to_owned());
             let sentence = format!("No line has `{typed}`, and as an expression: {what}.");
             self.overlay = Some(Overlay::Menu(menu.clone()));
-            return Some(self.notify(sentence));
+            return Some(self.fail(sentence));
         };
         let channel_name = |channel: usize| {
             lab.loaded.system.channels().get(channel).map_or_else(String::new, |c| c.name.clone())
@@ -46,7 +46,7 @@ impl App {
         }
         let observable = NewObservable { name: name.clone(), expression: typed };
         if let Some(why) = self.remind_of_what_does_not_run() {
-            return Some(self.notify(why));
+            return Some(self.fail(why));
         }
         let buffer = self.ready_buffer()?;
         match observable.added_to(&buffer.editor.text()) {
@@ -54,7 +54,7 @@ impl App {
                 buffer.editor.become_text(&text);
                 buffer.touch_at_once(false);
             }
-            Err(why) => return Some(self.notify(format!("The text cannot be changed: {why}."))),
+            Err(why) => return Some(self.fail(format!("The text cannot be changed: {why}."))),
         }
         self.typed_axis = Some(axis);
         let sentence = format!("{name} is now an observable of the text; E shows it.");

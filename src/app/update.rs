@@ -74,7 +74,7 @@ impl App {
                 self.notice = Some(Notification::info(sentence));
                 Vec::new()
             }
-            Event::Written(Err(sentence)) => self.notify(sentence),
+            Event::Written(Err(sentence)) => self.fail(sentence),
             Event::Tick(elapsed) => {
                 self.meter.tick(elapsed);
                 self.reading.tick(elapsed);
@@ -240,7 +240,7 @@ impl App {
         (self.typed_axis, self.new_section) = (None, None);
         self.lab = Some(Lab::new(loaded));
         // An error message stays valid when something else is loaded.
-        self.notice.take_if(|notice| !notice.error);
+        self.notice.take_if(|notice| !notice.is_error());
         self.notifications.clear();
         self.meter.forget();
         self.picker.failure = None;

@@ -15,7 +15,8 @@ use super::values::typing;
 use super::wrap::words_in;
 use crate::app::keymap::{Binding, KEYS, Place};
 use crate::app::{
-    Action, App, HitTarget, InputField, KeyHints, Lab, Overlay, Page, Pane, Purpose, ValueId,
+    Action, App, HitTarget, InputField, KeyHints, Lab, Notification, NotificationKind, Overlay,
+    Page, Pane, Purpose, ValueId,
 };
 use crate::experiment::{Snapshot, Status};
 
@@ -75,11 +76,17 @@ fn current_notification(app: &App) -> Option<(String, Role)> {
     if app.open_buffer().is_some() {
         return None;
     }
-    let notice = app
-        .notice
-        .as_ref()
-        .map(|notice| (notice.text.clone(), if notice.error { Role::Bad } else { Role::Good }));
+    let notice = app.notice.as_ref().map(|notice| (notice.text.clone(), notice_role(notice)));
     notice.or_else(|| app.banner().map(|banner| (banner, Role::Bad)))
+}
+
+/// The role of a notification.
+pub(super) fn notice_role(notice: &Notification) -> Role {
+    match notice.kind {
+        NotificationKind::Info => Role::Good,
+        NotificationKind::Hint => Role::Text,
+        NotificationKind::Error => Role::Bad,
+    }
 }
 
 /// The most rows that a notification takes.
@@ -202,7 +209,9 @@ fn hints(canvas: &Canvas<'_>, app: &App) -> Vec<Hint> {
             _ => false,
         };
         let leaves = row.action == Action::Quit && app.hints == KeyHints::LabInLesson;
+        let pointed = row.action == Action::Cursor && app.lab.as_ref().is_some_and(Lab::has_cursor);
         let word = match row.hint {
+            _ if pointed => "no cursor",
             _ if closes => "close",
             _ if leaves => "leave",
             "" => "initial view",

@@ -9,6 +9,7 @@ use ratatui::style::{Modifier, Style};
 use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
 
 use super::canvas::{Canvas, columns, row};
+use super::footer::notice_role;
 use super::lab_page;
 use super::layout::{split_columns, split_rows};
 use super::theme::Role;
@@ -280,7 +281,7 @@ fn foot(
 
 /// Draws a notification and returns the number of rows it takes.
 fn draw_notification(canvas: &mut Canvas<'_>, area: Rect, notice: &Notification) -> usize {
-    let role = if notice.error { Role::Bad } else { Role::Good };
+    let role = notice_role(notice);
     let lines = words(&canvas.text(&notice.text), area.width.into());
     let used = lines.len().min(area.height.into());
     for (index, line) in lines.iter().take(used).enumerate() {

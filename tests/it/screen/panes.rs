@@ -13,7 +13,7 @@ use phaselab::view::RenderStyle;
 use phaselab::view::colour::ColourDepth;
 use phaselab::view::glyphs::Glyphs;
 use phaselab::view::theme::{Role, Theme};
-use ratatui::style::Modifier;
+use ratatui::style::{Color, Modifier};
 
 use super::{find, rich, rows, screen};
 use crate::app::real::Real;
@@ -370,6 +370,35 @@ fn the_cursor_reads_the_cell_it_stands_on() {
         .collect();
     assert_eq!(numbers.len(), 2, "{reading}");
     assert!(numbers[0].abs() < 0.2 && numbers[1].abs() < 0.8, "{numbers:?}");
+}
+
+/// The key that puts a cursor on a plot also takes it off.
+#[test]
+fn the_key_of_the_cursor_says_what_it_does() {
+    let mut app = in_lab();
+    press(&mut app, "Tab Tab Tab Tab");
+    let last = |app: &App| rows(&screen(app, &rich(), (200, 40))).pop().unwrap();
+    assert!(last(&app).contains("c cursor"), "{}", last(&app));
+    press(&mut app, "c");
+    assert!(last(&app).contains("c no cursor"), "{}", last(&app));
+}
+
+/// Why a key does nothing here is told, but is no error.
+#[test]
+fn a_hint_has_not_the_colour_of_an_error() {
+    let theme = rich().theme;
+    for (keys, text) in [
+        ("f", "This system has no frames"),
+        ("Tab Tab Tab Tab A", "A motion is added at the cursor"),
+        ("u", "Nothing to undo."),
+    ] {
+        let mut app = in_lab();
+        press(&mut app, keys);
+        let buffer = screen(&app, &rich(), (120, 40));
+        let at = find(&buffer, text).unwrap_or_else(|| panic!("{:#?}", rows(&buffer)));
+        assert_eq!(Some(buffer[at].fg), theme[Role::Text].fg.or(Some(Color::Reset)), "{text}");
+        assert_ne!(Some(buffer[at].fg), theme[Role::Bad].fg, "{text}");
+    }
 }
 
 #[test]
