@@ -387,8 +387,31 @@ fn value(canvas: &mut Canvas<'_>, area: Rect, value: f64, digits: usize) -> u16 
 }
 
 fn drift(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge) {
-    let text = shown_drift(gauge.drift, area.width.into(), canvas.look.glyphs);
+    let (width, glyphs) = (usize::from(area.width), canvas.look.glyphs);
+    let text = change(gauge, width, glyphs);
+    let text = text.unwrap_or_else(|| shown_drift(gauge.drift, width, glyphs));
     canvas.right(area, drift_role(gauge), &text);
+}
+
+/// The change of what is not conserved since the reference was taken, with its sign: in per cent of the value there, or in its
+/// own unit where that is zero or many times smaller. `None` for what is conserved.
+pub(super) fn change(gauge: &Gauge, width: usize, glyphs: Glyphs) -> Option<String> {
+    let is_broken = matches!(gauge.verdict, Verdict::Broken(_)) && !gauge.drift.is_nan();
+    let by = Some(gauge.value - gauge.initial).filter(|_| is_broken)?;
+    let sign = if by < 0.0 { glyphs.pick("−", "-") } else { "+" };
+    let share = 100.0 * (by / gauge.initial).abs();
+    let is_zero = gauge.initial.abs() <= ROUNDING * gauge.scale;
+    Some(match share {
+        _ if by.abs() <= ROUNDING * gauge.scale => "0".to_owned(),
+        _ if is_zero || share.is_nan() || share >= 1000.0 => {
+            let room = width.saturating_sub(1);
+            format!("{sign}{}", fitted(by.abs(), 3, room, glyphs).trim_start())
+        }
+        ..0.01 => glyphs.pick("≈ 0 %", "~ 0 %").to_owned(),
+        ..1.0 => format!("{sign}{share:.2} %"),
+        ..10.0 => format!("{sign}{share:.1} %"),
+        _ => format!("{sign}{share:.0} %"),
+    })
 }
 
 /// A drift in a column: a large one in per cent of what moves.

@@ -3,7 +3,7 @@
 //! In: the channels and their values. Out: a page of text. Never here: pictures.
 
 use super::companions;
-use super::gauges::{in_full, is_residual, shown_value, word};
+use super::gauges::{change, in_full, is_residual, shown_value, word};
 use super::number::{drift, readable};
 use super::quantity::Quantities;
 use super::text_page::TextPage;
@@ -58,7 +58,10 @@ pub(super) fn document(q: &Quantities<'_>) -> TextPage {
         let name = glyphs.pick(&gauge.shown, &gauge.name);
         let residual = is_residual(q.lab, gauge);
         let (text, role) = if residual { word(&gauge.verdict) } else { in_full(&gauge.verdict) };
-        let drifted = format!("  drift {:<9} ", drift(gauge.drift, glyphs));
+        let drifted = match change(gauge, 9, glyphs) {
+            Some(by) => format!("  by {by:<12} "),
+            None => format!("  drift {:<9} ", drift(gauge.drift, glyphs)),
+        };
         let drifted = if residual { format!("{:<18}", "  residual") } else { drifted };
         let rest = vec![
             (Role::Dim, drifted),

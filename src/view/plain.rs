@@ -3,7 +3,7 @@
 //! In: the lab and the snapshot to be read. Out: a page of text. Never here: anything that changes without input.
 
 use super::companions;
-use super::gauges::{finding, in_full};
+use super::gauges::{change, finding, in_full};
 use super::header::status_words;
 use super::number::{brief, drift, readable};
 use super::quantity::Quantities;
@@ -58,10 +58,13 @@ pub(super) fn document(q: &Quantities<'_>) -> TextPage {
             "…" => "open",
             word => word,
         };
+        let moved = match change(gauge, usize::MAX, q.look.glyphs) {
+            Some(by) => format!("changed by {by}"),
+            None => format!("drift {}", drift(gauge.drift, q.look.glyphs)),
+        };
         write(format!(
-            "{shown}{called} is {}; drift {} since t = {}; {verdict}: {}. Why it is watched: {}.",
+            "{shown}{called} is {}; {moved} since t = {}; {verdict}: {}. Why it is watched: {}.",
             readable(gauge.value, 8, q.look.glyphs),
-            drift(gauge.drift, q.look.glyphs),
             brief(gauge.reference_time, 6, q.look.glyphs),
             finding(gauge, q.look.glyphs),
             gauge.reason

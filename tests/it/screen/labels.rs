@@ -361,12 +361,35 @@ fn a_top_without_angles_is_shown_as_a_body() {
 fn a_large_drift_is_given_in_per_cent() {
     let mut app = lab("damped-pendulum", 1.0);
     let mut seen = snapshot(&app.lab.as_ref().unwrap().loaded, 1.0);
-    let broken = Verdict::Broken("friction".to_owned());
     for (drift, shown) in [(1.0, " 100 % "), (0.512, " 51 % "), (0.0099, " 9.9×10⁻³ ")] {
-        seen.gauges = [Gauge { drift, ..gauge("energy", "E", 4.0, broken.clone()) }].into();
+        seen.gauges = [Gauge { drift, ..gauge("energy", "E", 4.0, Verdict::Lost) }].into();
         app.update(Event::Snapshot(Arc::new(seen.clone())));
         let text = rows(&screen(&app, &rich(), (120, 40)));
         assert!(text.iter().any(|row| row.contains(shown)), "{text:#?}");
+    }
+}
+
+/// What is not conserved has a signed change since the start, whatever its terms have changed by.
+#[test]
+fn what_is_not_conserved_has_the_change_since_the_start() {
+    let mut app = lab("damped-pendulum", 1.0);
+    let mut seen = snapshot(&app.lab.as_ref().unwrap().loaded, 1.0);
+    let broken = Verdict::Broken("friction".to_owned());
+    for (initial, value, shown) in [
+        (1.2425, 0.911, " −27 % "),
+        (1.24252, 1.24184, " −0.05 % "),
+        (2.0, 0.085, " −96 % "),
+        (0.425, 1.115, " +162 % "),
+        (-2.0, -2.1, " −5.0 % "),
+        (0.0, 0.25, " +0.250 "),
+        (1e-3, -0.5, " −0.501 "),
+        (3.0, 3.0, " 0 "),
+    ] {
+        let of = gauge("energy", "E", value, broken.clone());
+        seen.gauges = [Gauge { initial, reference: initial, drift: 0.43, ..of }].into();
+        app.update(Event::Snapshot(Arc::new(seen.clone())));
+        let text = rows(&screen(&app, &rich(), (120, 40)));
+        assert!(text.iter().any(|row| row.contains(shown)), "{shown} in {text:#?}");
     }
 }
 
