@@ -1,6 +1,6 @@
 //! What an instrument writes into its plot: a few lines, beside the axes where they take a third of the pane at most,
-//! above them else, so that they cover nothing; in their upper left corner where there is no room for both. A low plot has
-//! two of them at most, the second of which says what the zoomed pane shows.
+//! above them else, so that they cover nothing; in their upper left corner where there is no room for both. A low plot, and one
+//! of which they would take more than a third, has two of them at most, the second of which says what the zoomed pane shows.
 //!
 //! In: the lines, the area, whether the pane can be zoomed. Out: cells. Never here: what the lines say.
 
@@ -24,6 +24,9 @@ const LOW: u16 = 6;
 /// An area of fewer rows leaves its lines so many above the axes.
 const SMALL: u16 = 16;
 const FEW: usize = 2;
+
+/// At most one row in so many is above the axes, unless the pane is zoomed.
+const SHARE: u16 = 3;
 
 /// Parts an area into one for the axes and one for the lines, so that these cover nothing.
 pub(super) fn beside(
@@ -55,15 +58,28 @@ pub(super) fn beside(
 }
 
 /// Whether the lines of an area, which have a part of it, are few: its zoomed pane has room for more of them.
-pub(super) fn has_few(area: Rect, lines: Option<Rect>, zoomable: bool) -> bool {
+pub(super) fn has_few(
+    area: Rect,
+    (lines, written): (Option<Rect>, &[String]),
+    zoomable: bool,
+    look: &RenderStyle,
+) -> bool {
     let above = lines.is_none_or(|lines| lines.height < area.height);
-    zoomable && above && area.height < SMALL
+    zoomable && above && are_many(area, written, look)
+}
+
+/// Whether a plot of this height has no room for all of some lines above its axes.
+fn are_many(area: Rect, lines: &[String], look: &RenderStyle) -> bool {
+    let most = usize::from(area.height / SHARE);
+    area.height < SMALL || rows(area, (lines, false), look).len() > most
 }
 
 /// The number of rows of all lines.
 fn wrapped(area: Rect, (layers, zoomable): (&[(Level, Layer)], bool), look: &RenderStyle) -> usize {
     let lines = layers.iter().map(|(_, layer)| match layer {
-        Layer::Legend(lines) => rows(area, (lines, zoomable && area.height < SMALL), look).len(),
+        Layer::Legend(lines) => {
+            rows(area, (lines, zoomable && are_many(area, lines, look)), look).len()
+        }
         _ => 0,
     });
     lines.sum()
@@ -212,6 +228,11 @@ mod tests {
         let whole = written(&lines, false).len() as u16;
         assert_eq!(heights(12, false), [12 - whole, whole]);
         assert_eq!(heights(20, true), [20 - whole, whole]);
+        // a higher one too, of which they would take more than a third
+        let many = [lines, lines].concat().into_iter().map(str::to_owned).collect();
+        let many = [(0, Layer::Legend(many))];
+        let (axes, words) = beside(Rect::new(0, 0, 38, 20), (&many, true), &look);
+        assert_eq!([axes.height, words.expect("words").height], [18, 2]);
     }
 
     fn lines_of(text: &str) -> Vec<&str> {

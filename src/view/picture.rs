@@ -110,7 +110,7 @@ pub(super) fn draw(
     names::draw(canvas, &frame, &layers);
     for (_, layer) in &layers {
         if let Layer::Legend(lines) = layer {
-            let few = legend::has_few(whole, beside, zoomable);
+            let few = legend::has_few(whole, (beside, lines), zoomable, canvas.look);
             legend::draw(canvas, beside.unwrap_or(frame.area), (lines, few));
         }
     }
