@@ -58,8 +58,9 @@ impl AttitudeGauge {
         let a = self.matrix(values);
         let (angle, axis) = turn(&a);
         let [x, y, z] = axis.map(|x| if x.abs() < 5e-4 { 0.0 } else { x });
-        let reason = format!("turned by Φ = {angle:.3} about ({x:.3}, {y:.3}, {z:.3})");
-        self.deviation.gauge(Self::NAME, "A Aᵀ = 1, det A = 1", reason, missing(&a))
+        let reason =
+            format!("A Aᵀ = 1, det A = 1; turned by Φ = {angle:.3} about ({x:.3}, {y:.3}, {z:.3})");
+        self.deviation.gauge(Self::NAME, Self::NAME, reason, missing(&a))
     }
 }
 

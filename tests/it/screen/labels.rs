@@ -393,6 +393,16 @@ fn what_is_not_conserved_has_the_change_since_the_start() {
     }
 }
 
+/// The gauge of an attitude has one name in all characters; what it measures is its reason.
+#[test]
+fn the_gauge_of_an_attitude_has_one_name() {
+    let real = Real::of("sleeping-top");
+    let gauges = &real.seen().gauges;
+    let gauge = gauges.iter().find(|gauge| gauge.name == "attitude").expect("an attitude");
+    assert_eq!(gauge.shown, "attitude");
+    assert!(gauge.reason.starts_with("A Aᵀ = 1, det A = 1"), "{}", gauge.reason);
+}
+
 /// A diagram at a fixed time names the time, and a logarithm over ln 2 is one to that base.
 #[test]
 fn the_axis_of_a_diagram_names_its_quantity_and_time() {
