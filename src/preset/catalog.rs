@@ -124,7 +124,7 @@ impl Catalog {
     }
 
     /// Returns the name of the preset that was meant by one that none has: with this title, or with a name or a title close
-    /// to it, or the first with the word in either.
+    /// to it, or the first with the word in either, or in its summary.
     pub fn nearest(&self, wanted: &str) -> Option<&str> {
         let names = self.entries.iter().map(|entry| entry.name.as_str());
         let titles = self.entries.iter().map(|entry| entry.info.title.as_str());
@@ -133,10 +133,11 @@ impl Catalog {
             let text = text.to_lowercase();
             text.split(|c: char| !c.is_alphanumeric()).any(|word| word == folded)
         };
-        let mut entries = self.entries.iter();
-        let mut with_word = || {
-            let found = entries.find(|entry| holds(&entry.name) || holds(&entry.info.title));
-            found.filter(|_| folded.chars().count() >= LEAST_SOUGHT)
+        let sought = || self.entries.iter().filter(|_| folded.chars().count() >= LEAST_SOUGHT);
+        let with_word = || {
+            sought()
+                .find(|entry| holds(&entry.name) || holds(&entry.info.title))
+                .or_else(|| sought().find(|entry| holds(&entry.info.summary)))
         };
         self.titled(wanted)
             .or_else(|| nearest(wanted, names))
@@ -166,7 +167,7 @@ impl Catalog {
     }
 }
 
-/// What is sought among the words of names and titles has at least this many letters.
+/// What is sought among the words of names, titles and summaries has at least this many letters.
 const LEAST_SOUGHT: usize = 3;
 
 /// Finds the document that a user names, as [`Catalog::find`] does, without reading any other.

@@ -172,6 +172,8 @@ fn a_misspelt_name_gets_the_nearest() {
         ("simple pendulun", "pendulum"),
         ("kepler", "kepler-brackets"),
         ("Foucault's pendulum", "foucault"),
+        // a word of its summary alone
+        ("racket", "free-rigid-body"),
     ] {
         let said = catalog.find(wanted).unwrap_err().to_string();
         assert_eq!(said, format!("there is no preset `{wanted}`; did you mean `{meant}`?"));
