@@ -15,8 +15,9 @@ use crate::diagnostic::{Diagnostic, Document};
 use crate::preset::{demo, demos};
 use crate::printable;
 use crate::record::cast_writer::{self, Version};
+use crate::record::screenshot::{self, ImageFormat};
 use crate::record::script::read_size;
-use crate::record::{Recording, Script, called, play, screenshot, transcript};
+use crate::record::{Recording, Script, called, play, transcript};
 
 /// Record a demo: a script of keys, waits and captions becomes a cast, the same on every machine.
 ///
@@ -103,11 +104,11 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
 
 /// Writes a still of the end, or of the beginning of a chapter.
 fn take_still(recording: &Recording, path: &Path, at: Option<&str>) -> Result<(), CommandError> {
-    let form = path.to_string_lossy().parse().map_err(|why| {
+    let form: ImageFormat = path.to_string_lossy().parse().map_err(|why| {
         CommandError::WrongUse(format!("--still {}: {why}", printable::path(path)))
     })?;
-    let screen = match at {
-        None => &recording.last,
+    let (screen, colourless) = match at {
+        None => (&recording.last, &recording.last_colourless),
         Some(name) => {
             let marker = recording.markers.iter().find(|marker| marker.name == name);
             let names = || recording.markers.iter().map(|marker| marker.name.as_str());
@@ -119,13 +120,15 @@ fn take_still(recording: &Recording, path: &Path, at: Option<&str>) -> Result<()
                 let name = printable::quoted(name);
                 CommandError::WrongUse(format!("there is no marker `{name}`; {}", help()))
             };
-            &marker.ok_or_else(unknown)?.screen
+            let marker = marker.ok_or_else(unknown)?;
+            (&marker.screen, &marker.colourless)
         }
     };
+    // What colours tell apart, as a surface and what is drawn on it, text has to tell apart by its characters.
+    let screen = if form == ImageFormat::Text { colourless } else { screen };
     let palette = recording.look.theme.palette();
     let text = screenshot::write(screen, palette, form, &recording.title);
-    let written =
-        if form == screenshot::ImageFormat::Ansi { OutputForm::Coloured } else { OutputForm::Text };
+    let written = if form == ImageFormat::Ansi { OutputForm::Coloured } else { OutputForm::Text };
     let mut out = Output::open(Some(path), written)?;
     out.write_all(text.as_bytes()).map_err(|error| out.failed(&error))?;
     out.finish()

@@ -16,6 +16,7 @@ use super::script::{Script, ScriptStep};
 use super::script_runner::{RunnerEvent, ScriptRunner, waits};
 use crate::diagnostic::{Diagnostic, Document};
 use crate::view::RenderStyle;
+use crate::view::colour::ColourDepth;
 use crate::view::frame::Frames;
 
 /// A recorded performance.
@@ -39,6 +40,8 @@ pub struct Recording {
     pub markers: Vec<ChapterMarker>,
     /// The screen at the end.
     pub last: Buffer,
+    /// The same as it is drawn without colours.
+    pub last_colourless: Buffer,
     /// The actions and assertions.
     pub log: Vec<(Micros, TranscriptEntry)>,
     /// The assertions that failed.
@@ -63,6 +66,8 @@ pub struct ChapterMarker {
     pub time: Micros,
     /// The screen at that time.
     pub screen: Buffer,
+    /// The same as it is drawn without colours.
+    pub colourless: Buffer,
 }
 
 /// An entry of the transcript.
@@ -148,6 +153,7 @@ pub fn play_while(
         whole = wanted(so_far).is_continue();
         heard = take.events.len();
     }
+    let last_colourless = take.performance.picture(&colourless(&take.look));
     let Take { performance, screen, look, events, markers, log, false_claims, .. } = take;
     let lab = performance.lab;
     let of_system = || {
@@ -162,12 +168,19 @@ pub fn play_while(
         end: lab.now(),
         look,
         last: screen.shown().cloned().unwrap_or_default(),
+        last_colourless,
         events,
         markers,
         log,
         false_claims,
     };
     Ok((recording, whole))
+}
+
+/// The same style without colours.
+fn colourless(look: &RenderStyle) -> RenderStyle {
+    let theme = look.theme.clone().with_depth(ColourDepth::None);
+    RenderStyle { theme, glyphs: look.glyphs }
 }
 
 /// A frame that could not be written.
@@ -221,9 +234,10 @@ impl Take {
             }
             RunnerEvent::Marker(name) => {
                 let screen = self.performance.picture(&self.look);
+                let colourless = self.performance.picture(&colourless(&self.look));
                 self.events.push((now, RecordingEvent::Marker(name.clone())));
                 self.log.push((now, TranscriptEntry::Marker(self.markers.len())));
-                self.markers.push(ChapterMarker { name, time: now, screen });
+                self.markers.push(ChapterMarker { name, time: now, screen, colourless });
             }
             RunnerEvent::Lesson(place, _) => return Err(waits(place)),
             RunnerEvent::Overlay => return Ok(false),

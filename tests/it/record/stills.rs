@@ -52,6 +52,25 @@ fn a_drawing_has_the_words_of_its_screen_and_no_fonts() {
     }
 }
 
+/// Text has no colours to shade a sphere with: it is drawn with dots and lines, as on a screen without colours.
+#[test]
+fn a_still_in_text_is_drawn_without_colours() {
+    let of = |colour: &str| {
+        played("free-rigid-body", &format!("Size 120x40\nColor {colour}\nMarker \"a\"\nWait 1s"))
+    };
+    let (coloured, bare) = (of("true"), of("never"));
+    let text = |screen: &Buffer| write(screen, bare.look.theme.palette(), ImageFormat::Text, "");
+    let is_block = |c: char| ('▖'..='▟').contains(&c);
+    assert!(text(&coloured.last).contains(is_block));
+    for (still, other) in [
+        (&coloured.last_colourless, &bare.last),
+        (&coloured.markers[0].colourless, &bare.markers[0].screen),
+    ] {
+        assert!(!text(still).contains(is_block));
+        assert_eq!(text(still), text(other));
+    }
+}
+
 #[test]
 fn text_and_colours_are_those_of_the_screen() {
     let recording = played("pendulum", "Size 80x24\nColor 256\nWait 1s");
