@@ -65,9 +65,7 @@ fn everything_on_the_screen_can_be_read() {
                 told(&format!("{} is ", channel.shown));
             }
         }
-        told(
-            "E (energy) is 0.25000000; drift 2.5×10⁻¹⁶ since t = 0; not conserved: by the physics",
-        );
+        told("E (energy) is 0.25000000; changed by 0 since t = 0; not conserved: by the physics");
         told("−2F along the whole way that it went. Why it is watched: ∂L/∂t = 0.");
         told("latest news first news");
         for row in KEYS.iter().filter(|row| row.place == Place::Experiment) {
