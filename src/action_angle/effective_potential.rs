@@ -41,6 +41,8 @@ pub struct EffectivePotential<'a> {
     rest_elsewhere: Option<f64>,
     /// Between which places its tops are given.
     resolved: [f64; 2],
+    /// Where the coordinate begins, with its momentum of rest, if the energy is greatest there.
+    greatest: Option<[f64; 2]>,
 }
 
 /// An interval in which a coordinate may move.
@@ -87,7 +89,11 @@ impl<'a> EffectivePotential<'a> {
             period,
             rest_elsewhere: None,
             resolved: [f64::NEG_INFINITY, f64::INFINITY],
+            greatest: None,
         };
+        // a velocity without a value is no reason to refuse anything
+        let greatest = potential.greatest_at_rest(at).ok().flatten();
+        potential.greatest = greatest.map(|rest| [at, rest]);
         potential.look_around(at);
         Ok(potential)
     }
@@ -95,6 +101,12 @@ impl<'a> EffectivePotential<'a> {
     /// The period of the coordinate.
     pub fn period(&self) -> Option<f64> {
         self.period
+    }
+
+    /// Where the coordinate begins, and its momentum of rest there, if that has the greatest energy and not the least: then the
+    /// energies at rest are no effective potential.
+    pub fn greatest(&self) -> Option<[f64; 2]> {
+        self.greatest
     }
 
     /// Between which places its tops are given: of a coordinate without its period there may be any number of them, and those far

@@ -136,6 +136,19 @@ pub enum NoAction {
         /// That at which it begins at rest.
         rest: f64,
     },
+    /// The energy at rest is the greatest of the place, not the least.
+    #[error(
+        "where the coordinate is {} the energy is greatest, and not least, at the momentum of rest, {}: it has no effective \
+         potential; −H may have one, with the same actions and periods",
+        short(*.place),
+        short(*.rest)
+    )]
+    GreatestAtRest {
+        /// Where the motion begins.
+        place: f64,
+        /// The momentum of rest there.
+        rest: f64,
+    },
     /// The motion came to no return.
     #[error("{0}")]
     NoReturn(String),
@@ -175,6 +188,9 @@ pub fn action_row(
     region: AllowedInterval,
     (energy, way): (f64, Root),
 ) -> Result<ActionRow, NoAction> {
+    if let Some([place, rest]) = potential.greatest() {
+        return Err(NoAction::GreatestAtRest { place, rest });
+    }
     match (region.left, region.right, potential.period()) {
         (Some(left), Some(right), _) => libration(potential, systems, [left, right], energy),
         (None, None, Some(period)) => rotation(potential, systems, period, (energy, way)),

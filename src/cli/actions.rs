@@ -93,6 +93,9 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let systems = Systems::compile(motion, reading, along.unwrap_or(index), interrupt)?;
     let could_not = |why: String| CommandError::CouldNot(why);
     let mut potential = systems.potential()?;
+    if let Some([place, rest]) = potential.greatest() {
+        return Err(could_not(NoAction::GreatestAtRest { place, rest }.to_string()));
+    }
     let own = own_start(&systems.turning, systems.index).map_err(could_not)?;
     let mut rows: Vec<ActionRow> = Vec::new();
     interrupt.ends_by_itself(|| ());

@@ -124,9 +124,9 @@ fn fixed(arguments: &Arguments, study: &Study) -> Result<Fixed, CommandError> {
     let conserved = space.has_energy_levels();
     match (arguments.energy, arguments.period) {
         (_, Some(period)) if period <= 0.0 => wrong("--period: a period is above zero"),
-        (Some(_), _) if !conserved => {
-            wrong("--energy: the energy is not conserved, so it cannot select an orbit")
-        }
+        (Some(_), _) if !conserved => wrong(
+            "--energy: the energy is not conserved, or everywhere the same, so it cannot select an orbit",
+        ),
         (Some(energy), _) => Ok(Fixed::Energy(energy)),
         // a limit cycle has the period that it has
         (None, Some(_)) if space.is_autonomous() && !conserved => Ok(Fixed::Nothing),

@@ -33,7 +33,8 @@ pub(super) struct Level {
 }
 
 impl Levels {
-    /// Those of a model given by brackets, with its energy where that is conserved; nothing of any other model.
+    /// Those of a model given by brackets, with its energy where that is conserved and varies from place to place; nothing of any
+    /// other model.
     pub(super) fn of(
         model: &Model,
         equations: &Equations,
@@ -43,12 +44,17 @@ impl Levels {
             return Ok(None);
         }
         let mut pool = equations.pool.clone();
-        let energy = has_energy.then(|| ("energy".to_owned(), equations.energy));
+        let variables: Vec<Symbol> = model.coordinates.iter().map(|c| c.position).collect();
+        // a function that is the same everywhere, as H = 0 beside forces, has no level sets
+        let mut varies =
+            |function: Expr| variables.iter().any(|&x| pool.derivative(function, x) != Expr::ZERO);
+        let energy = (has_energy && varies(equations.energy))
+            .then(|| ("energy".to_owned(), equations.energy));
+        let has_energy = energy.is_some();
         let casimirs = equations.conserved.iter().filter(|one| one.reason == Reason::Casimir);
         let casimirs = casimirs.map(|one| (one.name.clone(), one.expression));
         let (names, functions): (Vec<String>, Vec<Expr>) =
             energy.into_iter().chain(casimirs).unzip();
-        let variables: Vec<Symbol> = model.coordinates.iter().map(|c| c.position).collect();
         let mut outputs = functions.clone();
         for function in functions {
             outputs.extend(variables.iter().map(|&x| pool.derivative(function, x)));

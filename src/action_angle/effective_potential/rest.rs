@@ -1,6 +1,7 @@
 //! The state in which a coordinate rests at a place.
 //!
-//! In: a place. Out: the start, or its momentum alone, which in most systems is zero. Never here: the energy there.
+//! In: a place. Out: the start, or its momentum alone, which in most systems is zero; whether the energy is greatest there.
+//! Never here: that energy.
 
 use super::EffectivePotential;
 use crate::ensemble::Start;
@@ -8,6 +9,10 @@ use crate::system::{ChannelKind, Form, InitialOverride, MotionError};
 
 /// Secants to a momentum of rest.
 const SECANTS: usize = 30;
+
+/// How far beside a momentum of rest the velocities are looked at: of that momentum, and beside zero.
+const BESIDE: f64 = 1e-4;
+const BESIDE_ZERO: f64 = 1e-6;
 
 impl EffectivePotential<'_> {
     /// The start with the coordinate at rest at a place.
@@ -40,6 +45,17 @@ impl EffectivePotential<'_> {
         };
         self.rest_elsewhere = Some(found);
         Ok(found)
+    }
+
+    /// The momentum of rest at a place if the energy is greatest there among all momenta near it: an effective potential is the
+    /// least energy of each place. With q̇ = ∂H/∂p the velocity is then against p on both sides, whose sign is exact.
+    pub(super) fn greatest_at_rest(&mut self, place: f64) -> Result<Option<f64>, MotionError> {
+        let start = self.at_rest(place);
+        let rest = self.observed(&start, self.momentum())?;
+        let step = if rest == 0.0 { BESIDE_ZERO } else { BESIDE * rest.abs() };
+        let below = self.velocity_at(place, rest - step)?;
+        let above = self.velocity_at(place, rest + step)?;
+        Ok((below > 0.0 && above < 0.0).then_some(rest))
     }
 
     /// The zero of the velocity as a function of the momentum, by secants from one that is near and from zero.

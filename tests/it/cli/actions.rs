@@ -530,16 +530,41 @@ fn an_energy_with_several_momenta_of_rest_is_told_as_such() {
              [hamiltonian]\nH = \"{h}\"\n"
         )
     };
-    // of two minima in p, the start lies beside one
-    let below = with_file(&file("p_x^4 - p_x^2 + 1/2*x^2", 0.9), &["actions", "system.toml"]);
+    // of two minima in p, the start lies beside one, and at rest the energy is greatest
+    for energy in [&[][..], &["--energy=0.2"]] {
+        let words = [&["actions", "system.toml"], energy].concat();
+        with_file(&file("p_x^4 - p_x^2 + 1/2*x^2", 0.9), &words)
+            .fails(1, &["greatest, and not least"]);
+    }
+    // the energy falls again beyond p = 1/2
+    let below = with_file(&file("1/2*p_x^2 - p_x^4 + 1/2*x^2", 1.0), &["actions", "system.toml"]);
     assert_eq!(below.code, 1);
     assert!(below.stderr.contains("less energy at the start than at rest"), "{}", below.stderr);
     // in a band of energies, E < 1 − cos 0 …, x turns where p = π
-    for (h, energy) in [("-cos(p_x) + 1/2*x^2", "1.5"), ("p_x^4 - p_x^2 + 1/2*x^2", "0.2")] {
-        let turned = ["actions", "system.toml", "--energy", energy];
-        let turned = with_file(&file(h, 0.0), &turned);
-        assert_eq!(turned.code, 1, "{}", turned.stdout);
-        assert!(turned.stderr.contains("not that of rest"), "{}", turned.stderr);
+    let turned =
+        with_file(&file("-cos(p_x) + 1/2*x^2", 0.0), &["actions", "system.toml", "--energy=1.5"]);
+    assert_eq!(turned.code, 1, "{}", turned.stdout);
+    assert!(turned.stderr.contains("not that of rest"), "{}", turned.stderr);
+}
+
+/// H = cos x + cos p falls on both sides of p = 0, where it is at rest: an effective potential is the least energy, and there is
+/// none, whatever the energy.
+#[test]
+fn an_energy_that_is_greatest_at_rest_is_refused() {
+    let file = |h: &str, period: &str| {
+        format!(
+            "title = \"Harper\"\n[coordinates]\nx = {{ initial = 1, momentum = 0{period} }}\n\
+             [hamiltonian]\nH = \"{h}\"\n"
+        )
+    };
+    for period in ["", ", period = \"2*pi\""] {
+        let file = file("cos(p_x) + cos(x)", period);
+        for energy in [&[][..], &["--energy=-1.5"], &["--energy=0"], &["--energy=1.9"]] {
+            let refused = with_file(&file, &[&["actions", "system.toml"], energy].concat());
+            assert_eq!(refused.code, 1, "{}", refused.stdout);
+            assert!(!refused.stderr.contains("wells"), "{}", refused.stderr);
+            refused.fails(1, &["greatest", "momentum of rest"]);
+        }
     }
 }
 

@@ -59,6 +59,22 @@ fn an_orbit_and_its_family_are_written() {
     assert_eq!(done.code, 2);
 }
 
+/// The Lorenz system is written as forces beside H = 0, whose energy is constant and selects nothing. Its orbit AB is that of
+/// D. Viswanath, Nonlinearity 16 (2003), 1035, table 1: T = 1.5586522107161747, z = 27 at x = −13.763610682134,
+/// y = −19.578751942452; the multipliers' product is e^((−10 − 1 − 8/3) T).
+#[test]
+fn the_orbit_of_forces_beside_no_energy_is_found() {
+    let lorenz = "title = \"Lorenz\"\n[variables]\nx = { initial = -13.76 }\ny = { initial = -19.58 }\n\
+                  z = { initial = 27 }\n[poisson]\nH = \"0\"\nbrackets = []\n\
+                  forces = { x = \"10*(y-x)\", y = \"x*(28-z)-y\", z = \"x*y-8/3*z\" }\n";
+    let found =
+        with_file(lorenz, &["orbit", "system.toml", "--period", "1.5586", "--format=json"]).json();
+    let period = found["period"].as_f64().expect("a period");
+    assert!((period - 1.558_652_210_716_174_7).abs() < 1e-10, "{period}");
+    let energy = ["orbit", "system.toml", "--energy", "0"];
+    with_file(lorenz, &energy).fails(2, &["everywhere the same"]);
+}
+
 /// An oscillator that is the same in all directions has ellipses only: its periodic orbits fill tori, and none has a stability
 /// of its own. Beside it: orbit B of Hénon and Heiles, and one about which neighbours turn.
 #[test]
