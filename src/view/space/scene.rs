@@ -72,7 +72,7 @@ impl Scene {
         for extent in self.extents.iter().copied().chain(still) {
             let seen = reference_frame.around(q, &extent);
             let flat = is_level([seen.low, seen.high]) && reference_frame.keeps_planes(q);
-            scene.include_extent(seen, flat);
+            scene.include_extent(&seen, flat);
         }
         scene
     }
@@ -198,14 +198,14 @@ impl Scene {
     }
 
     fn add(&mut self, [low, high]: Span3, radius: f64, hull: Option<OrientationPolytope>) {
-        self.include_extent(Extent { low, high, radius, hull }, is_level([low, high]));
+        self.include_extent(&Extent { low, high, radius, hull }, is_level([low, high]));
     }
 
-    fn include_extent(&mut self, extent: Extent, flat: bool) {
+    fn include_extent(&mut self, extent: &Extent, flat: bool) {
         let [lowest, highest] = grown([extent.low, extent.high], extent.radius, flat);
         if [lowest, highest].as_flattened().iter().all(|v| v.is_finite()) {
             self.bounds = self.bounds.with(lowest).with(highest);
-            self.extents.push(extent);
+            self.extents.push(*extent);
         }
     }
 
