@@ -116,16 +116,23 @@ impl BatchEvents {
     ) -> Result<Option<LaneEvent>, MotionError> {
         let Some(search) = &mut self.lanes[lane] else { return Ok(None) };
         let end = motion.state(lane).time;
-        if search.clear >= end {
+        // what else is at the time of the last event comes before what lies beyond
+        let mut waiting = search.locator.next_at(search.clear);
+        if waiting.is_none() && search.clear >= end {
             return Ok(None);
         }
         self.series.take(motion.series(), lane);
         let mut step = LaneStep { motion, lane, series: &self.series };
-        while search.clear < end {
-            let (found, clear) = search.locator.scan(&mut step, search.clear, end)?;
-            let Some(found) = found else {
-                search.clear = clear;
-                continue;
+        while waiting.is_some() || search.clear < end {
+            let found = match waiting.take() {
+                Some(found) => found,
+                None => match search.locator.scan(&mut step, search.clear, end)? {
+                    (Some(found), _) => found,
+                    (None, clear) => {
+                        search.clear = clear;
+                        continue;
+                    }
+                },
             };
             search.clear = found.exact.high;
             step.at_exactly(found.exact, out)?;
