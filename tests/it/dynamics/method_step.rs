@@ -115,7 +115,8 @@ fn the_plane_shows_the_step_beside_the_map() {
     // a low plot leaves it to the zoomed pane
     let low = page(80, 24);
     assert!(low.contains("canonical, proved") && low.contains("z shows more"), "{low}");
-    let page = page(120, 40);
+    // on a wide page they stand beside the axes
+    let page = page(200, 60);
     for words in ["is one step of symplectic-euler", "20 points", "map: M = (", "step: M = ("] {
         assert!(page.contains(words), "{words}: {page}");
     }
