@@ -41,7 +41,7 @@ pub(super) struct EventLocator {
     may_cross: Vec<bool>,
     /// The last known side of zero of each function; zero if unknown.
     sides: Vec<f64>,
-    /// When each of them last crossed zero in a direction that counts; NaN before it has.
+    /// When each of them last crossed zero in a direction that counts, or left it with an impulse; NaN before it has.
     last: Vec<f64>,
     /// What else is at the time of the event that was found last.
     beside: LocatedEvents,
@@ -141,23 +141,18 @@ impl EventLocator {
     ) -> Result<(), MotionError> {
         let old = self.probe.of(before)?.to_vec();
         let new = self.probe.of(after)?;
-        self.leaving.fill(None);
-        // the event that caused it, and those that saw its time as one of their zeros
-        let leaves = |i: usize| {
-            let is_last = is_same_time(before.time, self.last[i]);
-            let is_seen = is_last || self.beside.crossing.contains(&i);
-            event == Some(i) || event.is_some() && !self.acts[i] && is_seen
-        };
         for (i, (old, new)) in old.iter().zip(new).enumerate() {
-            if leaves(i) {
-                self.leaving[i] = Some([old.abs(), 0.0]);
-            }
-            if leaves(i) || (old - new).abs() > 1e-12 * (old.abs() + new.abs()) {
+            // the event that caused it, and those that saw its time as one of their zeros, at an impulse before it too
+            let is_seen =
+                is_same_time(before.time, self.last[i]) || self.beside.crossing.contains(&i);
+            let leaves = event == Some(i) || event.is_some() && !self.acts[i] && is_seen;
+            self.leaving[i] = leaves.then_some([old.abs(), 0.0]);
+            self.last[i] = if leaves { before.time } else { f64::NAN };
+            if leaves || (old - new).abs() > 1e-12 * (old.abs() + new.abs()) {
                 self.sides[i] = 0.0;
             }
         }
         self.fresh = true;
-        self.last.fill(f64::NAN);
         self.probe.begin(Some(after.exact_time()));
         self.simple = None;
         Ok(())

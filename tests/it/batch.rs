@@ -169,6 +169,39 @@ fn orbits_of_a_smooth_system_stay_side_by_side() {
     }
 }
 
+/// The first unit of time is all that is to go, and another one is looked for in the lanes.
+#[test]
+fn orbits_with_far_to_go_stay_side_by_side() {
+    for name in ["henon-heiles", "double-pendulum", "pendulum"] {
+        let entry = catalog();
+        let entry = entry.entries().iter().find(|entry| entry.name == name).unwrap();
+        let ready = Prepared::of(&entry.document().unwrap()).unwrap();
+        let method = method_named("taylor").unwrap();
+        let system = ready.system.without_marks();
+        let mut batch = BatchPropagator::new(&system, method, settings(1e-12)).unwrap();
+        let parameters = ready.model.parameter_values();
+        let states = states(&ready, BATCH);
+        for (lane, state) in states.iter().enumerate() {
+            assert_eq!(batch.begin(lane, state, &parameters), LaneStatus::Underway);
+        }
+        // as far as this for some, and near for others
+        let limits: [f64; BATCH] = std::array::from_fn(|i| [1e9, 2.0, 3e5][i % 3]);
+        for _ in 0..20 {
+            assert!(batch.step(&limits));
+            assert!((0..BATCH).all(|lane| batch.status(lane) == LaneStatus::Underway), "{name}");
+        }
+        // more steps than are allowed before the end, so that it ends
+        let flow = SystemFlow { effort: Some(400), ..flow(&ready, 1e-12) };
+        let from: Vec<Option<&State>> = states.iter().map(Some).collect();
+        let times = [0.0, 1.0, 4.0, 1e9];
+        let together = flow.carry_all(&from, &times, &[0, 1], |_| ()).unwrap();
+        for (one, state) in together.iter().zip(&states) {
+            assert_eq!(bits(one), bits(&flow.carry(state, &times, &[0, 1])), "{name}");
+            assert_eq!(one.seen.len(), 3);
+        }
+    }
+}
+
 /// One coordinate with this Lagrangian.
 fn line(lagrangian: &str, more: &str) -> Prepared {
     let text = format!(

@@ -6,7 +6,7 @@
 //! given back as [`LaneStatus::Irregular`]. Never here: kinks, occurrences.
 
 use super::batch_step_size::BatchStepSize;
-use super::expansion::NEARBY_UNITS;
+use super::expansion::{NEARBY_UNITS, UnitTrial, UnitTrials};
 use super::step_end::{SOON_STALLED, VANISHING_IN_F64};
 use super::{EXACT_BELOW, METHOD, part_of_step, step_size};
 use crate::integrate::lane_status::LaneStatus;
@@ -118,15 +118,12 @@ impl TaylorBatch {
                 self.series.set_state(i, &lane.state);
             }
         }
-        if !self.series.build() {
-            return false;
-        }
-        let found = self.rule.longest(&self.series);
+        let Some(steps) = self.expand(&going, &left) else { return false };
         let mut after = [DoubleDouble::ZERO; BATCH];
         for (i, lane) in self.lanes.iter_mut().enumerate() {
             if going[i] {
                 let scale = self.series.scale().0[i].abs();
-                match lane.choose(found.0[i] * scale, scale, left[i]) {
+                match lane.choose(steps[i], scale, left[i]) {
                     Some(chosen) if self.series.keeps_digits(i) => after[i] = chosen,
                     _ => lane.status = LaneStatus::Irregular,
                 }
@@ -144,6 +141,43 @@ impl TaylorBatch {
             }
         }
         true
+    }
+
+    /// Builds the series of the lanes that go, in units of time near the steps they allow, and returns these steps; `None` if
+    /// it was cancelled. A lane that needs no other unit gets the same series again where another one does.
+    fn expand(
+        &mut self,
+        going: &[bool; BATCH],
+        left: &[DoubleDouble; BATCH],
+    ) -> Option<[f64; BATCH]> {
+        let mut units = [(); BATCH].map(|()| UnitTrials::default());
+        let mut steps = [f64::NAN; BATCH];
+        let mut searching = *going;
+        loop {
+            if !self.series.build() {
+                return None;
+            }
+            let found = self.rule.longest(&self.series);
+            for (i, searches) in searching.iter_mut().enumerate().filter(|(_, on)| **on) {
+                let scale = self.series.scale().0[i];
+                steps[i] = found.0[i] * scale.abs();
+                *searches = false;
+                // what is out of range is left to the orbit alone
+                if steps[i].is_nan() {
+                    continue;
+                }
+                match units[i].judge(steps[i], left[i].high.abs(), scale.abs()) {
+                    UnitTrial::Fits(step) => steps[i] = step,
+                    UnitTrial::Try(unit) => {
+                        self.series.set_scale(i, unit.copysign(scale));
+                        *searches = self.series.scale().0[i] != scale;
+                    }
+                }
+            }
+            if !searching.contains(&true) {
+                return Some(steps);
+            }
+        }
     }
 
     pub(in crate::integrate) fn interval(&self, lane: usize) -> (f64, f64) {

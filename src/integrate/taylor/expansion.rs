@@ -49,21 +49,10 @@ impl Taylor {
                 // where a root has no series it seems to have one once its argument underflows
                 return Err(self.not_finite());
             }
-            let wanted = step.min(size);
-            if (scale * NEARBY_UNITS.0..=scale * NEARBY_UNITS.1).contains(&wanted) {
-                return Ok(step);
+            match units.judge(step, size, scale) {
+                UnitTrial::Fits(step) => return Ok(step),
+                UnitTrial::Try(unit) => self.series.set_scale(unit * direction),
             }
-            if wanted < scale {
-                units.long = scale;
-            } else {
-                units.short = scale;
-                if units.long <= 2.0 * scale {
-                    // goes no further than the bound found with the unit twice as long
-                    return Ok(step.min(units.long));
-                }
-            }
-            let next = units.next(wanted.clamp(scale * 1e-12, scale * 1e12));
-            self.series.set_scale(next * direction);
             if self.series.scale().abs() == scale {
                 return Ok(step);
             }
@@ -97,10 +86,18 @@ impl Taylor {
 
 /// The units of time tried for one series. Each trial narrows the interval between those found too
 /// short and those found too long, so the search ends.
-struct UnitTrials {
+pub(super) struct UnitTrials {
     short: f64,
     long: f64,
     tried: u32,
+}
+
+/// What has come of a trial.
+pub(super) enum UnitTrial {
+    /// The unit represents the step well, which is this long.
+    Fits(f64),
+    /// Another one is to be tried.
+    Try(f64),
 }
 
 /// The number of units taken as the series suggests; after that the interval is bisected.
@@ -113,6 +110,24 @@ impl Default for UnitTrials {
 }
 
 impl UnitTrials {
+    /// Judges a unit in which the series allows a step, with this much to go.
+    pub(super) fn judge(&mut self, step: f64, left: f64, unit: f64) -> UnitTrial {
+        let wanted = step.min(left);
+        if (unit * NEARBY_UNITS.0..=unit * NEARBY_UNITS.1).contains(&wanted) {
+            return UnitTrial::Fits(step);
+        }
+        if wanted < unit {
+            self.long = unit;
+        } else {
+            self.short = unit;
+            if self.long <= 2.0 * unit {
+                // goes no further than the bound found with the unit twice as long
+                return UnitTrial::Fits(step.min(self.long));
+            }
+        }
+        UnitTrial::Try(self.next(wanted.clamp(unit * 1e-12, unit * 1e12)))
+    }
+
     /// The next unit to try after the one that the series suggests.
     fn next(&mut self, wanted: f64) -> f64 {
         self.tried += 1;

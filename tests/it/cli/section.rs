@@ -469,3 +469,38 @@ fn impacts_are_crossings_of_their_wall() {
         }
     }
 }
+
+/// In a corner two impulses act at one time, and what is seen there is seen once, before both.
+#[test]
+fn what_two_impacts_see_at_one_time_is_seen_once() {
+    let event = |wall: &str| {
+        format!(
+            "[[events]]\nname = \"{wall}\"\nwhen = \"{wall}\"\ndirection = \"falling\"\naction = \"impulse:p{wall}\"\n"
+        )
+    };
+    let ball = "title = \"ball\"\n[coordinates]\nx = { initial = 1.0, velocity = -1.0 }\n\
+                y = { initial = 1.0, velocity = -1.0 }\n[lagrangian]\nL = \"1/2*(x'^2 + y'^2)\"\n\
+                [[impulses]]\nname = \"px\"\nchange = { p_x = \"-2*x'\" }\n\
+                [[impulses]]\nname = \"py\"\nchange = { p_y = \"-2*y'\" }\n";
+    for walls in [["x", "y"], ["y", "x"]] {
+        let file = format!("{ball}{}{}", event(walls[0]), event(walls[1]));
+        for method in ["taylor", "dop853", "rk4", "gauss6"] {
+            for on in ["x", "y", "2*x", "x + y"] {
+                for (direction, count) in [("falling", 1), ("rising", 0), ("either", 1)] {
+                    let words = ["--on", on, "--direction", direction, "--method", method];
+                    let words = [
+                        &["section", "system.toml", "--format", "json", "--until", "3"],
+                        &words[..],
+                    ];
+                    let found = with_file(&file, &words.concat()).json();
+                    let rows = rows(&found);
+                    assert_eq!(rows.len(), count, "{walls:?} {method} {on} {direction}: {rows:?}");
+                    for row in rows {
+                        near(row[2], 1.0, 1e-12);
+                        assert_eq!([row[5], row[6]].map(f64::round), [-1.0, -1.0]);
+                    }
+                }
+            }
+        }
+    }
+}
