@@ -2,9 +2,10 @@
 //! separatrices between kinds of motion.
 //!
 //! In: a system that conserves its energy, or one held at an instant, a coordinate, an energy. Out: one row for each region
-//! in which the coordinate may move. Never here: names, files, pictures, what became of an action over a run.
+//! in which the coordinate may move; whether a change of the action is small. Never here: names, files, pictures, runs.
 //! Source: *The Principles of Dynamics*, §§ 4.2, 4.3.
 
+mod adiabatic;
 mod angle;
 mod effective_potential;
 mod extremum;
@@ -15,6 +16,7 @@ mod quadrature;
 mod row;
 mod separatrix;
 
+pub use adiabatic::is_adiabatic;
 pub use angle::angle;
 pub use effective_potential::{AllowedInterval, EffectivePotential};
 pub use held::{HeldMotion, HeldSystem, NotHeld, OwnMotion};

@@ -307,7 +307,7 @@ impl<'a> EffectivePotential<'a> {
         let mut regions = Vec::new();
         let mut open: Option<Option<f64>> = None;
         let mut last: Option<[f64; 2]> = None;
-        // the energy of infinity is that of the places from which it cannot be told, and ends no region
+        // the energy of infinity is that of the places from which it cannot be distinguished, and ends no region
         let digits = 8.0 * f64::EPSILON * (energy.abs() + self.height);
         let level_from = |nodes: &[[f64; 2]]| nodes.iter().all(|n| (n[1] - energy).abs() <= digits);
         for (k, &node) in nodes.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! The extrema of a sampled potential, and how far from the start they are told apart.
+//! The extrema of a sampled potential, and how far from the start they are distinguished.
 //!
 //! In: places with their energies. Out: places beside an extremum with its kind. Never here: the potential itself.
 

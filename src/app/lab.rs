@@ -61,7 +61,7 @@ pub struct Lab {
     pub(super) speed_wish: Option<f64>,
     pub(super) equilibria: EquilibriaSearch,
     pub(super) history: UndoHistory,
-    /// The verdicts as they are told.
+    /// The verdicts as they are shown.
     steady: SteadyVerdicts,
     /// What a person predicts on a picture.
     pub prediction: Option<Box<Prediction>>,

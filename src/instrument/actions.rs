@@ -14,7 +14,7 @@ use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
     Need, Offer, Physics, Picture, Plot, Present, Upwards,
 };
-use crate::action_angle::{HeldMotion, OwnMotion, RegionKind, Separatrix};
+use crate::action_angle::{HeldMotion, OwnMotion, RegionKind, Separatrix, is_adiabatic};
 use crate::job::{Job, Progress};
 use crate::num::{math, significant};
 use crate::system::ChannelKind;
@@ -32,10 +32,6 @@ const BESIDE: u32 = 5;
 
 /// The part of the range above the motion and the separatrices.
 const ABOVE: f64 = 0.4;
-
-/// J is an adiabatic invariant where it changes by less than this part of the change of the energy above its least value, and of
-/// itself.
-const FAR_LESS: f64 = 0.1;
 
 /// Relative changes below this tell nothing of how slow the change is, and those below the second nothing against it: at the
 /// beginning of a ramp J swings with its rate, while E has hardly moved.
@@ -441,7 +437,7 @@ fn sentences(present: &Present<'_>, answer: Option<&Answer>) -> Vec<String> {
 
 /// Whether the action has stayed, by which part it and the height of the energy have changed.
 fn verdict([action, height]: [f64; 2]) -> &'static str {
-    if height.abs() >= CHANGED && action.abs() <= FAR_LESS * height.abs().min(1.0) {
+    if height.abs() >= CHANGED && is_adiabatic(action, height) {
         "adiabatic"
     } else if action.abs().max(height.abs()) < SWINGS {
         "undecided so far"

@@ -6,6 +6,7 @@ mod meaning;
 mod notation;
 mod notations;
 mod plain;
+mod unknown_name;
 
 use std::cell::OnceCell;
 use std::collections::{BTreeMap, BTreeSet};
@@ -13,11 +14,8 @@ use std::sync::Arc;
 
 use rustc_hash::FxHashMap;
 
-use super::{Attitude, BodyNames, Mechanics, Model, multiplier_name};
-use crate::diagnostic::{nearest, with_index};
-use crate::expr::{
-    Expr, FUNCTIONS, Node, Pool, Resolve, Span, Symbol, SymbolInfo, SyntaxError, parse_all,
-};
+use super::{Mechanics, Model, multiplier_name};
+use crate::expr::{Expr, Node, Pool, Resolve, Span, Symbol, SymbolInfo, SyntaxError, parse_all};
 
 pub use allowed::Allowed;
 
@@ -234,92 +232,6 @@ impl Scope {
         self.kinds.get(&symbol).and_then(|&k| self.objection(k)).map(|why| (symbol, why))
     }
 
-    fn unknown(&self, name: &str, primes: usize, span: Span) -> SyntaxError {
-        let error = SyntaxError::new(span, format!("unknown name `{name}`"));
-        if self.diagnostics.len() >= MOST_ERRORS {
-            return error;
-        }
-        let bare = name.strip_prefix("p_").filter(|_| self.poisson && primes == 0);
-        if let Some(bare) = bare
-            && let Some(Meaning::Position(_)) = self.names.get(bare)
-        {
-            let help = format!("variables given by their brackets have no momenta: write `{bare}`");
-            return error.with_help(help);
-        }
-        if self.poisson && name == "action" && primes == 0 {
-            return error.with_help("brackets have no Lagrangian, whose integral the action is");
-        }
-        let usable = |(known, meaning): (&String, &Meaning)| {
-            let word = known.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_');
-            let moves = primes == 0 || matches!(meaning, Meaning::Position(_) | Meaning::Other(_));
-            let open = match meaning {
-                Meaning::Symbol(s) => {
-                    self.kinds.get(s).is_none_or(|&k| self.objection(k).is_none())
-                }
-                Meaning::Position(_) => self.objection(SymbolRole::Position).is_none(),
-                Meaning::Other(_) => self.objection(SymbolRole::Other).is_none(),
-                Meaning::Defined(_) => true,
-                Meaning::Later => false,
-            };
-            word && moves && open
-        };
-        let mut known: Vec<&str> =
-            self.names.iter().filter(|&entry| usable(entry)).map(|(n, _)| n.as_str()).collect();
-        if primes == 0 {
-            known.extend(FUNCTIONS.iter().map(|f| f.name));
-            known.push("pi");
-        }
-        known.sort_unstable();
-        if let Some(apart) = self.taken_apart(name, primes) {
-            return error.with_help(format!("names side by side are written apart: `{apart}`"));
-        }
-        let positions = self.names.iter().filter(|(_, m)| matches!(m, Meaning::Position(_)));
-        let mut positions: Vec<&str> = positions.map(|(name, _)| name.as_str()).collect();
-        positions.sort_unstable();
-        let is_position = |name: &str| positions.contains(&name);
-        let moves = self.objection(SymbolRole::Position).is_none() && primes == 0;
-        let written = notations::written_here(name, positions.first().copied(), &is_position);
-        if let Some(help) = written.filter(|_| moves) {
-            return error.with_help(help);
-        }
-        if matches!(name, "deg" | "degree" | "degrees") && primes == 0 {
-            return error.with_help("angles are in radians: 30 degrees are 30*pi/180");
-        }
-        if let Some(table) = table_of(name).filter(|_| primes == 0) {
-            let help = format!("{table} defines it; other names belong in [parameters]");
-            return error.with_help(help);
-        }
-        if let Some(names) = with_index(name, &known).filter(|_| primes == 0) {
-            return error.with_help(format!("did you mean {names}?"));
-        }
-        match nearest(name, known) {
-            Some(near) => error.with_help(format!("did you mean `{near}{}`?", "'".repeat(primes))),
-            None if primes > 0 => error.with_help("only coordinates have velocities"),
-            None if name.starts_with("lambda_") => error.with_help(self.multipliers()),
-            None if self.allowed == Allowed::Parameters => {
-                error.with_help("give it a value in [parameters]")
-            }
-            None => {
-                error.with_help("give it a value in [parameters], or define it in [definitions]")
-            }
-        }
-    }
-
-    /// Suggests the multipliers that a name beginning like one could mean.
-    fn multipliers(&self) -> String {
-        let multiplies = |meaning: &Meaning| match meaning {
-            Meaning::Symbol(s) => self.kinds.get(s) == Some(&SymbolRole::Multiplier),
-            _ => false,
-        };
-        let known: Vec<&str> =
-            self.names.iter().filter(|(_, m)| multiplies(m)).map(|(n, _)| n.as_str()).collect();
-        if known.is_empty() {
-            "the file has no [[constraints]], and so no multipliers".to_owned()
-        } else {
-            format!("the multipliers are {}", known.join(", "))
-        }
-    }
-
     fn meaning(
         &mut self,
         pool: &mut Pool,
@@ -379,29 +291,6 @@ impl Scope {
         }
         self.used.insert(name.to_owned());
         Ok(e)
-    }
-
-    /// The error for a prime after a name that is not a coordinate.
-    fn without_velocity(&self, name: &str, span: Span) -> SyntaxError {
-        let message = format!("`{name}` is not a coordinate and has no velocity");
-        let error = SyntaxError::new(span, message);
-        let moves = |m: &Meaning| matches!(m, Meaning::Position(_) | Meaning::Other(_));
-        let moving = self.names.iter().filter(|(_, m)| moves(m));
-        match nearest(name, moving.map(|(n, _)| n.as_str())) {
-            Some(near) => error.with_help(format!("did you mean `{near}'`?")),
-            None => error,
-        }
-    }
-}
-
-/// The table whose presence in the file defines a name.
-fn table_of(name: &str) -> Option<&'static str> {
-    if BodyNames::WRITTEN.contains(&name) {
-        Some("[body]")
-    } else if Attitude::WRITTEN.as_flattened().contains(&name) {
-        Some("[attitude]")
-    } else {
-        None
     }
 }
 

@@ -79,7 +79,7 @@ pub(super) enum TerminalMode {
     Mouse,
     /// Changes of the window's focus are reported.
     Focus,
-    /// Keys that have the same bytes otherwise are told apart, as kitty does.
+    /// Keys that have the same bytes otherwise are distinguished, as kitty does.
     Keyboard,
 }
 

@@ -250,7 +250,7 @@ fn open_field(canvas: &mut Canvas<'_>, area: Rect, app: &App, field: &InputField
     let used = canvas.left(area, Role::Title, &format!("{name}{sign}"));
     let room = (if is_surface { 30 } else { 20 }).min(area.width / 3);
     typing(canvas, columns(area, used, room), field);
-    // What is wrong is told right after what was typed, where there is more room for it.
+    // What is wrong is shown right after what was typed, where there is more room for it.
     let typed = (canvas.text(field.input.value()).width() as u16).saturating_add(2).min(room);
     let taken = if field.diagnostic.is_some() { typed } else { room };
     let rest = columns(area, used + taken + 2, area.width);

@@ -98,7 +98,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, selected: Opt
     }
     let (_, area) = split_rows(area, u16::from(headed));
     let shown = usize::from(area.height) / height;
-    // One verdict is told in the same words throughout.
+    // One verdict is given in the same words throughout.
     let all_in_full =
         gauges.iter().filter(|gauge| matches!(gauge.verdict, Verdict::Broken(_))).all(|gauge| {
             fits_in_full(canvas, area.width.saturating_sub(3), gauge) && !is_residual(lab, gauge)

@@ -1,4 +1,4 @@
-//! Level curves: as many as can be told apart, and the separatrices above them.
+//! Level curves: as many as can be distinguished, and the separatrices above them.
 //!
 //! In: a landscape, the frame of the axes. Out: dots. Never here: the computation of the curves.
 

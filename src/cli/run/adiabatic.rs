@@ -4,16 +4,12 @@
 //! *adiabatic*, or *not conserved*. Never here: the motion between.
 //! Source: *The Principles of Dynamics*, § 4.3.
 
-use crate::action_angle::{ActionRow, HeldSystem};
+use crate::action_angle::{ActionRow, HeldSystem, is_adiabatic};
 use crate::cancel::Cancel;
 use crate::cli::report::Invariant;
 use crate::integrate::Settings;
 use crate::model::Model;
 use crate::system::{Form, State, System};
-
-/// The action is an adiabatic invariant if it changes by less than this part of the change of the parameter, and of itself: beside
-/// a parameter that grows manifold or changes its sign it must not change with it.
-const FAR_LESS: f64 = 0.1;
 
 /// What is needed to know the action at any time of the run.
 pub(super) struct Adiabatic {
@@ -72,7 +68,7 @@ impl Adiabatic {
         let (before, after) = (self.action(system, first)?, self.action(system, last)?);
         let driven = self.driven([first.time, last.time]);
         let change = (after.action - before.action).abs() / before.action.abs();
-        let verdict = match (driven > 0.0, change <= FAR_LESS * driven.min(1.0)) {
+        let verdict = match (driven > 0.0, is_adiabatic(change, driven)) {
             (false, _) => "open",
             (true, true) => "adiabatic",
             (true, false) => "not conserved",

@@ -15,7 +15,7 @@ use crate::mechanics::Equations;
 use crate::model::Model;
 use crate::system::ChannelKind;
 
-/// So many ends of steps are told; along a motion with more no integral is taken step by step.
+/// So many ends of steps are given; along a motion with more no integral is taken step by step.
 const MOST_STEP_ENDS: usize = 20_000;
 
 /// Where on the way a motion is held against one without the errors of its method.

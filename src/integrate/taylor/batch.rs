@@ -118,7 +118,7 @@ impl TaylorBatch {
                 self.series.set_state(i, &lane.state);
             }
         }
-        let Some(steps) = self.expand(&going, &left) else { return false };
+        let Some(steps) = self.expand(going, &left) else { return false };
         let mut after = [DoubleDouble::ZERO; BATCH];
         for (i, lane) in self.lanes.iter_mut().enumerate() {
             if going[i] {
@@ -147,12 +147,12 @@ impl TaylorBatch {
     /// it was cancelled. A lane that needs no other unit gets the same series again where another one does.
     fn expand(
         &mut self,
-        going: &[bool; BATCH],
+        going: [bool; BATCH],
         left: &[DoubleDouble; BATCH],
     ) -> Option<[f64; BATCH]> {
         let mut units = [(); BATCH].map(|()| UnitTrials::default());
         let mut steps = [f64::NAN; BATCH];
-        let mut searching = *going;
+        let mut searching = going;
         loop {
             if !self.series.build() {
                 return None;

@@ -67,7 +67,7 @@ pub(super) struct Layout {
     pub(super) right: Vec<Option<Address>>,
     /// Where that of each register begins that is read whole.
     pub(super) whole: Vec<Option<Address>>,
-    /// The registers whose series would be told from zero: the code takes it that their values are not zero.
+    /// The registers whose series would be compared with zero: the code takes it that their values are not zero.
     pub(super) vanishing: Vec<Register>,
 }
 

@@ -414,7 +414,7 @@ mod tests {
         assert!(dim.clone().count() > 10 && dim.clone().all(|x| x < 22.0), "{line:?}");
         buffer.ball([0.0, 0.0, -20.0], 5.0, 1);
         assert_eq!(sights(&buffer), [Visibility::Clear, Visibility::Veiled, Visibility::Hidden]);
-        // The ball behind the veil is drawn in its place, and told to be veiled.
+        // The ball behind the veil is drawn in its place, and marked as veiled.
         let covered: Vec<_> = buffer.dots().map(|(_, covered)| covered).collect();
         assert!(covered.iter().all(|dot| dot.veiled == (dot.surface == 1)), "{covered:?}");
         assert!(covered.iter().filter(|dot| dot.veiled).count() > 50);
