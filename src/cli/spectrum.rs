@@ -121,7 +121,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
             NoSpectrum::NotFinite => "the quantity has no finite values".to_owned(),
         })
     })?;
-    if sampled.is_false() {
+    if sampled.shows_nothing() {
         return Err(CommandError::CouldNot(too_few(sampled.count, asked.is_some())));
     }
     let of = arguments.of.clone().unwrap_or_else(|| system.channels()[channel].name.clone());
@@ -135,7 +135,8 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
 fn too_few(count: usize, is_asked: bool) -> String {
     let help = if is_asked { "take more with --count" } else { "choose an earlier --until" };
     format!(
-        "{count} values are too few: the quantity is faster than their distance, and no line is its own; {help}"
+        "{count} values are too few: the quantity changes faster than they follow each other, and none of the lines found belongs to it; \
+         {help}"
     )
 }
 
@@ -205,8 +206,12 @@ fn text(found: &FoundSpectrum) -> String {
     ));
     if !sampled.is_resolved() {
         text.push_str(&format!(
-            "between the values they leave {between:.1e}: there are lines too fast for so few values, and fainter lines may be their \
-             images; take more with --count\n"
+            "between the values they leave {between:.1e}: there are lines too fast for so few values, {}; take more with --count\n",
+            if sampled.has_images {
+                "whose images are left out"
+            } else {
+                "and fainter lines may be their images"
+            }
         ));
     }
     if let Some(change) = spectrum.change_of_mean() {

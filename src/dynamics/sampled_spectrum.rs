@@ -79,9 +79,14 @@ impl SampledSpectrum {
         !self.has_images && self.between <= (MORE * left).max(NOTICED * size).max(self.rounding)
     }
 
-    /// Whether the lines are not those of the quantity at all: it is faster than the values can show.
+    /// Whether most of the quantity is faster than the values can show.
     pub fn is_false(&self) -> bool {
         !self.is_resolved() && self.between > FALSE * self.spectrum.size
+    }
+
+    /// Whether there is nothing else in it, so that none of the lines belongs to it.
+    pub fn shows_nothing(&self) -> bool {
+        self.is_false() && !self.has_images
     }
 }
 

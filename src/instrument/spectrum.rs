@@ -175,7 +175,7 @@ impl Instrument for SpectrumPlot {
                     }
                     NoSpectrum::NotFinite => "the motion has no finite values".to_owned(),
                 })?;
-                if sampled.is_false() {
+                if sampled.shows_nothing() {
                     return Err("it is faster than so many values can show".to_owned());
                 }
                 let SampledSpectrum { spectrum: lines, rate, drift, .. } = sampled;
