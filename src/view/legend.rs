@@ -1,6 +1,6 @@
 //! What an instrument writes into its plot: a few lines, beside the axes where they take a third of the pane at most,
-//! above them else, so that they cover nothing; in their upper left corner where there is no room for both. A low plot, and one
-//! of which they would take more than a third, has two of them at most, the second of which says what the zoomed pane shows.
+//! above them else, so that they cover nothing; in their upper left corner where there is no room for both. A low plot has
+//! two of them at most, a higher one a third of its rows; the last says what the zoomed pane shows.
 //!
 //! In: the lines, the area, whether the pane can be zoomed. Out: cells. Never here: what the lines say.
 
@@ -27,6 +27,9 @@ const FEW: usize = 2;
 
 /// At most one row in so many is above the axes, unless the pane is zoomed.
 const SHARE: u16 = 3;
+
+/// What is said of lines that have no room.
+const MORE: &str = "z shows more";
 
 /// Parts an area into one for the axes and one for the lines, so that these cover nothing.
 pub(super) fn beside(
@@ -57,42 +60,48 @@ pub(super) fn beside(
     }
 }
 
-/// Whether the lines of an area, which have a part of it, are few: its zoomed pane has room for more of them.
-pub(super) fn has_few(
-    area: Rect,
-    (lines, written): (Option<Rect>, &[String]),
-    zoomable: bool,
-    look: &RenderStyle,
-) -> bool {
+/// How many rows at most the lines of an area have, which have a part of it or are in it: its zoomed pane has room for all.
+pub(super) fn most(area: Rect, lines: Option<Rect>, zoomable: bool) -> usize {
     let above = lines.is_none_or(|lines| lines.height < area.height);
-    zoomable && above && are_many(area, written, look)
+    if zoomable && above { most_above(area) } else { usize::MAX }
 }
 
-/// Whether a plot of this height has no room for all of some lines above its axes.
-fn are_many(area: Rect, lines: &[String], look: &RenderStyle) -> bool {
-    let most = usize::from(area.height / SHARE);
-    area.height < SMALL || rows(area, (lines, false), look).len() > most
+/// How many rows at most stand above the axes of an area.
+fn most_above(area: Rect) -> usize {
+    if area.height < SMALL { FEW } else { usize::from(area.height / SHARE) }
 }
 
 /// The number of rows of all lines.
 fn wrapped(area: Rect, (layers, zoomable): (&[(Level, Layer)], bool), look: &RenderStyle) -> usize {
     let lines = layers.iter().map(|(_, layer)| match layer {
         Layer::Legend(lines) => {
-            rows(area, (lines, zoomable && are_many(area, lines, look)), look).len()
+            rows(area, (lines, if zoomable { most_above(area) } else { usize::MAX }), look).len()
         }
         _ => 0,
     });
     lines.sum()
 }
 
-/// The rows of some lines in the width of an area: few of them, or all.
-fn rows(area: Rect, (lines, few): (&[String], bool), look: &RenderStyle) -> Vec<String> {
+/// The rows of some lines in the width of an area: all, or so many at most, the last of which says that there are more.
+fn rows(area: Rect, (lines, most): (&[String], usize), look: &RenderStyle) -> Vec<String> {
     let room = usize::from(area.width).saturating_sub(2).max(1);
     let lines: Vec<String> = lines.iter().map(|line| shown(line, look)).collect();
     let all: Vec<String> = lines.iter().flat_map(|line| clauses(line, room)).collect();
     let [first, others @ ..] = &lines[..] else { return all };
-    if !few || all.len() <= FEW {
+    if all.len() <= most {
         return all;
+    }
+    let mut whole = Vec::new();
+    for line in &lines {
+        let own = clauses(line, room);
+        if whole.len() + own.len() >= most {
+            break;
+        }
+        whole.extend(own);
+    }
+    if whole.len() > 1 {
+        whole.push(MORE.to_owned());
+        return whole;
     }
     let mark = look.glyphs.pick("…", "...");
     let first = if first.width() <= room { first.clone() } else { beginning(first, room, mark) };
@@ -102,7 +111,7 @@ fn rows(area: Rect, (lines, few): (&[String], bool), look: &RenderStyle) -> Vec<
     let second = second.unwrap_or_else(|| match others.first().and_then(|line| left_side(line)) {
         Some(name) if whole && others.len() == 1 => format!("z shows {name}"),
         Some(name) if whole => format!("z shows {name} and more"),
-        _ => "z shows more".to_owned(),
+        _ => MORE.to_owned(),
     });
     vec![first, second]
 }
@@ -144,10 +153,10 @@ fn shown(line: &str, look: &RenderStyle) -> String {
 }
 
 /// Writes lines from the top, wrapped, as far as there is room for them; where there is not, the last row says so.
-pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, (lines, few): (&[String], bool)) {
+pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, (lines, most): (&[String], usize)) {
     let look = canvas.look;
     let room = usize::from(area.width).saturating_sub(2);
-    let mut rows = rows(area, (lines, few), look).into_iter().peekable();
+    let mut rows = rows(area, (lines, most), look).into_iter().peekable();
     for y in area.y..area.bottom() {
         let Some(mut line) = rows.next() else { break };
         if y + 1 == area.bottom() && rows.peek().is_some() {
@@ -193,7 +202,8 @@ mod tests {
         let look = RenderStyle { theme: Theme::dark(ColourDepth::True), glyphs: Glyphs::Braille };
         let written = |lines: &[&str], few| {
             let lines: Vec<String> = lines.iter().map(|&line| line.to_owned()).collect();
-            rows(Rect::new(0, 0, 38, 12), (&lines, few), &look)
+            let most = if few { FEW } else { usize::MAX };
+            rows(Rect::new(0, 0, 38, 12), (&lines, most), &look)
         };
         let k = "K = ½ k X² + ½ k Y² + (PX² + PY²)/(2 m) − Ω X PY + Ω Y PX";
         let down = "F₁, F₄ break down: det ∂Q/∂p = det ∂P/∂q = 0";
@@ -228,11 +238,16 @@ mod tests {
         let whole = written(&lines, false).len() as u16;
         assert_eq!(heights(12, false), [12 - whole, whole]);
         assert_eq!(heights(20, true), [20 - whole, whole]);
-        // a higher one too, of which they would take more than a third
-        let many = [lines, lines].concat().into_iter().map(str::to_owned).collect();
+        // in a higher one they take a third at most, none of them cut
+        let many: Vec<String> = [lines, lines].concat().into_iter().map(str::to_owned).collect();
+        let shown = rows(Rect::new(0, 0, 38, 20), (&many, 6), &look);
+        assert!(shown.len() <= 6 && shown.len() > 2, "{shown:?}");
+        assert_eq!(shown[..shown.len() - 1], written(&lines, false)[..shown.len() - 1]);
+        assert_eq!(shown.last().map(String::as_str), Some(MORE));
         let many = [(0, Layer::Legend(many))];
         let (axes, words) = beside(Rect::new(0, 0, 38, 20), (&many, true), &look);
-        assert_eq!([axes.height, words.expect("words").height], [18, 2]);
+        let words = words.expect("words").height;
+        assert_eq!([axes.height, words], [20 - shown.len() as u16, shown.len() as u16]);
     }
 
     fn lines_of(text: &str) -> Vec<&str> {

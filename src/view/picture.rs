@@ -110,8 +110,8 @@ pub(super) fn draw(
     names::draw(canvas, &frame, &layers);
     for (_, layer) in &layers {
         if let Layer::Legend(lines) = layer {
-            let few = legend::has_few(whole, (beside, lines), zoomable, canvas.look);
-            legend::draw(canvas, beside.unwrap_or(frame.area), (lines, few));
+            let most = legend::most(whole, beside, zoomable);
+            legend::draw(canvas, beside.unwrap_or(frame.area), (lines, most));
         }
     }
     let shades = layers.iter().flat_map(|(_, layer)| match layer {

@@ -65,6 +65,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
     let frame = scene.frame(&camera, area);
     let raster = Raster::new(area, canvas.look.glyphs);
     let depth = DepthBuffer::new(&frame, raster.size());
+    let colours = colours(q, *eye);
     let mut artist = ScenePainter {
         range: scene.depths(&camera),
         outline: outline.as_ref(),
@@ -82,7 +83,8 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
         seen: eye.frame,
         eye: *eye,
         beside: None,
-        colours: colours(q, *eye),
+        mechanics: colours::mechanics(q, *eye, &colours),
+        colours,
     };
     for (shape, _) in q.lab.shapes(*eye) {
         artist.surfaces(shape);
@@ -106,13 +108,12 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
     canvas.kept = kept;
     let seen = eye.frame.and_then(|frame| q.lab.loaded.equations.supplements.frames.get(frame));
     let forces = artist.apparent(seen.map_or(&[], Vec::as_slice));
-    let mechanics = artist.mechanics();
     artist.raster.draw(canvas.buffer);
     let shading = &artist.shading;
     // What is written comes before the surfaces, so that it has their backgrounds and is told from them.
     annotation::labels(canvas, area, &artist.frame, &artist.labels);
     let mut lines = annotation::forces(canvas, &forces);
-    lines.extend(mechanics.into_iter().flat_map(|both| annotation::mechanics(canvas, both)));
+    lines.extend(artist.mechanics.into_iter().flat_map(|both| annotation::mechanics(canvas, both)));
     legend(canvas, area, &lines);
     if eye.pitch < std::f64::consts::FRAC_PI_2 {
         compass(canvas, area, &camera);
@@ -152,6 +153,8 @@ struct ScenePainter<'a> {
     labels: Vec<Label>,
     /// The points that have a colour of their own.
     colours: Vec<Point>,
+    /// The colours of the right mechanics and of the wrong one beside it.
+    mechanics: Option<[usize; 2]>,
 }
 
 impl<'a> ScenePainter<'a> {
@@ -241,6 +244,7 @@ impl ScenePainter<'_> {
                 self.edge(solid::disc(radius), |artist| artist.curve(&rim, &pen));
             }
             Shape::Cone { tip, base, radius } => {
+                let solid = self.own_pen(base, solid);
                 let (tip, base) = (self.point(tip), self.point(base));
                 let axis = [0, 1, 2].map(|k| base[k] - tip[k]);
                 let radius = self.q.number(*radius);
@@ -251,6 +255,7 @@ impl ScenePainter<'_> {
                 });
             }
             Shape::Cylinder { from, to, radius } => {
+                let solid = self.own_pen(from, solid);
                 let ends = [self.point(from), self.point(to)];
                 let radius = self.q.number(*radius);
                 let [low, high] = solid::rims(ends, radius, self.spacing(radius));
@@ -383,8 +388,7 @@ impl ScenePainter<'_> {
         }
     }
 
-    /// The colour of the mass at a point, and of its trace: the masses that move are counted first, then one that stays
-    /// where it is, such as a sun, then the traces of other points.
+    /// The colour of the mass at a point, and of its trace.
     fn colour(&self, point: &Point) -> usize {
         colours::colour(self.q, &self.colours, point)
     }

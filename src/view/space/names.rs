@@ -1,11 +1,10 @@
-//! What a scene has names for: its points, and two mechanics side by side.
+//! The names in a scene, and the colours of its bodies.
 //!
 //! In: points of shapes, words. Out: labels, colours. Never here: where a name has room.
 
 use super::annotation::Label;
-use super::{ScenePainter, scene};
-use crate::expr::Symbol;
-use crate::model::{Point, Shape};
+use super::{ScenePainter, colours, scene};
+use crate::model::Point;
 use crate::view::plot::{Pen, Visibility};
 use crate::view::theme::Role;
 
@@ -23,26 +22,14 @@ impl ScenePainter<'_> {
         self.labels.push(Label { tip, leftwards: tip[0] < foot[0], text, role });
     }
 
-    /// The colours of the traces of the right mechanics and of the wrong one beside it, where both leave one.
-    pub(super) fn mechanics(&self) -> Option<[usize; 2]> {
-        self.q.lab.loaded.model.comparison.as_ref()?;
-        let trace = |wrong: bool| {
-            self.q.lab.shapes(self.eye).find_map(|(shape, _)| match shape {
-                Shape::Trace { at } => (self.is_wrong(at) == wrong).then(|| self.colour(at)),
-                _ => None,
-            })
-        };
-        Some([trace(false)?, trace(true)?])
-    }
-
     /// The colour of a body about this point: that of the motion it stands for, where two are compared, or of the mass at its
     /// centre; `None` if it has none of its own.
     pub(super) fn own_colour(&self, centre: &Point) -> Option<usize> {
         if scene::rests(self.q, centre) {
             return None;
         }
-        if let Some([right, wrong]) = self.mechanics() {
-            return Some(if self.is_wrong(centre) { wrong } else { right });
+        if let Some([right, wrong]) = self.mechanics {
+            return Some(if colours::is_wrong(self.q, centre) { wrong } else { right });
         }
         self.colours.iter().position(|point| point == centre)
     }
@@ -51,14 +38,5 @@ impl ScenePainter<'_> {
     pub(super) fn own_pen(&self, centre: &Point, pen: Pen) -> Pen {
         let own = self.own_colour(centre).map(|series| self.q.look.theme.curve(series));
         Pen { style: own.unwrap_or(pen.style), ..pen }
-    }
-
-    /// Whether a point is one of the wrong mechanics beside the right one.
-    fn is_wrong(&self, at: &Point) -> bool {
-        let Some(comparison) = &self.q.lab.loaded.model.comparison else { return false };
-        let other: Vec<Symbol> =
-            comparison.symbols.iter().flat_map(|&(place, rate)| [place, rate]).collect();
-        let pool = &self.q.lab.loaded.equations.pool;
-        at.iter().any(|&e| pool.depends_on_any(e, &other))
     }
 }

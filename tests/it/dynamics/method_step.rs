@@ -115,7 +115,9 @@ fn the_plane_shows_the_step_beside_the_map() {
     // a low plot leaves it to the zoomed pane
     let low = page(80, 24);
     assert!(low.contains("canonical, proved") && low.contains("z shows more"), "{low}");
-    // on a wide page they stand beside the axes
+    // a higher one has a third of its rows for it
+    let high = page(120, 40);
+    assert!(high.contains("is one step of symplectic-euler"), "{high}");
     let page = page(200, 60);
     for words in ["is one step of symplectic-euler", "20 points", "map: M = (", "step: M = ("] {
         assert!(page.contains(words), "{words}: {page}");

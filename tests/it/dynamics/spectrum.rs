@@ -468,7 +468,10 @@ fn the_image_of_a_fast_line_is_none_and_the_others_stay() {
     for m in 1..=8 {
         for size in [0.3, 2.0] {
             let found = of(std::f64::consts::TAU * f64::from(m) + 0.7, size);
-            assert!(found.has_images && !found.is_resolved() && !found.shows_nothing(), "{m} {size}");
+            assert!(
+                found.has_images && !found.is_resolved() && !found.shows_nothing(),
+                "{m} {size}"
+            );
             let [line] = &found.spectrum.lines[..] else { panic!("{m} {size} {found:?}") };
             assert!((line.frequency - 1.0).abs() < 1e-9, "{m} {size} {line:?}");
             assert!((line.amplitude - 1.0).abs() < 1e-6, "{m} {size} {line:?}");
