@@ -68,6 +68,8 @@ pub(super) struct FoundSymmetries {
     pub(super) equations: Equations,
     pub(super) parameters: Vec<f64>,
     pub(super) found: Vec<PointSymmetry>,
+    /// How many more there are that are not written.
+    pub(super) missing: usize,
 }
 
 impl EquilibriaSearch {

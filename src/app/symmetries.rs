@@ -11,7 +11,7 @@ use super::findings::searched_law;
 use super::flow::FlowGenerator;
 use super::{App, Asker, Choice, Choosing, Effect, Item, Lab, Menu, Notification, Overlay};
 use crate::instrument::Answer;
-use crate::integrability::{PointSymmetry, changed, point_symmetries, symmetries};
+use crate::integrability::{PointSymmetries, PointSymmetry, changed, point_symmetries, symmetries};
 use crate::job::{Job, Outcome, Progress};
 use crate::mechanics::Equations;
 use crate::model::Model;
@@ -31,8 +31,10 @@ impl FoundSymmetries {
         let is_over = || progress.is_cancelled() || progress.is_spent();
         let mut noether = symmetries(&model, &mut equations, &is_over).ok();
         let found = point_symmetries(&model, &mut equations, noether.as_mut(), &is_over);
-        let found = found.map_err(|why| why.to_string())?.found;
-        Ok(FoundSymmetries { model, equations, parameters, found })
+        let PointSymmetries { found, unwritten, unfinished, .. } =
+            found.map_err(|why| why.to_string())?;
+        let missing = unwritten + unfinished;
+        Ok(FoundSymmetries { model, equations, parameters, found, missing })
     }
 }
 
@@ -91,9 +93,12 @@ impl App {
         };
         Some(match found {
             Err(why) => self.fail(format!("Symmetries cannot be searched for here: {why}.")),
-            Ok(found) if found.found.is_empty() => {
+            Ok(found) if found.found.is_empty() && found.missing == 0 => {
                 self.notify("The equations of motion have no symmetry among those searched.")
             }
+            Ok(found) if found.found.is_empty() => self.notify(
+                "The equations of motion have symmetries, but none that could be written down in the time of a search.",
+            ),
             Ok(found) => {
                 search.found = Some(Arc::clone(found));
                 // what is being typed or read is not covered
@@ -116,6 +121,10 @@ impl App {
         };
         let items = found.found.iter().enumerate().map(item).collect();
         let title = "Carry the state along the flow of a symmetry";
+        let title = match found.missing {
+            0 => title.to_owned(),
+            missing => format!("{title} ({missing} more could not be written down)"),
+        };
         self.overlay = Some(Overlay::Menu(Menu::new(title, Choosing::Flow, items)));
         Vec::new()
     }

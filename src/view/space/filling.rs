@@ -41,3 +41,19 @@ pub(super) struct Filling {
     /// Whether what is behind is seen through it.
     pub(super) see_through: bool,
 }
+
+#[cfg(test)]
+mod tests {
+    use super::PieceStyle;
+
+    #[test]
+    fn what_is_thinner_than_three_columns_is_not_filled_from_that_side() {
+        for column in [0.01, 5.0] {
+            let of = |extents: [f64; 2]| PieceStyle::of(extents.map(|x| x * column), column);
+            assert_eq!(of([0.0, 2.9]), PieceStyle::Lines);
+            assert_eq!(of([2.9, 2.9]), PieceStyle::Lines);
+            assert_eq!(of([2.9, 3.1]), PieceStyle::Sheet);
+            assert_eq!(of([3.1, 3.1]), PieceStyle::Solid);
+        }
+    }
+}

@@ -153,7 +153,7 @@ fn the_faces_of_a_top_are_told_apart() {
     assert!(tones[tones.len() - 1] > tones[0] + 100, "{tones:?}");
 }
 
-/// A piece is drawn in one style while it turns: thin ones as lines and dots in every frame, thick ones with tones.
+/// A piece is drawn in one style while it turns: thin ones as lines and dots in every frame.
 #[test]
 fn the_style_of_a_body_does_not_change_while_it_turns() {
     for (name, size) in [("t-handle", (60, 15)), ("t-handle", (40, 10))] {
@@ -169,6 +169,19 @@ fn the_style_of_a_body_does_not_change_while_it_turns() {
             dotted += usize::from(buffer.content.iter().filter(|cell| is_dot(cell)).count() > 8);
         }
         assert!((painted, dotted) == (0, 40), "{name} {size:?}: {painted} {dotted}");
+    }
+}
+
+/// Thick ones are filled in every frame.
+#[test]
+fn a_thick_body_is_filled_while_it_turns() {
+    let mut real = Real::of("t-handle");
+    for frame in 0..40 {
+        real.run(4);
+        let buffer = screen(&real.app, &rich(), (120, 40));
+        let cells = (2..22).flat_map(|y| (1..39).map(move |x| (x, y)));
+        let painted = cells.filter(|&at| Rgb::of(buffer[at].bg).is_some()).count();
+        assert!(painted > 20, "{frame}: {painted}");
     }
 }
 
