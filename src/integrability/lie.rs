@@ -103,7 +103,7 @@ pub fn point_symmetries(
         return Err(Unsupported("the equations of motion have kinks".to_owned()));
     }
     let generators = generators_of(pool, law, time, &positions, &velocities);
-    let monomials = products(pool, &generators, DEGREE, MOST / (positions.len() + 2));
+    let (degree, monomials) = products(pool, &generators, DEGREE, MOST / (positions.len() + 2));
     let first: Vec<(Expr, Vec<Expr>)> = noether
         .as_deref()
         .iter()
@@ -170,6 +170,10 @@ pub fn point_symmetries(
         laws.extend((!generic).then(|| varied.clone()));
         let mut others = Vec::new();
         for mut symmetry in found.split_off(first.len()) {
+            if is_over() {
+                others.push(symmetry);
+                continue;
+            }
             let change = varied.change(&mut equations.pool, symmetry.time, &symmetry.coordinates);
             symmetry.noether = equations.gauge(change, Expr::ZERO).total_derivative;
             let is_noether = symmetry.noether == Some(true);
@@ -195,7 +199,7 @@ pub fn point_symmetries(
         }
         _ => generators,
     };
-    let searched = words(pool, &shown, &problem.monomials);
+    let searched = words(pool, &shown, degree);
     let searched = format!("changes of time and coordinates that are {searched}");
     Ok(PointSymmetries { found, searched, complete, unwritten, unfinished })
 }

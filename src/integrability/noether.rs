@@ -21,7 +21,7 @@ use super::stand_in;
 use super::transformations::{generators_of, products};
 use super::units::Unsupported;
 use super::varied_lagrangian::{Symmetry, VariedLagrangian};
-use crate::expr::{Expr, Node, Pool, Symbol};
+use crate::expr::{Expr, Pool, Symbol};
 use crate::mechanics::{Equations, is_changed_by_impulse};
 use crate::model::Model;
 use crate::num::{Number, PRIMES, PrimeField, Residue, rational};
@@ -121,7 +121,10 @@ pub fn symmetries(
     }
     for (xi, eta) in other_gauge {
         // of a boost only the gauge term has the masses
-        let Some(named) = named.as_ref().filter(|_| !is_over()) else { break };
+        let Some(named) = named.as_ref().filter(|_| !is_over()) else {
+            (complete, unfinished) = (false, unfinished + 1);
+            continue;
+        };
         let change = named.change(&mut equations.pool, xi, &eta);
         let gauge = equations.gauge(change, Expr::ZERO).function;
         let symmetry = gauge.map(|f| named.symmetry(&mut equations.pool, xi, eta, f));
@@ -138,7 +141,7 @@ pub fn symmetries(
     } else {
         problem.generators.clone()
     };
-    let searched = words(pool, &shown, &problem.monomials);
+    let searched = words(pool, &shown, problem.degree);
     let searched = format!("changes of time and coordinates, and gauge terms, that are {searched}");
     for symmetry in &mut found {
         symmetry.between_impulses = is_changed_by_impulse(equations, model, symmetry.conserved);
@@ -152,6 +155,8 @@ struct NoetherProblem {
     /// What ξ, η and f are polynomials in.
     generators: Vec<Expr>,
     monomials: Vec<Expr>,
+    /// The degree of the highest.
+    degree: u32,
     field: PrimeField,
     /// Whether points are more general than the motion, so that a symmetry may have been missed.
     overgeneral: bool,
@@ -161,9 +166,9 @@ impl NoetherProblem {
     fn of(pool: &mut Pool, law: VariedLagrangian) -> NoetherProblem {
         let VariedLagrangian { time, positions, velocities, lagrangian, .. } = &law;
         let generators = generators_of(pool, *lagrangian, *time, positions, velocities);
-        let monomials = products(pool, &generators, DEGREE, MOST / (positions.len() + 2));
+        let (degree, monomials) = products(pool, &generators, DEGREE, MOST / (positions.len() + 2));
         let field = PrimeField::nth(0);
-        NoetherProblem { law, generators, monomials, field, overgeneral: false }
+        NoetherProblem { law, generators, monomials, degree, field, overgeneral: false }
     }
 
     /// The solutions modulo a prime, without those that are gauge alone, as sparse as they come.
@@ -317,14 +322,7 @@ impl NoetherProblem {
 }
 
 /// What was searched: polynomials of a degree in these functions.
-pub(super) fn words(pool: &Pool, generators: &[Expr], monomials: &[Expr]) -> String {
+pub(super) fn words(pool: &Pool, generators: &[Expr], degree: u32) -> String {
     let all: Vec<String> = generators.iter().map(|&e| pool.text(e)).collect();
-    let degree = |e: Expr| match pool.node(e) {
-        Node::Product(_, factors) if !generators.contains(&e) => {
-            factors.iter().filter_map(|(_, n)| n.as_integer()).sum::<i64>().unsigned_abs()
-        }
-        _ => 1,
-    };
-    let highest = monomials.last().map_or(0, |&e| degree(e));
-    format!("polynomials of degree up to {highest} in {}", all.join(", "))
+    format!("polynomials of degree up to {degree} in {}", all.join(", "))
 }

@@ -109,13 +109,13 @@ fn frequencies(
 }
 
 /// All products of some functions up to a degree, by ascending degree, the first of them 1: of the highest degree, not above
-/// the one given, with no more than `most` of them, but at least of the first.
+/// the one given, with no more than `most` of them, but at least of the first. With that degree.
 pub(super) fn products(
     pool: &mut Pool,
     generators: &[Expr],
     degree: u32,
     most: usize,
-) -> Vec<Expr> {
+) -> (u32, Vec<Expr>) {
     let mut seen: FxHashSet<Expr> = FxHashSet::from_iter([Expr::ONE]);
     let mut unique = vec![Expr::ONE];
     let mut last: Vec<(Expr, usize)> = vec![(Expr::ONE, 0)];
@@ -130,13 +130,13 @@ pub(super) fn products(
                 }
                 if unique.len() > most && grown > 1 {
                     unique.truncate(lower);
-                    return unique;
+                    return (grown - 1, unique);
                 }
             }
         }
         last = next;
     }
-    unique
+    (degree, unique)
 }
 
 #[cfg(test)]
@@ -154,10 +154,11 @@ mod tests {
                     pool.variable(symbol)
                 })
                 .collect();
-            products(&mut pool, &names, 3, most).len()
+            let (degree, products) = products(&mut pool, &names, 3, most);
+            (degree, products.len())
         };
-        assert_eq!((some(200, 100), some(200, 250)), (201, 201));
+        assert_eq!([some(200, 100), some(200, 250)], [(1, 201); 2]);
         // 1 + 3 + 6 + 10
-        assert_eq!((some(3, 20), some(3, 19), some(3, 9)), (20, 10, 4));
+        assert_eq!([some(3, 20), some(3, 19), some(3, 9)], [(3, 20), (2, 10), (1, 4)]);
     }
 }

@@ -12,33 +12,31 @@ use crate::num::Number;
 
 /// Whether two expressions as they stand are multiples of each other.
 fn is_multiple(pool: &Pool, a: Expr, b: Expr) -> bool {
-    let (Node::Sum(c, terms), Node::Sum(d, others)) = (pool.node(a), pool.node(b)) else {
-        return a == b;
-    };
+    have_one_ratio(pool, [a, b], true)
+}
+
+/// The same but for constant terms.
+fn is_multiple_but_constants(pool: &Pool, a: Expr, b: Expr) -> bool {
+    have_one_ratio(pool, [a, b], false)
+}
+
+/// Whether the terms of two sums are the same but for one factor, the constant ones as well where they count.
+fn have_one_ratio(pool: &Pool, both: [Expr; 2], constants_count: bool) -> bool {
+    let [(c, terms), (d, others)] = both.map(|e| match pool.node(e) {
+        Node::Sum(constant, terms) => (*constant, terms.to_vec()),
+        _ => (Number::ZERO, vec![(Number::ONE, e)]),
+    });
     let Some(ratio) = terms.first().zip(others.first()).map(|(a, b)| a.0 * b.0.recip()) else {
-        return a == b;
+        return both[0] == both[1];
     };
     // numbers that are no rationals of 64 bits were rounded on their way into each sum
     let same = |m: Number, n: Number| {
         m == n || (m.value() - n.value()).abs() <= 8.0 * f64::EPSILON * m.value().abs()
     };
-    let pairs = || terms.iter().zip(others);
+    let pairs = || terms.iter().zip(&others);
     terms.len() == others.len()
-        && same(*c, ratio * *d)
+        && (!constants_count || same(c, ratio * d))
         && pairs().all(|(&(m, a), &(n, b))| a == b && same(m, ratio * n))
-}
-
-/// The same but for constant terms.
-fn is_multiple_but_constants(pool: &Pool, a: Expr, b: Expr) -> bool {
-    let terms = |e: Expr| match pool.node(e) {
-        Node::Sum(_, terms) => terms.to_vec(),
-        _ => vec![(Number::ONE, e)],
-    };
-    let (a, b) = (terms(a), terms(b));
-    let Some(ratio) = a.first().zip(b.first()).map(|(a, b)| a.0 * b.0.recip()) else {
-        return false;
-    };
-    a.len() == b.len() && a.iter().zip(&b).all(|(&(m, a), &(n, b))| a == b && m == ratio * n)
 }
 
 /// Whether a product has the factors of an expression, so that it vanishes where that does; what does not depend on the

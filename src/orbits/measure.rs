@@ -150,6 +150,8 @@ const LYAPUNOV: OrbitMeasure = OrbitMeasure {
     measure: |orbits| {
         let found = orbits.exponents();
         let cancelled = orbits.system.cancel().is_cancelled();
-        found.into_iter().map(|exponent| (!cancelled).then_some(exponent)).collect()
+        // an orbit that was over before has its own
+        let is_known = |exponent: &f64| !(cancelled && exponent.is_nan());
+        found.into_iter().map(|exponent| Some(exponent).filter(is_known)).collect()
     },
 };

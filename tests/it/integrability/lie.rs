@@ -253,6 +253,16 @@ fn the_third_law_of_four_bodies() {
     assert!(scaling[1..].iter().all(|b| (b / scaling[0] - 2.0 / 3.0).abs() < 1e-15), "{scaling:?}");
 }
 
+/// The range that a count is proved in is named as it was searched, although powers of an exponential are exponentials.
+#[test]
+fn the_degree_of_the_range_is_that_searched() {
+    let (_, found) = find(&["x"], "L = \"1/2*x'^2*exp(7/10*t)\"");
+    let highest =
+        found.searched.split("degree up to ").nth(1).and_then(|rest| rest.split(' ').next());
+    let highest: u32 = highest.and_then(|k| k.parse().ok()).expect("a degree");
+    assert!(found.complete && highest >= 2, "{}", found.searched);
+}
+
 /// Where friction acts, motions are still carried to motions.
 #[test]
 fn friction() {
