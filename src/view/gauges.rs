@@ -153,12 +153,12 @@ fn heads(canvas: &mut Canvas<'_>, area: Rect, single: Option<SingleRow>) {
     canvas.right(columns(area, verdict, VERDICT), Role::Dim, "verdict");
     if let Some(row) = single {
         if let Some(drift) = row.drift {
-            canvas.right(columns(area, drift, SHORT_DRIFT), Role::Dim, "drift");
+            canvas.right(columns(area, drift, SHORT_DRIFT), Role::Dim, "change");
         }
         canvas.right(columns(area, row.value, SHORT_VALUE), Role::Dim, "value");
     } else {
         canvas.right(columns(area, 0, VALUE + 2), Role::Dim, "value");
-        canvas.right(columns(area, VALUE + 3, DRIFT), Role::Dim, "drift");
+        canvas.right(columns(area, VALUE + 3, DRIFT), Role::Dim, "change");
     }
 }
 
