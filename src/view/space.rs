@@ -9,6 +9,7 @@ mod circle;
 mod colours;
 mod filling;
 mod line;
+mod mechanics;
 mod names;
 mod reference_frame;
 mod rod;
@@ -16,14 +17,15 @@ mod scene;
 mod shading;
 mod solid;
 mod surface;
+mod track;
 
-use ratatui::layout::Rect;
+use ratatui::layout::{Position, Rect};
 use ratatui::style::Style;
 
 use super::canvas::Canvas;
 use super::companions;
-use super::kept::{self, Kept, Track, TrailKey};
-use super::plot::{Ages, Camera, DepthBuffer, Marker, Pen, PlotFrame, Raster, Visibility};
+use super::kept::Kept;
+use super::plot::{Camera, DepthBuffer, Marker, Pen, PlotFrame, Raster, Visibility};
 use super::quantity::{Quantities, QuantitySource};
 use super::theme::Role;
 use crate::instrument::CameraPose;
@@ -33,6 +35,7 @@ use annotation::{Label, compass, legend};
 use body::Outline;
 use colours::colours;
 use filling::Filling;
+use mechanics::Mechanics;
 use reference_frame::ReferenceFrame;
 use scene::Scene;
 use shading::Shading;
@@ -67,6 +70,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
     let depth = DepthBuffer::new(&frame, raster.size());
     let colours = colours(q, *eye);
     let mut artist = ScenePainter {
+        mechanics: Mechanics::of(q, *eye, &colours),
         range: scene.depths(&camera),
         outline: outline.as_ref(),
         receding: Vec::new(),
@@ -83,7 +87,6 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
         seen: eye.frame,
         eye: *eye,
         beside: None,
-        mechanics: colours::mechanics(q, *eye, &colours),
         colours,
     };
     for (shape, _) in q.lab.shapes(*eye) {
@@ -111,15 +114,19 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
     artist.raster.draw(canvas.buffer);
     let shading = &artist.shading;
     // What is written comes before the surfaces, so that it has their backgrounds and is told from them.
-    annotation::labels(canvas, area, &artist.frame, &artist.labels);
+    let mut written = annotation::labels(canvas, area, &artist.frame, &artist.labels);
     let mut lines = annotation::forces(canvas, &forces);
-    lines.extend(artist.mechanics.into_iter().flat_map(|both| annotation::mechanics(canvas, both)));
-    legend(canvas, area, &lines);
+    let mechanics = artist.mechanics.iter();
+    lines.extend(mechanics.flat_map(|both| annotation::mechanics(canvas, both.colours)));
+    written.extend(legend(canvas, area, &lines));
     if eye.pitch < std::f64::consts::FRAC_PI_2 {
         compass(canvas, area, &camera);
     }
-    artist.edges.draw_on_blank(canvas.buffer, |index| shading.has_edges(index));
-    shading.draw(canvas.buffer, &canvas.look.theme);
+    let is_written = |at: Position| written.iter().any(|place| place.contains(at));
+    artist
+        .edges
+        .draw_on_blank(canvas.buffer, |index, at| shading.has_edges(index) && !is_written(at));
+    shading.draw(canvas.buffer, &canvas.look.theme, is_written);
 }
 
 /// Draws the shapes of a scene.
@@ -153,8 +160,8 @@ struct ScenePainter<'a> {
     labels: Vec<Label>,
     /// The points that have a colour of their own.
     colours: Vec<Point>,
-    /// The colours of the right mechanics and of the wrong one beside it.
-    mechanics: Option<[usize; 2]>,
+    /// The right mechanics and the wrong one, where both are in the picture.
+    mechanics: Option<Mechanics>,
 }
 
 impl<'a> ScenePainter<'a> {
@@ -244,25 +251,25 @@ impl ScenePainter<'_> {
                 self.edge(solid::disc(radius), |artist| artist.curve(&rim, &pen));
             }
             Shape::Cone { tip, base, radius } => {
-                let solid = self.own_pen(base, solid);
+                let pen = self.own_pen(base, solid);
                 let (tip, base) = (self.point(tip), self.point(base));
                 let axis = [0, 1, 2].map(|k| base[k] - tip[k]);
                 let radius = self.q.number(*radius);
                 let rim = self.rim(base, radius, axis);
                 self.edge(solid::along(tip, base, radius), |artist| {
-                    artist.curve(&rim, &solid);
-                    artist.silhouette(&vec![tip; rim.len()], &rim, &solid);
+                    artist.curve(&rim, &pen);
+                    artist.silhouette(&vec![tip; rim.len()], &rim, &pen);
                 });
             }
             Shape::Cylinder { from, to, radius } => {
-                let solid = self.own_pen(from, solid);
+                let pen = self.own_pen(from, solid);
                 let ends = [self.point(from), self.point(to)];
                 let radius = self.q.number(*radius);
                 let [low, high] = solid::rims(ends, radius, self.spacing(radius));
                 self.edge(solid::along(ends[0], ends[1], radius), |artist| {
-                    artist.curve(&low, &solid);
-                    artist.curve(&high, &solid);
-                    artist.silhouette(&low, &high, &solid);
+                    artist.curve(&low, &pen);
+                    artist.curve(&high, &pen);
+                    artist.silhouette(&low, &high, &pen);
                 });
             }
             Shape::Sphere { centre, radius } => {
@@ -388,7 +395,8 @@ impl ScenePainter<'_> {
         }
     }
 
-    /// The colour of the mass at a point, and of its trace.
+    /// The colour of the mass at a point, and of its trace: the masses that move are counted first, then one that stays
+    /// where it is, such as a sun, then the traces of other points.
     fn colour(&self, point: &Point) -> usize {
         colours::colour(self.q, &self.colours, point)
     }
@@ -419,32 +427,5 @@ impl ScenePainter<'_> {
                 self.raster.marker(&self.frame, flat, Marker::Disc, &pen);
             }
         }
-    }
-
-    fn track(&mut self, point: &Point, kept: &mut Kept) {
-        let sources = point.map(|expression| self.q.place(expression));
-        let rows = &self.q.snapshot.trail;
-        let track = Track::Point(sources, self.camera, self.seen);
-        let key = TrailKey {
-            epoch: self.q.snapshot.epoch,
-            motion: self.beside.unwrap_or(0),
-            frame: self.frame,
-            track,
-        };
-        let projection = self.camera.projection();
-        let [right, up, near] = self.camera.project(self.point(point));
-        let present = [right, up];
-        // Each past point is transformed to the reference frame at its own time.
-        let drawn = kept.trail(key, (rows, self.q.look.glyphs), |row| {
-            let row = row.get(1..)?;
-            let r = sources.map(|source| source.read(row));
-            let seen = self.reference_frame.as_ref().map_or(r, |frame| frame.point(row, r));
-            Some(projection.of(seen))
-        });
-        let series = self.beside.map_or_else(|| self.colour(point), companions::series);
-        let ramp = colours::ramp(self.q, &self.colours, point, series);
-        let since = kept::since(rows, ramp.len());
-        let ages = Ages { since: &since, ramp, layer: TRACK, behind: Some((&self.depth, near)) };
-        drawn.draw(&mut self.raster, ages, present);
     }
 }

@@ -16,7 +16,7 @@ mod polyline;
 use std::cmp::Ordering;
 
 use ratatui::buffer::{Buffer, Cell as ScreenCell};
-use ratatui::layout::Rect;
+use ratatui::layout::{Position, Rect};
 use ratatui::style::Style;
 use ratatui::symbols::pixel::{OCTANTS, QUADRANTS, SEXTANTS};
 
@@ -232,9 +232,14 @@ impl Raster {
         self.draw_where(buffer, |_, _| true);
     }
 
-    /// Copies the dots of some cells, told by their index row by row, to the screen where it is blank.
-    pub fn draw_on_blank(&self, buffer: &mut Buffer, shown: impl Fn(usize) -> bool) {
-        self.draw_where(buffer, |index, place| place.symbol() == " " && shown(index));
+    /// Copies the dots of some cells, told by their index row by row and by their position, to the screen where it is blank.
+    pub fn draw_on_blank(&self, buffer: &mut Buffer, shown: impl Fn(usize, Position) -> bool) {
+        let wide = usize::from(self.area.width).max(1);
+        let at = |index: usize| Position {
+            x: self.area.x + (index % wide) as u16,
+            y: self.area.y + (index / wide) as u16,
+        };
+        self.draw_where(buffer, |index, place| place.symbol() == " " && shown(index, at(index)));
     }
 
     fn draw_where(&self, buffer: &mut Buffer, shows: impl Fn(usize, &ScreenCell) -> bool) {

@@ -73,8 +73,13 @@ pub(super) struct Label {
 
 /// Writes names beside their points. Where there is no room on one side the name is above the point, and ends at the edge.
 /// No name is written over another: it goes to the other side, or a row or two above or below. A name for which there is
-/// no room at all is left out.
-pub(super) fn labels(canvas: &mut Canvas<'_>, area: Rect, frame: &PlotFrame, labels: &[Label]) {
+/// no room at all is left out. Returns the cells of each that is written.
+pub(super) fn labels(
+    canvas: &mut Canvas<'_>,
+    area: Rect,
+    frame: &PlotFrame,
+    labels: &[Label],
+) -> Vec<Rect> {
     let mut written: Vec<Rect> = Vec::new();
     for label in labels {
         let Some(at) = frame.cell(label.tip) else { continue };
@@ -87,6 +92,7 @@ pub(super) fn labels(canvas: &mut Canvas<'_>, area: Rect, frame: &PlotFrame, lab
         canvas.write(place.as_position(), place.width, &label.text, canvas.style(label.role));
         written.push(place);
     }
+    written
 }
 
 /// Where a name may stand, best first.
@@ -124,14 +130,16 @@ pub(super) fn mechanics(canvas: &Canvas<'_>, [right, wrong]: [usize; 2]) -> Vec<
     vec![(format!("{sign} right mechanics"), right), (format!("{sign} wrong mechanics"), wrong)]
 }
 
-/// Draws a legend in the upper left corner.
-pub(super) fn legend(canvas: &mut Canvas<'_>, area: Rect, lines: &[LegendLine]) {
+/// Draws a legend in the upper left corner. Returns the cells of its lines.
+pub(super) fn legend(canvas: &mut Canvas<'_>, area: Rect, lines: &[LegendLine]) -> Vec<Rect> {
     if area.width < 24 || usize::from(area.height) < 8 {
-        return;
+        return Vec::new();
     }
-    for (index, (text, curve)) in lines.iter().enumerate() {
+    let write = |(index, (text, curve)): (usize, &LegendLine)| {
         let at = row(area, index);
         let style = canvas.look.theme.curve(*curve);
-        canvas.write(at.as_position(), at.width, text, style);
-    }
+        let width = canvas.write(at.as_position(), at.width, text, style);
+        Rect { width, ..at }
+    };
+    lines.iter().enumerate().map(write).collect()
 }

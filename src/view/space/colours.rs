@@ -67,28 +67,3 @@ fn is_constant(q: &Quantities<'_>, e: Expr) -> bool {
         |symbol: &Symbol| loaded.model.parameters.iter().any(|p| p.symbol == *symbol);
     loaded.equations.pool.symbols_of(e).iter().all(is_parameter)
 }
-
-/// The colours of the traces of the right mechanics and of the wrong one beside it, where both leave one.
-pub(super) fn mechanics(
-    q: &Quantities<'_>,
-    eye: CameraPose,
-    colours: &[Point],
-) -> Option<[usize; 2]> {
-    q.lab.loaded.model.comparison.as_ref()?;
-    let trace = |wrong: bool| {
-        q.lab.shapes(eye).find_map(|(shape, _)| match shape {
-            Shape::Trace { at } => (is_wrong(q, at) == wrong).then(|| colour(q, colours, at)),
-            _ => None,
-        })
-    };
-    Some([trace(false)?, trace(true)?])
-}
-
-/// Whether a point is one of the wrong mechanics beside the right one.
-pub(super) fn is_wrong(q: &Quantities<'_>, at: &Point) -> bool {
-    let Some(comparison) = &q.lab.loaded.model.comparison else { return false };
-    let other: Vec<Symbol> =
-        comparison.symbols.iter().flat_map(|&(place, rate)| [place, rate]).collect();
-    let pool = &q.lab.loaded.equations.pool;
-    at.iter().any(|&e| pool.depends_on_any(e, &other))
-}

@@ -1,9 +1,9 @@
-//! The names in a scene, and the colours of its bodies.
+//! The names and colours of what a scene shows: of points, and of the bodies about them.
 //!
 //! In: points of shapes, words. Out: labels, colours. Never here: where a name has room.
 
 use super::annotation::Label;
-use super::{ScenePainter, colours, scene};
+use super::{ScenePainter, scene};
 use crate::model::Point;
 use crate::view::plot::{Pen, Visibility};
 use crate::view::theme::Role;
@@ -28,10 +28,9 @@ impl ScenePainter<'_> {
         if scene::rests(self.q, centre) {
             return None;
         }
-        if let Some([right, wrong]) = self.mechanics {
-            return Some(if colours::is_wrong(self.q, centre) { wrong } else { right });
-        }
-        self.colours.iter().position(|point| point == centre)
+        let pool = &self.q.lab.loaded.equations.pool;
+        let motion = self.mechanics.as_ref().and_then(|both| both.colour(pool, centre));
+        motion.or_else(|| self.colours.iter().position(|point| point == centre))
     }
 
     /// A pen in the colour of the body about this point.

@@ -5,7 +5,7 @@
 //! terminals of few colours, where surfaces are dots.
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
+use ratatui::layout::{Position, Rect};
 use ratatui::style::Color;
 use ratatui::symbols::pixel::QUADRANTS;
 
@@ -96,8 +96,14 @@ impl Shading {
         (0..4).all(|k| is_covered(quarters[k], self.room[k]))
     }
 
-    /// Gives the covered cells their colours: those in which nothing is drawn blocks, the others a background.
-    pub(super) fn draw(&self, buffer: &mut Buffer, theme: &Theme) {
+    /// Gives the covered cells their colours: those in which nothing is drawn or written blocks, the others a background. A blank
+    /// between two words is written, too.
+    pub(super) fn draw(
+        &self,
+        buffer: &mut Buffer,
+        theme: &Theme,
+        is_written: impl Fn(Position) -> bool,
+    ) {
         for (index, quarters) in self.cells.iter().enumerate() {
             if quarters.iter().all(|quarter| quarter.count == 0) {
                 continue;
@@ -108,7 +114,7 @@ impl Shading {
             let Some(cell) = buffer.cell_mut(at) else { continue };
             let colours: [Option<Color>; 4] =
                 std::array::from_fn(|k| self.colour(quarters[k], self.room[k]));
-            if cell.symbol() != " " {
+            if cell.symbol() != " " || is_written(at.into()) {
                 let lined = |k: usize| self.tones[usize::from(quarters[k].tones)].1;
                 let lined = (0..4).filter(|&k| quarters[k].count > 0).all(lined);
                 let covered = colours.iter().flatten().count() >= if lined { MOST } else { HALF };
@@ -189,7 +195,7 @@ mod tests {
         let shading = row(3, 1);
         let mut buffer = Buffer::empty(Rect::new(0, 0, 4, 1));
         let theme = Theme::dark(crate::view::colour::ColourDepth::True);
-        shading.draw(&mut buffer, &theme);
+        shading.draw(&mut buffer, &theme, |_| false);
         assert_eq!((buffer[(1, 0)].symbol(), buffer[(1, 0)].bg), (" ", Color::Blue));
         assert_eq!((buffer[(3, 0)].symbol(), buffer[(3, 0)].fg), ("▌", Color::Blue));
         assert_eq!(buffer[(3, 0)].bg, Color::Reset);

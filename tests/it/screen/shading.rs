@@ -264,3 +264,106 @@ fn a_sphere_inside_another_one_is_drawn() {
     let inner = dotted("{ sphere = [\"0\", \"0\", \"0\"], radius = \"0.5\" }");
     assert!(inner > twice + 15, "{inner} and {twice}");
 }
+
+/// A model of one coordinate with these shapes in space, seen from the side and a little from above.
+fn in_space(shapes: &str) -> App {
+    begun(&format!(
+        "title = \"Shapes\"\nsummary = \"x\"\n[coordinates]\nx = {{ initial = 1.0, velocity = 0.0 }}\n[lagrangian]\n\
+         L = \"1/2*x'^2 - 1/2*x^2\"\n[space]\nazimuth = 0\nelevation = 30\nshapes = [{shapes}]\n[[views]]\nkind = \"space\"\n"
+    ))
+}
+
+/// A piece is drawn in blocks if the smaller one of its extents is three columns or more, as a sheet between lines if another one
+/// is, and else in lines: each with a body just below and just above.
+#[test]
+fn three_columns_are_thick() {
+    let is_dotted =
+        |cell: &Cell| cell.symbol().chars().any(|c| ('\u{2801}'..='\u{28ff}').contains(&c));
+    let is_block = |cell: &Cell| cell.symbol().chars().any(|c| ('▀'..='▟').contains(&c));
+    // the ends of the line are ten apart, and the body is above it
+    let floor = "{ line = [\"-5\", \"0\", \"-2\"], to = [\"5\", \"0\", \"-2\"] }";
+    let picture = |body: &str| screen(&in_space(&format!("{floor}{body}")), &rich(), (200, 60));
+    let count = |buffer: &Buffer, rows: std::ops::Range<u16>, counts: &dyn Fn(&Cell) -> bool| {
+        let cells = rows.flat_map(|y| (1..73).map(move |x| &buffer[(x, y)]));
+        cells.filter(|cell| counts(cell)).count()
+    };
+    let buffer = picture("");
+    let floor = (1..30).max_by_key(|&y| count(&buffer, y..y + 1, &is_dotted)).expect("rows");
+    let column = 10.0 / count(&buffer, floor..floor + 1, &is_dotted) as f64;
+    for (length, wide, style) in [
+        (20.0, 2.85, "lines"),
+        (20.0, 3.15, "solid"),
+        (2.85, 20.0, "sheet"),
+        (3.15, 20.0, "solid"),
+        (2.5, 2.85, "lines"),
+        (2.5, 3.15, "sheet"),
+    ] {
+        let (half, radius) = (length / 2.0 * column, wide / 2.0 * column);
+        let ends = format!("[\"0\", \"0\", \"{}\"], to = [\"0\", \"0\", \"{half}\"]", -half);
+        let buffer = picture(&format!(", {{ cylinder = {ends}, radius = \"{radius}\" }}"));
+        let painted = count(&buffer, 2..30, &|cell| Rgb::of(cell.bg).is_some());
+        let drawn = match (painted, count(&buffer, 2..30, &is_block)) {
+            (0, 0) => "lines",
+            (_, 0) => "sheet",
+            (_, _) => "solid",
+        };
+        assert_eq!(drawn, style, "{length} × {wide} columns: {}", super::rows(&buffer).join("\n"));
+    }
+}
+
+/// Where two mechanics are compared, what moves with neither has the colour of neither.
+#[test]
+fn what_moves_with_neither_mechanics_has_none_of_their_colours() {
+    let theme = Theme::dark(ColourDepth::True);
+    let text = &crate::hand::catalog().find("rolling-disc").expect("a preset").text;
+    let painted = |text: &str| {
+        let buffer = screen(&begun(text), &rich(), (200, 60));
+        [theme[Role::Level], theme.curve(0), theme.curve(1)].map(|style| {
+            let tones = theme.tones(style).expect("tones");
+            buffer.content.iter().filter(|cell| tones.contains(&cell.bg)).count()
+        })
+    };
+    let third =
+        "{ disc = [\"1\", \"2 + t\", \"2\"], radius = \"0.5\", normal = [\"1\", \"0\", \"1\"] },";
+    let [before, with] = [text.clone(), text.replace("shapes = [", &format!("shapes = [{third}"))]
+        .map(|text| painted(&text));
+    assert_eq!(before[0], 0, "{before:?}");
+    assert!(with[0] > 3, "{with:?}");
+}
+
+/// Where its edges are lines, a cone or a cylinder about a mass has them in the colour of the mass, as it has its filling.
+#[test]
+fn the_edges_of_a_body_have_its_colour() {
+    let theme = Theme::dark(ColourDepth::True);
+    let look = RenderStyle { theme: theme.clone(), glyphs: Glyphs::Ascii };
+    let mass = "{ mass = [\"x\", \"0\", \"0\"] }";
+    for body in [
+        "{ cylinder = [\"x\", \"0\", \"0\"], to = [\"x\", \"0\", \"1\"], radius = \"1/2\" }",
+        "{ cone = [\"x\", \"0\", \"1\"], to = [\"x\", \"0\", \"0\"], radius = \"1/2\" }",
+    ] {
+        let buffer = screen(&in_space(&format!("{mass}, {body}")), &look, (120, 40));
+        let places = || (2..14).flat_map(|y| (3..39).map(move |x| (x, y)));
+        let cells = || places().map(|at| &buffer[at]);
+        let count = |style: ratatui::style::Style| {
+            cells().filter(|c| c.symbol() != " " && Some(c.fg) == style.fg).count()
+        };
+        let counts = [count(theme.curve(0)), count(theme[Role::Text])];
+        assert!(counts[0] > 40 && counts[1] == 0, "{body}: {counts:?}");
+    }
+}
+
+/// The blanks between the words of a caption are its own: neither edges nor blocks are drawn in them.
+#[test]
+fn a_caption_keeps_its_blanks() {
+    let words = ["a b c d e f g h i j k l m n o", "aa b c d e f g h i j k l m n o"];
+    let captions = (0..14).map(|k| {
+        let (z, text) = (0.2 * f64::from(k) - 1.3, words[k as usize % 2]);
+        format!("{{ caption = [\"-1.8\", \"0\", \"{z}\"], text = \"{text}\" }}")
+    });
+    let captions: Vec<String> = captions.collect();
+    let bodies = "{ sphere = [\"0\", \"0\", \"0\"], radius = \"1\" }, \
+                  { cylinder = [\"0\", \"0\", \"-1.4\"], to = [\"0\", \"0\", \"1.4\"], radius = \"0.4\" }";
+    let app = in_space(&format!("{bodies}, {}", captions.join(", ")));
+    let text = super::rows(&screen(&app, &rich(), (200, 60))).join("\n");
+    assert_eq!(text.matches(words[0]).count(), 14, "{text}");
+}
