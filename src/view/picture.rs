@@ -5,7 +5,7 @@
 
 use ratatui::layout::Rect;
 
-use super::canvas::{Canvas, Span, columns, row, wide};
+use super::canvas::{Canvas, Span, row, wide};
 use super::ink::{colourless_mark, is_colourless, marker, pen};
 use super::kept::{self, Track, TrailKey};
 use super::marks::Marks;
@@ -20,15 +20,29 @@ use super::time_window::time_window;
 use super::{companions, cursor, field, legend, level_curves, prediction, space};
 use crate::instrument::{Across, Ink, Layer, Level, Picture, Plot, Upwards, Viewport};
 
-/// Writes the keys of curves above the axes, to the right of their title.
+/// Writes the keys of curves above the axes: as far to the right as there is room for all of them, where a curve may be in
+/// the way, else in the widest room.
 fn keys_above(canvas: &mut Canvas<'_>, area: Rect, keys: &[Span]) {
     let top = row(area, 0);
-    let blank = |x: &u16| canvas.buffer[(*x, top.y)].symbol().trim().is_empty();
-    let free = (top.x..top.right()).rev().take_while(blank).count() as u16;
-    let keys = keys_in(keys, free.saturating_sub(1).into(), canvas.look.glyphs.pick("…", "~"));
-    let room = free.saturating_sub(1).min(wide(&keys) as u16);
-    if !top.is_empty() && !keys.is_empty() {
-        canvas.spans(columns(top, top.width - room, room), &keys);
+    let blank = |x: u16| canvas.buffer[(x, top.y)].symbol().trim().is_empty();
+    let columns_of: Vec<u16> = (top.x..top.right()).collect();
+    let rooms = columns_of.chunk_by(|a, b| blank(*a) == blank(*b)).filter(|room| blank(room[0]));
+    // a blank keeps them apart from what is beside them
+    let rooms = rooms.map(|room| {
+        let last = room[room.len() - 1] + 1;
+        let end = if last == top.right() { last } else { last - 1 };
+        (room[0] + 1, end.saturating_sub(room[0] + 1))
+    });
+    let rooms: Vec<(u16, u16)> = rooms.collect();
+    let all = rooms.iter().rfind(|(_, width)| usize::from(*width) >= wide(keys));
+    let Some(&(first, width)) = all.or_else(|| rooms.iter().max_by_key(|(_, width)| *width)) else {
+        return;
+    };
+    let keys = keys_in(keys, width.into(), canvas.look.glyphs.pick("…", "~"));
+    let used = width.min(wide(&keys) as u16);
+    if used > 0 {
+        let at = Rect { x: first + width - used, width: used, ..top };
+        canvas.spans(at, &keys);
     }
 }
 

@@ -4,8 +4,13 @@ use std::sync::Arc;
 
 use phaselab::app::Event;
 use phaselab::experiment::{Gauge, Growth, Verdict};
+use phaselab::view::RenderStyle;
+use phaselab::view::colour::ColourDepth;
+use phaselab::view::glyphs::Glyphs;
+use phaselab::view::theme::Theme;
 
 use super::{find, rich, rows, screen};
+use crate::app::real::Real;
 use crate::hand::{at_picker, gauge, in_lab, lab, press, snapshot};
 
 /// Keys of curves whose names begin with the same words end with those that differ.
@@ -22,6 +27,24 @@ fn keys_that_begin_alike_are_told_apart() {
             assert_eq!(Some(buffer[(x, y)].fg), rich().theme.curve(index).fg, "{name}: {key}");
         }
     }
+}
+
+/// Keys above the axes are whole where a curve ends to the right of them, in their row.
+#[test]
+fn a_curve_in_their_row_leaves_the_keys_whole() {
+    let look = RenderStyle { theme: Theme::dark(ColourDepth::True), glyphs: Glyphs::Ascii };
+    let mut real = Real::of("rolling-disc");
+    let mut beside = 0;
+    for _ in 0..100 {
+        real.run(3);
+        let text = rows(&screen(&real.app, &look, (120, 40)));
+        let title = text.iter().position(|row| row.contains("- Time x, other_x")).expect("a title");
+        let row = &text[title + 1];
+        assert!(row.contains("- x ") && row.contains("- other_x"), "{text:#?}");
+        let after = row.split_once("- other_x").map_or("", |(_, after)| after);
+        beside += usize::from(after[..after.find('|').unwrap_or(0)].contains('@'));
+    }
+    assert!(beside > 0, "no curve ends in the row of the keys");
 }
 
 /// The gauges of the pendulum with these on a screen.
