@@ -14,6 +14,9 @@ use crate::model::Model;
 use crate::num::{DoubleDouble, gauss};
 use crate::system::{Evaluator, Program};
 
+/// The operations that searches for a path may take beside the first: some seconds.
+const BUDGET: f64 = 1e10;
+
 /// A sum is no more than rounding up to this part of the size of its terms.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
@@ -30,8 +33,11 @@ pub struct Lagrangian {
     /// The number of kinks of its values.
     switches: usize,
     cancel: Cancel,
-    /// What its expansions took, see [`Lagrangian::work`].
+    /// What its expansions took, see [`Lagrangian::work`], and when a search ends.
     work: f64,
+    most_work: f64,
+    /// What searches beside the first may take.
+    budget: f64,
 }
 
 /// A path: q and q̇ at a time from its beginning.
@@ -126,6 +132,8 @@ impl Lagrangian {
             start: model.run.start,
             cancel: Cancel::new(),
             work: 0.0,
+            most_work: f64::INFINITY,
+            budget: BUDGET,
         })
     }
 
@@ -141,6 +149,25 @@ impl Lagrangian {
         Lagrangian { cancel, ..self }
     }
 
+    /// The same with another budget for the searches that begin elsewhere than at the straight line, in operations.
+    #[must_use]
+    pub fn with_budget(self, budget: f64) -> Lagrangian {
+        Lagrangian { budget, ..self }
+    }
+
+    /// A search that ends when it has taken the budget.
+    pub(super) fn within_budget<T>(&mut self, search: impl FnOnce(&mut Lagrangian) -> T) -> T {
+        self.most_work = self.work + self.budget;
+        let outcome = search(self);
+        self.most_work = f64::INFINITY;
+        outcome
+    }
+
+    /// Whether a search has to end: it is cancelled, or has taken its budget.
+    pub(super) fn is_over(&self) -> bool {
+        self.is_cancelled() || self.work > self.most_work
+    }
+
     /// Whether searches are to end.
     pub fn is_cancelled(&self) -> bool {
         self.cancel.is_cancelled()
@@ -151,8 +178,9 @@ impl Lagrangian {
         self.degrees
     }
 
-    /// The multiplications that Newton's steps along all paths so far took: the cube of the number of their unknowns each.
-    pub(super) fn work(&self) -> f64 {
+    /// The operations that the expansions along all paths so far took, each with the evaluations of L's derivatives at the nodes, their
+    /// sums and the elimination of the unknowns.
+    pub fn work(&self) -> f64 {
         self.work
     }
 
@@ -260,8 +288,8 @@ impl Lagrangian {
         Err(unsuited("the integral of L along this path does not settle: the path is not smooth"))
     }
 
-    /// The action of a path given at nodes, column by column, with its derivatives; `None` where it has none, or once it is
-    /// cancelled.
+    /// The action of a path given at nodes, column by column, with its derivatives; `None` where it has none, or once a search
+    /// is over.
     pub(super) fn expand(
         &mut self,
         rule: &Lobatto,
@@ -270,7 +298,11 @@ impl Lagrangian {
     ) -> Option<ActionExpansion> {
         let (n, last) = (self.degrees, rule.nodes.len() - 1);
         let unknowns = (n * (last - 1)) as f64;
-        self.work += unknowns * unknowns * unknowns;
+        let evaluators = [&self.values, &self.first, &self.second];
+        let evaluation = evaluators.map(Evaluator::operations).iter().sum::<usize>() as f64;
+        let nodes = rule.nodes.len() as f64;
+        // of each node half of the second derivatives, of four products each
+        self.work += nodes * evaluation + (2.0 * nodes + unknowns) * unknowns * unknowns;
         let rate = 2.0 / duration;
         let velocities = path * rule.derivative.transpose() * rate;
         let inner = last - 1;
@@ -279,7 +311,7 @@ impl Lagrangian {
         let (mut action, mut inertia) = (0.0, 0.0);
         let mut state = vec![0.0; 2 * n];
         for k in 0..=last {
-            if self.is_cancelled() {
+            if self.is_over() {
                 return None;
             }
             let time = 0.5 * duration * (1.0 + rule.nodes[k]);

@@ -4,21 +4,18 @@
 //! nothing from there, with what the path of a shorter time becomes as the time grows, and then with arcs beside the line. Never here:
 //! Newton's method, paths that somebody gives.
 
-use super::action::{Lagrangian, unsuited};
+use super::action::Lagrangian;
 use super::error::DynamicsError;
 use super::stationary_path::{StationaryPath, stationary_path};
 use crate::num::math;
 
-/// The number of parts in which the time grows.
-const PARTS: u32 = 16;
+/// The number of steps in which the duration grows.
+const STEPS: u32 = 16;
 
 /// The arcs: so many half waves of one coordinate beside the straight line, to both sides, of these heights in the size of both ends,
 /// until a path is found.
 const HALF_WAVES: [f64; 2] = [1.0, 2.0];
 const HEIGHTS: [f64; 3] = [0.3, 1.0, 3.0];
-
-/// What the paths after the straight line may take in all, in multiplications: some seconds.
-const WORK: f64 = 4e9;
 
 /// The number of intervals at whose ends paths are compared.
 const COMPARED: u32 = 64;
@@ -41,11 +38,23 @@ pub fn stationary_path_between(
         Err(why @ DynamicsError::Unsuited(_)) if !lagrangian.is_cancelled() => why,
         outcome => return outcome,
     };
-    let most = lagrangian.work() + WORK;
-    match continued(lagrangian, &straight, (duration, most)) {
-        Err(DynamicsError::Unsuited(_)) => {}
-        outcome => return outcome,
-    }
+    let elsewhere = |lagrangian: &mut Lagrangian| {
+        match continued(lagrangian, &straight, duration) {
+            Err(DynamicsError::Unsuited(_)) => {}
+            outcome => return outcome.map(Some),
+        }
+        from_arcs(lagrangian, [from, to], &straight, duration)
+    };
+    lagrangian.within_budget(elsewhere)?.ok_or(first)
+}
+
+/// The path nearest to the straight line that Newton's method comes to from arcs of the least height that leads to one.
+fn from_arcs(
+    lagrangian: &mut Lagrangian,
+    [from, to]: [&[f64]; 2],
+    straight: &dyn Fn(f64) -> Vec<f64>,
+    duration: f64,
+) -> Result<Option<StationaryPath>, DynamicsError> {
     let size = from.iter().chain(to).fold(0.0_f64, |most, x| most.max(x.abs()));
     let size = if size > 0.0 { size } else { 1.0 };
     let mut nearest: Option<(f64, StationaryPath)> = None;
@@ -53,8 +62,8 @@ pub fn stationary_path_between(
         let sides = [height, -height].into_iter().flat_map(|h| HALF_WAVES.map(|waves| (h, waves)));
         let arcs = (0..from.len()).flat_map(|k| sides.clone().map(move |(h, w)| (k, h, w)));
         for (coordinate, height, waves) in arcs {
-            if lagrangian.is_cancelled() || lagrangian.work() > most {
-                return nearest.map(|(_, path)| path).ok_or(first);
+            if lagrangian.is_over() {
+                return Ok(nearest.map(|(_, path)| path));
             }
             let arc = |time: f64| {
                 let mut place = straight(time / duration);
@@ -84,31 +93,28 @@ pub fn stationary_path_between(
             break;
         }
     }
-    nearest.map(|(_, path)| path).ok_or(first)
+    Ok(nearest.map(|(_, path)| path))
 }
 
 /// What the path of a short time, which is nearly straight, becomes as the time grows.
 fn continued(
     lagrangian: &mut Lagrangian,
     straight: &dyn Fn(f64) -> Vec<f64>,
-    (duration, most): (f64, f64),
+    duration: f64,
 ) -> Result<StationaryPath, DynamicsError> {
-    let part = duration / f64::from(PARTS);
-    let mut path = stationary_path(lagrangian, &|time| straight(time / part), part)?;
-    for k in 2..=PARTS {
-        if lagrangian.work() > most {
-            return Err(unsuited("the path of a shorter time was not followed to the end"));
-        }
-        let (last, shorter) = (part * f64::from(k - 1), part * f64::from(k));
-        let guess = |time: f64| match time / shorter {
+    let step = duration / f64::from(STEPS);
+    let mut path = stationary_path(lagrangian, &|time| straight(time / step), step)?;
+    for k in 2..=STEPS {
+        let (before, now) = (step * f64::from(k - 1), step * f64::from(k));
+        let guess = |time: f64| match time / now {
             part if part > 0.0 && part < 1.0 => {
-                let mut place = path.at(part * last);
+                let mut place = path.at(part * before);
                 place.truncate(place.len() / 2);
                 place
             }
             part => straight(part),
         };
-        path = stationary_path(lagrangian, &guess, shorter)?;
+        path = stationary_path(lagrangian, &guess, now)?;
     }
     Ok(path)
 }

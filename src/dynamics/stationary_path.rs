@@ -26,8 +26,9 @@ const STEPS: usize = 80;
 /// particle.
 const ZERO: f64 = 1e-8;
 
-/// What is said of a search that is not wanted any more.
+/// What is said of a search that is not wanted any more, and of one that takes too long.
 const CANCELLED: &str = "the search was cancelled";
+const TOO_LONG: &str = "the search takes too long";
 
 /// What a stationary path is among its neighbours.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -67,6 +68,11 @@ impl StationaryPath {
     }
 }
 
+/// Why a search that is over has no path.
+fn over(lagrangian: &Lagrangian) -> DynamicsError {
+    no_path(if lagrangian.is_cancelled() { CANCELLED } else { TOO_LONG })
+}
+
 fn no_path(why: &str) -> DynamicsError {
     DynamicsError::Unsuited(why.to_owned())
 }
@@ -83,8 +89,8 @@ pub fn stationary_path(
     let n = lagrangian.degrees();
     let mut before: Option<StationaryPath> = None;
     for degree in DEGREES {
-        if lagrangian.is_cancelled() {
-            return Err(no_path(CANCELLED));
+        if lagrangian.is_over() {
+            return Err(over(lagrangian));
         }
         let rule = Lobatto::new(degree);
         let times: Vec<f64> = rule.nodes.iter().map(|x| 0.5 * duration * (1.0 + x)).collect();
@@ -100,8 +106,8 @@ pub fn stationary_path(
             (0..n).for_each(|a| first[(a, k)] = end[a]);
         }
         let Some((values, expansion)) = newton(lagrangian, &rule, first.clone(), duration) else {
-            if lagrangian.is_cancelled() {
-                return Err(no_path(CANCELLED));
+            if lagrangian.is_over() {
+                return Err(over(lagrangian));
             }
             if before.is_some() || degree < DEGREES[2] {
                 // a coarse polynomial may have no stationary point where a finer one has

@@ -40,6 +40,11 @@ impl<R: Real> Evaluator<R> {
         Evaluator { program, registers, blocks, right, parameters, underflow_may_count, wide: None }
     }
 
+    /// The number of operations of an evaluation.
+    pub fn operations(&self) -> usize {
+        self.program.live_len()
+    }
+
     /// Sets the parameters and evaluates everything that depends on them alone.
     pub fn set_parameters(&mut self, parameters: &[DoubleDouble]) {
         self.parameters.clear();

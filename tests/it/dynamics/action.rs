@@ -7,7 +7,7 @@ use phaselab::app::{App, Event};
 use phaselab::cancel::Cancel;
 use phaselab::dynamics::{
     DynamicsError, Lagrangian, VARIATIONS, VariedAction, nearest_stationary_path, stationary_path,
-    varied_action,
+    stationary_path_between, varied_action,
 };
 use phaselab::instrument::{Plot, named};
 
@@ -275,5 +275,38 @@ fn a_search_for_a_path_ends_once_it_is_cancelled() {
                 assert!(looks.get() > 15);
             }
         }
+    }
+}
+
+/// Two coupled wells, between whose ends the straight line leads to no path. What is searched beside it ends with its budget, also
+/// within a search: at nine tenths of what it takes there is none yet, and the line's own error stands.
+#[test]
+fn searches_beside_the_straight_line_end_with_their_budget() {
+    let loaded = lowered(
+        "title = \"wells\"\n[coordinates]\nx = { initial = 0.5 }\ny = { initial = 0.2 }\n[lagrangian]\n\
+         L = \"1/2*(x'^2 + y'^2) + 1/2*x^2 - 1/4*x^4 - y^2 - 3/10*x^2*y^2\"\n",
+    );
+    let mut equations = (*loaded.equations).clone();
+    let mut lagrangian = || Lagrangian::of(&loaded.model, &mut equations, &[]).unwrap();
+    let mut line = lagrangian();
+    let straight = |t: f64| vec![0.5 + 0.25 * t, 0.2 + 0.4 * t];
+    let why = stationary_path(&mut line, &straight, 2.0).expect_err("it leads to none").to_string();
+    let mut search = |budget: Option<f64>| {
+        let mut own = lagrangian();
+        if let Some(budget) = budget {
+            own = own.with_budget(budget);
+        }
+        let found = stationary_path_between(&mut own, [&[0.5, 0.2], &[1.0, 1.0]], 2.0);
+        (found, own.work() - line.work())
+    };
+    let (found, needed) = search(None);
+    let action = found.expect("a path").action;
+    let (found, taken) = search(Some(1.001 * needed));
+    assert_eq!((found.expect("a path").action, taken), (action, needed));
+    for part in [0.0, 0.5, 0.9] {
+        let (found, taken) = search(Some(part * needed));
+        assert_eq!(found.expect_err("there is none yet").to_string(), why);
+        // one expansion of the highest degree goes beyond
+        assert!(taken >= part * needed && taken <= part * needed + 3e7, "{part}: {taken:e}");
     }
 }
