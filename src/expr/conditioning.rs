@@ -18,6 +18,10 @@ const HALF: f64 = 0.5;
 const NUDGE: f64 = 1e-7;
 const WIDEST: f64 = 1e-4;
 
+/// A difference of up to this many ε of the value is rounding, and one of more than this part of it is a jump.
+const ROUNDED: f64 = 64.0;
+const JUMP: f64 = 1e-3;
+
 impl Pool {
     /// The value of `e`, and its error in units of ε if every input is rounded to an `f64` and
     /// every operation is done in `f64`. In a sum that cancels, the error is that of the terms; an
@@ -61,8 +65,21 @@ impl Pool {
                         let nudge = (NUDGE * x.abs()).min(WIDEST).max(own * f64::EPSILON);
                         if nudge > 0.0 {
                             let mut beside = values.clone();
-                            beside[i] = x + nudge;
-                            error += ((f(&beside) - value) / nudge).abs() * own;
+                            let mut difference = |nudge: f64| {
+                                beside[i] = x + nudge;
+                                (f(&beside) - value).abs()
+                            };
+                            let mut slope = difference(nudge) / nudge;
+                            // where x is far less than what it is the difference of, its error may change no digit
+                            if nudge < NUDGE
+                                && slope * nudge <= ROUNDED * f64::EPSILON * value.abs()
+                            {
+                                let wide = difference(NUDGE);
+                                if wide <= JUMP * value.abs() {
+                                    slope = wide / NUDGE;
+                                }
+                            }
+                            error += slope * own;
                         }
                     }
                     (value, error)
@@ -107,6 +124,14 @@ mod tests {
         let (value, error) = pool.evaluate_with_error(exponential, &at);
         assert!((value - math::exp(0.25)).abs() < 1e-15);
         assert!((error / (2e9 * value) - 1.0).abs() < 1e-3, "{error}");
+        // where both are equal, the error of the difference is far above the difference
+        let (_, own) = pool.evaluate_with_error(difference, &|_| 0.75);
+        let (value, error) = pool.evaluate_with_error(exponential, &|_| 0.75);
+        assert!(value == 1.0 && own > 0.5 && (error - own - 0.5).abs() < 1e-5, "{error} {own}");
+        // a jump is no slope
+        let below = pool.linear(Number::ratio(-1, 1 << 40), &[(Number::ONE, difference)]);
+        let sign = pool.call(crate::expr::FunctionId::Sign, &[below]);
+        assert_eq!(pool.evaluate_with_error(sign, &|_| 0.75), (-1.0, 0.5));
         let wave = pool.call(crate::expr::FunctionId::Sin, &[a]);
         let (_, error) = pool.evaluate_with_error(wave, &at);
         let slope = math::cos(1e9 + 0.25).abs();
