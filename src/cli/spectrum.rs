@@ -121,7 +121,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
             NoSpectrum::NotFinite => "the quantity has no finite values".to_owned(),
         })
     })?;
-    if sampled.shows_nothing() {
+    if sampled.is_false() {
         return Err(CommandError::CouldNot(too_few(sampled.count, asked.is_some())));
     }
     let of = arguments.of.clone().unwrap_or_else(|| system.channels()[channel].name.clone());
@@ -135,8 +135,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
 fn too_few(count: usize, is_asked: bool) -> String {
     let help = if is_asked { "take more with --count" } else { "choose an earlier --until" };
     format!(
-        "{count} values are too few: the quantity changes faster than they follow each other, and none of the lines found belongs to it; \
-         {help}"
+        "{count} values are too few: the quantity changes faster than they follow each other, and none of the lines found belongs to it; {help}"
     )
 }
 
@@ -166,6 +165,7 @@ fn object(found: &FoundSpectrum) -> Map<String, Value> {
     insert("drive", json!(drive));
     insert("left", json!(spectrum.left));
     insert("left_between", json!(between));
+    insert("images", sampled.images.iter().map(|image| image.frequency).collect());
     insert("resolved", json!(sampled.is_resolved()));
     insert("turns", json!(spectrum.turns));
     let halves = |d: &FrequencyDrift| json!({ "first": d.first, "second": d.second, "relative": d.relative(), "error": d.relative_error() });
@@ -199,19 +199,23 @@ fn text(found: &FoundSpectrum) -> String {
     } else {
         text.push_str(&table(&rows));
     }
+    let all = if sampled.has_images() { "lines and the images" } else { "lines" };
     text.push_str(&format!(
-        "\nmean {}, what the lines leave {:.1e}\n",
+        "\nmean {}, what the {all} leave {:.1e}\n",
         shown(spectrum.mean),
         spectrum.left
     ));
     if !sampled.is_resolved() {
-        text.push_str(&format!(
-            "between the values they leave {between:.1e}: there are lines too fast for so few values, {}; take more with --count\n",
-            if sampled.has_images {
-                "whose images are left out"
-            } else {
-                "and fainter lines may be their images"
+        let images = match &sampled.images[..] {
+            [] => "and fainter lines may be their images".to_owned(),
+            [one] => format!("whose image at ω = {} is left out", shown(one.frequency)),
+            several => {
+                let all: Vec<String> = several.iter().map(|image| shown(image.frequency)).collect();
+                format!("whose images at ω = {} are left out", all.join(", "))
             }
+        };
+        text.push_str(&format!(
+            "between the values they leave {between:.1e}: there are lines too fast for so few values, {images}; take more with --count\n"
         ));
     }
     if let Some(change) = spectrum.change_of_mean() {

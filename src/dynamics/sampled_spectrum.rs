@@ -8,6 +8,7 @@
 //! motion is computed, names.
 
 use super::frequency_drift::{FrequencyDrift, frequency_drift};
+use super::spectral_line::SpectralLine;
 use super::spectrum::{MeanRate, Spectrum, advance, driven_spectrum, mean_rate, straightened};
 use crate::num::math;
 
@@ -26,8 +27,21 @@ const ROUNDING: f64 = 1e-12;
 /// Lines that leave more than this part of the quantity between the values are not there.
 const FALSE: f64 = 0.5;
 
-/// A line that leaves more than this part of itself between the values is the image of a faster one.
+/// A line that leaves more than this part of itself between the values is the image of a faster one. Those whose order is a large
+/// number of Fibonacci's, and few others, leave less: see [`is_faint_image`].
 const IMAGE: f64 = 0.3;
+
+/// The orders up to which such images are known, …
+const ORDERS: u32 = 100;
+
+/// … if they leave what they should to this part of it, …
+const AGREES: f64 = 0.5;
+
+/// … lie at a multiple of a frequency within this many times the errors, …
+const SURE: f64 = 3.0;
+
+/// … and these make no more than this part of that frequency, so that it is not met by chance.
+const CHANCE: f64 = 1e-2;
 
 /// What is wanted of a quantity.
 #[derive(Clone, Copy, Debug)]
@@ -57,8 +71,8 @@ pub struct SampledSpectrum {
     pub drift: Option<FrequencyDrift>,
     /// The root mean square of what the lines leave between the values.
     pub between: f64,
-    /// Whether lines were left out that are images of faster ones, as a motion that jumps has them without end.
-    pub has_images: bool,
+    /// The lines that were left out as images of faster ones, as a motion that jumps has them without end; the strongest first.
+    pub images: Vec<SpectralLine>,
     /// What may be rounding.
     rounding: f64,
 }
@@ -76,17 +90,28 @@ impl SampledSpectrum {
     /// Whether the lines give the quantity between the values too.
     pub fn is_resolved(&self) -> bool {
         let Spectrum { left, size, .. } = self.spectrum;
-        !self.has_images && self.between <= (MORE * left).max(NOTICED * size).max(self.rounding)
+        !self.has_images() && self.between <= (MORE * left).max(NOTICED * size).max(self.rounding)
     }
 
-    /// Whether most of the quantity is faster than the values can show.
+    /// Whether lines were left out that are images of faster ones. The others belong to the quantity.
+    pub fn has_images(&self) -> bool {
+        !self.images.is_empty()
+    }
+
+    /// Whether none of the lines belongs to the quantity: it is faster than the values can show.
     pub fn is_false(&self) -> bool {
-        !self.is_resolved() && self.between > FALSE * self.spectrum.size
+        !self.has_images() && self.is_missed()
     }
 
-    /// Whether there is nothing else in it, so that none of the lines belongs to it.
-    pub fn shows_nothing(&self) -> bool {
-        self.is_false() && !self.has_images
+    /// Whether the strongest line was left out, so that the others are not what is fast in the quantity.
+    pub fn is_strongest_left_out(&self) -> bool {
+        let amplitude = |lines: &[SpectralLine]| lines.first().map_or(0.0, |line| line.amplitude);
+        amplitude(&self.images) > amplitude(&self.spectrum.lines)
+    }
+
+    /// Whether what was fitted to the values misses most of the quantity between them.
+    fn is_missed(&self) -> bool {
+        !self.is_resolved() && self.between > FALSE * self.spectrum.size
     }
 }
 
@@ -111,7 +136,7 @@ pub fn sampled_spectrum(
             return Ok(found);
         }
         // each time the motion is followed once more
-        count = most.min(if found.is_false() { 4 * count } else { 2 * count });
+        count = most.min(if found.is_missed() { 4 * count } else { 2 * count });
     }
 }
 
@@ -146,27 +171,57 @@ fn taken(
     let off: Vec<f64> = others.iter().enumerate().map(off).collect();
     let squares: f64 = off.iter().map(|off| off * off).sum();
     let between = (squares / count as f64).sqrt();
-    // what is no sum of lines at all, as noise, has no lines that others could be images of
-    let is_image = |frequency: f64, size: f64| amplitude(&off, frequency * spacing) > IMAGE * size;
-    let images: Vec<bool> =
-        spectrum.lines.iter().map(|line| is_image(line.frequency, line.amplitude)).collect();
-    let has_images = images.contains(&true) && images.contains(&false);
-    if has_images {
-        without(&mut spectrum, &images);
-    }
+    let images = images(&spectrum, &off, spacing);
+    without(&mut spectrum, &images.iter().map(|line| line.frequency).collect::<Vec<f64>>());
     let rounding = ROUNDING * all.iter().fold(0.0_f64, |size, x| size.max(x.abs()));
-    Ok(SampledSpectrum { count, spectrum, rate, drift, between, has_images, rounding })
+    Ok(SampledSpectrum { count, spectrum, rate, drift, between, images, rounding })
 }
 
-/// Takes lines out of a spectrum, with the names that others have by them.
-fn without(spectrum: &mut Spectrum, images: &[bool]) {
-    let gone: Vec<f64> = spectrum
-        .lines
-        .iter()
-        .zip(images)
-        .filter(|(_, image)| **image)
-        .map(|(line, _)| line.frequency)
-        .collect();
+/// The lines that are images of faster ones, by what all lines leave between the values. What is no sum of lines at
+/// all, as noise, has none that others could be images of.
+fn images(spectrum: &Spectrum, off: &[f64], spacing: f64) -> Vec<SpectralLine> {
+    let left = |line: &SpectralLine| amplitude(off, line.frequency * spacing) / line.amplitude;
+    let (mut images, own): (Vec<&SpectralLine>, Vec<_>) =
+        spectrum.lines.iter().partition(|line| left(line) > IMAGE);
+    let is_named_by = |line: &&&SpectralLine| spectrum.fundamentals.contains(&line.frequency);
+    let bases: Vec<&SpectralLine> = own.iter().filter(is_named_by).copied().collect();
+    let is_faint = |line: &&SpectralLine| {
+        bases.iter().any(|base| is_faint_image(line, base, left(line), spacing))
+    };
+    images.extend(own.iter().copied().filter(is_faint));
+    if images.len() == spectrum.lines.len() {
+        return Vec::new();
+    }
+    images.sort_by(|a, b| b.amplitude.total_cmp(&a.amplitude));
+    images.into_iter().cloned().collect()
+}
+
+/// Whether a line that leaves this part of itself between the values is the image of a multiple of a base frequency. The image
+/// of order k of a line lies at |ω − 2π k/h| and leaves 2 |sin π k g| of itself at the part g of the interval: little where
+/// k g is nearly an integer.
+fn is_faint_image(line: &SpectralLine, base: &SpectralLine, left: f64, spacing: f64) -> bool {
+    let is_multiple = |frequency: f64| {
+        let times = (frequency / base.frequency).round();
+        let error = SURE * (line.error + times * base.error);
+        error <= CHANCE * base.frequency && (frequency - times * base.frequency).abs() <= error
+    };
+    if is_multiple(line.frequency) {
+        return false;
+    }
+    (1..=ORDERS).map(f64::from).any(|order| {
+        let leaves = 2.0 * math::sin(std::f64::consts::PI * order * BETWEEN).abs();
+        let shift = std::f64::consts::TAU * order / spacing;
+        leaves <= IMAGE
+            && (left - leaves).abs() <= AGREES * leaves
+            && [shift - line.frequency, shift + line.frequency].into_iter().any(is_multiple)
+    })
+}
+
+/// Takes lines of these frequencies out of a spectrum, with the names that others have by them.
+fn without(spectrum: &mut Spectrum, gone: &[f64]) {
+    if gone.is_empty() {
+        return;
+    }
     spectrum.lines.retain(|line| !gone.contains(&line.frequency));
     let is_gone: Vec<bool> = spectrum.fundamentals.iter().map(|f| gone.contains(f)).collect();
     for line in &mut spectrum.lines {

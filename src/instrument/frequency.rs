@@ -65,7 +65,7 @@ impl VariedMotions {
                 }
                 NoSpectrum::NotFinite => "the motion has no finite values".to_owned(),
             })?;
-        let is_false = sampled.is_false();
+        let is_too_fast = sampled.is_false() || sampled.is_strongest_left_out();
         let SampledSpectrum { spectrum: found, rate, .. } = sampled;
         let rounds = |rate: f64, turn: f64| (rate * length / turn).abs();
         if let (Some(rate), Some(turn)) = (rate, turn)
@@ -74,7 +74,7 @@ impl VariedMotions {
         {
             return Ok((rate.rate * TAU / turn).abs());
         }
-        if is_false {
+        if is_too_fast {
             return Err(format!("{name} is faster than so many values can show"));
         }
         let strongest = found.lines.first().filter(|_| !found.is_continuous());

@@ -47,9 +47,17 @@ struct ComputedSpectrum {
     outcome: Result<Analysis, String>,
 }
 
+impl ComputedSpectrum {
+    fn has_images(&self) -> bool {
+        self.outcome.as_ref().is_ok_and(|found| found.has_images)
+    }
+}
+
 /// What a signal is made of.
 struct Analysis {
     lines: Lines,
+    /// Whether others were left out as images of faster ones.
+    has_images: bool,
     /// Of an angle.
     rate: Option<MeanRate>,
     drift: Option<FrequencyDrift>,
@@ -175,11 +183,12 @@ impl Instrument for SpectrumPlot {
                     }
                     NoSpectrum::NotFinite => "the motion has no finite values".to_owned(),
                 })?;
-                if sampled.shows_nothing() {
+                if sampled.is_false() {
                     return Err("it is faster than so many values can show".to_owned());
                 }
+                let has_images = sampled.has_images();
                 let SampledSpectrum { spectrum: lines, rate, drift, .. } = sampled;
-                Ok(Analysis { lines, rate, drift })
+                Ok(Analysis { lines, has_images, rate, drift })
             });
             Answer::new(ComputedSpectrum { conditions: conditions.clone(), drive, outcome })
         }))
@@ -290,6 +299,9 @@ fn sentences(physics: Physics<'_>, answer: Option<&Answer>) -> Vec<String> {
             format!("halves: ω differs by {apart} ± {error}")
         }),
     );
+    if found(answer).is_some_and(ComputedSpectrum::has_images) {
+        all.insert(second, "lines too fast for so many values are left out".to_owned());
+    }
     if lines.is_continuous() && lines.turns.is_none() {
         all.insert(0, format!("no sum of lines: they leave {:.0} %", 100.0 * lines.part_left()));
     }

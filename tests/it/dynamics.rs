@@ -17,6 +17,7 @@ mod principles;
 mod return_growth;
 mod rotation;
 mod spectrum;
+mod spectrum_images;
 
 use phaselab::dynamics::{DynamicsError, PhaseSpace};
 use phaselab::integrate::{Method, Settings, method_named};

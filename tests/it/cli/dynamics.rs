@@ -158,6 +158,28 @@ fn a_spectrum_has_lines_that_are_named() {
     assert!(ended.stderr.contains("the motion ends before t = 1.11"), "{}", ended.stderr);
 }
 
+/// Of cos t + b cos 7t, at intervals of 1, the second line has its image at 7 − 2π.
+#[test]
+fn a_spectrum_of_few_values_names_the_images_it_leaves_out() {
+    let text = "title = \"t\"\n[coordinates]\na = { initial = 1.0 }\nb = { initial = 0.3 }\n[lagrangian]\n\
+                L = \"1/2*(a'^2 + b'^2) - 1/2*a^2 - 49/2*b^2\"\n";
+    let words = ["spectrum", "./system.toml", "--of", "a+b", "--until", "400", "--count", "400"];
+    let found = with_file(text, &[&words[..], &["--format", "json"]].concat()).json();
+    let (lines, images) = (found["lines"].as_array().unwrap(), found["images"].as_array().unwrap());
+    assert!(lines.len() == 1 && images.len() == 1, "{found}");
+    assert!((lines[0]["frequency"].as_f64().unwrap() - 1.0).abs() < 1e-9);
+    let image = 7.0 - std::f64::consts::TAU;
+    assert!((images[0].as_f64().unwrap() - image).abs() < 1e-9);
+    assert_eq!(found["resolved"], false);
+    let shown = with_file(text, &words).success();
+    assert!(shown.contains("values, whose image at ω = 0.7168"), "{shown}");
+    let fast = with_file(
+        text,
+        &["spectrum", "./system.toml", "--of", "b", "--until", "400", "--count", "400"],
+    );
+    assert!(fast.stderr.contains("none of the lines found belongs to it"), "{}", fast.stderr);
+}
+
 #[test]
 fn equilibria_are_listed_by_energy() {
     let found = phaselab(&["equilibria", "double-pendulum", "--format", "json"]).json();
