@@ -296,6 +296,9 @@ impl Lagrangian {
         path: &DMatrix<f64>,
         duration: f64,
     ) -> Option<ActionExpansion> {
+        if self.is_over() {
+            return None;
+        }
         let (n, last) = (self.degrees, rule.nodes.len() - 1);
         let unknowns = (n * (last - 1)) as f64;
         let evaluators = [&self.values, &self.first, &self.second];
@@ -311,7 +314,7 @@ impl Lagrangian {
         let (mut action, mut inertia) = (0.0, 0.0);
         let mut state = vec![0.0; 2 * n];
         for k in 0..=last {
-            if self.is_over() {
+            if self.is_cancelled() {
                 return None;
             }
             let time = 0.5 * duration * (1.0 + rule.nodes[k]);

@@ -23,8 +23,9 @@ const COMPARED: u32 = 64;
 /// Finds a stationary path between two places.
 ///
 /// # Errors
-/// Returns the error from the straight line, if Newton's method comes to none from the others either, or the search is cancelled;
-/// and the first path that is not resolved, as it will be from elsewhere.
+/// Returns the error of the first path that is not resolved, or else that from the straight line, if Newton's method comes to none from
+/// the others either, or the search is cancelled. Where L has kinks, a path that is not resolved ends the search: it will not be from
+/// elsewhere either.
 pub fn stationary_path_between(
     lagrangian: &mut Lagrangian,
     [from, to]: [&[f64]; 2],
@@ -34,27 +35,39 @@ pub fn stationary_path_between(
         let between = |(a, b): (&f64, &f64)| if part == 1.0 { *b } else { a + part * (b - a) };
         from.iter().zip(to).map(between).collect()
     };
-    let first = match stationary_path(lagrangian, &|t| straight(t / duration), duration) {
-        Err(why @ DynamicsError::Unsuited(_)) if !lagrangian.is_cancelled() => why,
+    let mut failed = match stationary_path(lagrangian, &|t| straight(t / duration), duration) {
+        Err(why) if !lagrangian.is_cancelled() && !is_final(lagrangian, &why) => why,
         outcome => return outcome,
     };
-    let elsewhere = |lagrangian: &mut Lagrangian| {
+    lagrangian.within_budget(|lagrangian| {
         match continued(lagrangian, &straight, duration) {
-            Err(DynamicsError::Unsuited(_)) => {}
-            outcome => return outcome.map(Some),
+            Err(why) if !is_final(lagrangian, &why) => failed = clearer(failed, why),
+            outcome => return outcome,
         }
-        from_arcs(lagrangian, [from, to], &straight, duration)
-    };
-    lagrangian.within_budget(elsewhere)?.ok_or(first)
+        from_arcs(lagrangian, [from, to], (&straight, duration), failed)
+    })
+}
+
+/// Whether no other path is resolved where this one is not.
+fn is_final(lagrangian: &Lagrangian, why: &DynamicsError) -> bool {
+    lagrangian.has_switches() && matches!(why, DynamicsError::Unresolved(_))
+}
+
+/// The error that says more: that of the first path there is, though it is not resolved.
+fn clearer(failed: DynamicsError, why: DynamicsError) -> DynamicsError {
+    match (&failed, &why) {
+        (DynamicsError::Unsuited(_), DynamicsError::Unresolved(_)) => why,
+        _ => failed,
+    }
 }
 
 /// The path nearest to the straight line that Newton's method comes to from arcs of the least height that leads to one.
 fn from_arcs(
     lagrangian: &mut Lagrangian,
     [from, to]: [&[f64]; 2],
-    straight: &dyn Fn(f64) -> Vec<f64>,
-    duration: f64,
-) -> Result<Option<StationaryPath>, DynamicsError> {
+    (straight, duration): (&dyn Fn(f64) -> Vec<f64>, f64),
+    mut failed: DynamicsError,
+) -> Result<StationaryPath, DynamicsError> {
     let size = from.iter().chain(to).fold(0.0_f64, |most, x| most.max(x.abs()));
     let size = if size > 0.0 { size } else { 1.0 };
     let mut nearest: Option<(f64, StationaryPath)> = None;
@@ -63,7 +76,7 @@ fn from_arcs(
         let arcs = (0..from.len()).flat_map(|k| sides.clone().map(move |(h, w)| (k, h, w)));
         for (coordinate, height, waves) in arcs {
             if lagrangian.is_over() {
-                return Ok(nearest.map(|(_, path)| path));
+                return nearest.map(|(_, path)| path).ok_or(failed);
             }
             let arc = |time: f64| {
                 let mut place = straight(time / duration);
@@ -75,9 +88,11 @@ fn from_arcs(
             };
             let path = match stationary_path(lagrangian, &arc, duration) {
                 Ok(path) => path,
-                Err(DynamicsError::Unsuited(_)) => continue,
-                Err(why) if nearest.is_none() => return Err(why),
-                Err(_) => continue,
+                Err(why) if nearest.is_none() && is_final(lagrangian, &why) => return Err(why),
+                Err(why) => {
+                    failed = clearer(failed, why);
+                    continue;
+                }
             };
             let apart = |k: u32| -> f64 {
                 let part = f64::from(k) / f64::from(COMPARED);
@@ -93,7 +108,7 @@ fn from_arcs(
             break;
         }
     }
-    Ok(nearest.map(|(_, path)| path))
+    nearest.map(|(_, path)| path).ok_or(failed)
 }
 
 /// What the path of a short time, which is nearly straight, becomes as the time grows.
