@@ -19,6 +19,9 @@ use crate::num::significant;
 /// A sum of forces below this part of the largest is zero.
 const SUMS_TO_ZERO: f64 = 1e-9;
 
+/// Forces of a constraint below this part of what the constraints balance are rounding of the equations for the multipliers.
+const SOLVED: f64 = 64.0 * f64::EPSILON;
+
 /// Forces whose sum is more than this part of the largest of them, and of what they change by over the size of a coordinate or its
 /// unit, do not balance.
 const OUT_OF_BALANCE: f64 = 1e-4;
@@ -168,7 +171,17 @@ pub(super) fn virtual_work(
         for &(i, rate) in rates {
             known.set(equations.coordinates[i].velocity, rate);
         }
-        let multipliers = multipliers(&pool, equations, &resting, &mut known, momentum_rates);
+        without_constraints(equations, &mut known);
+        let others = forces.iter().map(|(i, force)| {
+            let rate = known.value(&pool, momentum_rates[*i]);
+            let terms = force.iter().map(|(term, _)| term.value(&pool, &known, variables));
+            let largest = terms.clone().fold(0.0_f64, |most, term| most.max(term.abs()));
+            // rounding is nothing for a constraint to balance
+            let balanced = terms.sum::<f64>().abs() <= SUMS_TO_ZERO * largest;
+            if balanced { 0.0 } else { -rate }
+        });
+        let others = DVector::from_iterator(resting.len(), others);
+        let multipliers = multipliers(&pool, equations, &resting, &mut known, &others);
         let work = forces.iter().map(|(coordinate, force)| {
             let value = |term: &ForceTerm| term.value(&pool, &known, variables);
             let mut terms = Vec::new();
@@ -203,27 +216,34 @@ pub(super) fn virtual_work(
     places.iter().map(at).collect()
 }
 
-/// Sets the multipliers of least norm by which the forces on the coordinates that rest balance, and returns them.
+/// Sets all multipliers to zero: what acts then are the other forces.
+fn without_constraints(equations: &Equations, known: &mut Valuation) {
+    for row in &equations.constraints {
+        known.set(row.multiplier, 0.0);
+    }
+}
+
+/// Sets the multipliers of least norm by which forces of constraints on the coordinates that rest come to these, and returns them.
 fn multipliers(
     pool: &Pool,
     equations: &Equations,
     resting: &[usize],
     known: &mut Valuation,
-    momentum_rates: &[Expr],
+    others: &DVector<f64>,
 ) -> Vec<f64> {
     let rows = &equations.constraints;
-    for row in rows {
-        known.set(row.multiplier, 0.0);
-    }
     if rows.is_empty() {
         return Vec::new();
     }
     let forces = DMatrix::from_fn(resting.len(), rows.len(), |i, k| {
         known.value(pool, rows[k].row[resting[i]])
     });
-    let others = resting.iter().map(|&i| -known.value(pool, momentum_rates[i]));
-    let others = DVector::from_iterator(resting.len(), others);
-    let Some(found) = linear::least_squares(&forces, &others, 0.0) else { return Vec::new() };
+    let Some(mut found) = linear::least_squares(&forces, others, 0.0) else { return Vec::new() };
+    for (k, multiplier) in found.iter_mut().enumerate() {
+        if (forces.column(k) * *multiplier).norm() <= SOLVED * others.norm() {
+            *multiplier = 0.0;
+        }
+    }
     rows.iter().zip(&found).for_each(|(row, &multiplier)| known.set(row.multiplier, multiplier));
     found.iter().copied().collect()
 }

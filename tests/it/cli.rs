@@ -9,6 +9,7 @@ mod completions;
 mod derive;
 mod doctor;
 mod dynamics;
+mod equilibria;
 mod exit;
 mod help;
 mod hostile;
