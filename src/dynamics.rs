@@ -1,4 +1,4 @@
-//! What the derivatives of a motion tell: its flow map, its exponents, the periodic orbits and
+//! What follows from the derivatives of a motion: its flow map, its exponents, the periodic orbits and
 //! equilibria near it.
 //!
 //! In: a system, a method, a state. Out: numbers, with what they are sure of. Never here: text,

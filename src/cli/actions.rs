@@ -148,14 +148,14 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         };
         return Err(could_not(format!("{name} {why}")));
     }
-    let struck = |event: &Event| matches!(event.action, EventAction::Impulse(_));
-    if systems.turning.model.events.iter().any(struck) {
-        stderr::tell(
+    let is_impulse = |event: &Event| matches!(event.action, EventAction::Impulse(_));
+    if systems.turning.model.events.iter().any(is_impulse) {
+        stderr::report(
             "impulses at events are left out: these are the actions of the motion without them",
         );
     }
     if rows.iter().any(|row| row.is_uneven) {
-        stderr::tell(&format!(
+        stderr::report(&format!(
             "the returns of {name} take different times, as its rate depends on another coordinate: period and frequency are \
              those of their mean"
         ));
@@ -168,7 +168,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         (false, true) => format!("up to {name} = {last:.4}"),
     };
     if !range.is_empty() {
-        stderr::tell(&format!(
+        stderr::report(&format!(
             "separatrices are listed {range}; the potential has more wells beyond. If {name} is an angle, give its `period` in \
              the file"
         ));
@@ -382,7 +382,7 @@ fn written(
         ["energy", "kind", "left", "right", "action", "period", "frequency", "angular_frequency"]
             .map(str::to_owned);
     let csv = format == TableFormat::Csv;
-    // an energy near a separatrix is told from it, and an action from that of the separatrix
+    // an energy near a separatrix is distinguished from it, and an action from that of the separatrix
     let number = |x: f64| {
         let legible = !csv && x.is_finite();
         if legible { TableCell::Word(legibly(x)) } else { TableCell::Number(x) }

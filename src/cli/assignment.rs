@@ -157,7 +157,7 @@ pub(super) fn given_by(
     for assignment in set.iter().filter(|assignment| assignment.name != "t") {
         let value = initial_value(model, parameters, assignment)?;
         if let Some(name) = multiplied(model, &assignment.value) {
-            stderr::tell(&format!(
+            stderr::report(&format!(
                 "{option} {}={}: `{name}` is the parameter and no unit, so that this is {value:?}",
                 printable::quoted(&assignment.name),
                 printable::quoted(&assignment.value)

@@ -160,7 +160,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     let (of_screen, words) = match options_first(&words) {
         Ok(parts) => parts,
         Err(message) => {
-            stderr::tell(&message);
+            stderr::report(&message);
             return CommandError::WrongUse(message).code();
         }
     };
@@ -171,7 +171,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Err(error) => {
             // a request for help is not an error
             if let Some(message) = misspelt(&words).filter(|_| error.use_stderr()) {
-                stderr::tell(&message);
+                stderr::report(&message);
                 return CommandError::WrongUse(message).code();
             }
             return refused(&words, &error);
@@ -180,7 +180,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     match perform(arguments, &words, &[of_screen, after].concat()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
-            stderr::tell(failure.message());
+            stderr::report(failure.message());
             failure.code()
         }
     }
@@ -308,7 +308,7 @@ fn refused(words: &[OsString], error: &clap::Error) -> ExitCode {
         return match printed.map_err(|why| CommandError::writing("standard output", &why)) {
             Ok(()) | Err(CommandError::NobodyReads) => ExitCode::SUCCESS,
             Err(failure) => {
-                stderr::tell(failure.message());
+                stderr::report(failure.message());
                 failure.code()
             }
         };
@@ -322,7 +322,7 @@ fn refused(words: &[OsString], error: &clap::Error) -> ExitCode {
         stderr::show(&shown);
     }
     if let Some(hint) = assigned(words, error) {
-        stderr::tell(&hint);
+        stderr::report(&hint);
     }
     ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(exit::WRONG_USE))
 }

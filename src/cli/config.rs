@@ -53,7 +53,7 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
             Some(document) => read(&document).map(|_| ()),
             None => {
                 let path = printable::path(&path()?);
-                stderr::tell(&format!("there is no configuration at {path}"));
+                stderr::report(&format!("there is no configuration at {path}"));
                 Ok(())
             }
         },

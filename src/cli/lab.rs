@@ -75,7 +75,7 @@ pub(super) fn perform(
     }
     if matches!(ended, Ok(Ending::Quit)) && std::io::stderr().is_terminal() && shell::has_session()
     {
-        stderr::tell("`phaselab --resume` continues where you left off");
+        stderr::report("`phaselab --resume` continues where you left off");
     }
     how_it_ended(ended)
 }

@@ -145,7 +145,7 @@ fn check_one(source: &Document, shared: &LessonHost<'_>) -> Result<(), CommandEr
     let counted = |count: usize, one: &str, many: &str| {
         format!("{count} {}", if count == 1 { one } else { many })
     };
-    stderr::tell(&format!(
+    stderr::report(&format!(
         "{}: right answers to {}, {}, {}; all as the lesson says",
         printable::line(&source.path),
         counted(report.questions, "question", "questions"),
@@ -174,7 +174,7 @@ fn title(name: &str) -> String {
 
 fn list(format: LessonFormat) -> Result<(), CommandError> {
     let progress = LessonProgress::known().unwrap_or_else(|why| {
-        stderr::tell(&why.to_string());
+        stderr::report(&why.to_string());
         LessonProgress::default()
     });
     let mark = |name: &str| progress.lessons.get(name).copied().unwrap_or_default();
@@ -219,7 +219,7 @@ fn take(
     let file =
         if preset::lesson(name).is_some() { LessonProgress::file().map(Some) } else { Ok(None) };
     let file = file.unwrap_or_else(|why| {
-        stderr::tell(&why.to_string());
+        stderr::report(&why.to_string());
         None
     });
     if let (Some(file), false) = (&file, restart) {
@@ -228,7 +228,7 @@ fn take(
                 let step = progress.lessons.get(name).map_or(0, |mark| mark.step);
                 lesson.resume(step).map_err(|diagnostic| located(vec![diagnostic]))?;
             }
-            Err(why) => stderr::tell(&why.to_string()),
+            Err(why) => stderr::report(&why.to_string()),
         }
     }
     // the terminal must be restored first
@@ -244,7 +244,7 @@ fn take(
     }
     outcome.map_err(|diagnostic| located(vec![diagnostic]))?;
     if ending == Ending::Quit && !mark.finished && file.is_some() {
-        stderr::tell(&format!("`phaselab lessons {}` continues here", printable::line(name)));
+        stderr::report(&format!("`phaselab lessons {}` continues here", printable::line(name)));
     }
     (shared.ended)(Ok(ending))
 }

@@ -51,7 +51,7 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     if catalog.is_cut() {
         let folder =
             Catalog::user_folder().map_or(String::new(), |folder| printable::path(&folder));
-        stderr::tell(&format!("{folder} holds too many files; not all of them are listed"));
+        stderr::report(&format!("{folder} holds too many files; not all of them are listed"));
     }
     let text = match arguments.format {
         ListFormat::Text => text(catalog.entries()),

@@ -109,7 +109,7 @@ impl MotionOptions {
         let Derived { model, equations } = derived;
         refuse_twins(&system)?;
         for name in system.redundant() {
-            stderr::tell(&format!(
+            stderr::report(&format!(
                 "the constraint `{name}` repeats at the start what those before it say"
             ));
         }

@@ -47,7 +47,7 @@ pub(super) fn derive(document: &Document, model: Model) -> Result<Derived, Comma
         (true, Some(first)) => Err(CommandError::WrongUse(first.clone())),
         (false, _) => {
             for sentence in &added {
-                stderr::tell(sentence);
+                stderr::report(sentence);
             }
             let own: Vec<Diagnostic> =
                 own.into_iter().filter_map(StructureError::diagnostic).collect();

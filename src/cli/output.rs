@@ -85,7 +85,7 @@ impl Output {
         }
         if let Some(other) = other_format(path, form) {
             let name = printable::path(path);
-            stderr::tell(&format!("{name} is written as {}, {other}", form.word()));
+            stderr::report(&format!("{name} is written as {}, {other}", form.word()));
         }
         Output::rewrite(path, form)
     }
@@ -133,7 +133,7 @@ impl Output {
         });
         done.map_err(|error| CommandError::writing(&name, &error))?;
         if over {
-            stderr::tell(&format!("{name} is replaced"));
+            stderr::report(&format!("{name} is replaced"));
         }
         Ok(())
     }
@@ -162,7 +162,7 @@ fn describes_a_system(path: &Path) -> bool {
     let tables = ["coordinates", "variables"];
     match text.parse::<toml::Table>() {
         Ok(file) => tables.iter().any(|table| file.contains_key(*table)),
-        // a file with mistakes is one, too
+        // a file with errors is one, too
         Err(_) => text.lines().any(|line| {
             let head = line.trim().trim_start_matches('[').trim_start();
             line.trim().starts_with('[') && tables.iter().any(|table| head.starts_with(table))

@@ -135,7 +135,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let mechanics = &model.mechanics;
     let acts = |force: &&Expr| **force != Expr::ZERO;
     if [mechanics.dissipation()].iter().chain(mechanics.forces()).find(acts).is_some() {
-        stderr::tell(
+        stderr::report(
             "friction or forces act beside L: where ∫ L dt is stationary is no motion of this file, but of L alone",
         );
     }
@@ -221,7 +221,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         match conjugates(&laid, &equations, &[&state[..n], &momenta].concat(), duration) {
             Ok(times) => Some(times),
             Err(why) => {
-                stderr::tell(&format!("conjugate points are not known: {why}"));
+                stderr::report(&format!("conjugate points are not known: {why}"));
                 None
             }
         }
@@ -237,7 +237,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
             |t: f64| at(&equations, vary, t, 0).iter().fold(0.0_f64, |most, d| most.max(d.abs()));
         let greatest = divisions(0.0, duration, INTERVALS).map(size).fold(0.0, f64::max);
         if size(0.0).max(size(duration)) > HOLDS * greatest {
-            stderr::tell(
+            stderr::report(
                 "the variation does not vanish at both ends: where it does not, the action changes by p δq, also on a true path",
             );
         }

@@ -95,7 +95,7 @@ fn play_script(source: &Document, request: &Request) -> Result<(), CommandError>
         Some(Err(NotRecorded::Script(wrong))) => return Err(record::located(source, &wrong)),
         Some(Err(NotRecorded::Failed(why))) => return Err(CommandError::CouldNot(why)),
         Some(Err(NotRecorded::Left(left))) => {
-            stderr::tell(&unchecked(&left));
+            stderr::report(&unchecked(&left));
             let ended = lab::how_it_ended(Ok(ending));
             if ended.is_ok() && !left.false_claims.is_empty() {
                 return Err(record::located(source, &left.false_claims));

@@ -163,7 +163,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let Derived { model, equations } = derived;
     refuse_twins(&system)?;
     for name in system.redundant() {
-        stderr::tell(&format!(
+        stderr::report(&format!(
             "the constraint `{name}` repeats at the start what those before it say"
         ));
     }

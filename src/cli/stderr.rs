@@ -11,7 +11,7 @@ use crate::printable;
 const LONGEST: usize = 8192;
 
 /// Writes a sentence unless it is empty. A failure to write is ignored.
-pub(super) fn tell(message: &str) {
+pub(super) fn report(message: &str) {
     if message.is_empty() {
         return;
     }

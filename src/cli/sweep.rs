@@ -173,13 +173,13 @@ impl Remarks {
         }
     }
 
-    fn tell(&self, advice: &str) {
+    fn report(&self, advice: &str) {
         let rows = |count| if count == 1 { "row" } else { "rows" };
         if let Some(first) = &self.first {
             let (count, were) = (self.failed, if self.failed == 1 { "was" } else { "were" });
             let first = first.split_whitespace().collect::<Vec<_>>().join(" ");
             let rows = rows(count);
-            stderr::tell(&format!("{count} {rows} {were} not completed; the first: {first}"));
+            stderr::report(&format!("{count} {rows} {were} not completed; the first: {first}"));
         }
         if let Some((index, worst)) = &self.worst {
             let (count, rows) = (self.departed, rows(self.departed));
@@ -191,7 +191,9 @@ impl Remarks {
                     "in {count} {rows} a conserved quantity leaves its value, most in row {row}"
                 ),
             };
-            stderr::tell(&format!("{of_them}: `{name}` is off by {drift} of what moves; {advice}"));
+            stderr::report(&format!(
+                "{of_them}: `{name}` is off by {drift} of what moves; {advice}"
+            ));
         }
     }
 }
@@ -271,7 +273,7 @@ impl Sweep<'_> {
             out.write_all(line.as_bytes()).map_err(|error| out.failed(&error))?;
         }
         out.finish()?;
-        remarks.tell(&self.table.advice());
+        remarks.report(&self.table.advice());
         self.ended()
     }
 
@@ -280,7 +282,7 @@ impl Sweep<'_> {
         let resume = self.arguments.resume;
         if resume && journal::is_complete(path, &self.identity, self.places.len())? {
             journal::discard(path);
-            stderr::tell(&format!("{} is complete", printable::path(path)));
+            stderr::report(&format!("{} is complete", printable::path(path)));
             return Ok(());
         }
         let (journal, mut lines, known) =
@@ -318,7 +320,10 @@ impl Sweep<'_> {
             return Err(failed);
         }
         if self.interrupt.signal().is_some() {
-            stderr::tell(&format!("the rows so far are in {}; --resume continues", journal.name()));
+            stderr::report(&format!(
+                "the rows so far are in {}; --resume continues",
+                journal.name()
+            ));
             return self.ended();
         }
         let out = Output::open(Some(path), OutputForm::Text)?;
@@ -329,7 +334,7 @@ impl Sweep<'_> {
         for (&place, remark) in &remarks {
             all.note(self.index(place), remark);
         }
-        all.tell(&self.table.advice());
+        all.report(&self.table.advice());
         Ok(())
     }
 
@@ -373,7 +378,7 @@ impl Sweep<'_> {
             _ => cells::text(&columns, &cells),
         };
         crowd::write(out, &text, self.interrupt)?;
-        remarks.tell(&self.table.advice());
+        remarks.report(&self.table.advice());
         self.ended()
     }
 }

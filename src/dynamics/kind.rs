@@ -1,7 +1,7 @@
 //! What a potential does at an equilibrium, by the signs of its second derivative.
 //!
 //! In: the second derivative, and the error of each of its entries. Out: in how many directions it grows, falls and does neither, as
-//! far as these errors tell. Never here: the motion.
+//! far as these errors allow. Never here: the motion.
 //!
 //! Signs do not depend on the units of the coordinates (J. J. Sylvester's law of inertia): they are taken in units in which the
 //! entries are as large as each other, so that what is soft is seen beside what is stiff.

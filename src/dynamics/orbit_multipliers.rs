@@ -1,4 +1,4 @@
-//! What the multipliers of a periodic orbit tell.
+//! What follows from the multipliers of a periodic orbit.
 //!
 //! In: an orbit with its matrix. Out: the names of the trivial ones, which of them rounding hides, exponents, angles, Greene's residue.
 //! Never here: how the orbit was closed, what becomes of its neighbours (`orbit_stability`).

@@ -15,7 +15,7 @@ const STEPS_FIXED: u64 = 4_000_000;
 pub(super) struct SearchBudget<'a> {
     taken: Cell<u64>,
     total: u64,
-    /// Is told the steps taken and their greatest number.
+    /// Is given the steps taken and their greatest number.
     look: &'a dyn Fn(u64, u64),
 }
 
@@ -52,15 +52,15 @@ mod tests {
     #[test]
     fn a_search_ends_after_its_steps_and_says_after_how_many() {
         for (name, steps) in [("taylor", 100_000), ("dop853", 100_000), ("leapfrog", 4_000_000)] {
-            let told = Cell::new((0, 0));
-            let look = |taken, total| told.set((taken, total));
+            let reported = Cell::new((0, 0));
+            let look = |taken, total| reported.set((taken, total));
             let budget = SearchBudget::of(method_named(name).expect("a method"), &look);
             (1..steps).for_each(|_| budget.step());
             assert_eq!((budget.is_spent(), budget.ended()), (false, None), "{name}");
             budget.step();
             let ended = format!("the search ended after {steps} steps of the motion");
             assert_eq!((budget.is_spent(), budget.ended()), (true, Some(ended)), "{name}");
-            assert_eq!(told.get(), (steps, steps), "{name}");
+            assert_eq!(reported.get(), (steps, steps), "{name}");
         }
     }
 }

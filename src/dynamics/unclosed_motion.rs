@@ -37,11 +37,11 @@ const ENDLESS: f64 = 1e150;
 /// The most frequencies that are searched for.
 const FREQUENCIES: usize = 3;
 
-/// Is told how much of the work is done, of how much.
+/// Is given how much of the work is done, of how much.
 type ProgressReport<'a> = &'a mut dyn FnMut(u64, u64);
 
 /// An error that says beside what was not found what the motion from the start is, where that can be known. Other errors are as
-/// they are. `look` is told how much of the work is done, of how much.
+/// they are. `look` is given how much of the work is done, of how much.
 pub fn explained(
     error: DynamicsError,
     space: &PhaseSpace,

@@ -62,7 +62,7 @@ impl VirtualWork {
 /// The forces at an equilibrium: the virtual work along each coordinate that rests, and the multiplier of each constraint.
 pub(super) struct Balance {
     pub(super) work: Vec<VirtualWork>,
-    /// Whether the forces balance there, as far as that can be told without those of constraints: in the tail of exp(−x⁴) they vanish
+    /// Whether the forces balance there, as far as that is known without those of constraints: in the tail of exp(−x⁴) they vanish
     /// only for want of smaller numbers, and next to a singular place what is left is not rounding.
     pub(super) holds: bool,
     pub(super) multipliers: Vec<f64>,

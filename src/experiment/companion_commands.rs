@@ -40,7 +40,7 @@ impl Experiment {
             return;
         }
         if self.system().constraints() > 0 {
-            return self.tell(
+            return self.notify(
                 "a neighbour needs independent coordinates: constraints tie these together"
                     .to_owned(),
             );
@@ -69,7 +69,7 @@ impl Experiment {
     /// Keeps the current run, with all its values, beside whatever follows.
     pub(super) fn pin(&mut self) {
         if !self.motion.has_begun() || self.fault.is_some() {
-            return self.tell("there is no motion to pin".to_owned());
+            return self.notify("there is no motion to pin".to_owned());
         }
         let Some(mut one) = self.companion(CompanionOrigin::Pinned(self.setup.overrides.clone()))
         else {
@@ -83,11 +83,11 @@ impl Experiment {
     /// A companion that has yet to begin, if there is room for it.
     fn companion(&mut self, origin: CompanionOrigin) -> Option<CompanionMotion> {
         if self.is_backwards() {
-            self.tell("motions are added while time runs forwards".to_owned());
+            self.notify("motions are added while time runs forwards".to_owned());
             return None;
         }
         let Some(number) = self.companions.number() else {
-            self.tell(format!(
+            self.notify(format!(
                 "there can be at most {MOST_COMPANIONS} motions beside the main one"
             ));
             return None;
@@ -100,11 +100,11 @@ impl Experiment {
         let sentence = origin.sentence(number);
         match CompanionMotion::new(&system, method, (number, origin), &parameters, numbers) {
             Ok(one) => {
-                self.tell(sentence);
+                self.notify(sentence);
                 Some(one)
             }
             Err(why) => {
-                self.tell(why.to_string());
+                self.notify(why.to_string());
                 None
             }
         }

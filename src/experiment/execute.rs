@@ -38,7 +38,7 @@ impl Experiment {
             Command::StepBack(count) => self.step_back(count),
             Command::Speed(speed) if speed > 0.0 => self.setup.speed = speed,
             Command::Speed(speed) => {
-                self.tell(format!("a speed must be above zero; {speed} is not"));
+                self.notify(format!("a speed must be above zero; {speed} is not"));
             }
             Command::Parameter { index, value } => {
                 self.jump = None;
@@ -76,13 +76,13 @@ impl Experiment {
             Command::Settings(settings) => self.change_method(self.motion.method(), settings),
             Command::Reference => {
                 self.gauge(Gauges::refer);
-                self.tell(format!("the gauges measure from t = {}", short(self.time())));
+                self.notify(format!("the gauges measure from t = {}", short(self.time())));
             }
         }
     }
 
     /// Adds a notice for the user.
-    pub fn tell(&mut self, notice: String) {
+    pub fn notify(&mut self, notice: String) {
         if self.notices.len() == NOTICES {
             self.notices.remove(0);
         }
@@ -104,7 +104,7 @@ impl Experiment {
         match self.motion.apply_impulse(index).and_then(|occurrence| self.note(occurrence)) {
             Ok(sentence) => {
                 self.changed_here("the momentum".to_owned());
-                self.tell(sentence);
+                self.notify(sentence);
             }
             Err(fault) => self.fault = Some(self.motion.dated(fault).into()),
         }
@@ -122,7 +122,7 @@ impl Experiment {
         let Some(parameter) = self.model.parameters.get(index) else { return };
         let name = parameter.shown.clone();
         if !value.is_finite() {
-            return self.tell(format!("{name} cannot be {value}"));
+            return self.notify(format!("{name} cannot be {value}"));
         }
         let old = self.setup.parameters.clone();
         self.setup.parameters[index] = value;
@@ -182,7 +182,7 @@ impl Experiment {
             Form::Variables => "the state is",
             Form::Velocity | Form::Momentum => "q and p are",
         };
-        self.tell(format!("{lead} {sign}{by}; {kept} kept, gauges begin anew; r restarts"));
+        self.notify(format!("{lead} {sign}{by}; {kept} kept, gauges begin anew; r restarts"));
     }
 
     fn energy(&self) -> f64 {
@@ -209,7 +209,7 @@ impl Experiment {
 
     fn change_initial(&mut self, index: usize, value: f64) {
         if index >= self.system().moving() || !value.is_finite() {
-            return self.tell(format!("an initial value cannot be {value}"));
+            return self.notify(format!("an initial value cannot be {value}"));
         }
         self.setup.overrides = with_override(self.system(), &self.setup.overrides, index, value);
         self.restart();
@@ -217,11 +217,12 @@ impl Experiment {
 
     fn change_step(&mut self, step: f64) {
         if !(step > 0.0 && step.is_finite()) {
-            return self.tell(format!("a step must be above zero; {step} is not"));
+            return self.notify(format!("a step must be above zero; {step} is not"));
         }
         if self.motion.method().stepping == Stepping::Adaptive {
             let name = self.motion.method().name;
-            return self.tell(format!("{name} chooses its steps itself; its tolerance can be set"));
+            return self
+                .notify(format!("{name} chooses its steps itself; its tolerance can be set"));
         }
         let settings = Settings { step: Some(step), ..self.motion.settings() };
         self.change_method(self.motion.method(), settings);
@@ -230,11 +231,11 @@ impl Experiment {
     fn change_tolerance(&mut self, tolerance: f64) {
         if !(tolerance > 0.0 && tolerance < 1.0) {
             return self
-                .tell(format!("a tolerance must lie between 0 and 1; {tolerance} does not"));
+                .notify(format!("a tolerance must lie between 0 and 1; {tolerance} does not"));
         }
         if self.motion.method().stepping == Stepping::Fixed {
             let name = self.motion.method().name;
-            return self.tell(format!("{name} has no tolerance; its step can be set"));
+            return self.notify(format!("{name} has no tolerance; its step can be set"));
         }
         let settings = Settings { tolerance: Some(tolerance), ..self.motion.settings() };
         self.change_method(self.motion.method(), settings);
@@ -244,7 +245,7 @@ impl Experiment {
     pub(super) fn take_method(&mut self, name: &str, settings: Settings) {
         match choose_method(self.system(), name) {
             Ok(method) => self.change_method(method, settings),
-            Err(why) => self.tell(why.to_string()),
+            Err(why) => self.notify(why.to_string()),
         }
     }
 
@@ -254,7 +255,7 @@ impl Experiment {
         let is_same =
             (self.motion.method().name, self.motion.settings()) == (method.name, settings);
         if let Err(error) = self.motion.change_method(method, settings) {
-            return self.tell(MethodNotFound::from(error).to_string());
+            return self.notify(MethodNotFound::from(error).to_string());
         }
         self.setup.settings = settings;
         method.name.clone_into(&mut self.setup.method);

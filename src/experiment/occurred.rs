@@ -56,7 +56,7 @@ impl Experiment {
     pub(super) fn report_once(&mut self, name: String, sentence: String) {
         if !self.reported_names.contains(&name) {
             self.reported_names.push(name);
-            self.tell(sentence);
+            self.notify(sentence);
         }
     }
 }

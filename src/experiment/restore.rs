@@ -51,7 +51,7 @@ impl Experiment {
             self.resume_at(checkpoint, present, past);
         }
         if !lost.is_empty() {
-            self.tell(format!("no longer there: {}", lost.join(", ")));
+            self.notify(format!("no longer there: {}", lost.join(", ")));
         }
     }
 
@@ -72,7 +72,7 @@ impl Experiment {
         }
         if let Err(why) = self.restore_state(present) {
             self.restart();
-            self.tell(format!("the motion starts again: {why}"));
+            self.notify(format!("the motion starts again: {why}"));
             return;
         }
         self.restore_change(checkpoint.changed.clone(), present);
@@ -87,7 +87,7 @@ impl Experiment {
                 self.recorder.precede(&known.trail, row);
                 (self.occurrences, self.crossings) = (known.occurrences, known.crossings);
             }
-            Some(_) => self.tell("the past of this motion was not kept".to_owned()),
+            Some(_) => self.notify("the past of this motion was not kept".to_owned()),
             None => {}
         }
     }

@@ -26,11 +26,11 @@ impl Experiment {
     /// Reverses time.
     pub(super) fn reverse(&mut self) {
         if let Some(why) = self.no_way_back() {
-            return self.tell(why);
+            return self.notify(why);
         }
         let run = match self.turn() {
             Ok(run) => run,
-            Err(why) => return self.tell(why),
+            Err(why) => return self.notify(why),
         };
         let variables = self.variables();
         let mut echo = Echo::of(run, self.recorder.trail(), &variables);
@@ -48,7 +48,7 @@ impl Experiment {
         self.gauge(Gauges::refer);
         self.record();
         let way = if self.is_backwards() { "backwards" } else { "forwards" };
-        self.tell(format!("from t = {} time runs {way}", short(self.time())));
+        self.notify(format!("from t = {} time runs {way}", short(self.time())));
     }
 
     /// Why time cannot be reversed, in a sentence.
@@ -122,7 +122,7 @@ impl Experiment {
                 self.recorder.turn(self.clock(), true);
                 self.record();
             }
-            Err(why) => self.tell(why),
+            Err(why) => self.notify(why),
         }
     }
 
@@ -141,7 +141,7 @@ impl Experiment {
                 self.recorder.turn(self.setup.start, false);
             }
             // the method fitted this system before
-            Err(why) => self.tell(why.to_string()),
+            Err(why) => self.notify(why.to_string()),
         }
     }
 
@@ -185,15 +185,17 @@ impl Experiment {
         let returned = echo.returned();
         let start = short(returned.start);
         match returned.error {
-            Some(0.0) => self.tell(format!("back at t = {start}: where it began, to the last bit")),
-            Some(error) => self.tell(format!(
+            Some(0.0) => {
+                self.notify(format!("back at t = {start}: where it began, to the last bit"))
+            }
+            Some(error) => self.notify(format!(
                 "back at t = {start}: {} from where it began; a step errs by {} {}",
                 short(error),
                 // what was not measured is the tolerance
                 if returned.step.is_some() { "ε ≈" } else { "at most ε ≈" },
                 short(returned.step_error),
             )),
-            None => self.tell(format!("back at t = {start}")),
+            None => self.notify(format!("back at t = {start}")),
         }
         AdvanceOutcome::Ended
     }

@@ -19,7 +19,7 @@ impl Experiment {
         let now = self.clock();
         let time = (now - f64::from(count) * self.frame()).max(self.began);
         if time >= now {
-            return self.tell("this is the beginning of the motion".to_owned());
+            return self.notify("this is the beginning of the motion".to_owned());
         }
         self.take_back_to(time);
     }
@@ -43,13 +43,13 @@ impl Experiment {
                 return;
             }
             Ok(Some(first)) if first.is_finite() => {
-                return self.tell(format!(
+                return self.notify(format!(
                     "the motion before t = {} is no longer recorded",
                     short(sign * first)
                 ));
             }
             Ok(Some(_)) => {
-                return self.tell("the motion before this is no longer recorded".to_owned());
+                return self.notify("the motion before this is no longer recorded".to_owned());
             }
             Ok(None) => {}
         }

@@ -1,4 +1,4 @@
-//! What tells the recorded past of one run from that of another.
+//! What distinguishes the recorded past of one run from that of another.
 //!
 //! In: nothing. Out: [`RunToken`]s; one that nobody holds any more is known to be forgotten. Never here: what was recorded.
 

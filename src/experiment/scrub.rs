@@ -30,7 +30,7 @@ impl Experiment {
         }
         if sign * time < sign * from {
             let side = if sign < 0.0 { "after" } else { "before" };
-            self.tell(format!("the motion {side} t = {} is no longer recorded", short(from)));
+            self.notify(format!("the motion {side} t = {} is no longer recorded", short(from)));
         }
         let time = if sign * time < sign * from { from } else { time };
         let (horizon, start) = (HORIZON * self.setup.spacing, self.schedule_start());
@@ -41,13 +41,13 @@ impl Experiment {
         };
         let mut motion = match viewer {
             Ok(motion) => motion,
-            Err(why) => return self.tell(why.to_string()),
+            Err(why) => return self.notify(why.to_string()),
         };
         if motion.look_at(time, &known, horizon) {
             motion.look_at_terms();
             self.scrubbed = Some(Box::new(Scrubbed { motion }));
         } else {
-            self.tell(format!("t = {} can no longer be shown", short(time)));
+            self.notify(format!("t = {} can no longer be shown", short(time)));
         }
     }
 

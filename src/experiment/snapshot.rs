@@ -102,7 +102,7 @@ pub struct Recorded {
     pub scrubbed: bool,
     /// Where the law was changed last, if it was since the start.
     pub changed: Option<Arc<LastChange>>,
-    /// What tells this run from others.
+    /// What distinguishes this run from others.
     pub run: RunToken,
 }
 

@@ -258,7 +258,7 @@ impl Lift<'_> {
     }
 }
 
-/// c Π s^n with half-integer powers, as far as quadrupling each parameter tells.
+/// c Π s^n with half-integer powers, as far as quadrupling each parameter shows.
 fn monomial_of(
     field: PrimeField,
     at: &FxHashMap<Symbol, Residue>,

@@ -1,7 +1,7 @@
 //! Sums whose terms in the same variables are multiplied out and collected where that is shorter: `½ (P + u)² − u (P + u)` is
 //! `½ P² − ½ u²`, beside a fourth power of other variables that stays what it is.
 //!
-//! In: an expression, the variables by which its terms are told apart. Out: an equal one, no longer than it. Never here: what it
+//! In: an expression, the variables by which its terms are distinguished. Out: an equal one, no longer than it. Never here: what it
 //! means.
 
 use crate::expr::{Expr, Pool, Symbol};

@@ -11,7 +11,7 @@ use crate::system::System;
 pub(super) fn before(system: &System, equations: &Equations, method: &Method) {
     if equations.law_jumps() {
         let law = if equations.is_lagrangian() { "L" } else { "H" };
-        stderr::tell(&format!(
+        stderr::report(&format!(
             "{law} has a step, where the force is an impulse that no derivative shows: the motion goes over it without one; \
              make the step a steep slope, as with tanh, or give the impulse as an event"
         ));
@@ -19,7 +19,7 @@ pub(super) fn before(system: &System, equations: &Equations, method: &Method) {
     if system.has_kinks() && !method.locates_kinks {
         let others: Vec<&str> =
             METHODS.iter().filter(|m| m.locates_kinks).map(|m| m.name).collect();
-        stderr::tell(&format!(
+        stderr::report(&format!(
             "{} steps over the kinks of this motion and loses accuracy there; {} locates them",
             method.name,
             others.join(", ")
@@ -30,13 +30,13 @@ pub(super) fn before(system: &System, equations: &Equations, method: &Method) {
 /// Warns after the run about a fixed step beyond the stability limit, and about events that can no longer happen.
 pub(super) fn after(experiment: &Experiment) {
     for name in without_value(experiment) {
-        stderr::tell(&format!(
+        stderr::report(&format!(
             "at the end the function of the event `{}` has no value; an event is where it changes its sign",
             printable::quoted(&name)
         ));
     }
     if let Some(sentence) = experiment.unstable() {
-        stderr::tell(&sentence);
+        stderr::report(&sentence);
     }
 }
 

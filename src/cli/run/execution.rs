@@ -122,17 +122,17 @@ impl Run<'_> {
         let event_log = self.experiment.occurrences();
         if event_log.forgotten() > 0 && format != RowFormat::Csv {
             let (count, forgotten) = (event_log.count(), event_log.forgotten());
-            stderr::tell(&format!("of {count} events the first {forgotten} are not listed"));
+            stderr::report(&format!("of {count} events the first {forgotten} are not listed"));
         }
         if let Some(passed) = self.experiment.singular_passages() {
-            stderr::tell(&passed);
+            stderr::report(&passed);
         }
         if let Some(passed) = self.experiment.passed_event() {
-            stderr::tell(&passed);
+            stderr::report(&passed);
         }
         let snapshot = self.experiment.snapshot();
         for line in invariants::unknown(&snapshot.gauges) {
-            stderr::tell(&line);
+            stderr::report(&line);
         }
         let departure = Departure::of(&snapshot.gauges, &snapshot.method);
         let refused = self.strict && departure.as_ref().is_some_and(|departure| departure.proved);
@@ -151,7 +151,7 @@ impl Run<'_> {
             && let Some(why) = self.ends_before.and_then(|ends_before| ends_before(steps))
         {
             // smaller steps are no advice where there is no motion
-            stderr::tell(&drift);
+            stderr::report(&drift);
             let method = snapshot.method.name;
             return Err(CommandError::CouldNot(format!(
                 "{method} has stepped over the end of the motion, and what follows is none: {why}"
@@ -160,7 +160,7 @@ impl Run<'_> {
         if refused && !cut_short {
             return Err(CommandError::CouldNot(line));
         }
-        stderr::tell(&line);
+        stderr::report(&line);
         match end {
             Some(EarlyEnd::Fault(fault)) => Err(CommandError::CouldNot(fault.message)),
             Some(EarlyEnd::Signal(signal)) => Err(CommandError::Signal(signal)),

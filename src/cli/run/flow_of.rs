@@ -52,7 +52,7 @@ pub(super) fn carried(
     let GeneratorFlow { mut model, equations, columns, left_out } =
         moved.map_err(|why| could_not(why.to_string()))?;
     for (name, why) in left_out {
-        stderr::tell(&format!("`{name}` has no column along this flow: {why}"));
+        stderr::report(&format!("`{name}` has no column along this flow: {why}"));
     }
     // what suits the motion need not suit the generator
     "auto".clone_into(&mut model.run.method);

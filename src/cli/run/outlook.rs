@@ -6,7 +6,7 @@
 
 use crate::printable;
 
-/// The number of steps after which the pace is known.
+/// The number of steps after which the rate of steps is known.
 const KNOWN_AFTER: u64 = 1 << 17;
 
 /// More steps than these take hours.
@@ -15,7 +15,7 @@ const MOST: f64 = 1e10;
 /// Where there are no kinks, steps must have become shorter than this part of what they were: a long run may be wanted.
 const SHORTENED: f64 = 1e-4;
 
-/// The pace of a run.
+/// How far the steps of a run lead.
 pub(super) struct Outlook {
     start: f64,
     end: f64,

@@ -149,7 +149,7 @@ impl SectionReport<'_> {
         if all.len() == self.orbits.len() {
             return Err(CommandError::CouldNot(message));
         }
-        stderr::tell(&message);
+        stderr::report(&message);
         Ok(())
     }
 }
