@@ -51,5 +51,5 @@ fn check(source: &Document) -> Result<(), CommandError> {
     let Some(system) = &script.head.open else { return Ok(()) };
     let document = open::find(&system.text)?;
     let recording = record::recorded(&script, source, &document, &system.text, None)?;
-    record::hold(source, &recording)
+    record::check_claims(source, &recording)
 }

@@ -91,7 +91,7 @@ fn play_script(source: &Document, request: &Request) -> Result<(), CommandError>
         Err(error) => return lab::how_it_ended(Err(error)),
     };
     match recorded {
-        Some(Ok(recording)) => record::hold(source, &recording)?,
+        Some(Ok(recording)) => record::check_claims(source, &recording)?,
         Some(Err(NotRecorded::Script(wrong))) => return Err(record::located(source, &wrong)),
         Some(Err(NotRecorded::Failed(why))) => return Err(CommandError::CouldNot(why)),
         Some(Err(NotRecorded::Left(left))) => {

@@ -78,13 +78,13 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     let name = printable::os(&arguments.name);
     let recording = recorded(&script, &source, &system, &name, arguments.size)?;
     if arguments.format != CastFormat::Account {
-        hold(&source, &recording)?;
+        check_claims(&source, &recording)?;
     }
     if let Some(path) = &arguments.still {
         take_still(&recording, path, arguments.at.as_deref())?;
         // without a destination, a cast would flood the terminal
         if arguments.output.is_none() {
-            return hold(&source, &recording);
+            return check_claims(&source, &recording);
         }
     }
     let form = match arguments.format {
@@ -99,7 +99,7 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     };
     written.map_err(|error| out.failed(&error))?;
     out.finish()?;
-    hold(&source, &recording)
+    check_claims(&source, &recording)
 }
 
 /// Writes a still of the end, or of the beginning of a chapter.
@@ -163,7 +163,7 @@ pub(super) fn recorded(
 }
 
 /// Reports the claims that are false.
-pub(super) fn hold(source: &Document, recording: &Recording) -> Result<(), CommandError> {
+pub(super) fn check_claims(source: &Document, recording: &Recording) -> Result<(), CommandError> {
     if recording.false_claims.is_empty() {
         Ok(())
     } else {

@@ -135,7 +135,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
 fn too_few(count: usize, is_asked: bool) -> String {
     let help = if is_asked { "take more with --count" } else { "choose an earlier --until" };
     format!(
-        "{count} values are too few: the quantity changes faster than they follow each other, and none of the lines found belongs to it; {help}"
+        "{count} values are too few: the quantity oscillates faster than they are taken, and none of the lines found belongs to it; {help}"
     )
 }
 

@@ -60,7 +60,7 @@ impl Experiment {
             Command::Method(name) => self.take_method(&name, self.motion.settings()),
             Command::StepSize(step) => self.change_step(step),
             Command::Tolerance(tolerance) => self.change_tolerance(tolerance),
-            Command::Restore(moment) => self.restore(&moment),
+            Command::Restore(checkpoint) => self.restore(&checkpoint),
             Command::Follow(found) => self.follow(&found),
             Command::ForgetCrossings => {
                 self.crossings.clear();
