@@ -186,7 +186,7 @@ impl Experiment {
         let start = short(returned.start);
         match returned.error {
             Some(0.0) => {
-                self.notify(format!("back at t = {start}: where it began, to the last bit"))
+                self.notify(format!("back at t = {start}: where it began, to the last bit"));
             }
             Some(error) => self.notify(format!(
                 "back at t = {start}: {} from where it began; a step errs by {} {}",
