@@ -28,6 +28,7 @@ impl Cancel {
     }
 
     /// Returns whether a stop has been requested.
+    #[inline]
     pub fn is_cancelled(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }

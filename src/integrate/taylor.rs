@@ -19,6 +19,7 @@ mod expansion;
 mod kinks;
 mod last_orders;
 mod onset;
+mod order_bounds;
 mod rough_logarithms;
 mod start_slope;
 mod steep;

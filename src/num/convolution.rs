@@ -85,14 +85,16 @@ impl<const N: usize> Kernel for InnerProducts<'_, [f64; N]> {
         let (left, left_rest) = self.left[..length].as_chunks::<APART>();
         let (right, right_rest) = self.right[..length].as_chunks::<APART>();
         let mut sums = [Vector::ZERO; APART];
-        for (a, b) in left.iter().zip(right) {
+        // by places, since iterators over two lists are not always inlined
+        for chunk in 0..left.len() {
+            let (a, b) = (&left[chunk], &right[chunk]);
             for i in 0..APART {
                 sums[i] = sums[i].plus(Vector(a[i]).times(Vector(b[i])));
             }
         }
         let mut rest = Vector::ZERO;
-        for (&a, &b) in left_rest.iter().zip(right_rest) {
-            rest = rest.plus(Vector(a).times(Vector(b)));
+        for place in 0..left_rest.len() {
+            rest = rest.plus(Vector(left_rest[place]).times(Vector(right_rest[place])));
         }
         sums[0].plus(sums[2]).plus(sums[1].plus(sums[3])).plus(rest).0
     }
@@ -128,7 +130,10 @@ impl<const N: usize> Kernel for InnerProducts<'_, DoubleLanes<N>> {
     #[inline(always)]
     fn run<const FUSED: bool>(self) -> [DoubleDouble; N] {
         let (mut sum, mut errors) = (Vector::ZERO, Vector::ZERO);
-        for (a, b) in self.left.iter().zip(self.right) {
+        let length = self.left.len().min(self.right.len());
+        let (left, right) = (&self.left[..length], &self.right[..length]);
+        for place in 0..length {
+            let (a, b) = (&left[place], &right[place]);
             let (a_high, a_low) = (Vector(a.high), Vector(a.low));
             let (b_high, b_low) = (Vector(b.high), Vector(b.low));
             let product = a_high.times(b_high);

@@ -175,7 +175,10 @@ impl Analytic for f64 {
         right: &[[f64; LANES]],
         out: &mut [f64],
     ) {
-        out.copy_from_slice(&InnerProducts { left, right }.run::<FUSED>());
+        let products = InnerProducts { left, right }.run::<FUSED>();
+        for lane in 0..LANES {
+            out[lane] = products[lane];
+        }
     }
 
     #[inline(always)]

@@ -138,7 +138,7 @@ impl<R: Coefficient> SeriesBuilder<R> {
     ) -> Result<(), Singular> {
         self.jet.advance_with::<FUSED>(k, clock.time, clock.scale)?;
         let made = |x: R| x.scaled(clock.scale).over::<FUSED>(k + 1);
-        self.jet.give_out(&mut self.state, self.inputs, k, made);
+        self.jet.give_out((&mut self.state, self.inputs), k, made);
         Ok(())
     }
 
@@ -352,14 +352,14 @@ impl<R: Coefficient> Kernel for Grow<'_, R> {
     #[inline(always)]
     fn run<const FUSED: bool>(self) -> Result<(), Halt> {
         let Grow { builder, first, clock, cancel } = self;
-        builder.jet.take_in(&builder.state, builder.inputs, first);
-        for k in first..builder.order {
-            if cancel.is_cancelled() {
-                return Err(Halt::Cancelled);
-            }
-            builder.continue_with::<FUSED>(k, clock)?;
+        let SeriesBuilder { jet, state, inputs, order, .. } = builder;
+        let (orders, clock) = (first..*order, (clock.time, clock.scale));
+        let ends = || cancel.is_cancelled();
+        if jet.grow::<FUSED>((state, *inputs), orders, clock, ends)? {
+            Ok(())
+        } else {
+            Err(Halt::Cancelled)
         }
-        Ok(())
     }
 }
 

@@ -9,13 +9,14 @@
 
 mod batch;
 mod operands;
+mod orders;
 #[cfg(feature = "jit")]
 mod outline;
 mod series_index;
 mod side;
 mod tables;
 
-use std::ops::RangeInclusive;
+use std::ops::{Range, RangeInclusive};
 use std::sync::Arc;
 
 use super::program::{Op, Program, Register, Singular};
@@ -106,36 +107,6 @@ impl<R: Coefficient> Jet<R> {
         }
     }
 
-    /// Gives such series their coefficients of order `k + 1`, each made from that of order `k` of an
-    /// output, and sets those of the first `count` inputs to them.
-    #[inline(always)]
-    pub(super) fn give_out(
-        &mut self,
-        series: &mut [R],
-        count: usize,
-        k: usize,
-        made: impl Fn(R) -> R,
-    ) {
-        let Tables { rows, stride, width, .. } = &mut self.tables;
-        let (stride, width) = (*stride, *width);
-        let (now, next) = rows[k * width..][..2 * width].split_at_mut(width);
-        let Program { inputs, outputs, .. } = &*self.program;
-        let (driving, others) = outputs.split_at(count.min(outputs.len()).min(inputs.len()));
-        // counted along, since to divide a table into chunks takes a division
-        let mut place = k + 1;
-        for (&output, &input) in driving.iter().zip(inputs) {
-            let coefficient = made(now[output as usize]);
-            next[input as usize] = coefficient;
-            series[place] = coefficient;
-            place += stride;
-        }
-        for &output in others {
-            let Some(coefficient) = series.get_mut(place) else { break };
-            *coefficient = made(now[output as usize]);
-            place += stride;
-        }
-    }
-
     /// Chooses the branch at a switch.
     pub fn set_side(&mut self, switch: usize, side: Side) {
         self.tables.sides[switch] = side;
@@ -170,18 +141,60 @@ impl<R: Coefficient> Jet<R> {
         time: R,
         scale: R::Unit,
     ) -> Result<(), Singular> {
-        let (program, schedule, tables) = (&*self.program, &*self.schedule, &mut self.tables);
         if k == 0 {
-            tables.begin(program, time)?;
-            tables.keep(0);
-            return Ok(());
+            self.begin(time)?;
+        } else {
+            let Jet { program, schedule, tables } = self;
+            tables.orders().advance::<FUSED>(program, schedule, k, scale);
         }
-        tables.multiply::<FUSED>(k);
-        let rate = if k == 1 { R::ONE.scaled(scale) } else { R::ZERO };
-        tables.finish::<FUSED>(program, schedule, k, rate);
-        tables.hand_on::<FUSED>(schedule, k);
-        tables.keep(k);
         Ok(())
+    }
+
+    /// Evaluates all registers at order 0.
+    #[inline(always)]
+    fn begin(&mut self, time: R) -> Result<(), Singular> {
+        self.tables.begin(&self.program, time)?;
+        self.tables.orders().keep(0);
+        Ok(())
+    }
+
+    /// Computes the orders above `first` of the series of a state, which are as long as the registers' and lie one after
+    /// another: each from the order before. Ends where `ends` says so, which is asked before each order, and returns false.
+    #[inline(always)]
+    pub(super) fn grow<const FUSED: bool>(
+        &mut self,
+        (state, count): (&mut [R], usize),
+        orders: Range<usize>,
+        (time, scale): (R, R::Unit),
+        ends: impl Fn() -> bool,
+    ) -> Result<bool, Singular> {
+        self.take_in(state, count, orders.start);
+        let mut next = orders.start;
+        if next == 0 && orders.end > 0 {
+            self.begin(time)?;
+        }
+        let Jet { program, schedule, tables } = self;
+        let mut tables = tables.orders();
+        while next < orders.end {
+            if ends() {
+                return Ok(false);
+            }
+            let k = next;
+            next += 1;
+            if k > 0 {
+                tables.advance::<FUSED>(program, schedule, k, scale);
+            }
+            let made = |x: R| x.scaled(scale).over::<FUSED>(next);
+            tables.give_out(program, (&mut *state, count), k, made);
+        }
+        Ok(true)
+    }
+
+    /// Gives the series of a state, of the length of the registers', their coefficients of order `k + 1`, each made from
+    /// that of order `k` of an output, and sets those of the first `count` inputs to them.
+    #[inline(always)]
+    pub(super) fn give_out(&mut self, state: (&mut [R], usize), k: usize, made: impl Fn(R) -> R) {
+        self.tables.orders().give_out(&self.program, state, k, made);
     }
 
     /// Evaluates all orders up to one, at a time that advances in units of `scale`. The inputs'
@@ -296,7 +309,7 @@ impl<R: Real> Jet<R> {
             }
         }
         for k in 1..orders {
-            own.hand_on::<false>(&self.schedule, k);
+            own.orders().hand_on::<false>(&self.schedule, k);
         }
     }
 }

@@ -177,7 +177,7 @@ fn passes(
             by_tolerance = by_tolerance.larger(low[j] * screen.by_tolerance[j][lane]);
             by_radius = by_radius.larger(low[j + 2] * screen.by_radius[j][lane]);
         }
-        let size = c.abs();
+        let size = c.abs() * screen.entering[lane];
         let passed = by_tolerance.smaller(by_radius).is_above(size * *power);
         // a coefficient that vanishes allows anything
         all = all * size.where_below(FAINT, Batch::ONE, passed);

@@ -25,6 +25,9 @@ pub(super) const LANES: usize = 4;
 /// The number of lowest orders that are looked at first.
 pub(super) const FIRST: usize = 3;
 
+/// The number of lanes for the last orders, in whole chunks. The highest order is in the last lane.
+pub(super) const WIDTH: usize = (LAST + BEFORE).next_multiple_of(LANES);
+
 /// By how much the logarithm of the step may be longer for the k-th of p orders.
 #[inline(always)]
 pub(super) fn indulgence_of(log_indulgence: f64, k: usize, p: usize) -> f64 {
@@ -41,4 +44,16 @@ pub(super) fn larger(a: f64, b: f64) -> f64 {
 #[inline(always)]
 pub(super) fn last_orders(p: usize) -> RangeInclusive<usize> {
     (p + 1).saturating_sub(LAST + BEFORE).max(3)..=p
+}
+
+/// What each of the last orders of a series gives, in its lane; `otherwise` in the lanes of lower orders, which do not enter.
+pub(super) fn lanes_of_last_orders(
+    p: usize,
+    otherwise: f64,
+    of: impl Fn(usize) -> f64,
+) -> [f64; WIDTH] {
+    std::array::from_fn(|lane| {
+        let order = (p + 1 + lane).checked_sub(WIDTH);
+        order.filter(|k| last_orders(p).contains(k)).map_or(otherwise, &of)
+    })
 }

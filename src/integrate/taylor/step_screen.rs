@@ -5,23 +5,22 @@
 //! finds no shorter one; "no" decides nothing. Never here: the rule, its constants.
 
 use super::last_orders::{
-    BEFORE, FAINT, FIRST, LANES, LAST, ROOM, indulgence_of, larger, last_orders,
+    FAINT, FIRST, LANES, ROOM, WIDTH, indulgence_of, lanes_of_last_orders, larger,
 };
 use crate::num::math;
-
-/// Room for the last orders, in whole chunks.
-const WIDTH: usize = (LAST + BEFORE).next_multiple_of(LANES);
 
 /// With the terms a_j = |c_j| h^j at a step h, the bound of the j-th order on the k-th is no shorter
 /// than h where a_j times a constant is no less than a_k. The lowest orders mostly suffice.
 #[derive(Clone, Debug)]
 pub(super) struct StepScreen {
-    /// The first of the last orders, which lie side by side.
+    /// The order in the first lane.
     pub(super) first: usize,
     /// The constants of the tolerance, for the j-th order.
     pub(super) by_tolerance: [[f64; WIDTH]; FIRST],
     /// Those of the radius of convergence, for the order j + 2; zero where that gives none.
     pub(super) by_radius: [[f64; WIDTH]; FIRST],
+    /// Zero for an order that does not enter, else one.
+    pub(super) entering: [f64; WIDTH],
 }
 
 /// The ratio by which terms must differ to do so beyond the errors of rough logarithms.
@@ -34,31 +33,32 @@ impl StepScreen {
         log_part: f64,
         log_indulgence: f64,
     ) -> StepScreen {
-        let mut screen = StepScreen {
-            first: *last_orders(order).start(),
-            by_tolerance: [[0.0; WIDTH]; FIRST],
-            by_radius: [[0.0; WIDTH]; FIRST],
+        let constant = |j: usize, k: usize, log: f64| {
+            let log = log + indulgence_of(log_indulgence, k, order);
+            math::exp((k - j) as f64 * log) / CLEARLY
         };
-        for (lane, k) in last_orders(order).enumerate() {
-            let indulgence = indulgence_of(log_indulgence, k, order);
-            let constant =
-                |j: usize, log: f64| math::exp((k - j) as f64 * (log + indulgence)) / CLEARLY;
-            for j in 0..FIRST {
-                screen.by_tolerance[j][lane] = constant(j, table[j]);
-                let inner = j + 2 < k - 1;
-                screen.by_radius[j][lane] = if inner { constant(j + 2, log_part) } else { 0.0 };
-            }
+        let by_radius = |j: usize, k: usize| {
+            if j < k - 1 { constant(j, k, log_part) } else { 0.0 }
+        };
+        StepScreen {
+            first: order + 1 - WIDTH,
+            by_tolerance: std::array::from_fn(|j| {
+                lanes_of_last_orders(order, 0.0, |k| constant(j, k, table[j]))
+            }),
+            by_radius: std::array::from_fn(|j| {
+                lanes_of_last_orders(order, 0.0, |k| by_radius(j + 2, k))
+            }),
+            entering: lanes_of_last_orders(order, 0.0, |_| 1.0),
         }
-        screen
     }
 
     /// Whether a series allows a step, whose powers these are. May be false where it does.
     #[inline(always)]
     pub(super) fn passes(&self, coefficients: &[f64], powers: &[f64; ROOM]) -> bool {
-        let mut own = [0.0; WIDTH];
-        for (own, c) in own.iter_mut().zip(&coefficients[self.first..]) {
-            *own = c.abs();
-        }
+        let last = powers[self.first..].first_chunk::<WIDTH>();
+        let (Some(own), Some(powers_of_last)) = (coefficients.last_chunk::<WIDTH>(), last) else {
+            return false;
+        };
         let low = |j: usize| {
             let c = coefficients[j].abs();
             if c < FAINT { 0.0 } else { c * powers[j] }
@@ -71,22 +71,28 @@ impl StepScreen {
                 by_radius[lane] = larger(by_radius[lane], b * self.by_radius[j][lane]);
             }
         }
-        let mut all = true;
+        let mut passed = [false; WIDTH];
         for lane in 0..WIDTH {
-            let term = own[lane] * powers[self.first + lane];
+            let own = own[lane].abs() * self.entering[lane];
+            let (a, b) = (by_tolerance[lane], by_radius[lane]);
+            let bound = if b < a { b } else { a };
             // a coefficient that vanishes allows anything
-            let bound = by_tolerance[lane].min(by_radius[lane]);
-            all &= if own[lane] < FAINT { true } else { bound > term };
+            passed[lane] = (own < FAINT) | (bound > own * powers_of_last[lane]);
         }
-        all
+        passed == [true; WIDTH]
     }
 
-    /// The powers of a step that are needed.
+    /// The powers of a step, several at once.
     #[inline(always)]
     pub(super) fn powers(&self, h: f64) -> [f64; ROOM] {
+        let square = h * h;
+        let mut next = [1.0, h, square, square * h];
         let mut powers = [1.0; ROOM];
-        for k in 1..self.first + WIDTH {
-            powers[k] = powers[k - 1] * h;
+        for chunk in powers.as_chunks_mut::<LANES>().0 {
+            *chunk = next;
+            for power in &mut next {
+                *power *= square * square;
+            }
         }
         powers
     }

@@ -9,7 +9,8 @@
 use super::argument_step::{
     FARTHEST_ARGUMENT, before_pole, may_pass_pole, of_argument, of_steep_pole,
 };
-use super::last_orders::{FIRST, INDULGENCE, LANES, ROOM, indulgence_of, larger, last_orders};
+use super::last_orders::{INDULGENCE, ROOM, indulgence_of};
+use super::order_bounds::OrderBounds;
 use super::rough_logarithms::Logarithms;
 use super::step_screen::StepScreen;
 use crate::num::{Kernel, all_finite, math, vectorized};
@@ -135,7 +136,9 @@ impl Shortest<'_> {
     /// if a coefficient is not finite.
     #[inline(always)]
     fn take<const FUSED: bool>(&mut self, coefficients: &[f64], shares: &Shares) -> Option<bool> {
-        if all_finite(coefficients) && shares.screen.passes(coefficients, &self.powers) {
+        let is_known = self.log < f64::INFINITY;
+        if is_known && all_finite(coefficients) && shares.screen.passes(coefficients, &self.powers)
+        {
             return Some(false);
         }
         let log = of_one::<FUSED>(coefficients, shares, self.log)?;
@@ -191,6 +194,7 @@ pub(super) struct Shares {
     pub(super) table: [f64; ROOM],
     pub(super) log_part: f64,
     log_indulgence: f64,
+    bounds: OrderBounds,
     pub(super) screen: StepScreen,
 }
 
@@ -219,7 +223,9 @@ impl Shares {
         }
         let (log_part, log_indulgence) = (math::ln(PART_OF_RADIUS), math::ln(INDULGENCE));
         let screen = StepScreen::new(order, &table, log_part, log_indulgence);
-        Shares { table, log_part, log_indulgence, screen }
+        let indulgence = |k: usize| indulgence_of(log_indulgence, k, order);
+        let bounds = OrderBounds::new(order, &table, log_part, indulgence);
+        Shares { table, log_part, log_indulgence, bounds, screen }
     }
 }
 
@@ -228,70 +234,20 @@ impl Shares {
 ///
 /// For each of the last orders k it is the largest of `(ln |c_j| − ln |c_k|)/(k − j) + ln ε/(p − j)`
 /// over all j < k, but no more than the radius of convergence, that is the largest of the first
-/// terms alone, allows. Mostly the lowest orders show already that it is longer than another.
+/// terms alone, allows.
 #[inline(always)]
-fn of_one<const FUSED: bool>(
-    coefficients: &[f64],
-    shares: &Shares,
-    mut shortest: f64,
-) -> Option<f64> {
-    let p = coefficients.len() - 1;
+fn of_one<const FUSED: bool>(coefficients: &[f64], shares: &Shares, shortest: f64) -> Option<f64> {
     let mut logs = [f64::NEG_INFINITY; ROOM];
     if !(Logarithms { of: coefficients, logs: &mut logs }).run::<FUSED>() {
         return None;
     }
-    for k in last_orders(p).rev() {
-        let own = logs[k];
-        if own == f64::NEG_INFINITY {
-            continue;
-        }
-        let indulgence = shares.indulgence(k, p);
-        let (logs, reciprocals) = (&logs[..k], reciprocals(k));
-        let table = &shares.table[..k];
-        let root = |j: usize| (logs[j] - own) * reciprocals[j];
-        // each of these bounds what follows from all of them, to the last bit
-        let enough = |log: f64| log + indulgence >= shortest;
-        if (0..FIRST.min(k)).any(|j| enough(root(j) + table[j]))
-            && (2..(2 + FIRST).min(k - 1)).any(|j| enough(root(j) + shares.log_part))
-        {
-            continue;
-        }
-        let mut log = largest(logs, own, reciprocals, table);
-        let inner = 2..k - 1;
-        let radius =
-            largest(&logs[inner.clone()], own, &reciprocals[inner.clone()], &NOTHING[inner]);
-        if radius > f64::NEG_INFINITY {
-            log = log.min(radius + shares.log_part);
-        }
-        shortest = shortest.min(log + indulgence);
-    }
-    Some(shortest)
+    Some(shares.bounds.shortest(&logs, shortest))
 }
 
 /// The reciprocals of k − j for j = 0, 1, …, k − 1.
 #[inline(always)]
 pub(super) fn reciprocals(k: usize) -> &'static [f64] {
     &RECIPROCALS[ROOM - k..]
-}
-
-/// Nothing to be added to any order.
-const NOTHING: [f64; ROOM] = [0.0; ROOM];
-
-/// The largest `(ln |c_j| − own)·r_j + s_j`. All have the same length.
-#[inline(always)]
-fn largest(logs: &[f64], own: f64, reciprocals: &[f64], shares: &[f64]) -> f64 {
-    let (logs, last_logs) = logs.as_chunks::<LANES>();
-    let (reciprocals, last_reciprocals) = reciprocals.as_chunks::<LANES>();
-    let (shares, last_shares) = shares.as_chunks::<LANES>();
-    let mut most = [f64::NEG_INFINITY; LANES];
-    for ((log, reciprocal), share) in logs.iter().zip(reciprocals).zip(shares) {
-        for lane in 0..LANES {
-            most[lane] = larger(most[lane], (log[lane] - own) * reciprocal[lane] + share[lane]);
-        }
-    }
-    let last = last_logs.iter().zip(last_reciprocals).zip(last_shares);
-    let last = last.map(|((log, reciprocal), share)| (log - own) * reciprocal + share);
-    last.chain(most).fold(f64::NEG_INFINITY, larger)
 }
 
 #[cfg(test)]

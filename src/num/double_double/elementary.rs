@@ -176,7 +176,10 @@ impl Analytic for DoubleDouble {
         right: &[DoubleLanes<LANES>],
         out: &mut [DoubleDouble],
     ) {
-        out.copy_from_slice(&InnerProducts { left, right }.run::<FUSED>());
+        let products = InnerProducts { left, right }.run::<FUSED>();
+        for lane in 0..LANES {
+            out[lane] = products[lane];
+        }
     }
 
     #[inline(always)]

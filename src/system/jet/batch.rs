@@ -3,7 +3,8 @@
 //! In: matrices and right-hand sides of several orbits. Out: the solution of each. Never here: operations that
 //! depend on the size of a number, which programs of several orbits do not have.
 
-use super::tables::{Coefficient, Elimination, Tables};
+use super::orders::Orders;
+use super::tables::{Coefficient, Elimination};
 use crate::num::{BATCH, Batch};
 use crate::system::program::Program;
 use crate::system::solve::Factored;
@@ -57,7 +58,7 @@ impl Coefficient for Batch {
     type Factored = FactoredBatch;
 
     /// NaN: programs with such operations are not evaluated for several orbits at once.
-    fn alone(_: &mut Tables<Batch>, _: &Program, _: u32, _: usize) -> Batch {
+    fn alone(_: &mut Orders<'_, Batch>, _: &Program, _: u32, _: usize) -> Batch {
         Batch::splat(f64::NAN)
     }
 }

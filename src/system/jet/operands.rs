@@ -42,11 +42,35 @@ impl<R: Analytic> Operands<R> {
         }
     }
 
+    /// The same as slices.
+    #[inline(always)]
+    pub(super) fn slices(&mut self) -> OperandSlices<'_, R> {
+        OperandSlices {
+            stride: self.stride,
+            pairs: &self.pairs,
+            left: &mut self.left,
+            right: &mut self.right,
+            products: &mut self.products,
+        }
+    }
+}
+
+/// The operands, and the products of the current order, as slices.
+pub(super) struct OperandSlices<'a, R: Analytic> {
+    stride: usize,
+    pairs: &'a [Pair],
+    left: &'a mut [R::Lanes],
+    right: &'a mut [R::Lanes],
+    /// The inner products of the current order.
+    pub(super) products: &'a mut [R],
+}
+
+impl<R: Analytic> OperandSlices<'_, R> {
     /// Computes all inner products of order `k`, which is above zero.
     #[inline(always)]
     pub(super) fn multiply<const FUSED: bool>(&mut self, k: usize) {
         let stride = self.stride;
-        let (mut left, mut right) = (&self.left[..], &self.right[..]);
+        let (mut left, mut right) = (&*self.left, &*self.right);
         for products in self.products.chunks_exact_mut(R::SIDE) {
             // split off, since to divide a table into chunks of any length takes a division
             let (own_left, others_left) = left.split_at(stride);
@@ -61,7 +85,7 @@ impl<R: Analytic> Operands<R> {
     #[inline(always)]
     pub(super) fn store(&mut self, now: &[R], k: usize) {
         let stride = self.stride;
-        let (mut left, mut right) = (&mut self.left[..], &mut self.right[..]);
+        let (mut left, mut right) = (&mut *self.left, &mut *self.right);
         for pairs in self.pairs.chunks_exact(R::SIDE) {
             let (own_left, others_left) = left.split_at_mut(stride);
             let (own_right, others_right) = right.split_at_mut(stride);
@@ -71,9 +95,15 @@ impl<R: Analytic> Operands<R> {
         }
     }
 
-    /// The inner products of the current order.
+    /// The same slices, to be given away for a while.
     #[inline(always)]
-    pub(super) fn products(&self) -> &[R] {
-        &self.products
+    pub(super) fn again(&mut self) -> OperandSlices<'_, R> {
+        OperandSlices {
+            stride: self.stride,
+            pairs: self.pairs,
+            left: &mut *self.left,
+            right: &mut *self.right,
+            products: &mut *self.products,
+        }
     }
 }
