@@ -169,6 +169,10 @@ impl Analytic for f64 {
         }
         numbers
     }
+    #[expect(
+        clippy::manual_memcpy,
+        reason = "is inlined into a kernel, which a copy of slices may not be"
+    )]
     #[inline(always)]
     fn inner_products<const FUSED: bool>(
         left: &[[f64; LANES]],

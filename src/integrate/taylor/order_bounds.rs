@@ -12,6 +12,9 @@
 
 use super::last_orders::{ROOM, WIDTH, lanes_of_last_orders, larger};
 
+/// Less than anything that a coefficient allows.
+const LEAST: [f64; WIDTH] = [f64::NEG_INFINITY; WIDTH];
+
 /// What a coefficient of an order enters with.
 #[derive(Clone, Copy, Debug)]
 struct Bound {
@@ -63,7 +66,6 @@ impl OrderBounds {
         let (Some(own), logs) = (logs[..=order].last_chunk::<WIDTH>(), &logs[..order]) else {
             return shortest;
         };
-        const LEAST: [f64; WIDTH] = [f64::NEG_INFINITY; WIDTH];
         let (mut by_tolerance, mut by_radius) = (LEAST, LEAST);
         for j in 0..order {
             let (bound, log) = (&self.bounds[j], logs[j]);

@@ -77,23 +77,23 @@ impl StepScreen {
             let (a, b) = (by_tolerance[lane], by_radius[lane]);
             let bound = if b < a { b } else { a };
             // a coefficient that vanishes allows anything
-            passed[lane] = (own < FAINT) | (bound > own * powers_of_last[lane]);
+            passed[lane] = if own < FAINT { true } else { bound > own * powers_of_last[lane] };
         }
         passed == [true; WIDTH]
     }
+}
 
-    /// The powers of a step, several at once.
-    #[inline(always)]
-    pub(super) fn powers(&self, h: f64) -> [f64; ROOM] {
-        let square = h * h;
-        let mut next = [1.0, h, square, square * h];
-        let mut powers = [1.0; ROOM];
-        for chunk in powers.as_chunks_mut::<LANES>().0 {
-            *chunk = next;
-            for power in &mut next {
-                *power *= square * square;
-            }
+/// The powers of a step, several at once.
+#[inline(always)]
+pub(super) fn powers_of(h: f64) -> [f64; ROOM] {
+    let square = h * h;
+    let mut next = [1.0, h, square, square * h];
+    let mut powers = [1.0; ROOM];
+    for chunk in powers.as_chunks_mut::<LANES>().0 {
+        *chunk = next;
+        for power in &mut next {
+            *power *= square * square;
         }
-        powers
     }
+    powers
 }

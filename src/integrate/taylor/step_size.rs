@@ -12,7 +12,7 @@ use super::argument_step::{
 use super::last_orders::{INDULGENCE, ROOM, indulgence_of};
 use super::order_bounds::OrderBounds;
 use super::rough_logarithms::Logarithms;
-use super::step_screen::StepScreen;
+use super::step_screen::{StepScreen, powers_of};
 use crate::num::{Kernel, all_finite, math, vectorized};
 use crate::system::Series;
 
@@ -98,7 +98,7 @@ impl StepSize {
     #[inline(always)]
     fn by_coefficients<const FUSED: bool>(&mut self, series: &Series) -> Option<f64> {
         let StepSize { motion, integrals: spared, least } = self;
-        let mut shortest = Shortest::new(&motion.screen);
+        let mut shortest = Shortest::new();
         let first = *least;
         if let Some(c) = numbers(series).nth(first) {
             shortest.take::<FUSED>(c, motion)?;
@@ -119,17 +119,16 @@ impl StepSize {
 }
 
 /// The shortest step that some series allow, its logarithm, and its powers.
-struct Shortest<'a> {
+struct Shortest {
     log: f64,
     step: f64,
     powers: [f64; ROOM],
-    screen: &'a StepScreen,
 }
 
-impl Shortest<'_> {
+impl Shortest {
     #[inline(always)]
-    fn new(screen: &StepScreen) -> Shortest<'_> {
-        Shortest { log: f64::INFINITY, step: f64::INFINITY, powers: [f64::NAN; ROOM], screen }
+    fn new() -> Shortest {
+        Shortest { log: f64::INFINITY, step: f64::INFINITY, powers: [f64::NAN; ROOM] }
     }
 
     /// Takes another series into account. Returns whether it allows less than those before; `None`
@@ -145,7 +144,7 @@ impl Shortest<'_> {
         let shorter = log < self.log;
         if shorter {
             (self.log, self.step) = (log, math::exp(log));
-            self.powers = self.screen.powers(self.step);
+            self.powers = powers_of(self.step);
         }
         Some(shorter)
     }
@@ -295,7 +294,7 @@ mod tests {
         let mut passed = 0;
         for seed in 0..4000 {
             let group: Vec<Vec<f64>> = (0..4).map(|i| noisy(4 * seed + i)).collect();
-            let mut with = Shortest::new(&shares.screen);
+            let mut with = Shortest::new();
             let mut without = f64::INFINITY;
             for series in &group {
                 let shorter = with.take::<false>(series, &shares).expect("finite");

@@ -170,6 +170,10 @@ impl Analytic for DoubleDouble {
         }
         DoubleLanes::of(numbers)
     }
+    #[expect(
+        clippy::manual_memcpy,
+        reason = "is inlined into a kernel, which a copy of slices may not be"
+    )]
     #[inline(always)]
     fn inner_products<const FUSED: bool>(
         left: &[DoubleLanes<LANES>],

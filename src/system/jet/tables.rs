@@ -9,12 +9,8 @@ use super::orders::Orders;
 use super::series_index::SeriesIndex;
 use super::side::Side;
 use crate::num::{Analytic, Real};
-use crate::system::finishing_pass::{
-    Integral, LinearSolution, LinearSum, OperationRun, Product, Related, Scaling, TermSign,
-};
-use crate::system::parametric_power;
 use crate::system::program::{Block, Op, Program, Register, Singular};
-use crate::system::schedule::{ConvolutionFactor, Denominator, Direct, Ends, Relation, Schedule};
+use crate::system::schedule::Schedule;
 use crate::system::solve::Factored;
 use crate::system::value::value_of;
 
@@ -62,7 +58,7 @@ impl<R: Real> Coefficient for R {
 
 /// What a jet computes with.
 #[derive(Clone, Debug)]
-pub struct Tables<R: Coefficient> {
+pub(super) struct Tables<R: Coefficient> {
     /// The number of orders.
     pub(super) stride: usize,
     /// The number of registers and slopes.
