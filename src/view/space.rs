@@ -58,7 +58,8 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
     if area.is_empty() {
         return;
     }
-    let camera = Camera { yaw: eye.yaw, pitch: eye.pitch, zoom: eye.zoom, ..Camera::FACE_ON };
+    let pan = eye.pan.map(|offset| -offset);
+    let camera = Camera { yaw: eye.yaw, pitch: eye.pitch, zoom: eye.zoom, pan, ..Camera::FACE_ON };
     let beside: Vec<_> =
         q.snapshot.companions.iter().map(|one| companions::as_main(q.snapshot, one)).collect();
     let beside: Vec<_> = beside.iter().map(|snapshot| Quantities { snapshot, ..*q }).collect();
