@@ -175,10 +175,8 @@ impl Plot {
                 let zoom = nearer(eye.zoom);
                 let ratio = zoom / eye.zoom;
                 let whole = zoom < WHOLE_SCENE;
-                eye.pan = [0, 1].map(|k| match whole {
-                    true => 0.0,
-                    false => panned(eye.pan[k], ratio, place[k] - 0.5),
-                });
+                eye.pan = [0, 1]
+                    .map(|k| if whole { 0.0 } else { panned(eye.pan[k], ratio, place[k] - 0.5) });
                 eye.zoom = zoom;
             }
             Sight::Axes(viewport) => {
