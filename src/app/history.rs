@@ -190,7 +190,10 @@ impl UndoHistory {
             let change = Change::Together(changes);
             self.done.push(Entry { change, motions: [first, None] });
         }
-        (self.begin_group, self.since) = (None, None);
+        // without a group a change may still be a step of the one before it
+        if self.begin_group.take().is_some() {
+            self.since = None;
+        }
     }
 
     /// Advances the time.

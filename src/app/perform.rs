@@ -175,8 +175,8 @@ impl App {
                 let Some(target) = lab.selected() else { return Vec::new() };
                 lab.of_file(target).map_or_else(Vec::new, |to| lab.change(target, to))
             }
-            Action::Closer(axes) => self.with_plot(|plot, _| plot.zoom(1.25, axes.chosen())),
-            Action::Farther(axes) => self.with_plot(|plot, _| plot.zoom(0.8, axes.chosen())),
+            Action::Closer(axes) => self.zoom(1.25, axes.chosen()),
+            Action::Farther(axes) => self.zoom(0.8, axes.chosen()),
             Action::Log => self.with_viewport(|viewport| viewport.log = !viewport.log),
             Action::Equal => match lab.focused_plot() {
                 Some((_, plot)) if plot.kind.has_equal_axes() => {
@@ -225,6 +225,15 @@ impl App {
             lab.redraw(index, change);
         }
         Vec::new()
+    }
+
+    /// Zooms the focused picture about its cursor or the moving point.
+    fn zoom(&mut self, factor: f64, axes: [bool; 2]) -> Vec<Effect> {
+        let moving = self.drawn.moving;
+        self.with_plot(|plot, _| {
+            let place = plot.centre_of_zoom(moving);
+            plot.zoom_about(factor, axes, place);
+        })
     }
 
     /// Switches the focused picture, or else the first spatial view, to the next reference frame; the axes of the

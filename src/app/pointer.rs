@@ -136,7 +136,11 @@ impl App {
                 let by = [0, 1].map(|k| place[k] - from[k]);
                 let Some(lab) = &mut self.lab else { return Vec::new() };
                 if lab.plots.get(index).is_some_and(|plot| is_face_on(plot, &lab.loaded.model)) {
-                    self.notice = Some(Notification::info(PLANE));
+                    let mut slid = false;
+                    lab.redraw(index, |plot, _| slid = plot.slide(by));
+                    if !slid {
+                        self.notice = Some(Notification::info(PLANE));
+                    }
                     return Vec::new();
                 }
                 lab.redraw(index, |plot, _| plot.drag(by));
@@ -192,7 +196,7 @@ impl App {
                 let factor = if up > 0 { NOTCH } else { 1.0 / NOTCH };
                 match hit {
                     HitTarget::Plot { index, place, .. } | HitTarget::Space { index, place } => {
-                        lab.redraw(index, |plot, _| plot.zoom_about(factor, place));
+                        lab.redraw(index, |plot, _| plot.zoom_about(factor, [true; 2], place));
                     }
                     HitTarget::Value(target) | HitTarget::Bar { target, .. } => {
                         lab.focus = match target {

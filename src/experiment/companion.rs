@@ -286,6 +286,10 @@ impl CompanionMotion {
         let row = back.as_ref().and_then(|trail| trail.row(trail.len().checked_sub(1)?));
         let (time, values) = row.map_or((time, self.values.as_slice()), |row| (row[0], &row[1..]));
         let values = values.into();
+        let mut crossings = self.crossings.clone();
+        if back.is_some() {
+            crossings.rewind(now, 1.0, self.values.len());
+        }
         let trail = back.unwrap_or(whole);
         Companion {
             number: self.number,
@@ -297,7 +301,7 @@ impl CompanionMotion {
             settings: self.motion.settings(),
             state: Arc::new(self.motion.state().clone()),
             trail,
-            crossings: self.crossings.clone(),
+            crossings,
             message: self.message.clone(),
         }
     }

@@ -11,6 +11,9 @@ use super::{
 };
 use crate::model::{Model, View};
 
+/// Up to this zoom a camera sees the whole scene; it is 1 but for the rounding of steps.
+const WHOLE_SCENE: f64 = 1.0 + 1e-9;
+
 impl Plot {
     /// Creates a plot with the initial camera or window.
     pub fn new(
@@ -141,18 +144,6 @@ impl Plot {
         }
     }
 
-    /// Zooms horizontally, vertically, or both.
-    pub fn zoom(&mut self, factor: f64, axes: [bool; 2]) {
-        let nearer = |zoom: &mut f64| *zoom = (*zoom * factor).clamp(0.05, 200.0);
-        match &mut self.sight {
-            Sight::Camera(eye) => nearer(&mut eye.zoom),
-            Sight::Axes(viewport) => {
-                let chosen = viewport.zoom.iter_mut().zip(axes).filter(|(_, chosen)| *chosen);
-                chosen.for_each(|(zoom, _)| nearer(zoom));
-            }
-        }
-    }
-
     /// Drags the picture by fractions of the width and height: a camera rotates, a window moves.
     pub fn drag(&mut self, by: [f64; 2]) {
         match &mut self.sight {
@@ -161,17 +152,51 @@ impl Plot {
         }
     }
 
-    /// Zooms about a fixed point, given in fractions of the width and height.
-    pub fn zoom_about(&mut self, factor: f64, place: [f64; 2]) {
-        let anchor = [self.kind.anchor(), 0.5];
-        let before = self.viewport().map(|viewport| viewport.zoom);
-        self.zoom(factor, [true; 2]);
-        if let (Some(before), Some(viewport)) = (before, self.viewport_mut()) {
-            viewport.pan = [0, 1].map(|k| {
-                let nearer = viewport.zoom[k] / before[k];
-                (viewport.pan[k] + place[k] - anchor[k]) * nearer - place[k] + anchor[k]
-            });
+    /// Moves the window of a camera by fractions of the width and height, if it sees a part of the scene alone. Returns whether it
+    /// does.
+    pub fn slide(&mut self, by: [f64; 2]) -> bool {
+        match &mut self.sight {
+            Sight::Camera(eye) if eye.zoom > WHOLE_SCENE => {
+                eye.pan = [0, 1].map(|k| eye.pan[k] - by[k]);
+                true
+            }
+            _ => false,
         }
+    }
+
+    /// Zooms horizontally, vertically, or both, about a point that stays where it is, given in fractions of the width and height.
+    /// A camera that sees the whole scene again has it in the middle.
+    pub fn zoom_about(&mut self, factor: f64, axes: [bool; 2], place: [f64; 2]) {
+        let nearer = |zoom: f64| (zoom * factor).clamp(0.05, 200.0);
+        // what a point keeps from the middle of the window, or from its end, while all grows by a ratio
+        let panned = |pan: f64, ratio: f64, off: f64| (pan + off) * ratio - off;
+        match &mut self.sight {
+            Sight::Camera(eye) => {
+                let zoom = nearer(eye.zoom);
+                let ratio = zoom / eye.zoom;
+                let whole = zoom < WHOLE_SCENE;
+                eye.pan = [0, 1]
+                    .map(|k| if whole { 0.0 } else { panned(eye.pan[k], ratio, place[k] - 0.5) });
+                eye.zoom = zoom;
+            }
+            Sight::Axes(viewport) => {
+                let anchor = [self.kind.anchor(), 0.5];
+                for k in [0, 1].into_iter().filter(|&k| axes[k]) {
+                    let zoom = nearer(viewport.zoom[k]);
+                    let ratio = zoom / viewport.zoom[k];
+                    viewport.pan[k] = panned(viewport.pan[k], ratio, place[k] - anchor[k]);
+                    viewport.zoom[k] = zoom;
+                }
+            }
+        }
+    }
+
+    /// The place about which keys zoom: the cursor, or else the moving point if it is in the window, given in fractions of the
+    /// width and height; the middle where there is neither, and in time the end of the window.
+    pub fn centre_of_zoom(&self, moving: Option<[f64; 2]>) -> [f64; 2] {
+        let is_seen = |place: &[f64; 2]| place.iter().all(|share| (0.0..=1.0).contains(share));
+        let cursor = self.viewport().and_then(|viewport| viewport.cursor);
+        cursor.or(moving.filter(is_seen)).unwrap_or([self.kind.anchor(), 0.5])
     }
 
     /// Adds orbits to a section: the one through a point, or some spread over what is seen; or begins a cloud there.

@@ -27,6 +27,9 @@ pub struct CameraPose {
     pub pitch: f64,
     /// The zoom factor.
     pub zoom: f64,
+    /// The offset of the window, in fractions of its width and height.
+    #[serde(default)]
+    pub pan: [f64; 2],
     /// The frame of the file that the camera moves and turns with; `None` for the axes of the shapes.
     pub frame: Option<usize>,
     /// The view of the file that it shows, which may have its own title and shapes.
@@ -95,7 +98,7 @@ impl CameraPose {
     /// motion in space from the side and above, unless the file says from where.
     pub fn on(model: &Model, view: Option<usize>) -> Self {
         let frame = view.and_then(|view| model.views.get(view)?.frame);
-        Self { yaw: 0.0, pitch: 0.0, zoom: 1.0, frame, view }.at_first(model)
+        Self { yaw: 0.0, pitch: 0.0, zoom: 1.0, pan: [0.0; 2], frame, view }.at_first(model)
     }
 
     /// The initial camera of the same picture.
@@ -105,7 +108,7 @@ impl CameraPose {
         let written = if own { Viewpoint::default() } else { model.viewpoint };
         let yaw = written.azimuth.map_or(usual.0, |azimuth| azimuth.rem_euclid(TAU));
         let pitch = written.elevation.unwrap_or(usual.1);
-        Self { yaw, pitch, zoom: 1.0, ..self }
+        Self { yaw, pitch, zoom: 1.0, pan: [0.0; 2], ..self }
     }
 
     /// Whether all that it sees stays in the plane z = 0.
@@ -120,7 +123,7 @@ impl CameraPose {
 
     /// The same camera with the smooth settings at their defaults.
     pub(super) fn at_rest(self) -> Self {
-        Self { yaw: 0.0, pitch: 0.0, zoom: 1.0, ..self }
+        Self { yaw: 0.0, pitch: 0.0, zoom: 1.0, pan: [0.0; 2], ..self }
     }
 
     /// Rotates the picture by these angles.

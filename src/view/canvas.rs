@@ -30,6 +30,8 @@ pub(super) struct Canvas<'a> {
     pub(super) cursor: Option<Position>,
     /// The coordinates of the cursor of the focused plot.
     pub(super) reading: Option<[f64; 2]>,
+    /// The place of the moving point on the focused plot.
+    pub(super) moving: Option<[f64; 2]>,
     /// Whether the list with the focus says what its selected value means.
     pub(super) explained: bool,
     /// What is kept from the last frame.
@@ -50,6 +52,7 @@ impl<'a> Canvas<'a> {
             regions: None,
             cursor: None,
             reading: None,
+            moving: None,
             explained: false,
             kept: Kept::default(),
             beside: false,

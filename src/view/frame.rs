@@ -285,6 +285,24 @@ mod tests {
         assert_eq!(frame("12:31", plain), "");
     }
 
+    /// To move the cursor takes fewer bytes than to change a colour.
+    #[test]
+    fn cells_of_one_colour_are_written_together() {
+        let mut screen = Frames::new(false).expect("memory");
+        let mut frame = |symbol: &str| {
+            let bytes = screen.next(SIZE, |area, buffer| {
+                for x in 0..area.width {
+                    let colour = Color::Rgb(100, 100, 100 + x as u8 % 2);
+                    buffer.set_string(x, 2, symbol, Style::new().fg(colour));
+                }
+            });
+            String::from_utf8(bytes.expect("bytes")).expect("text")
+        };
+        frame("a");
+        assert_eq!(frame("b").matches("38;2;").count(), 1);
+        assert_eq!(frame("c").matches('c').count(), usize::from(SIZE.width));
+    }
+
     #[test]
     fn no_size_is_too_strange() {
         let mut screen = Frames::new(false).expect("memory");

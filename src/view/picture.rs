@@ -18,7 +18,7 @@ use super::quantity::{Quantities, through};
 use super::theme::Role;
 use super::time_window::time_window;
 use super::{companions, cursor, field, legend, level_curves, prediction, space};
-use crate::instrument::{Across, Ink, Layer, Level, Picture, Plot, Upwards, Viewport};
+use crate::instrument::{Across, Ink, Layer, Level, MarkerShape, Picture, Plot, Upwards, Viewport};
 
 /// Writes the keys of curves above the axes: as far to the right as there is room for all of them, where a curve may be in
 /// the way, else in the widest room.
@@ -92,7 +92,17 @@ pub(super) fn draw(
             axes = Axes::new(axis(x, wide, 0), axis(y, high, 1));
         }
     }
-    let mut axes = if viewport.equal { axes.equal() } else { axes };
+    let mut axes = if viewport.equal {
+        // the window has its shape before it is moved, so that a part of its width is one of what is seen
+        let still = |scale: Scale, k: usize| match viewport.pan[k] {
+            0.0 => scale,
+            pan => scale.panned(-pan),
+        };
+        (axes.x.scale, axes.y.scale) = (still(axes.x.scale, 0), still(axes.y.scale, 1));
+        axes.equal().panned(viewport.pan)
+    } else {
+        axes
+    };
     if let Across::Time = plot.kind.across(plot, &present, answer) {
         let cells = axes.frame(area, look.glyphs).area.width;
         axes.x.scale = time_window(q, viewport, cells);
@@ -137,6 +147,11 @@ pub(super) fn draw(
     let reading = cursor::draw(canvas, area, &frame, (viewport, &marks));
     if q.lab.focused_plot().is_some_and(|(_, focused)| std::ptr::eq(focused, plot)) {
         canvas.reading = reading;
+        let now = layers.iter().rev().find_map(|(_, layer)| match layer {
+            Layer::Point(at, MarkerShape::Disc, Ink::Accent) => Some(*at),
+            _ => None,
+        });
+        canvas.moving = now.map(|[x, y]| [frame.x.fraction(x), frame.y.fraction(y)]);
     }
     Some(frame)
 }

@@ -63,7 +63,7 @@ impl Painter {
         let cursor = canvas.cursor.map(|at| (at.x, at.y));
         self.kept = canvas.kept;
         self.kept.end();
-        Drawn { cursor, reading: canvas.reading, ..drawn }
+        Drawn { cursor, reading: canvas.reading, moving: canvas.moving, ..drawn }
     }
 }
 

@@ -8,6 +8,7 @@ mod body;
 mod circle;
 mod colours;
 mod filling;
+mod ghost;
 mod line;
 mod mechanics;
 mod names;
@@ -26,7 +27,7 @@ use super::canvas::Canvas;
 use super::companions;
 use super::kept::Kept;
 use super::plot::{Camera, DepthBuffer, Marker, Pen, PlotFrame, Raster, Visibility};
-use super::quantity::{Quantities, QuantitySource};
+use super::quantity::Quantities;
 use super::theme::Role;
 use crate::instrument::CameraPose;
 use crate::model::{Point, Shape};
@@ -58,7 +59,8 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
     if area.is_empty() {
         return;
     }
-    let camera = Camera { yaw: eye.yaw, pitch: eye.pitch, zoom: eye.zoom, ..Camera::FACE_ON };
+    let pan = eye.pan.map(|offset| -offset);
+    let camera = Camera { yaw: eye.yaw, pitch: eye.pitch, zoom: eye.zoom, pan, ..Camera::FACE_ON };
     let beside: Vec<_> =
         q.snapshot.companions.iter().map(|one| companions::as_main(q.snapshot, one)).collect();
     let beside: Vec<_> = beside.iter().map(|snapshot| Quantities { snapshot, ..*q }).collect();
@@ -169,34 +171,6 @@ impl<'a> ScenePainter<'a> {
     fn take(&mut self, q: &'a Quantities<'a>, beside: Option<usize>) {
         (self.q, self.beside) = (q, beside);
         self.reference_frame = ReferenceFrame::of(q, self.seen);
-    }
-
-    /// Draws what moves of a motion beside the main one: its lines, masses and tracks, in its colour.
-    fn ghost(&mut self, shape: &Shape, kept: &mut Kept) {
-        let moves = |point: &Point| {
-            point.iter().any(|e| matches!(self.q.place(*e), QuantitySource::Channel(_)))
-        };
-        let number = self.beside.unwrap_or(0);
-        let pen = Pen::new(companions::ink(&self.q.look.theme, number), TRACK);
-        match shape {
-            Shape::Line { from, to } if moves(from) || moves(to) => {
-                let (from, to) = (self.point(from), self.point(to));
-                self.curve(&[from, to], &pen);
-            }
-            Shape::Spring { from, to } if moves(from) || moves(to) => {
-                let (from, to) = (self.point(from), self.point(to));
-                self.spring(from, to, &pen);
-            }
-            Shape::Mass { at, .. } if moves(at) => {
-                let at = self.point(at);
-                if let Some(pen) = self.seen_at(at, &Pen { layer: SOLID, ..pen }) {
-                    let flat = self.flat(at);
-                    self.raster.marker(&self.frame, flat, Marker::Number(number), &pen);
-                }
-            }
-            Shape::Trace { at } => self.track(at, kept),
-            _ => {}
-        }
     }
 }
 
@@ -386,8 +360,7 @@ impl ScenePainter<'_> {
         let centre = self.flat(at);
         let drawn = radius.map(f64::abs).filter(|radius| self.cells(*radius).is_some());
         if let Some(radius) = drawn {
-            // In space the ball is among the surfaces.
-            if self.range.is_none() {
+            if !self.is_ball(radius) {
                 self.raster.disc(&self.frame, centre, radius, &pen);
             }
         } else if let Some(pen) = self.seen_at(at, &pen) {

@@ -36,15 +36,23 @@ impl Moment {
     }
 }
 
-/// A relative change with its sign.
+/// A relative change with its sign; 0 has none.
 pub(super) fn signed(x: f64) -> String {
+    if x == 0.0 {
+        return "0".to_owned();
+    }
     let size = significant(x.abs(), 2, 1e-3..1e5);
     if x < 0.0 { format!("−{size}") } else { format!("+{size}") }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::Moment;
+    use super::{Moment, signed};
+
+    #[test]
+    fn what_has_not_changed_has_no_sign() {
+        assert_eq!([0.0, -0.0, 0.25, -0.25].map(signed), ["0", "0", "+0.25", "−0.25"]);
+    }
 
     /// A motion that began at rest has no action of which a part could be changed.
     #[test]

@@ -18,6 +18,10 @@ use ratatui::layout::{Position, Size};
 
 use super::pen::TerminalPen;
 
+/// How many cells, in the order of rows, the next one to be written is chosen from. To move the cursor takes fewer bytes than
+/// to change a colour, so cells of one style are written one after the other.
+const WINDOW: usize = 64;
+
 /// Encodes frames.
 #[derive(Debug)]
 pub(super) struct Encoder {
@@ -101,6 +105,21 @@ impl Encoder {
         Ok(room)
     }
 
+    /// The index of the cell among these that takes the fewest bytes to write next, the first of them if several do.
+    fn cheapest(&self, window: &[((u16, u16), &Cell)]) -> Option<usize> {
+        let mut best = None;
+        for (index, ((y, x), cell)) in window.iter().enumerate() {
+            let cost = self.pen.cost((*x, *y), cell);
+            if best.is_none_or(|(least, _)| cost < least) {
+                best = Some((cost, index));
+            }
+            if cost == 0 {
+                break;
+            }
+        }
+        best.map(|(_, index)| index)
+    }
+
     /// Writes the remaining cells, starting where the last frame stopped and wrapping around.
     fn write_pending(&mut self) -> io::Result<()> {
         let behind = self.pending.split_off(&self.next);
@@ -132,15 +151,18 @@ impl Backend for Encoder {
             self.pending.extend(cells.map(|(x, y, cell)| ((y, x), cell.clone())));
             return self.write_pending();
         }
-        for (x, y, cell) in cells {
-            let place = (y, x);
-            if self.pending.is_empty() && self.put(place, cell)? {
-                continue;
+        let mut cells = cells.map(|(x, y, cell)| ((y, x), cell));
+        let mut window: Vec<_> = cells.by_ref().take(WINDOW).collect();
+        while let Some(index) = self.cheapest(&window) {
+            let (place, cell) = window.remove(index);
+            if !self.put(place, cell)? {
+                window.push((place, cell));
+                let rest = window.into_iter().chain(cells);
+                self.pending.extend(rest.map(|(place, cell)| (place, cell.clone())));
+                self.next = (0, 0);
+                break;
             }
-            if self.pending.is_empty() {
-                self.next = place;
-            }
-            self.pending.insert(place, cell.clone());
+            window.extend(cells.next());
         }
         Ok(())
     }

@@ -63,6 +63,22 @@ impl TerminalPen {
         self.at = known.then_some((x + 1, y));
     }
 
+    /// About how many bytes it takes to get to a cell and to its style; 0 if none.
+    pub(super) fn cost(&self, place: (u16, u16), cell: &Cell) -> usize {
+        let moves = match self.at {
+            Some(at) if at == place => 0,
+            Some((_, row)) if row == place.1 => 4,
+            _ => 7,
+        };
+        let Some(now) = self.ink else { return moves + 1 };
+        let to = self.wanted(cell);
+        let modifiers = if now.modifier == to.modifier { 0 } else { 2 };
+        let colours = [(now.fg, to.fg), (now.bg, to.bg)];
+        let colours = colours.into_iter().filter(|(old, new)| old != new);
+        let style = modifiers + colours.map(|(_, new)| parameters(new)).sum::<usize>();
+        moves + if style == 0 { 0 } else { style + 2 }
+    }
+
     /// Whether the cursor is at a cell.
     pub(super) fn is_at(&self, place: (u16, u16)) -> bool {
         self.at == Some(place)
@@ -93,8 +109,8 @@ impl TerminalPen {
         out.extend(ways.into_iter().min_by_key(Vec::len).unwrap_or_default());
     }
 
-    /// Switches to the style of a cell.
-    fn set_style(&mut self, out: &mut Vec<u8>, cell: &Cell) {
+    /// The style in which a cell is written: of a blank only what is visible, and for the rest the current one.
+    fn wanted(&self, cell: &Cell) -> CellStyle {
         let mut ink = CellStyle { fg: cell.fg, bg: cell.bg, modifier: cell.modifier };
         if let (" ", Some(now)) = (cell.symbol(), self.ink) {
             let seen = ink.modifier & ON_BLANKS;
@@ -103,6 +119,12 @@ impl TerminalPen {
                 ink.fg = now.fg;
             }
         }
+        ink
+    }
+
+    /// Switches to the style of a cell.
+    fn set_style(&mut self, out: &mut Vec<u8>, cell: &Cell) {
+        let ink = self.wanted(cell);
         if self.ink == Some(ink) {
             return;
         }
@@ -110,6 +132,15 @@ impl TerminalPen {
         let change = self.ink.map(|now| sequence(&change(now, ink), 'm'));
         out.extend(change.filter(|c| c.len() <= afresh.len()).unwrap_or(afresh));
         self.ink = Some(ink);
+    }
+}
+
+/// About how many bytes the parameters of a colour take, with the separator.
+fn parameters(colour: Color) -> usize {
+    match colour {
+        Color::Rgb(..) => 15,
+        Color::Indexed(_) => 9,
+        _ => 3,
     }
 }
 

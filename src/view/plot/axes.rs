@@ -58,6 +58,8 @@ pub struct Axes {
     pub y: DrawnAxis,
     /// Whether a unit has the same length on both axes.
     pub equal: bool,
+    /// By which parts of its width and height the window of such axes is moved.
+    pub pan: [f64; 2],
     /// Whether faint dots mark the crossings of ticks.
     pub grid: bool,
 }
@@ -73,13 +75,19 @@ struct Plan {
 impl Axes {
     /// Creates axes with free proportions and no grid.
     pub fn new(x: DrawnAxis, y: DrawnAxis) -> Self {
-        Self { x, y, equal: false, grid: false }
+        Self { x, y, equal: false, pan: [0.0; 2], grid: false }
     }
 
     /// Makes units equally long on both axes, so that circles are round.
     #[must_use]
     pub fn equal(self) -> Self {
         Self { equal: true, ..self }
+    }
+
+    /// The same axes with equal units, whose window is moved by parts of its width and height.
+    #[must_use]
+    pub fn panned(self, pan: [f64; 2]) -> Self {
+        Self { pan, ..self }
     }
 
     /// Adds a grid of faint dots.
@@ -149,10 +157,13 @@ impl Axes {
     }
 
     fn over(&self, area: Rect) -> PlotFrame {
-        if self.equal {
-            PlotFrame::equal(self.x.scale, self.y.scale, area)
-        } else {
-            PlotFrame::new(self.x.scale, self.y.scale, area)
+        if !self.equal {
+            return PlotFrame::new(self.x.scale, self.y.scale, area);
+        }
+        let still = PlotFrame::equal(self.x.scale, self.y.scale, area);
+        match self.pan {
+            [0.0, 0.0] => still,
+            [right, up] => PlotFrame::new(still.x.panned(right), still.y.panned(up), area),
         }
     }
 }

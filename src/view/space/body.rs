@@ -6,7 +6,7 @@
 use std::f64::consts::TAU;
 use std::sync::LazyLock;
 
-use super::solid::{self, Occluder as Surface, Piece as DrawnPiece};
+use super::solid::{self, Occluder, Piece as DrawnPiece, Surface};
 use crate::expr::Expr;
 use crate::instrument::CameraPose;
 use crate::mechanics::principal;
@@ -17,9 +17,6 @@ use crate::view::quantity::Quantities;
 
 /// The number of sides of a drawn rim.
 const SIDES: usize = 48;
-
-/// Every how many corners a cone's rim has: as many as its drawn rim.
-const CONE: usize = 2;
 
 /// The length of the principal axes relative to the body.
 const AXES: f64 = 1.25;
@@ -199,26 +196,27 @@ fn lines(solid: &Solid, value: &impl Fn(Expr) -> f64) -> Vec<Polyline3> {
 
 /// The surface of a solid in its own axes, about its centre of mass; what is thin has none.
 fn surfaces(solid: &Solid, value: &impl Fn(Expr) -> f64) -> Vec<Surface> {
-    let rim =
-        |radius: f64, z: f64| -> Polyline3 { circle(radius).map(|[x, y]| [x, y, z]).collect() };
+    let on_axis = |z: f64| [0.0, 0.0, z];
     match solid {
         Solid::Point | Solid::Ring(_) | Solid::Rod(_) => Vec::new(),
         Solid::Sphere(radius) | Solid::SphericalShell(radius) => {
-            vec![Surface::Ball([0.0; 3], value(*radius))]
+            vec![Surface::Plain(Occluder::Ball([0.0; 3], value(*radius)))]
         }
-        Solid::Cylinder { radius, length } => {
-            let (r, half) = (value(*radius), value(*length) / 2.0);
-            solid::tube(&rim(r, -half), &rim(r, half), true)
-        }
-        Solid::CylindricalShell { radius, length } => {
-            let (r, half) = (value(*radius), value(*length) / 2.0);
-            solid::tube(&rim(r, -half), &rim(r, half), false)
+        Solid::Cylinder { radius, length } | Solid::CylindricalShell { radius, length } => {
+            let half = value(*length) / 2.0;
+            let closed = matches!(solid, Solid::Cylinder { .. });
+            let ends = [-half, half].map(on_axis);
+            vec![Surface::Cylinder { ends, radius: value(*radius), closed }]
         }
         Solid::Cone { radius, height } => {
             let h = value(*height);
-            solid::cone([0.0, 0.0, 0.75 * h], [0.0, 0.0, -h / 4.0], value(*radius), CONE)
+            let [tip, base] = [0.75 * h, -h / 4.0].map(on_axis);
+            vec![Surface::Cone { tip, base, radius: value(*radius) }]
         }
-        Solid::Disc(radius) => vec![Surface::Face(rim(value(*radius), 0.0))],
+        Solid::Disc(radius) => {
+            let radius = value(*radius);
+            vec![Surface::Disc { centre: [0.0; 3], above: on_axis(radius), radius }]
+        }
         Solid::Cuboid(edges) => {
             let half = edges.map(|e| value(e) / 2.0);
             let square = |z: f64| -> Polyline3 {
@@ -226,7 +224,8 @@ fn surfaces(solid: &Solid, value: &impl Fn(Expr) -> f64) -> Vec<Surface> {
                     .map(|(x, y)| [x * half[0], y * half[1], z])
                     .to_vec()
             };
-            solid::tube(&square(-half[2]), &square(half[2]), true)
+            let faces = solid::tube(&square(-half[2]), &square(half[2]), true);
+            faces.into_iter().map(Surface::Plain).collect()
         }
     }
 }

@@ -112,8 +112,7 @@ impl Shading {
                 (index % usize::from(self.area.width), index / usize::from(self.area.width));
             let at = (self.area.x + column as u16, self.area.y + row as u16);
             let Some(cell) = buffer.cell_mut(at) else { continue };
-            let colours: [Option<Color>; 4] =
-                std::array::from_fn(|k| self.colour(quarters[k], self.room[k]));
+            let colours = self.colours(quarters);
             if cell.symbol() != " " || is_written(at.into()) {
                 let lined = |k: usize| self.tones[usize::from(quarters[k].tones)].1;
                 let lined = (0..4).filter(|&k| quarters[k].count > 0).all(lined);
@@ -140,12 +139,36 @@ impl Shading {
         }
     }
 
-    /// The colour of a quarter that is covered.
-    fn colour(&self, quarter: Quarter, room: u8) -> Option<Color> {
+    /// The colours of the quarters that are covered. Those of a cell that differ by one tone have the same one: a block takes
+    /// more bytes than a background, and its edge would move with every change of the light.
+    fn colours(&self, quarters: &[Quarter; 4]) -> [Option<Color>; 4] {
+        let whole = quarters.iter().fold(Quarter::default(), |sum, quarter| Quarter {
+            count: sum.count + quarter.count,
+            light: sum.light + quarter.light,
+            tones: quarter.tones,
+        });
+        let steps = quarters.map(|quarter| self.step(quarter));
+        let one = quarters.iter().all(|quarter| quarter.tones == whole.tones);
+        let apart = steps.iter().max().zip(steps.iter().min()).map_or(0, |(high, low)| high - low);
+        if one && apart <= 1 && self.is_whole(quarters) {
+            return [self.tone(whole); 4];
+        }
+        [0, 1, 2, 3].map(|k| {
+            is_covered(quarters[k], self.room[k]).then(|| self.tone(quarters[k])).flatten()
+        })
+    }
+
+    /// The colour of something with this light.
+    fn tone(&self, quarter: Quarter) -> Option<Color> {
         let (tones, _) = self.tones.get(usize::from(quarter.tones))?;
-        let (last, light) = (tones.len() - 1, quarter.light / f32::from(quarter.count));
-        let step = (light * last as f32).round() as usize;
-        is_covered(quarter, room).then(|| tones[step.min(last)])
+        tones.get(self.step(quarter)).copied()
+    }
+
+    /// The number of the tone of something with this light, or of the darkest where there is none.
+    fn step(&self, quarter: Quarter) -> usize {
+        let Some((tones, _)) = self.tones.get(usize::from(quarter.tones)) else { return 0 };
+        let (last, light) = (tones.len() - 1, quarter.light / f32::from(quarter.count.max(1)));
+        ((light * last as f32).round() as usize).min(last)
     }
 }
 

@@ -8,7 +8,7 @@ use crate::num::math;
 /// A piece: its surfaces, the lines along its edges, and its two smaller extents, the smallest first.
 #[derive(Clone, Debug)]
 pub(super) struct Piece {
-    pub(super) surfaces: Vec<Occluder>,
+    pub(super) surfaces: Vec<Surface>,
     pub(super) edges: Vec<Vec<[f64; 3]>>,
     pub(super) extents: [f64; 2],
 }
@@ -41,6 +41,54 @@ pub(super) fn along(from: [f64; 3], to: [f64; 3], radius: f64) -> [f64; 2] {
     smaller([2.0 * radius, 2.0 * radius, length])
 }
 
+/// A surface of a piece. What is round has no faces yet: those of a solid that spins about its axis would spin with it, and
+/// their light would flicker.
+#[derive(Clone, Debug)]
+pub(super) enum Surface {
+    /// A face or a ball.
+    Plain(Occluder),
+    /// A cylinder about the line between two points, with its ends or without.
+    Cylinder { ends: [[f64; 3]; 2], radius: f64, closed: bool },
+    /// A cone with its base.
+    Cone { tip: [f64; 3], base: [f64; 3], radius: f64 },
+    /// A disc about a centre, and a point above it.
+    Disc { centre: [f64; 3], above: [f64; 3], radius: f64 },
+}
+
+impl Surface {
+    /// The same surface with its points at other places; they keep their distances.
+    fn moved(self, place: impl Fn([f64; 3]) -> [f64; 3]) -> Self {
+        match self {
+            Self::Plain(solid) => Self::Plain(solid.moved(place)),
+            Self::Cylinder { ends, radius, closed } => {
+                Self::Cylinder { ends: ends.map(place), radius, closed }
+            }
+            Self::Cone { tip, base, radius } => {
+                Self::Cone { tip: place(tip), base: place(base), radius }
+            }
+            Self::Disc { centre, above, radius } => {
+                Self::Disc { centre: place(centre), above: place(above), radius }
+            }
+        }
+    }
+
+    /// Its faces, where the rim of a radius has every so many corners of a circle.
+    pub(super) fn occluders(self, spacing: impl Fn(f64) -> usize) -> Vec<Occluder> {
+        match self {
+            Self::Plain(solid) => vec![solid],
+            Self::Cylinder { ends, radius, closed } => {
+                let [low, high] = rims(ends, radius, spacing(radius));
+                tube(&low, &high, closed)
+            }
+            Self::Cone { tip, base, radius } => cone(tip, base, radius, spacing(radius)),
+            Self::Disc { centre, above, radius } => {
+                let normal = [0, 1, 2].map(|k| above[k] - centre[k]);
+                vec![Occluder::Face(circle::rim(centre, radius, normal, spacing(radius)))]
+            }
+        }
+    }
+}
+
 /// What hides the things behind it.
 #[derive(Clone, Debug)]
 pub(super) enum Occluder {
@@ -61,7 +109,7 @@ impl Occluder {
 }
 
 /// The surface of a cone, its base first, with every so many corners of its rim.
-pub(super) fn cone(tip: [f64; 3], base: [f64; 3], radius: f64, spacing: usize) -> Vec<Occluder> {
+fn cone(tip: [f64; 3], base: [f64; 3], radius: f64, spacing: usize) -> Vec<Occluder> {
     let axis = [0, 1, 2].map(|k| base[k] - tip[k]);
     let rim = circle::rim(base, radius, axis, spacing);
     let sides = rim.windows(2).map(|pair| Occluder::Face(vec![tip, pair[0], pair[1]])).collect();

@@ -4,7 +4,7 @@
 
 use super::circle;
 use super::filling::{Filling, PieceStyle};
-use super::solid::{self, Occluder, Piece};
+use super::solid::{self, Occluder, Piece, Surface};
 use super::{BODY, SURFACE, ScenePainter};
 use crate::model::Shape;
 use crate::view::colour::ColourDepth;
@@ -27,7 +27,8 @@ const INSIDE: f64 = 0.9;
 impl ScenePainter<'_> {
     /// Adds the surfaces of a shape to what hides others.
     pub(super) fn surfaces(&mut self, shape: &Shape) {
-        if self.range.is_none() && !matches!(shape, Shape::Disc { .. }) {
+        let in_space = self.range.is_some();
+        if !in_space && !matches!(shape, Shape::Disc { .. } | Shape::Mass { .. }) {
             return;
         }
         let theme = &self.q.look.theme;
@@ -35,45 +36,50 @@ impl ScenePainter<'_> {
             let style = own.map_or(theme[Role::Level], |series| theme.curve(series));
             (Pen::new(style, SURFACE), OPAQUE)
         };
-        let piece = |surfaces, extents| Piece { surfaces, edges: Vec::new(), extents };
+        let piece =
+            |surface, extents| Piece { surfaces: vec![surface], edges: Vec::new(), extents };
         let ((pen, shares), pieces) = match shape {
             Shape::Disc { centre, radius, normal } => {
                 let own = self.own_colour(centre);
                 let (centre, normal) = (self.point(centre), self.direction(normal));
                 let radius = self.q.number(*radius);
-                let rim = self.rim(centre, radius, normal);
-                (faint(own), vec![piece(vec![Occluder::Face(rim)], solid::disc(radius))])
+                let above = [0, 1, 2].map(|k| centre[k] + normal[k]);
+                let disc = Surface::Disc { centre, above, radius };
+                (faint(own), vec![piece(disc, solid::disc(radius))])
             }
             Shape::Cone { tip, base, radius } => {
                 let own = self.own_colour(base);
                 let (tip, base) = (self.point(tip), self.point(base));
                 let radius = self.q.number(*radius);
-                let cone = solid::cone(tip, base, radius, self.spacing(radius));
+                let cone = Surface::Cone { tip, base, radius };
                 (faint(own), vec![piece(cone, solid::along(tip, base, radius))])
             }
             Shape::Cylinder { from, to, radius } => {
                 let own = self.own_colour(from);
-                let (from, to) = (self.point(from), self.point(to));
+                let ends = [self.point(from), self.point(to)];
                 let radius = self.q.number(*radius);
-                let [low, high] = solid::rims([from, to], radius, self.spacing(radius));
-                let tube = solid::tube(&low, &high, true);
-                (faint(own), vec![piece(tube, solid::along(from, to, radius))])
+                let tube = Surface::Cylinder { ends, radius, closed: true };
+                (faint(own), vec![piece(tube, solid::along(ends[0], ends[1], radius))])
             }
             Shape::Sphere { centre, radius } => {
                 let colourless = theme.depth() == ColourDepth::None;
                 let shares = if colourless { COLOURLESS_SPHERE } else { SPHERE };
                 let radius = self.q.number(*radius).abs();
                 let ball = Occluder::Ball(self.point(centre), radius);
-                ((faint(None).0, shares), vec![piece(vec![ball], [2.0 * radius; 2])])
+                ((faint(None).0, shares), vec![piece(Surface::Plain(ball), [2.0 * radius; 2])])
             }
             Shape::Mass { at, radius: Some(radius) } => {
                 let radius = self.q.number(*radius).abs();
-                if self.cells(radius).is_none() {
+                if !self.is_ball(radius) {
                     return;
                 }
                 let style = theme.curve(self.colour(at));
-                let ball = Occluder::Ball(self.point(at), radius);
-                ((Pen::new(style, BODY), WHOLE), vec![piece(vec![ball], [2.0 * radius; 2])])
+                let centre = self.point(at);
+                let ball = Occluder::Ball(centre, radius);
+                (
+                    (Pen::new(style, BODY), WHOLE),
+                    vec![piece(Surface::Plain(ball), [2.0 * radius; 2])],
+                )
             }
             Shape::Body { at } => {
                 let Some(outline) = self.outline else { return };
@@ -90,7 +96,8 @@ impl ScenePainter<'_> {
         for piece in pieces {
             let style = PieceStyle::of(piece.extents, column);
             let surfaces = piece.surfaces.into_iter();
-            let solids = surfaces.map(|s| s.moved(|point| projection.of(point))).collect();
+            let solids = surfaces.flat_map(|surface| surface.occluders(|r| self.spacing(r)));
+            let solids = solids.map(|solid| solid.moved(|point| projection.of(point))).collect();
             self.surfaces.push(Filling { pen, shares, style, solids, see_through });
         }
     }
@@ -156,6 +163,16 @@ impl ScenePainter<'_> {
         std::mem::swap(&mut self.raster, &mut self.edges);
         draw(self);
         std::mem::swap(&mut self.raster, &mut self.edges);
+    }
+
+    /// Whether a mass of this radius is a ball among the surfaces: in space if it has its size on the screen, and in a plane
+    /// beside a disc.
+    pub(super) fn is_ball(&self, radius: f64) -> bool {
+        let is_disc = |shape: &Shape| matches!(shape, Shape::Disc { .. });
+        let is_thick = PieceStyle::of([2.0 * radius; 2], self.column()) == PieceStyle::Solid;
+        let beside_disc =
+            || is_thick && self.q.lab.shapes(self.eye).any(|(shape, _)| is_disc(shape));
+        self.cells(radius).is_some() && (self.range.is_some() || beside_disc())
     }
 
     /// Draws the outline of a sphere where it has no tones of its own: all of it if it is small, and otherwise what is seen through

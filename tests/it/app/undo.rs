@@ -158,3 +158,28 @@ fn changes_undone_at_once_lead_back_one_by_one() {
     let changed = real.seen().parameters.iter().zip(&*file).filter(|(now, old)| now != old);
     assert_eq!(changed.count(), 1);
 }
+
+/// A held key is pressed again and again, thirty times a second.
+#[test]
+fn a_held_key_is_one_change() {
+    for (keys, name) in [("Right", "pendulum"), ("Tab Right", "pendulum"), ("Right", "spin-up")] {
+        let mut real = Real::of(name);
+        real.run(60);
+        let start = real.seen().parameters.clone();
+        let (held, before) =
+            (keys.rsplit(' ').next().unwrap(), keys.strip_suffix("Right").unwrap());
+        real.press(before);
+        for _ in 0..20 {
+            real.press(held);
+            real.run(2);
+        }
+        let values =
+            |real: &Real| (real.seen().parameters.clone(), real.seen().setup.overrides.clone());
+        let (changed, given) = values(&real);
+        assert!(changed != start || !given.is_empty());
+        real.press("u");
+        assert_eq!(values(&real), (start, Vec::new()), "{keys} in {name}");
+        real.press("u");
+        assert!(said(&real).starts_with("Nothing to undo"), "{}", said(&real));
+    }
+}

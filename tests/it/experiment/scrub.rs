@@ -110,3 +110,22 @@ fn the_way_back_can_be_looked_at_too() {
     assert!(pairs.filter(|(a, _)| a.is_finite()).all(|(a, b)| (a - b).abs() < 1e-13));
     assert!(seen.trail.rows().all(|row| row[0] >= 6.0));
 }
+
+#[test]
+fn the_motions_beside_it_have_their_crossings_up_to_there() {
+    let mut experiment = shipped("henon-heiles");
+    experiment.execute(Command::AddNeighbour);
+    run(&mut experiment, 60.0);
+    let crossed = |experiment: &phaselab::experiment::Experiment, until: f64| {
+        let seen = experiment.snapshot();
+        let one = &seen.companions[0];
+        let rows = one.crossings.rows(0, one.values.len());
+        rows.map(|row| row[0]).filter(|time| *time <= until).collect::<Vec<_>>()
+    };
+    let (all, early) = (crossed(&experiment, 60.0), crossed(&experiment, 25.0));
+    assert!(!early.is_empty() && early.len() < all.len());
+    experiment.execute(Command::LookAt(25.0));
+    assert_eq!(crossed(&experiment, 60.0), early);
+    experiment.execute(Command::LookAt(60.0));
+    assert_eq!(crossed(&experiment, 60.0), all);
+}

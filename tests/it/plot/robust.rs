@@ -64,6 +64,7 @@ fn everything(
         x: DrawnAxis::new("θ", "rad", x),
         y: DrawnAxis::new("p_θ", "kg m²/s", y),
         equal: false,
+        pan: points.first().copied().unwrap_or_default(),
         grid: true,
     };
     let axes = if area.width.is_multiple_of(2) { axes } else { axes.equal() };

@@ -263,6 +263,128 @@ fn the_wheel_zooms_about_the_place_under_it() {
     }
 }
 
+/// With a unit as long on both axes one of them is longer than what it shows; the place under the mouse stays there, too.
+#[test]
+fn a_plane_is_zoomed_and_moved_with_the_mouse() {
+    let size = (120, 40);
+    for name in ["foucault", "charge-in-fields", "rolling-disc"] {
+        let mut real = Real::of(name);
+        real.run(300);
+        let is_plane = |plot: &phaselab::instrument::Plot| {
+            plot.viewport().is_some_and(|viewport| viewport.equal)
+        };
+        let picture = real.lab().plots.iter().position(is_plane).unwrap();
+        let (x, y) = inside(&real.app, size, picture);
+        let place = (x + 9, y - 4);
+        let coordinates = |real: &Real, place| match at(&real.app, size, place) {
+            Some(HitTarget::Plot { at, .. }) => at,
+            other => panic!("{other:?}"),
+        };
+        let cell = |real: &Real| {
+            let [from, to] = [(x, y), (x + 1, y)].map(|place| coordinates(real, place)[0]);
+            (to - from).abs()
+        };
+        let before = coordinates(&real, place);
+        for _ in 0..4 {
+            act(&mut real, size, ScrollUp, place);
+        }
+        let after = coordinates(&real, place);
+        // the labels of the ticks may take another column
+        let off = [0, 1].map(|k| (after[k] - before[k]).abs() / cell(&real));
+        assert!(off[0] < 2.1 && off[1] < 4.1, "{name}: {before:?} {after:?}");
+        let before = coordinates(&real, place);
+        act(&mut real, size, Down(Left), place);
+        act(&mut real, size, Drag(Left), (place.0 + 6, place.1 + 3));
+        let after = coordinates(&real, (place.0 + 6, place.1 + 3));
+        let off = [0, 1].map(|k| (after[k] - before[k]).abs() / cell(&real));
+        assert!(off[0] < 2.1 && off[1] < 4.1, "{name}: {before:?} {after:?}");
+    }
+}
+
+/// The cells with a disc in some columns of the upper half.
+fn discs(app: &App, columns: std::ops::Range<u16>) -> Vec<(u16, u16)> {
+    let buffer = screen(app, &rich(), (120, 40));
+    let cells = (2..22).flat_map(|y| columns.clone().map(move |x| (x, y)));
+    cells.filter(|at| buffer[*at].symbol() == "●").collect()
+}
+
+fn is_near(discs: &[(u16, u16)], at: (u16, u16)) -> bool {
+    discs.iter().any(|disc| disc.0.abs_diff(at.0) <= 1 && disc.1.abs_diff(at.1) <= 1)
+}
+
+#[test]
+fn the_wheel_zooms_a_scene_about_the_place_under_it() {
+    let size = (120, 40);
+    let mut real = Real::of("heavy-top");
+    real.run(60);
+    let before = real.lab().plots[0].clone();
+    let tip = discs(&real.app, 1..39)[0];
+    // the disc is up to half a cell off the middle of its cell
+    for _ in 0..3 {
+        act(&mut real, size, ScrollUp, tip);
+        assert!(is_near(&discs(&real.app, 1..39), tip), "{tip:?}");
+    }
+    let zoomed = real.lab().plots[0].eye().unwrap();
+    assert!(zoomed.zoom > 1.7);
+    // the whole scene is in the middle again
+    for _ in 0..4 {
+        act(&mut real, size, ScrollDown, (20, 12));
+    }
+    act(&mut real, size, ScrollUp, (20, 12));
+    let eye = real.lab().plots[0].eye().unwrap();
+    assert!((eye.zoom - 1.0).abs() < 1e-9 && eye.pan == [0.0; 2], "{eye:?}");
+    real.press("Home");
+    assert_eq!(real.lab().plots[0].eye(), before.eye());
+}
+
+/// A plane picture is not turned by a drag, but a part of it is moved.
+#[test]
+fn a_drag_moves_a_part_of_a_scene_in_a_plane() {
+    let size = (120, 40);
+    let mut real = Real::of("double-pendulum");
+    real.run(60);
+    let picture = real.lab().plots.iter().position(|plot| plot.eye().is_some()).unwrap();
+    let (x, y) = inside(&real.app, size, picture);
+    act(&mut real, size, ScrollUp, (x, y));
+    let before = real.lab().plots[picture].eye().unwrap();
+    act(&mut real, size, Down(Left), (x, y));
+    act(&mut real, size, Drag(Left), (x + 4, y));
+    let after = real.lab().plots[picture].eye().unwrap();
+    assert_eq!((after.yaw, after.pitch, after.zoom), (before.yaw, before.pitch, before.zoom));
+    assert!(after.pan[0] < before.pan[0] - 0.05, "{before:?} {after:?}");
+}
+
+#[test]
+fn keys_zoom_a_plot_about_the_moving_point_or_the_cursor() {
+    let mut real = Real::of("pendulum");
+    real.run(75);
+    while real.lab().focus != Pane::Plot(1) {
+        real.press("Tab");
+    }
+    let now = discs(&real.app, 41..79);
+    assert_eq!(now.len(), 1);
+    let draw = |real: &mut Real| {
+        let drawn = super::drawn(&real.app, &rich(), (120, 40)).1;
+        real.app.update(Event::Drawn(drawn));
+        drawn
+    };
+    for _ in 0..5 {
+        draw(&mut real);
+        real.press("+");
+        // tick labels shift the axes by a cell
+        assert!(is_near(&discs(&real.app, 41..79), now[0]), "{now:?}");
+    }
+    real.press("Home c Up Up Up Up Left Left Left");
+    let before = draw(&mut real).reading.unwrap();
+    for _ in 0..3 {
+        draw(&mut real);
+        real.press("+");
+    }
+    let after = draw(&mut real).reading.unwrap();
+    assert!((after[0] - before[0]).abs() < 0.2, "{before:?} {after:?}");
+    assert!((after[1] - before[1]).abs() < 0.5, "{before:?} {after:?}");
+}
+
 /// A pendulum in a plane is seen face on; turned by accident it would swing askew.
 #[test]
 fn a_motion_in_a_plane_does_not_turn_under_the_mouse() {

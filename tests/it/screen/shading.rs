@@ -367,3 +367,61 @@ fn a_caption_keeps_its_blanks() {
     let text = super::rows(&screen(&app, &rich(), (200, 60))).join("\n");
     assert_eq!(text.matches(words[0]).count(), 14, "{text}");
 }
+
+/// A wheel that spins about its axle looks the same from one moment to the next, but for what is marked on it.
+#[test]
+fn what_is_round_does_not_flicker_while_it_spins() {
+    let mut real = Real::of("unbalanced-wheel");
+    real.run(60);
+    let mut shades = Vec::new();
+    for _ in 0..12 {
+        real.run(2);
+        let buffer = drawn(&real.app, ColourDepth::True, Glyphs::Braille);
+        let cells = (2..22).flat_map(|y| (1..39).map(move |x| (x, y)));
+        let blank = |cell: &Cell| (cell.symbol() == " ").then_some(cell.bg);
+        shades.push(cells.map(|at| blank(&buffer[at])).collect::<Vec<_>>());
+    }
+    let covered = shades[0].iter().flatten().filter(|colour| **colour != Color::Reset);
+    assert!(covered.count() > 30);
+    for pair in shades.windows(2) {
+        let both = pair[0].iter().zip(&pair[1]).filter_map(|(a, b)| a.as_ref().zip(b.as_ref()));
+        assert_eq!(both.filter(|(a, b)| a != b).count(), 0);
+    }
+}
+
+/// A ball beside a disc is as solid as that is.
+#[test]
+fn a_ball_in_a_plane_is_shaded_beside_a_disc() {
+    let mut real = Real::of("rolling-race");
+    real.run(20);
+    let buffer = drawn(&real.app, ColourDepth::True, Glyphs::Braille);
+    let cells = (2..22).flat_map(|y| (1..39).map(move |x| (x, y)));
+    let greenish = |colour: Color| {
+        Rgb::of(colour).is_some_and(|Rgb(r, g, b)| g > r.saturating_add(20) && g > b)
+    };
+    assert!(cells.filter(|at| greenish(buffer[*at].bg)).count() >= 4);
+}
+
+/// A motion beside the main one is drawn with the rims and edges of its body, where the body of the main one does not hide them.
+#[test]
+fn a_second_top_is_drawn_with_its_body() {
+    use phaselab::experiment::Command;
+    use phaselab::system::InitialOverride::Position;
+    let look = rich();
+    // its colour, as it looks at any distance
+    let style = look.theme.curve(4);
+    let inks: Vec<_> =
+        (0..=12).map(|far| look.theme.receding(style, f64::from(far) / 12.0).fg).collect();
+    let counts = [0.0, 1.5, 3.0, 4.5].map(|phi| {
+        let mut real = Real::of("heavy-top");
+        real.experiment.execute(Command::AddStart(vec![Position(0, 1.3), Position(1, phi)]));
+        real.run(4);
+        let buffer = screen(&real.app, &look, (120, 40));
+        let cells = (2..22).flat_map(|y| (1..39).map(move |x| (x, y)));
+        let is_own =
+            |at: &(u16, u16)| buffer[*at].symbol() != " " && inks.contains(&Some(buffer[*at].fg));
+        cells.filter(is_own).count()
+    });
+    // the rod and the number at its end are fewer than ten
+    assert!(counts.iter().any(|count| *count > 20), "{counts:?}");
+}
