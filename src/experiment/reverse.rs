@@ -162,6 +162,9 @@ impl Experiment {
 
     /// Compares the motion with the run before, where that has been.
     pub(super) fn compare_with_echo(&mut self) {
+        if self.echo.is_none() {
+            return;
+        }
         let variables = self.variables();
         let periods = self.periods(&variables);
         let Some(echo) = &mut self.echo else { return };

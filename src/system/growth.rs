@@ -171,10 +171,9 @@ impl<R: Real> SeriesBuilder<R> {
 
     /// Copies all orders known in another precision.
     pub(super) fn take_over<S: Real>(&mut self, other: &SeriesBuilder<S>) -> Result<(), Singular> {
-        for i in 0..self.len() {
-            for (k, &c) in other.series(i).iter().enumerate() {
-                self.state[i * (self.order + 1) + k] = R::of(c.double());
-            }
+        let series = self.state.chunks_exact_mut(self.order + 1);
+        for (own, other) in series.zip(other.state.chunks_exact(other.order + 1)) {
+            own.iter_mut().zip(other).for_each(|(x, y)| *x = R::of(y.double()));
         }
         self.kept.clone_from(&other.kept);
         self.steered.clone_from(&other.steered);
