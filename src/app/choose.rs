@@ -80,7 +80,7 @@ impl App {
             // which axes make a plane is known once all of them are
             let begun = begun.opened(lab.loaded.physics());
             lab.redraw(plot, |plot, _| *plot = begun);
-            lab.focus = Pane::Plot(plot);
+            lab.focus.pane = Pane::Plot(plot);
             return Vec::new();
         };
         let shown = lab.plots.get(plot);

@@ -405,7 +405,7 @@ impl App {
                     buffer.diagnostics.clear();
                     buffer.state = BufferState::Rebuilt(took);
                 }
-                let waits = |lab: &Lab| lab.awaited.is_some() || lab.held.is_some();
+                let waits = |lab: &Lab| lab.restoration.checkpoint().is_some();
                 let resumes = self.lab.as_ref().is_some_and(waits);
                 // a quantity typed for an axis or a section is no change of the text
                 let is_quantity = self.typed_axis.is_some() || self.new_section.is_some();

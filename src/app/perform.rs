@@ -97,9 +97,9 @@ impl App {
             Action::StepBack => vec![Effect::Tell(Command::StepBack(1))],
             Action::Slower | Action::Faster => {
                 let shown = lab.snapshot.as_ref().map_or(1.0, |s| s.speed);
-                let speed = lab.speed_wish.unwrap_or(shown);
+                let speed = lab.pending.speed.unwrap_or(shown);
                 let speed = if action == Action::Faster { faster(speed) } else { slower(speed) };
-                lab.speed_wish = Some(speed);
+                lab.pending.speed = Some(speed);
                 vec![Effect::Tell(Command::Speed(speed))]
             }
             Action::Reset => vec![Effect::Tell(Command::Reset)],
@@ -139,13 +139,13 @@ impl App {
             },
             Action::NextPane | Action::PreviousPane => {
                 let panes: Vec<Pane> = lab.panes().collect();
-                let at = panes.iter().position(|pane| *pane == lab.focus).unwrap_or(0);
+                let at = panes.iter().position(|pane| *pane == lab.focus.pane).unwrap_or(0);
                 let by = if action == Action::NextPane { 1 } else { panes.len() - 1 };
-                lab.focus = panes[(at + by) % panes.len()];
+                lab.focus.pane = panes[(at + by) % panes.len()];
                 Vec::new()
             }
             Action::Zoom => {
-                lab.zoomed = !lab.zoomed;
+                lab.focus.zoomed = !lab.focus.zoomed;
                 Vec::new()
             }
             Action::ChooseAxes => self.open_axes(),
@@ -220,7 +220,7 @@ impl App {
 
     fn with_plot(&mut self, change: impl FnOnce(&mut Plot, &super::Loaded)) -> Vec<Effect> {
         if let Some(lab) = &mut self.lab
-            && let Pane::Plot(index) = lab.focus
+            && let Pane::Plot(index) = lab.focus.pane
         {
             lab.redraw(index, change);
         }
@@ -237,7 +237,7 @@ impl App {
         let Some(lab) = &mut self.lab else { return Vec::new() };
         let pictures = lab.focused_plot().into_iter().chain(lab.plots.iter().enumerate());
         let picture = pictures.filter(|(_, plot)| plot.kind.is_scene()).map(|(i, _)| i);
-        let Some(picture) = picture.min_by_key(|i| lab.focus != Pane::Plot(*i)) else {
+        let Some(picture) = picture.min_by_key(|i| lab.focus.pane != Pane::Plot(*i)) else {
             return self
                 .notify("No picture shows the motion in space; v chooses what a pane shows.");
         };
@@ -333,7 +333,7 @@ impl App {
         }
         match (self.page, &mut self.lab) {
             (Page::Picker, _) => self.picker.forget_search(),
-            (Page::Lab, Some(lab)) if lab.zoomed => lab.zoomed = false,
+            (Page::Lab, Some(lab)) if lab.focus.zoomed => lab.focus.zoomed = false,
             (Page::Lab, Some(_)) if !leaves => {
                 let lesson = self.hints == KeyHints::LabInLesson;
                 let sentence = if lesson { LEAVING_LESSON } else { LEAVING };
@@ -383,9 +383,9 @@ impl App {
             Some(Overlay::Help { .. } | Overlay::Message(_)) => self.roll(by),
             None => match (self.page, &mut self.lab) {
                 (Page::Picker, _) | (_, None) => self.picker.step(by),
-                (Page::Lab, Some(lab)) if lab.focus == Pane::Law => lab.roll_law(by),
+                (Page::Lab, Some(lab)) if lab.focus.pane == Pane::Law => lab.roll_law(by),
                 (Page::Lab, Some(lab)) => {
-                    if let Pane::Plot(_) = lab.focus {
+                    if let Pane::Plot(_) = lab.focus.pane {
                         let way = if by < 0 { ArrowDirection::Up } else { ArrowDirection::Down };
                         return self.with_plot(|plot, _| plot.shift(way.step()));
                     }

@@ -94,8 +94,10 @@ impl App {
         }
         let (None, Some(lab)) = (&self.overlay, &mut self.lab) else { return Vec::new() };
         match hit {
-            HitTarget::Pane(pane) => lab.focus = pane,
-            HitTarget::Gauge(index) => (lab.focus, lab.selection.gauge) = (Pane::Gauges, index),
+            HitTarget::Pane(pane) => lab.focus.pane = pane,
+            HitTarget::Gauge(index) => {
+                (lab.focus.pane, lab.selection.gauge) = (Pane::Gauges, index)
+            }
             HitTarget::Value(target) => {
                 if lab.selected() == Some(target) {
                     return self.perform(Action::TypeValue);
@@ -113,7 +115,7 @@ impl App {
                 return vec![Effect::Tell(Command::LookAt(time))];
             }
             HitTarget::Plot { index, place, .. } | HitTarget::Space { index, place } => {
-                lab.focus = Pane::Plot(index);
+                lab.focus.pane = Pane::Plot(index);
                 lab.history.begin_group();
                 self.hold = Some(Grab::Picture { index, place, moved: false });
             }
@@ -195,14 +197,14 @@ impl App {
                         lab.redraw(index, |plot, _| plot.zoom_about(factor, place));
                     }
                     HitTarget::Value(target) | HitTarget::Bar { target, .. } => {
-                        lab.focus = match target {
+                        lab.focus.pane = match target {
                             ValueId::Parameter(_) => Pane::Parameters,
                             ValueId::Initial(_) => Pane::Initial,
                         };
                         lab.select(|place| place.saturating_add_signed(-up));
                     }
                     HitTarget::Gauge(_) => {
-                        lab.focus = Pane::Gauges;
+                        lab.focus.pane = Pane::Gauges;
                         lab.select(|place| place.saturating_add_signed(-up));
                     }
                     _ => {}

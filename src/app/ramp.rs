@@ -98,7 +98,7 @@ impl App {
 impl Lab {
     /// Whether the motion waits for the law with a ramp that was typed.
     pub fn waits_for_law(&self) -> bool {
-        self.held.is_some()
+        self.restoration.waits_for_rebuild()
     }
 
     /// Lets the motion continue from what is seen, once the law with the ramp is there: the ramp begins at that very time, so
@@ -108,7 +108,7 @@ impl Lab {
         let Loaded { model, system, .. } = &self.loaded;
         let checkpoint = Checkpoint::of(model, system, seen).with_past(system, seen);
         let checkpoint = checkpoint.with_another_law(name);
-        self.held.get_or_insert(checkpoint);
+        self.restoration.begin_after_rebuild(checkpoint);
     }
 
     /// Adds the pane with the action variable of the only coordinate, if it is not there, and brings it into view. The focus
@@ -125,7 +125,7 @@ impl Lab {
             Some(self.plots.len() - 1)
         });
         if let Some(index) = index {
-            self.bring_to_front(index);
+            self.focus.bring_to_front(index);
             self.answers.stale = true;
         }
     }

@@ -238,7 +238,7 @@ impl App {
                 [Place::Search, Place::Typing]
             }
             (Page::Picker, _) | (_, None) => [Place::Picker, Place::Anywhere],
-            (Page::Lab, Some(lab)) => match (lab.focus, lab.focused_plot()) {
+            (Page::Lab, Some(lab)) => match (lab.focus.pane, lab.focused_plot()) {
                 (_, Some((_, plot))) if plot.kind.is_scene() => [Place::Space, Place::Lab],
                 (Pane::Plot(_), _) => [Place::Plot, Place::Lab],
                 (Pane::Parameters | Pane::Initial, _) => [Place::Values, Place::Lab],

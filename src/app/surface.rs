@@ -138,7 +138,7 @@ impl App {
         let Some(section) = Plot::of_view(lab.loaded.physics(), last) else { return };
         if let Some(shown) = lab.plots.get_mut(plot).filter(|_| section.kind.is_section()) {
             *shown = section;
-            lab.focus = Pane::Plot(plot);
+            lab.focus.pane = Pane::Plot(plot);
             lab.answers.stale = true;
         }
     }

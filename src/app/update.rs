@@ -32,9 +32,9 @@ impl App {
             self.list_unsaved();
         }
         if let Some(lab) = &mut self.lab
-            && let Pane::Plot(index) = lab.focus
+            && let Pane::Plot(index) = lab.focus.pane
         {
-            lab.bring_to_front(index);
+            lab.focus.bring_to_front(index);
         }
         effects
     }
@@ -48,7 +48,7 @@ impl App {
             self.notifications.clear();
             // a motion that waits for a law gives way to the one that is begun
             if let Some(lab) = &mut self.lab {
-                lab.held = None;
+                lab.restoration.forget_rebuild();
             }
         }
     }
@@ -132,7 +132,7 @@ impl App {
         self.end_group();
         self.mending = None;
         if let Some(lab) = self.lab.as_mut().filter(|_| self.page != Page::Picker) {
-            lab.untouched = false;
+            lab.focus.untouched = false;
         }
         let places = self.places();
         if let Some(action) = keymap::action(key, places) {

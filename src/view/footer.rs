@@ -47,7 +47,7 @@ pub(super) fn footer(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
     // The last two hints, help and quit, are always shown; the others are dropped to make room for the meaning.
     let room = usize::from(area.width);
     // If its pane is small, a gauge's reason appears in full nowhere else.
-    let gauge = app.lab.as_ref().is_some_and(|lab| lab.focus == Pane::Gauges);
+    let gauge = app.lab.as_ref().is_some_and(|lab| lab.focus.pane == Pane::Gauges);
     let most = if gauge { room } else { room * 2 / 3 };
     let meant = if meaning.is_empty() { 0 } else { meaning.width().min(most) + 2 };
     while hints.len() > 2 && meant + wide > room + 3 {
@@ -158,7 +158,7 @@ fn ended(snapshot: &Snapshot) -> Option<String> {
 /// The meaning, unit and range of the selected item.
 fn meaning(canvas: &Canvas<'_>, lab: &Lab) -> String {
     let glyphs = canvas.look.glyphs;
-    if lab.focus == Pane::Gauges {
+    if lab.focus.pane == Pane::Gauges {
         let gauge = lab.snapshot.as_ref().and_then(|s| s.gauges.get(lab.selection.gauge));
         return gauge.map_or_else(String::new, |gauge| {
             let name = glyphs.pick(&gauge.shown, &gauge.name);

@@ -79,7 +79,7 @@ pub(super) fn draw(
         Picture::Axes { upwards, layers, occurrences } => (upwards, layers, occurrences),
     };
     let look = canvas.look;
-    let (whole, zoomable) = (area, !q.lab.zoomed);
+    let (whole, zoomable) = (area, !q.lab.focus.zoomed);
     let (area, beside) = legend::beside(whole, (&layers, zoomable), canvas.look);
     let mut axes = Axes::new(across?, axis_upwards(q, &upwards, viewport));
     if let Across::Channel(x, None) = plot.kind.across(plot, &present, answer)

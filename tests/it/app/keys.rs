@@ -163,8 +163,8 @@ fn facts(app: &App) -> Vec<(String, String)> {
     let system = app.picker.current().map_or("none", |entry| entry.name.as_str());
     fact("system", system.to_owned());
     let Some(lab) = &app.lab else { return facts };
-    fact("focus", format!("{:?}", lab.focus));
-    fact("zoomed", lab.zoomed.to_string());
+    fact("focus", format!("{:?}", lab.focus.pane));
+    fact("zoomed", lab.focus.zoomed.to_string());
     let selection = lab.selection;
     fact("parameter", selection.parameter.to_string());
     fact("initial value", selection.initial.to_string());
@@ -393,7 +393,7 @@ fn the_palette_acts_on_the_nearest_pane() {
         app.update(Event::Paste("show or hide a cursor".to_owned()));
         press(&mut app, "Enter");
         let lab = app.lab.as_ref().unwrap();
-        assert_eq!((app.page, lab.focus), (Page::Lab, Pane::Plot(1)), "{begin}");
+        assert_eq!((app.page, lab.focus.pane), (Page::Lab, Pane::Plot(1)), "{begin}");
         let cursor = lab.plots[1].viewport().unwrap().cursor;
         assert_eq!(cursor, Some([0.5, 0.5]), "{begin}");
         let told = app.notice.as_ref().map(|notice| notice.text.clone()).unwrap_or_default();
@@ -404,12 +404,12 @@ fn the_palette_acts_on_the_nearest_pane() {
     press(&mut app, ":");
     app.update(Event::Paste("look from higher".to_owned()));
     press(&mut app, "Enter");
-    assert_eq!(app.lab.as_ref().unwrap().focus, Pane::Plot(0));
+    assert_eq!(app.lab.as_ref().unwrap().focus.pane, Pane::Plot(0));
     let mut app = in_lab();
     press(&mut app, "Tab Tab Tab Tab Tab Tab Tab :");
     app.update(Event::Paste("show or hide a cursor".to_owned()));
     press(&mut app, "Enter");
-    assert_eq!(app.lab.as_ref().unwrap().focus, Pane::Plot(3), "the one focused last");
+    assert_eq!(app.lab.as_ref().unwrap().focus.pane, Pane::Plot(3), "the one focused last");
     // Among the systems there is no pane.
     let (_, menu) = palette(&at_picker());
     assert!(menu.items.iter().all(|item| !matches!(item.choice, Choice::ActionAt(..))));

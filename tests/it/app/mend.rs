@@ -78,7 +78,7 @@ fn a_wrong_file_is_edited_at_its_first_error_and_then_runs() {
     assert_eq!(app.lab.as_ref().map(|lab| lab.loaded.name.as_str()), Some(name));
     press(&mut app, "Esc");
     assert_eq!(app.page, Page::Lab);
-    assert!(app.overlay.is_none() && app.lab.as_ref().unwrap().focus == Pane::Parameters);
+    assert!(app.overlay.is_none() && app.lab.as_ref().unwrap().focus.pane == Pane::Parameters);
     assert!(app.unsaved().iter().any(|text| text.name == name), "it is not saved yet");
 }
 

@@ -210,9 +210,9 @@ fn what_is_taken_back_is_shown() {
     let closer = zoom(&real);
     real.press("u");
     assert_ne!(zoom(&real), closer);
-    assert_eq!(real.lab().focus, phaselab::app::Pane::Plot(1));
+    assert_eq!(real.lab().focus.pane, phaselab::app::Pane::Plot(1));
     real.press("u");
-    assert_eq!(real.lab().focus, phaselab::app::Pane::Parameters);
+    assert_eq!(real.lab().focus.pane, phaselab::app::Pane::Parameters);
 }
 
 #[test]
@@ -291,7 +291,7 @@ proptest! {
         let start = real.state();
         for (edit, wait) in edits {
             // on a value `v` adds a picture, which stays
-            let on_a_value = !matches!(real.lab().focus, phaselab::app::Pane::Plot(_));
+            let on_a_value = !matches!(real.lab().focus.pane, phaselab::app::Pane::Plot(_));
             if EDITS[edit].starts_with('v') && on_a_value {
                 continue;
             }

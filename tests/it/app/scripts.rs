@@ -26,7 +26,7 @@ fn place(app: &App) -> String {
             format!("picker {name}{}", search.unwrap_or_default())
         }
         (Page::Lab, Some(lab)) => {
-            let pane = match lab.focus {
+            let pane = match lab.focus.pane {
                 Pane::Plot(i) => {
                     let plot = &lab.plots[i];
                     let column = |column: &Vec<usize>| match (&column[..], plot.kind.name()) {
@@ -42,7 +42,7 @@ fn place(app: &App) -> String {
                 Pane::Gauges => format!("gauge {}", lab.selection.gauge),
                 Pane::Law => format!("law {}", lab.law_scroll),
             };
-            format!("lab {pane}{}", if lab.zoomed { " zoomed" } else { "" })
+            format!("lab {pane}{}", if lab.focus.zoomed { " zoomed" } else { "" })
         }
         (page, _) => format!("{page:?}").to_lowercase(),
     };

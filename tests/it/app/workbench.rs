@@ -99,7 +99,7 @@ fn what_has_a_name_in_both_texts_is_looked_at_as_before() {
     );
     rest(&mut app);
     let lab = app.lab.as_ref().unwrap();
-    assert!(lab.zoomed);
+    assert!(lab.focus.zoomed);
     assert_eq!(lab.plots.len(), before.len());
     let viewport = |plots: &[Plot]| plots.iter().filter(|p| p.kind.name() == "phase").count();
     assert_eq!(viewport(&lab.plots), viewport(&before));

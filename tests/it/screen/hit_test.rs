@@ -99,7 +99,7 @@ fn every_pane_answers_in_its_own_frame() {
         let panes: Vec<Pane> = app.lab.as_ref().unwrap().panes().collect();
         for _ in &panes {
             press(&mut app, "Tab");
-            let focus = app.lab.as_ref().unwrap().focus;
+            let focus = app.lab.as_ref().unwrap().focus.pane;
             let belongs = |target: &HitTarget| match *target {
                 HitTarget::Pane(pane) => pane == focus,
                 HitTarget::Plot { index, .. } | HitTarget::Space { index, .. } => {
@@ -299,7 +299,7 @@ fn a_drag_turns_a_picture_and_moves_a_window_with_the_mouse() {
         act(&mut real, size, Drag(Left), (x + 3, y));
         act(&mut real, size, Drag(Left), (x + 6, y - 1));
         act(&mut real, size, Up(Left), (x + 6, y - 1));
-        assert_eq!(real.lab().focus, Pane::Plot(picture));
+        assert_eq!(real.lab().focus.pane, Pane::Plot(picture));
         let after = real.lab().plots.clone();
         match (before[picture].sight, after[picture].sight, grabbed) {
             (Sight::Camera(a), Sight::Camera(b), _) => {
@@ -335,10 +335,10 @@ fn clicks_do_what_stands_there() {
     click(&mut real, size, place);
     let place = on(&real, "Initial values");
     click(&mut real, size, place);
-    assert_eq!(real.lab().focus, Pane::Initial);
+    assert_eq!(real.lab().focus.pane, Pane::Initial);
     let place = on(&real, "Gauges");
     click(&mut real, size, place);
-    assert_eq!(real.lab().focus, Pane::Gauges);
+    assert_eq!(real.lab().focus.pane, Pane::Gauges);
     let place = on(&real, "? help");
     click(&mut real, size, place);
     assert!(matches!(real.app.overlay, Some(Overlay::Help { .. })));
@@ -353,7 +353,7 @@ fn clicks_do_what_stands_there() {
     real.press("Tab");
     let place = on(&real, "Parameters");
     click(&mut real, size, place);
-    assert_eq!(real.lab().focus, Pane::Parameters);
+    assert_eq!(real.lab().focus.pane, Pane::Parameters);
 }
 
 #[test]
@@ -371,7 +371,7 @@ fn a_value_is_selected_by_one_click_and_typed_by_two() {
     let plot = places(&real.app, size, |target| matches!(target, HitTarget::Plot { .. }))[0];
     click(&mut real, size, plot);
     assert!(real.app.overlay.is_none());
-    assert!(matches!(real.lab().focus, Pane::Plot(_)), "{:?}", real.lab().focus);
+    assert!(matches!(real.lab().focus.pane, Pane::Plot(_)), "{:?}", real.lab().focus.pane);
     click(&mut real, size, place);
     click(&mut real, size, place);
     real.press("7");

@@ -423,7 +423,7 @@ fn the_names_of_the_axes_are_not_written_over_each_other() {
         let mut real = Real::of(name);
         for _ in 0..6 {
             let index = real.lab().motion().unwrap();
-            real.app.lab.as_mut().unwrap().focus = index;
+            real.app.lab.as_mut().unwrap().focus.pane = index;
             real.press("z");
             let corner = rows(&screen(&real.app, &rich(), (80, 24)));
             let corner: Vec<String> =

@@ -96,7 +96,7 @@ fn the_law_of_motion_scrolls_where_it_is_clipped() {
         let (_, drawn) = super::drawn(&app, &rich(), size);
         app.update(Event::Drawn(drawn));
         press(&mut app, keys);
-        assert_eq!(app.lab.as_ref().unwrap().focus, Pane::Law, "{size:?}");
+        assert_eq!(app.lab.as_ref().unwrap().focus.pane, Pane::Law, "{size:?}");
         let (buffer, drawn) = super::drawn(&app, &rich(), size);
         app.update(Event::Drawn(drawn));
         let Some(LawInView::Clipped(beyond)) = drawn.panes.map(|panes| panes.law) else {
@@ -120,7 +120,7 @@ fn the_law_of_motion_scrolls_where_it_is_clipped() {
     let panes = DrawnPanes { single: false, ..DrawnPanes::default() };
     app.update(Event::Drawn(Drawn { panes: Some(panes), ..Drawn::default() }));
     press(&mut app, "Shift-Tab");
-    assert!(matches!(app.lab.as_ref().unwrap().focus, Pane::Plot(_)));
+    assert!(matches!(app.lab.as_ref().unwrap().focus.pane, Pane::Plot(_)));
 }
 
 /// On the smallest screen the motion is what is seen, with the status; a key goes to the other panes.
@@ -137,7 +137,10 @@ fn on_the_smallest_screen_the_motion_comes_first() {
         assert!(dots.count() > 5, "{name}: a picture");
         assert!(rows(&buffer)[8].contains("t 2"), "{name}: the status");
         app.update(Event::Drawn(drawn));
-        assert_eq!(app.lab.as_ref().unwrap().focus, app.lab.as_ref().unwrap().motion().unwrap());
+        assert_eq!(
+            app.lab.as_ref().unwrap().focus.pane,
+            app.lab.as_ref().unwrap().motion().unwrap()
+        );
         press(&mut app, "Shift-Tab");
         let buffer = screen(&app, &rich(), (40, 10));
         assert!(find(&buffer, "Gauges").is_some(), "{name}: {:#?}", rows(&buffer));
@@ -146,7 +149,7 @@ fn on_the_smallest_screen_the_motion_comes_first() {
     let mut app = in_lab();
     let (_, drawn) = super::drawn(&app, &rich(), (80, 24));
     app.update(Event::Drawn(drawn));
-    assert_eq!(app.lab.as_ref().unwrap().focus, Pane::Parameters);
+    assert_eq!(app.lab.as_ref().unwrap().focus.pane, Pane::Parameters);
 }
 
 /// Without the footer the panes have its room; a value that is typed is seen all the same.
@@ -649,7 +652,7 @@ fn the_energy_reaches_from_one_turning_point_of_a_pendulum_to_the_other() {
         real.look();
         let lab = real.app.lab.as_mut().unwrap();
         let potential = lab.plots.iter().position(|plot| plot.kind.name() == "potential");
-        (lab.focus, lab.zoomed) = (Pane::Plot(potential.expect("a potential")), true);
+        (lab.focus.pane, lab.focus.zoomed) = (Pane::Plot(potential.expect("a potential")), true);
         let buffer = screen(&real.app, &rich(), (120, 40));
         let warn = rich().theme[Role::Warn].fg.unwrap();
         let amber = |y: u16| -> Vec<u16> {
@@ -947,7 +950,7 @@ fn a_notice_blanks_nothing_beside_it_but_what_is_left_of_words_in_a_frame() {
     assert!(torn > 5, "{torn} of\n{}", before.join("\n"));
     let mut app = lab("heavy-top", 1.0);
     if let Some(lab) = &mut app.lab {
-        (lab.focus, lab.zoomed) = (Pane::Initial, true);
+        (lab.focus.pane, lab.focus.zoomed) = (Pane::Initial, true);
     }
     let size = (40, 10);
     let before = rows(&screen(&app, &rich(), size));
