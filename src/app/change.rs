@@ -34,7 +34,7 @@ impl App {
                 ValueId::Initial(index) => Command::Initial { index, value },
             }));
         }
-        let shown = self.notice.clone();
+        let shown = self.notifications.shown.clone();
         self.forget_past_motion(shown.as_ref(), &effects);
         effects
     }

@@ -6,13 +6,13 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use super::answers::{Answers, EquilibriaSearch, FurtherSearch, SymmetrySearch};
+use super::answers::{Answers, Derivations, Searches};
 use super::history::UndoHistory;
 use super::pane::Focus;
 use super::pending::PendingChanges;
 use super::restoration::Restoration;
 use super::steady_verdicts::SteadyVerdicts;
-use super::{DrawnPanes, InvariantSearch, LawInView, Loaded, Pane, Prediction, Selection, ValueId};
+use super::{DrawnPanes, LawInView, Loaded, Pane, Prediction, Selection, ValueId};
 use crate::experiment::{Snapshot, Status};
 use crate::expr::Zero;
 use crate::instrument::{CameraPose, Plot, Present, Returned};
@@ -39,17 +39,11 @@ pub struct Lab {
     rods: Rods,
     /// The results computed in the background for the pictures, and the jobs under way.
     pub(super) answers: Answers,
-    /// The ticket of the job that finds the closed forms of the equations, once it was requested.
-    pub(super) closed_forms_asked: Option<u64>,
-    pub(super) further_search: FurtherSearch,
-    /// The search for constants of the motion.
-    pub search: InvariantSearch,
-    /// The flow that is being followed.
-    pub(super) flow: Option<u64>,
-    pub(super) symmetries: SymmetrySearch,
+    pub(super) derivations: Derivations,
+    /// The searches for constants of the motion, equilibria and symmetries.
+    pub searches: Searches,
     /// Changes requested and not yet confirmed by a snapshot.
     pub(super) pending: PendingChanges,
-    pub(super) equilibria: EquilibriaSearch,
     pub(super) history: UndoHistory,
     /// The verdicts as they are shown.
     steady: SteadyVerdicts,
@@ -113,13 +107,9 @@ impl Lab {
             law_scroll: 0,
             drawn: DrawnPanes::default(),
             answers: Answers::default(),
-            closed_forms_asked: None,
-            further_search: FurtherSearch::default(),
-            search: InvariantSearch::default(),
-            flow: None,
-            symmetries: SymmetrySearch::default(),
+            derivations: Derivations::default(),
+            searches: Searches::default(),
             pending: PendingChanges::default(),
-            equilibria: EquilibriaSearch::default(),
             history: UndoHistory::default(),
             steady: SteadyVerdicts::default(),
             prediction: None,
@@ -205,8 +195,7 @@ impl Lab {
         self.history.tick(elapsed);
         self.steady.tick(elapsed);
         self.answers.tick(elapsed);
-        self.search.tick(elapsed);
-        self.equilibria.tick(elapsed);
+        self.searches.tick(elapsed);
     }
 
     /// Returns the panes in Tab order.

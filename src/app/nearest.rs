@@ -28,11 +28,11 @@ impl App {
         let Some(lab) = &mut self.lab else { return Vec::new() };
         lab.focus.pane = pane;
         let name = lab.titled(pane);
-        self.notice = None;
+        self.notifications.dismiss();
         let effects = self.perform(action);
         // What the action itself reports is more important.
-        if before != Some(pane) && self.notice.is_none() {
-            self.notice = Some(Notification::info(format!("The focus moved to {name}.")));
+        if before != Some(pane) && self.notifications.shown.is_none() {
+            self.notifications.show(Notification::info(format!("The focus moved to {name}.")));
         }
         effects
     }

@@ -127,7 +127,7 @@ impl App {
 
     /// Returns a line for each theme.
     fn theme_lines(&self) -> impl Iterator<Item = Item> {
-        self.themes.iter().enumerate().map(|(index, (name, about))| Item {
+        self.themes.available.iter().enumerate().map(|(index, (name, about))| Item {
             label: format!("theme: {name}"),
             about: (*about).to_owned(),
             keys: String::new(),

@@ -1,4 +1,4 @@
-//! What was asked for and is not there yet: changes sent to the experiment, and an axis that its text has to define.
+//! What was requested and is not there yet: a system, changes sent to the experiment, and plots that its text has to define.
 //!
 //! In: changes, snapshots. Out: what was requested last. Never here: how a change is made.
 
@@ -7,6 +7,29 @@ use crate::experiment::Snapshot;
 use crate::instrument::Plot;
 use crate::integrate::Settings;
 use crate::system::InitialOverride;
+
+/// A system that is being loaded.
+#[derive(Clone, Debug)]
+pub(super) struct LoadRequest {
+    pub(super) name: String,
+    /// Whether the lab is to open once it is loaded; otherwise it is only previewed.
+    pub(super) opens: bool,
+}
+
+/// The plots that wait for the text with what they show.
+#[derive(Clone, Debug, Default)]
+pub(super) struct AwaitedPlots {
+    /// The plot with a typed quantity on an axis.
+    pub(super) axis: Option<TypedAxis>,
+    /// The index of the plot that becomes a section.
+    pub(super) section: Option<usize>,
+}
+
+impl AwaitedPlots {
+    pub(super) fn any(&self) -> bool {
+        self.axis.is_some() || self.section.is_some()
+    }
+}
 
 /// A plot that waits for the text with the quantity that was typed for its next axis.
 #[derive(Clone, Debug)]

@@ -19,7 +19,7 @@ impl App {
     /// Carries out an action. It does nothing if the action does not apply.
     pub(super) fn perform(&mut self, action: Action) -> Vec<Effect> {
         if action != Action::Back && self.asked_to_leave() {
-            self.notice = None;
+            self.notifications.dismiss();
         }
         match action {
             Action::Quit if self.closes_with_quit() => {
@@ -202,19 +202,19 @@ impl App {
 
     /// Shows a notification and passes the effects on.
     fn report(&mut self, sentence: String, effects: Vec<Effect>) -> Vec<Effect> {
-        self.notice = Some(Notification::info(sentence));
+        self.notifications.show(Notification::info(sentence));
         effects
     }
 
     /// Tells the user why a key does nothing here.
     pub(super) fn notify(&mut self, text: impl Into<String>) -> Vec<Effect> {
-        self.notice = Some(Notification::hint(text));
+        self.notifications.show(Notification::hint(text));
         Vec::new()
     }
 
     /// Shows an error to the user.
     pub(super) fn fail(&mut self, text: impl Into<String>) -> Vec<Effect> {
-        self.notice = Some(Notification::error(text));
+        self.notifications.show(Notification::error(text));
         Vec::new()
     }
 
@@ -263,13 +263,13 @@ impl App {
             return self.notify(format!("{} frames a second are the {end}.", self.meter.asked));
         };
         self.meter.asked = rate;
-        self.notice = Some(Notification::info(format!("At most {rate} frames a second.")));
+        self.notifications.show(Notification::info(format!("At most {rate} frames a second.")));
         vec![Effect::Frames(rate)]
     }
 
     fn switch_mouse(&mut self) -> Vec<Effect> {
         self.mouse = !self.mouse;
-        self.notice = Some(Notification::info(if self.mouse {
+        self.notifications.show(Notification::info(if self.mouse {
             "Mouse on: click a phase portrait to start there, drag sliders; M to select text."
         } else {
             "Mouse off: the terminal selects text; M switches it on."
@@ -285,7 +285,7 @@ impl App {
             }
             _ => {
                 // what was said before is not said of the help
-                self.notice = None;
+                self.notifications.dismiss();
                 let below = self.overlay.take().map(Box::new);
                 let scroll = self.scroll;
                 self.overlay = Some(Overlay::Help { scroll, below, search: None, typing: false });
@@ -321,27 +321,29 @@ impl App {
             }
             Some(Overlay::Workbench) | None => {}
         }
-        if let Some((name, _)) = self.asked.take_if(|_| self.page == Page::Picker) {
+        if let Some(request) = self.request.take_if(|_| self.page == Page::Picker) {
             self.resuming = None;
-            self.notice = Some(Notification::info(format!("Loading {name} was cancelled.")));
+            self.notifications
+                .show(Notification::info(format!("Loading {} was cancelled.", request.name)));
             return vec![Effect::StopLoading];
         }
         let leaves = self.asked_to_leave();
         if self.page == Page::Equations && self.stop_search() {
-            self.notice = Some(Notification::info("The search was stopped; I begins it again."));
+            self.notifications
+                .show(Notification::info("The search was stopped; I begins it again."));
             return vec![Effect::StopComputing(Asker::Search)];
         }
         match (self.page, &mut self.lab) {
             (Page::Picker, _) => self.picker.forget_search(),
             (Page::Lab, Some(lab)) if lab.focus.zoomed => lab.focus.zoomed = false,
             (Page::Lab, Some(_)) if !leaves => {
-                let lesson = self.hints == KeyHints::LabInLesson;
+                let lesson = self.footer.hints == KeyHints::LabInLesson;
                 let sentence = if lesson { LEAVING_LESSON } else { LEAVING };
-                self.notice = Some(Notification::info(sentence));
+                self.notifications.show(Notification::info(sentence));
                 return Vec::new();
             }
             (Page::Lab, _) | (_, None) => {
-                self.notice = None;
+                self.notifications.dismiss();
                 if let Some(lab) = &self.lab {
                     self.picker.select(&lab.loaded.name);
                 }
@@ -361,7 +363,8 @@ impl App {
 
     /// Whether the last Esc has asked for another one, which leaves the lab.
     fn asked_to_leave(&self) -> bool {
-        self.notice
+        self.notifications
+            .shown
             .as_ref()
             .is_some_and(|notice| [LEAVING, LEAVING_LESSON].contains(&&*notice.text))
     }

@@ -51,7 +51,7 @@ impl App {
 
     /// Ends a drag, even if the terminal did not report the release of the button.
     pub fn end_group(&mut self) {
-        self.hold = None;
+        self.drag = None;
         if let Some(lab) = &mut self.lab {
             lab.history.end_group();
         }
@@ -107,17 +107,17 @@ impl App {
             HitTarget::Bar { target, value } => {
                 lab.choose(target);
                 lab.history.begin_group();
-                self.hold = Some(Grab::Bar(target));
+                self.drag = Some(Grab::Bar(target));
                 return self.pull(target, value);
             }
             HitTarget::Time(time) => {
-                self.hold = Some(Grab::Time);
+                self.drag = Some(Grab::Time);
                 return vec![Effect::Tell(Command::LookAt(time))];
             }
             HitTarget::Plot { index, place, .. } | HitTarget::Space { index, place } => {
                 lab.focus.pane = Pane::Plot(index);
                 lab.history.begin_group();
-                self.hold = Some(Grab::Picture { index, place, moved: false });
+                self.drag = Some(Grab::Picture { index, place, moved: false });
             }
             _ => {}
         }
@@ -125,7 +125,7 @@ impl App {
     }
 
     fn drag(&mut self, hit: HitTarget) -> Vec<Effect> {
-        match (self.hold, hit) {
+        match (self.drag, hit) {
             (Some(Grab::Bar(grabbed)), HitTarget::Bar { target, value }) if grabbed == target => {
                 self.pull(target, value)
             }
@@ -134,11 +134,11 @@ impl App {
                 Some(Grab::Picture { index: grabbed, place: from, .. }),
                 HitTarget::Plot { index, place, .. } | HitTarget::Space { index, place },
             ) if grabbed == index && place != from => {
-                self.hold = Some(Grab::Picture { index, place, moved: true });
+                self.drag = Some(Grab::Picture { index, place, moved: true });
                 let by = [0, 1].map(|k| place[k] - from[k]);
                 let Some(lab) = &mut self.lab else { return Vec::new() };
                 if lab.plots.get(index).is_some_and(|plot| is_face_on(plot, &lab.loaded.model)) {
-                    self.notice = Some(Notification::info(PLANE));
+                    self.notifications.show(Notification::info(PLANE));
                     return Vec::new();
                 }
                 lab.redraw(index, |plot, _| plot.drag(by));
@@ -149,7 +149,7 @@ impl App {
     }
 
     fn let_go(&mut self, hit: HitTarget) -> Vec<Effect> {
-        let grabbed = self.hold.take();
+        let grabbed = self.drag.take();
         let Some(lab) = &mut self.lab else { return Vec::new() };
         let effects = match (grabbed, hit) {
             (Some(Grab::Picture { moved: false, .. }), HitTarget::Plot { index, place, at }) => {

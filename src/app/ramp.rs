@@ -90,7 +90,7 @@ impl App {
         let sentence = format!(
             "{name} goes to {to} from t = {start:.3} on, in {duration}, once the law is rebuilt; E shows the ramp."
         );
-        self.notice = Some(Notification::info(sentence));
+        self.notifications.show(Notification::info(sentence));
         Vec::new()
     }
 }

@@ -27,8 +27,8 @@ impl Restoration {
         self.after_rebuild.get_or_insert(checkpoint);
     }
 
-    /// The text is rebuilt: what waited for it is to be restored now.
-    pub(super) fn rebuilt(&mut self) {
+    /// No text is waited for any longer: what waited for one is to be restored now.
+    pub(super) fn end_wait(&mut self) {
         self.awaited = self.after_rebuild.take().or(self.awaited.take());
     }
 

@@ -113,7 +113,7 @@ impl App {
         self.page = saved.page;
         if lab.restoration.is_of_another_law(&lab.loaded.document.text) && !saved.edited {
             let name = &lab.loaded.document.path;
-            self.notice = Some(Notification::info(format!(
+            self.notifications.show(Notification::info(format!(
                 "{name} has changed since: its law and its values hold from here on."
             )));
         }
@@ -125,7 +125,7 @@ impl App {
     /// Sends the awaited checkpoint to the experiment, if there is one.
     pub(super) fn restore(&mut self) -> Vec<Effect> {
         let Some(lab) = &mut self.lab else { return Vec::new() };
-        lab.restoration.rebuilt();
+        lab.restoration.end_wait();
         let awaited = lab.restoration.under_the_law_of(&lab.loaded.document.text);
         let command = |checkpoint| Effect::Tell(Command::Restore(Box::new(checkpoint)));
         awaited.map(command).into_iter().collect()

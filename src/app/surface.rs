@@ -112,7 +112,7 @@ impl App {
             Err(why) => return self.fail(format!("The text cannot be changed: {why}.")),
         }
         if matches!(view, SurfaceView::New(_)) {
-            self.new_section = Some(plot);
+            self.awaited_plots.section = Some(plot);
         } else if let Some(lab) = &mut self.lab
             && let Some(shown) = lab.plots.get_mut(plot)
         {
@@ -126,13 +126,13 @@ impl App {
             shown.seeds.clear();
             lab.answers.stale = true;
         }
-        self.notice = Some(Notification::info(sentence));
+        self.notifications.show(Notification::info(sentence));
         Vec::new()
     }
 
     /// Shows the section of a text that runs now where it was asked for.
     pub(super) fn take_new_section(&mut self) {
-        let Some(plot) = self.new_section.take() else { return };
+        let Some(plot) = self.awaited_plots.section.take() else { return };
         let Some(lab) = &mut self.lab else { return };
         let last = lab.loaded.model.views.len().saturating_sub(1);
         let Some(section) = Plot::of_view(lab.loaded.physics(), last) else { return };

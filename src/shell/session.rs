@@ -123,11 +123,12 @@ impl Session {
     ) -> io::Result<Self> {
         let (mut app, effects) = App::new(&catalog, request.open.as_deref());
         app.mouse = pace.mouse;
-        app.aside = true;
+        app.jobs.in_background = true;
         app.meter.asked = pace.frames;
         app.meter.most = request.most_frames();
-        app.themes = PALETTES.iter().map(|palette| (palette.name, palette.about)).collect();
-        app.theme = Some(look.theme.palette().name);
+        app.themes.available =
+            PALETTES.iter().map(|palette| (palette.name, palette.about)).collect();
+        app.themes.chosen = Some(look.theme.palette().name);
         let loader = Loader::new(Arc::new(catalog));
         let (detail, store) = (Detail::default(), None);
         let watch = request.watch.then(Watch::default);
@@ -218,7 +219,7 @@ impl Session {
                     Ok(text) => {
                         self.update(Event::FileRead { text, asked: true });
                     }
-                    Err(why) => self.app.notice = Some(Notification::error(why.to_string())),
+                    Err(why) => self.app.notifications.show(Notification::error(why.to_string())),
                 },
                 Effect::Repaint => request = ScreenRequest::Repaint,
                 Effect::Frames(count) => request = ScreenRequest::Frames(count),
@@ -300,7 +301,7 @@ impl Screen for Session {
         let app = &self.app;
         let paused = app.snapshot().is_some_and(|snapshot| snapshot.status != Status::Running);
         let awaited = app.loading().is_some()
-            || app.notice.is_some()
+            || app.notifications.shown.is_some()
             || self.writer.is_busy()
             || self.sides.values().any(SideJob::is_busy);
         let editing = matches!(app.overlay, Some(Overlay::Workbench));
@@ -316,9 +317,9 @@ impl Screen for Session {
         }
         self.report_faults();
         self.save_periodically(elapsed);
-        let noticed = self.app.notice.is_some();
+        let noticed = self.app.notifications.shown.is_some();
         self.update(Event::Tick(elapsed));
-        let mut changed = self.app.notice.is_some() != noticed;
+        let mut changed = self.app.notifications.shown.is_some() != noticed;
         if let Some(outcome) = self.loader.take() {
             match &outcome {
                 Ok((name, _)) => info!("loaded {name}"),
@@ -331,7 +332,7 @@ impl Screen for Session {
                 .map_err(|failure| self.with_text_kept(failure));
             self.update(Event::Loaded(loaded));
             if let Some(warning) = self.warning.take() {
-                self.app.notice = Some(Notification::error(warning));
+                self.app.notifications.show(Notification::error(warning));
             }
             changed = true;
         }
@@ -412,8 +413,8 @@ impl Screen for Session {
         self.look = self.look.on(colour);
         let suits = self.look.theme.palette().name;
         info!("the terminal's background is {colour:?}: the {suits} theme");
-        if self.app.theme == Some(initial) {
-            self.app.theme = Some(suits);
+        if self.app.themes.chosen == Some(initial) {
+            self.app.themes.chosen = Some(suits);
         }
         if let Some(guided) = &mut self.guided {
             guided.background(colour);

@@ -38,7 +38,7 @@ pub(super) fn footer(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
         Some((text, role)) => (canvas.text(&text), role),
         None => (meaning, role),
     };
-    let mut hints = match app.hints {
+    let mut hints = match app.footer.hints {
         KeyHints::Hidden => Vec::new(),
         KeyHints::Lab | KeyHints::LabInLesson => hints(canvas, app),
     };
@@ -76,7 +76,8 @@ fn current_notification(app: &App) -> Option<(String, Role)> {
     if app.open_buffer().is_some() {
         return None;
     }
-    let notice = app.notice.as_ref().map(|notice| (notice.text.clone(), notice_role(notice)));
+    let notice =
+        app.notifications.shown.as_ref().map(|notice| (notice.text.clone(), notice_role(notice)));
     notice.or_else(|| app.banner().map(|banner| (banner, Role::Bad)))
 }
 
@@ -208,7 +209,7 @@ fn hints(canvas: &Canvas<'_>, app: &App) -> Vec<Hint> {
             Action::Quit => app.closes_with_quit(),
             _ => false,
         };
-        let leaves = row.action == Action::Quit && app.hints == KeyHints::LabInLesson;
+        let leaves = row.action == Action::Quit && app.footer.hints == KeyHints::LabInLesson;
         let pointed = row.action == Action::Cursor && app.lab.as_ref().is_some_and(Lab::has_cursor);
         let word = match row.hint {
             _ if pointed => "no cursor",

@@ -70,7 +70,7 @@ impl Painter {
 pub(super) fn paint(canvas: &mut Canvas<'_>, app: &App, area: Rect) -> Drawn {
     let area = area.intersection(canvas.buffer.area);
     // Above what a lesson says, the motion is shown in whatever rows there are, alone if they are few.
-    let low = app.hints != KeyHints::Lab && area.height < LEAST.1;
+    let low = app.footer.hints != KeyHints::Lab && area.height < LEAST.1;
     if area.width < LEAST.0 || area.height < LEAST.1 && !low {
         too_small(canvas, area);
         return Drawn::default();
@@ -87,8 +87,8 @@ pub(super) fn paint(canvas: &mut Canvas<'_>, app: &App, area: Rect) -> Drawn {
     // The plain page contains the status itself and must not change while it is read.
     let status = !matches!(app.page, Page::Picker | Page::Plain) && app.lab.is_some();
     // A value is typed in the footer.
-    let footer = app.footer || matches!(app.overlay, Some(Overlay::Field(_)));
-    let screen = ScreenLayout::of(area, status && app.footer, footer);
+    let footer = app.footer.shown || matches!(app.overlay, Some(Overlay::Field(_)));
+    let screen = ScreenLayout::of(area, status && app.footer.shown, footer);
     header::header(canvas, screen.header, app);
     let drawn = body(canvas, screen.body, app);
     footer::notice(canvas, screen.body, app);

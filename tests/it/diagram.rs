@@ -226,7 +226,7 @@ fn a_key_shows_the_exponent_where_there_is_no_section() {
 }
 
 fn told(app: &mut App) -> String {
-    app.notice.take().map(|notice| notice.text).unwrap_or_default()
+    app.notifications.shown.take().map(|notice| notice.text).unwrap_or_default()
 }
 
 /// The rows of what a plot over a range has computed.

@@ -175,7 +175,7 @@ fn a_misspelt_kind_gets_the_nearest_of_the_table() {
 /// A lab whose jobs run elsewhere, and the jobs requested until the first snapshot of the pendulum.
 fn aside() -> (App, Vec<Computation>) {
     let (mut app, _) = App::new(catalog(), Some("pendulum"));
-    app.aside = true;
+    app.jobs.in_background = true;
     app.update(Event::Loaded(Ok(pendulum())));
     let effects = app.update(Event::Snapshot(Arc::new(snapshot(&pendulum(), 2.0))));
     (app, computations(effects))
@@ -184,7 +184,7 @@ fn aside() -> (App, Vec<Computation>) {
 #[test]
 fn the_motion_is_shown_before_its_equations_are_solved() {
     let (mut app, _) = App::new(catalog(), Some("double-pendulum"));
-    app.aside = true;
+    app.jobs.in_background = true;
     let unsolved = |name, epoch| {
         let mut loaded = loaded(name, epoch);
         loaded.equations = Arc::new(derive_for_motion(&loaded.model).unwrap());
@@ -272,7 +272,7 @@ fn an_answer_that_nobody_waits_for_is_dropped() {
 #[test]
 fn a_motion_that_leaves_its_level_curves_is_still_seen() {
     let (mut app, _) = App::new(catalog(), Some("harmonic-oscillator"));
-    app.aside = true;
+    app.jobs.in_background = true;
     let system = loaded("harmonic-oscillator", 1);
     app.update(Event::Loaded(Ok(system.clone())));
     let seen = |time: f64| Event::Snapshot(Arc::new(snapshot(&system, time)));
@@ -306,7 +306,9 @@ fn a_job_that_panics_is_reported_and_the_lab_goes_on() {
     let (mut app, asked) = aside();
     let outcome = Outcome::Failed("level curves stopped by a defect".to_owned());
     app.update(Event::Computed { ticket: asked[0].ticket, outcome });
-    assert!(app.notice.take().is_some_and(|notice| notice.text.contains("by a defect")));
+    assert!(
+        app.notifications.shown.take().is_some_and(|notice| notice.text.contains("by a defect"))
+    );
     assert_eq!(press(&mut app, "r"), [Effect::Tell(Command::Reset)]);
 }
 

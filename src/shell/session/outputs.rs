@@ -131,7 +131,7 @@ impl Session {
         let report = recorder.map_or_else(|| why.to_string(), |recorder| recorder.give_up(why));
         error!("{report}");
         self.app.recording = false;
-        self.app.notice = Some(Notification::error(format!("{report}.")));
+        self.app.notifications.show(Notification::error(format!("{report}.")));
     }
 
     /// Ends a recording, and reports its name.

@@ -51,7 +51,7 @@ impl Session {
         }
         if !troubles.is_empty() {
             let report = troubles.join("; ");
-            self.app.notice = Some(Notification::error(&report));
+            self.app.notifications.show(Notification::error(&report));
             self.warning = Some(report);
         }
     }
@@ -147,7 +147,7 @@ impl Session {
         if let Some(error) = errors.first() {
             let report = error.to_string();
             if self.warning.as_ref() != Some(&report) {
-                self.app.notice = Some(Notification::error(&report));
+                self.app.notifications.show(Notification::error(&report));
                 self.warning = Some(report);
             }
         }
@@ -162,7 +162,7 @@ impl Session {
             vec!["The other phaselab has ended; this one saves the session now.".into()];
         report.extend(troubles);
         info!("{}", report.join(" "));
-        self.app.notice = Some(Notification::info(report.join(" ")));
+        self.app.notifications.show(Notification::info(report.join(" ")));
         self.warning = None;
         self.take_texts(texts, None);
         self.keep_texts(false);

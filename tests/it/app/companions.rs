@@ -57,7 +57,9 @@ fn the_right_button_adds_a_motion_and_the_left_one_begins_the_main_one() {
         HitTarget::Plot { index, place: [0.5, 0.5], at: [1.0, 0.2] },
     );
     assert_eq!(real.seen().companions.len(), 1);
-    assert!(real.app.notice.as_ref().unwrap().text.contains("No motion can start from"));
+    assert!(
+        real.app.notifications.shown.as_ref().unwrap().text.contains("No motion can start from")
+    );
 }
 
 #[test]
@@ -105,11 +107,11 @@ fn a_neighbour_opens_the_picture_of_their_separation_once() {
     real.press("C");
     assert!(real.seen().companions.is_empty());
     real.press("C");
-    assert!(real.app.notice.as_ref().unwrap().text.contains("no motions"));
+    assert!(real.app.notifications.shown.as_ref().unwrap().text.contains("no motions"));
     for _ in 0..7 {
         real.press("d");
     }
-    assert!(real.app.notice.as_ref().unwrap().text.contains("at most"));
+    assert!(real.app.notifications.shown.as_ref().unwrap().text.contains("at most"));
 }
 
 #[test]

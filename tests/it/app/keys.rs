@@ -151,12 +151,12 @@ fn facts(app: &App) -> Vec<(String, String)> {
     fact("cursor", format!("{:?}", bench.map(|bench| bench.editor.cursor())));
     fact("asked", format!("{:?}", bench.map(|bench| bench.asking.is_some())));
     fact("scrolled", app.scroll.to_string());
-    fact("theme", format!("{:?}", app.theme));
+    fact("theme", format!("{:?}", app.themes.chosen));
     let read = app.reading.snapshot.as_ref().map(|snapshot| snapshot.time);
     fact("reads t =", format!("{read:?}"));
     fact("line read", app.reading.line.to_string());
     fact("read anew by itself", app.reading.automatic.to_string());
-    let notice = app.notice.as_ref().map_or("nothing", |notice| notice.text.as_str());
+    let notice = app.notifications.shown.as_ref().map_or("nothing", |notice| notice.text.as_str());
     fact("told", notice.to_owned());
     let search = app.picker.search.as_ref().map(|search| search.value().to_owned());
     fact("search", format!("{search:?}"));
@@ -282,7 +282,8 @@ fn the_palette_lists_every_row_and_does_what_its_key_does() {
                 }
                 if !here || !app.offers(row.action) {
                     press(&mut open, "Enter");
-                    let told = open.notice.map(|notice| notice.text).unwrap_or_default();
+                    let told =
+                        open.notifications.shown.map(|notice| notice.text).unwrap_or_default();
                     assert!(told.contains(item.unavailable.as_ref().unwrap()), "{told}");
                     continue;
                 }
@@ -396,7 +397,8 @@ fn the_palette_acts_on_the_nearest_pane() {
         assert_eq!((app.page, lab.focus.pane), (Page::Lab, Pane::Plot(1)), "{begin}");
         let cursor = lab.plots[1].viewport().unwrap().cursor;
         assert_eq!(cursor, Some([0.5, 0.5]), "{begin}");
-        let told = app.notice.as_ref().map(|notice| notice.text.clone()).unwrap_or_default();
+        let told =
+            app.notifications.shown.as_ref().map(|notice| notice.text.clone()).unwrap_or_default();
         assert_eq!(told, "The focus moved to phase plane, p_θ against θ.", "{begin}");
     }
     // The motion in space is another pane; a plot that was focused is the nearest.
@@ -466,9 +468,9 @@ fn the_palette_finds_the_energy() {
 fn a_notice_goes_by_itself() {
     let mut app = in_lab();
     press(&mut app, "u");
-    assert!(app.notice.is_some());
+    assert!(app.notifications.shown.is_some());
     app.update(Event::Tick(Duration::from_secs(20)));
-    assert_eq!(app.notice, None);
+    assert_eq!(app.notifications.shown, None);
 }
 
 #[test]
@@ -483,5 +485,5 @@ fn a_fault_is_answered_by_a_reset_and_not_by_play() {
     faulted.status = Status::Failed(fault);
     app.update(Event::Snapshot(Arc::new(faulted)));
     assert!(press(&mut app, "Space").is_empty());
-    assert!(app.notice.is_some_and(|notice| notice.text.contains("reset")));
+    assert!(app.notifications.shown.is_some_and(|notice| notice.text.contains("reset")));
 }

@@ -110,7 +110,8 @@ fn an_unsaved_text_of_a_wrong_file_is_listed_among_the_systems() {
     rest(&mut app);
     press(&mut app, "x Esc");
     assert_eq!(app.page, Page::Picker);
-    let told = app.notice.as_ref().map(|notice| notice.text.clone()).unwrap_or_default();
+    let told =
+        app.notifications.shown.as_ref().map(|notice| notice.text.clone()).unwrap_or_default();
     assert_eq!(told, "wrong.toml has unsaved changes; Enter returns to it.");
     assert_eq!(app.picker.selected_above(), Some(Above::Unsaved));
     assert!(text_of(&app).contains("Unsaved: ./wrong.toml"), "{}", text_of(&app));

@@ -181,7 +181,8 @@ fn only_a_change_of_the_law_is_one() {
         app.resume(saved);
         let effects = app.update(Event::Loaded(Ok(lowered(text))));
         assert_eq!(changed(&effects).as_deref(), what, "resumed with {text}");
-        let said = app.notice.as_ref().map(|notice| notice.text.clone()).unwrap_or_default();
+        let said =
+            app.notifications.shown.as_ref().map(|notice| notice.text.clone()).unwrap_or_default();
         assert_eq!(said.contains("has changed since"), what.is_some(), "{said}");
     }
 }

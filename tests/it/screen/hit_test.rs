@@ -201,7 +201,7 @@ fn a_bar_is_dragged_and_taken_back_in_one_step() {
     });
     assert!(bar.len() > 8, "{bar:?}");
     act(&mut real, size, Down(Left), bar[2]);
-    assert_eq!(real.app.hold, Some(Grab::Bar(ValueId::Parameter(1))));
+    assert_eq!(real.app.drag, Some(Grab::Bar(ValueId::Parameter(1))));
     for place in &bar {
         act(&mut real, size, Drag(Left), *place);
         real.app.update(Event::Tick(std::time::Duration::from_secs(2)));
@@ -213,7 +213,7 @@ fn a_bar_is_dragged_and_taken_back_in_one_step() {
     let (_, max, _) = real.lab().value_info(ValueId::Parameter(1)).unwrap().range.unwrap();
     assert_eq!(real.seen().parameters[1], max);
     act(&mut real, size, Up(Left), (119, 0));
-    assert_eq!(real.app.hold, None);
+    assert_eq!(real.app.drag, None);
     real.press("u");
     assert_eq!(real.seen().parameters, before);
     real.press("U");
@@ -275,12 +275,12 @@ fn a_motion_in_a_plane_does_not_turn_under_the_mouse() {
     act(&mut real, size, Drag(Left), (x + 6, y - 1));
     act(&mut real, size, Up(Left), (x + 6, y - 1));
     assert_eq!(real.lab().plots, before);
-    let told = real.app.notice.as_ref().map(|notice| notice.text.as_str());
+    let told = real.app.notifications.shown.as_ref().map(|notice| notice.text.as_str());
     assert!(told.is_some_and(|text| text.contains("stays in a plane")), "{told:?}");
     // Keys still turn it, and then the last line says how it is turned back.
     let footer =
         |real: &Real| super::rows(&super::screen(&real.app, &super::rich(), (160, 40)))[39].clone();
-    real.app.notice = None;
+    real.app.notifications.dismiss();
     assert!(!footer(&real).contains("initial view"), "{}", footer(&real));
     real.press("Left");
     assert!(footer(&real).contains("Home initial view"), "{}", footer(&real));
@@ -427,7 +427,7 @@ fn nothing_is_under_a_place_that_shows_nothing() {
         }
     }
     // A dragged knob that is no longer shown, and a value that does not exist.
-    app.hold = Some(Grab::Bar(ValueId::Parameter(99)));
+    app.drag = Some(Grab::Bar(ValueId::Parameter(99)));
     assert_eq!(at(&app, (80, 24), (5, 5)), None);
     let effects = app.update(Event::Mouse(Drag(Left), HitTarget::Text));
     assert!(effects.is_empty());
@@ -448,8 +448,8 @@ fn what_is_held_is_let_go_when_the_keys_lead_elsewhere() {
     let mut real = Real::of("pendulum");
     let bar = places(&real.app, size, |target| matches!(target, HitTarget::Bar { .. }));
     act(&mut real, size, Down(Left), bar[0]);
-    assert!(real.app.hold.is_some());
+    assert!(real.app.drag.is_some());
     real.press("2");
-    assert_eq!(real.app.hold, None);
+    assert_eq!(real.app.drag, None);
     assert_eq!(at(&real.app, size, (20, 20)), Some(HitTarget::Text));
 }

@@ -194,7 +194,7 @@ fn no_name_is_written_over_another() {
 fn a_notification_takes_nothing_from_the_frame_below_it() {
     let mut app = in_lab();
     let text = "lift-off at t = 0.5634: the constraint sphere no longer holds";
-    app.notice = Some(Notification::info(text.to_owned()));
+    app.notifications.show(Notification::info(text.to_owned()));
     let buffer = screen(&app, &rich(), (80, 24));
     let (x, y) = super::find(&buffer, "lift-off at").expect("the notification");
     let modifiers = |x: u16| buffer[(x, y)].modifier;
@@ -241,7 +241,7 @@ fn a_notification_leaves_no_part_of_a_word_in_the_frame() {
     // From a notification that ends before the mark to one that covers it.
     for long in mark - 8..mark + 9 {
         let text = "x".repeat(long);
-        app.notice = Some(Notification::info(text.clone()));
+        app.notifications.show(Notification::info(text.clone()));
         let row = bottom(&app);
         let rest = row.split_once(&text).expect("the notification").1.replace("+1 down", "");
         assert!(!rest.contains(char::is_alphabetic), "{row}");

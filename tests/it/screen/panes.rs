@@ -157,7 +157,7 @@ fn on_the_smallest_screen_the_motion_comes_first() {
 fn a_footer_can_be_left_out() {
     let mut app = in_lab();
     let with = rows(&screen(&app, &rich(), (80, 24)));
-    app.footer = false;
+    app.footer.shown = false;
     let without = rows(&screen(&app, &rich(), (80, 24)));
     assert!(with[23].contains("quit") && with[22].contains("fps"));
     assert!(without[23].starts_with('╰') || without[23].starts_with('└'), "{without:#?}");
@@ -728,7 +728,7 @@ fn news_are_reported_one_after_the_other_and_leave_the_hints_room() {
         app.update(Event::Tick(Duration::from_millis(2100)));
     }
     app.update(Event::Tick(Duration::from_secs(6)));
-    assert_eq!(app.notice, None);
+    assert_eq!(app.notifications.shown, None);
 }
 
 #[test]
@@ -901,7 +901,7 @@ fn a_notice_leaves_the_keys_in_sight() {
     for (text, size) in [("struck", (80, 24)), (long.as_str(), (80, 24)), ("struck", (40, 10))] {
         let mut app = in_lab();
         let before = rows(&screen(&app, &rich(), size));
-        app.notice = Some(Notification::info(text));
+        app.notifications.show(Notification::info(text));
         let after = rows(&screen(&app, &rich(), size));
         let last = usize::from(size.1) - 1;
         assert_eq!(after[last - 1..], before[last - 1..], "status and keys are as they were");
@@ -921,9 +921,9 @@ fn a_notice_blanks_nothing_beside_it_but_what_is_left_of_words_in_a_frame() {
         press(&mut app, keys);
         for size in [(80, 24), (60, 16), (120, 12)] {
             let before = rows(&screen(&app, &rich(), size));
-            app.notice = Some(Notification::info("told"));
+            app.notifications.show(Notification::info("told"));
             let after = rows(&screen(&app, &rich(), size));
-            app.notice = None;
+            app.notifications.dismiss();
             let last = usize::from(size.1) - 3;
             let beside = |row: &str| row.chars().skip(9).collect::<String>();
             assert_eq!(beside(&after[last]), beside(&before[last]), "page {keys} at {size:?}");
@@ -935,7 +935,7 @@ fn a_notice_blanks_nothing_beside_it_but_what_is_left_of_words_in_a_frame() {
     let before = rows(&screen(&app, &rich(), size));
     let mut torn = 0;
     for long in 78..110 {
-        app.notice = Some(Notification::info(format!("{0} {0} {0}", "m".repeat(long))));
+        app.notifications.show(Notification::info(format!("{0} {0} {0}", "m".repeat(long))));
         let after = rows(&screen(&app, &rich(), size));
         for row in (0..after.len()).filter(|row| after[*row].contains(&"m".repeat(long))) {
             let [before, after] = [&before, &after].map(|rows| rows[row].chars().skip(3 + long));
@@ -956,7 +956,7 @@ fn a_notice_blanks_nothing_beside_it_but_what_is_left_of_words_in_a_frame() {
     let before = rows(&screen(&app, &rich(), size));
     assert!(before[7].contains(" ↓"), "{before:#?}");
     for long in 3..36 {
-        app.notice = Some(Notification::info("m".repeat(long)));
+        app.notifications.show(Notification::info("m".repeat(long)));
         let after = rows(&screen(&app, &rich(), size));
         let rest = after[7].trim_start_matches(['╰', '─', ' ']).trim_start_matches('m');
         let words: String = rest.chars().filter(|c| !"─╯ ".contains(*c)).collect();

@@ -90,7 +90,7 @@ fn it_keeps_still_until_it_is_asked() {
     assert!(text(&app).contains("Time 4.96667"), "{}", text(&app));
     // Automatically, every two seconds and not more often.
     press(&mut app, "A");
-    app.notice = None;
+    app.notifications.dismiss();
     let mut pictures = vec![read(&app)];
     for frame in 0..150 {
         app.update(Event::Tick(Duration::from_millis(100)));
@@ -102,7 +102,7 @@ fn it_keeps_still_until_it_is_asked() {
     }
     assert!((6..=9).contains(&pictures.len()), "{} in 15 s", pictures.len());
     press(&mut app, "A");
-    app.notice = None;
+    app.notifications.dismiss();
     let still = read(&app);
     app.update(Event::Tick(Duration::from_secs(5)));
     sees(&mut app, 99.0);
