@@ -100,9 +100,9 @@ impl FormulaMonitors {
         let pool = &*self.pool;
         let value = |symbol: Symbol| at.of(symbol, pool, &self.constants);
         let of = |monitor: &InvariantMonitor| {
-            let (number, error) = pool.evaluate_with_error(monitor.expression, &value);
+            let (number, error) = pool.evaluate_with_error(monitor.subject.expression, &value);
             let underflows =
-                error < f64::MIN_POSITIVE && pool.underflows(monitor.expression, &value);
+                error < f64::MIN_POSITIVE && pool.underflows(monitor.subject.expression, &value);
             (number, (error, underflows))
         };
         let (values, errors) = self.monitors.iter().map(of).unzip();
@@ -136,7 +136,7 @@ impl FormulaMonitors {
     ) {
         let FormulaValues { values, .. } = self.values(now);
         for (monitor, value) in self.monitors.iter_mut().zip(values) {
-            let Some(reference) = known(&monitor.name, value) else { continue };
+            let Some(reference) = known(&monitor.subject.name, value) else { continue };
             monitor.restore(&reference, now.time);
             self.since = reference.since;
         }
