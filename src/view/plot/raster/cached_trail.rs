@@ -230,6 +230,7 @@ mod tests {
             PlotFrame::new(Scale::linear(-1.0, 1.0).wrapped(2.0), whole, area),
         ];
         let points = walk(900);
+        assert_eq!(points.len(), 900);
         for (frame, depth) in
             frames.iter().flat_map(|f| [ColourDepth::True, ColourDepth::None].map(|d| (f, d)))
         {
