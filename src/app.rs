@@ -66,6 +66,7 @@ mod steady_verdicts;
 mod surface;
 mod symmetries;
 mod synonyms;
+mod text_change;
 mod timeline;
 mod typed_axis;
 mod update;

@@ -94,17 +94,6 @@ impl App {
         Some(self.workbench.lay(&self.lab.as_ref()?.loaded, place))
     }
 
-    /// Says that the system in the lab has unsaved changes from before, which do not run: a change of its text by a key would
-    /// make them run as well.
-    pub(super) fn remind_of_what_does_not_run(&self) -> Option<String> {
-        let running = &self.lab.as_ref()?.loaded.document.text;
-        let buffer = self.own_buffer()?;
-        let waits = buffer.state == BufferState::Left && buffer.editor.text() != *running;
-        let title = &buffer.title;
-        waits
-            .then(|| format!("{title} has unsaved changes that do not run; E shows and runs them."))
-    }
-
     /// Ends the program. If a text would be lost, the user has to ask twice.
     pub(super) fn quit(&mut self) -> Vec<Effect> {
         let Some(message) = self.loss().filter(|_| !self.workbench.keeps) else {

@@ -72,16 +72,8 @@ impl App {
         };
         let RampRequest { to, duration, form } = request;
         let ramp = NewRamp { parameter: name.clone(), to, start, duration, form };
-        if let Some(why) = self.remind_of_what_does_not_run() {
-            return self.fail(why);
-        }
-        let Some(buffer) = self.ready_buffer() else { return Vec::new() };
-        match ramp.added_to(&buffer.editor.text()) {
-            Ok(text) => {
-                buffer.editor.become_text(&text);
-                buffer.touch_at_once(false);
-            }
-            Err(why) => return self.fail(format!("The text cannot be changed: {why}.")),
+        if let Err(effects) = self.change_text(|text| ramp.added_to(text)) {
+            return effects;
         }
         if let Some(lab) = &mut self.lab {
             lab.hold_for_ramp(&name);

@@ -100,16 +100,8 @@ impl App {
         surface: &NewSurface,
         sentence: String,
     ) -> Vec<Effect> {
-        if let Some(why) = self.remind_of_what_does_not_run() {
-            return self.fail(why);
-        }
-        let Some(buffer) = self.ready_buffer() else { return Vec::new() };
-        match surface.written_to(&buffer.editor.text(), view) {
-            Ok(text) => {
-                buffer.editor.become_text(&text);
-                buffer.touch_at_once(false);
-            }
-            Err(why) => return self.fail(format!("The text cannot be changed: {why}.")),
+        if let Err(effects) = self.change_text(|text| surface.written_to(text, view)) {
+            return effects;
         }
         if matches!(view, SurfaceView::New(_)) {
             self.awaited_plots.section = Some(plot);

@@ -45,16 +45,8 @@ impl App {
             return Some(self.set_typed_axis(axis));
         }
         let observable = NewObservable { name: name.clone(), expression: typed };
-        if let Some(why) = self.remind_of_what_does_not_run() {
-            return Some(self.fail(why));
-        }
-        let buffer = self.ready_buffer()?;
-        match observable.added_to(&buffer.editor.text()) {
-            Ok(text) => {
-                buffer.editor.become_text(&text);
-                buffer.touch_at_once(false);
-            }
-            Err(why) => return Some(self.fail(format!("The text cannot be changed: {why}."))),
+        if let Err(effects) = self.change_text(|text| observable.added_to(text)) {
+            return Some(effects);
         }
         self.awaited_plots.axis = Some(axis);
         let sentence = format!("{name} is now an observable of the text; E shows it.");
