@@ -53,7 +53,7 @@ impl Lab {
             let under_way = match plot.kind.job(plot, &present, answer.as_ref()) {
                 Need::Nothing => continue,
                 Need::Addition(_) if !jobs.in_background || !is_drawn => None,
-                Need::Held => None,
+                Need::Valid => None,
                 Need::Job(job) | Need::Addition(job) => {
                     let computation = jobs.request(Asker::Plot(place), job);
                     let under_way = UnderWay::new(&computation);

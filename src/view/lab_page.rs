@@ -88,12 +88,12 @@ pub(super) fn draw_motion(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab) {
 fn law(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, title: &[Span]) -> LawInView {
     let inner = canvas.pane(area, title, lab.focus.pane == Pane::Law);
     canvas.target(area, HitTarget::Pane(Pane::Law));
-    let mut kept = std::mem::take(&mut canvas.kept);
-    let rows = kept.law(&lab.loaded.equations, inner.width, || {
+    let mut cache = std::mem::take(&mut canvas.cache);
+    let rows = cache.law(&lab.loaded.equations, inner.width, || {
         equations::law(lab, canvas.look).laid_out(canvas, inner.width)
     });
     let drawn = draw_rows(canvas, inner, lab.law_scroll, rows);
-    canvas.kept = kept;
+    canvas.cache = cache;
     let above = lab.law_scroll.min(drawn.beyond);
     out_of_sight(canvas, area, above.into(), usize::from(drawn.beyond - above));
     if drawn.beyond == 0 { LawInView::Whole } else { LawInView::Clipped(drawn.beyond) }
