@@ -87,8 +87,8 @@ impl Session {
 
     /// Puts a text into the terminal's clipboard, or else into a file.
     pub(super) fn copy(&mut self, what: &'static str, text: String, ending: &'static str) {
-        if self.has_clipboard && text.len() <= clipboard::MOST {
-            self.clipboard = Some(text);
+        if self.clipboard.is_there && text.len() <= clipboard::MOST {
+            self.clipboard.text = Some(text);
             let format = if ending == "tex" { " as LaTeX" } else { "" };
             return self.report(Ok(format!("{what} are copied{format}: paste them anywhere.")));
         }
