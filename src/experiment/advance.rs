@@ -70,7 +70,7 @@ impl Experiment {
         let progress = self.reach(time, &mut budget);
         if progress == AdvanceOutcome::Arrived {
             self.recorder.widen(self.motion.values());
-            self.gauge(Gauges::look);
+            self.gauge(Gauges::observe);
         }
         progress
     }

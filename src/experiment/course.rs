@@ -331,7 +331,7 @@ impl Experiment {
 
     /// Passes the current values to the gauges.
     pub(super) fn gauge(&mut self, sample: impl FnOnce(&mut Gauges, &GaugeInputs<'_>)) {
-        self.motion.look_at_terms();
+        self.motion.observe_terms();
         let constants = self.constants();
         sample(&mut self.gauges, &self.motion.present(&constants));
     }

@@ -224,7 +224,7 @@ impl Gauges {
         if dense {
             self.look_on_the_way(now.time, now.steps, now.values, now.terms);
         } else {
-            self.look(now);
+            self.observe(now);
         }
         for residual in &mut self.residuals {
             residual.sample(now.time, now.residuals);
@@ -235,19 +235,19 @@ impl Gauges {
     }
 
     /// Records the values at any other time.
-    pub(super) fn look(&mut self, now: &GaugeInputs<'_>) {
+    pub(super) fn observe(&mut self, now: &GaugeInputs<'_>) {
         let floor = self.floor(now.steps);
         for monitor in &mut self.monitors {
-            monitor.look(now.time, now.values, now.terms, floor);
+            monitor.observe(now.time, now.values, now.terms, floor);
         }
         let at = now.channels(&self.places);
-        self.found.look(at, now.terms, floor, false);
-        self.integration.look(at, now.terms, floor, false);
+        self.found.observe(at, now.terms, floor, false);
+        self.integration.observe(at, now.terms, floor, false);
         for residual in &mut self.residuals {
-            residual.look(now.residuals);
+            residual.observe(now.residuals);
         }
         if let Some(attitude) = &mut self.attitude {
-            attitude.look(now.values);
+            attitude.observe(now.values);
         }
     }
 
@@ -264,8 +264,8 @@ impl Gauges {
             monitor.sample(time, values, terms, floor);
         }
         let at = ChannelValues { time, values, places: &self.places };
-        self.found.look(at, terms, floor, true);
-        self.integration.look(at, terms, floor, true);
+        self.found.observe(at, terms, floor, true);
+        self.integration.observe(at, terms, floor, true);
     }
 
     /// Records the terms at the end of a step or within it.

@@ -59,7 +59,7 @@ impl Experiment {
         self.log.rewind(sign * time, sign, self.motion.values().len());
         // an impulse has shifted what the gauges measure from
         if self.motion.impulses() == impulses {
-            self.gauge(Gauges::look);
+            self.gauge(Gauges::observe);
         } else {
             self.gauge(Gauges::refer);
         }

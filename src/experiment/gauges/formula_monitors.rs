@@ -149,7 +149,7 @@ impl FormulaMonitors {
     }
 
     /// Records the values at a time; those of a sample in the history as well.
-    pub(super) fn look(
+    pub(super) fn observe(
         &mut self,
         at: ChannelValues<'_>,
         terms: &TermWatch,
@@ -162,7 +162,7 @@ impl FormulaMonitors {
             if is_sample {
                 monitor.sample(at.time, &values, terms, floor);
             } else {
-                monitor.look(at.time, &values, terms, floor);
+                monitor.observe(at.time, &values, terms, floor);
             }
         }
     }

@@ -184,7 +184,13 @@ impl InvariantMonitor {
     }
 
     /// Records an accurate value and returns its distance; `floor` is the rounding error of a value of size 1.
-    pub(super) fn look(&mut self, time: f64, values: &[f64], terms: &TermWatch, floor: f64) -> f64 {
+    pub(super) fn observe(
+        &mut self,
+        time: f64,
+        values: &[f64],
+        terms: &TermWatch,
+        floor: f64,
+    ) -> f64 {
         let mut distance = values[self.subject.channel] - self.reference.value;
         let mut moving = 0.0;
         if let Some(sums) = self.summed(terms) {
@@ -205,7 +211,7 @@ impl InvariantMonitor {
 
     /// Records an accurate value for the history as well.
     pub(super) fn sample(&mut self, time: f64, values: &[f64], terms: &TermWatch, floor: f64) {
-        let distance = self.look(time, values, terms, floor);
+        let distance = self.observe(time, values, terms, floor);
         self.drift.distances.push(time, distance);
     }
 
