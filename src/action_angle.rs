@@ -1,7 +1,7 @@
 //! Action variables of one coordinate: J = ∮ p dq, its period and frequency, its angle variable, the
 //! separatrices between kinds of motion.
 //!
-//! In: a system that conserves its energy, or one held at an instant, a coordinate, an energy. Out: one row for each region
+//! In: a system that conserves its energy, or one frozen at an instant, a coordinate, an energy. Out: one row for each region
 //! in which the coordinate may move; whether a change of the action is small. Never here: names, files, pictures, runs.
 //! Source: *The Principles of Dynamics*, §§ 4.2, 4.3.
 
@@ -9,7 +9,7 @@ mod adiabatic;
 mod angle;
 mod effective_potential;
 mod extremum;
-mod held;
+mod frozen;
 mod mean_return;
 mod moment;
 mod quadrature;
@@ -19,7 +19,7 @@ mod separatrix;
 pub use adiabatic::is_adiabatic;
 pub use angle::angle;
 pub use effective_potential::{AllowedInterval, EffectivePotential};
-pub use held::{HeldMotion, HeldSystem, NotHeld, OwnMotion};
+pub use frozen::{FrozenMotion, FrozenSystem, NotFrozen, OwnMotion};
 pub use mean_return::average_returns;
 pub use moment::AngleMoment;
 pub use row::{

@@ -33,6 +33,7 @@ mod lesson;
 mod list;
 mod lyapunov;
 mod manual;
+mod method_options;
 mod methods;
 
 mod motion_options;

@@ -7,6 +7,7 @@
 //! program that draws curves in a terminal: [`card`], [`colour`], [`glyphs`], [`theme`], [`number`], [`sparkline`],
 //! [`plot`] and [`frame`].
 
+mod cache;
 mod canvas;
 pub mod caption;
 pub mod card;
@@ -29,7 +30,6 @@ mod help;
 mod highlight;
 mod hit_test;
 mod ink;
-mod kept;
 mod lab_page;
 mod layout;
 mod legend;

@@ -1,9 +1,9 @@
 //! A motion at an instant by action and angle, and its angle counted on from an earlier one.
 //!
-//! In: a held system, the state of a motion. Out: energy, action, frequency, and w in turns. Never here: the motion between.
+//! In: a frozen system, the state of a motion. Out: energy, action, frequency, and w in turns. Never here: the motion between.
 //! Source: *The Principles of Dynamics*, § 4.2.
 
-use super::HeldSystem;
+use super::FrozenSystem;
 
 /// Why there is no angle where the rate of the coordinate depends on another one.
 const UNEVEN: &str = "its returns take different times, as its rate depends on another coordinate; ∂S/∂J has then a part of \
@@ -30,12 +30,12 @@ impl AngleMoment {
     /// # Errors
     /// Returns an error if the motion does not return, or has no such state.
     pub fn of(
-        held: &HeldSystem,
+        frozen: &FrozenSystem,
         time: f64,
         parameters: &[f64],
         state: [&[f64]; 2],
     ) -> Result<AngleMoment, String> {
-        let mut motion = held.at(time, parameters, state).map_err(|why| why.to_string())?;
+        let mut motion = frozen.at(time, parameters, state).map_err(|why| why.to_string())?;
         let own = motion.own().map_err(|why| why.to_string())?;
         let row = own.row.map_err(|why| why.to_string())?;
         if row.is_uneven {

@@ -5,6 +5,7 @@
 use std::sync::Arc;
 use std::time::Duration;
 
+use super::InvariantSearch;
 use super::computation::UnderWay;
 use crate::instrument::{Answer, Columns, FoundEquilibria, Instrument, PeriodicOrbits, Plot};
 use crate::integrability::PointSymmetry;
@@ -147,9 +148,31 @@ pub struct FurtherForms {
     pub further: Further,
 }
 
-/// The job, and what it found.
+/// What takes longer to derive from the law, each by one job.
 #[derive(Clone, Debug, Default)]
-pub(super) struct FurtherSearch {
-    pub(super) asked: Option<u64>,
-    pub(super) found: Option<Arc<FurtherForms>>,
+pub(super) struct Derivations {
+    /// The ticket of the job that finds the closed forms of the equations, once it was requested.
+    pub(super) closed_forms: Option<u64>,
+    /// The ticket of the job that finds the further forms.
+    pub(super) further_job: Option<u64>,
+    pub(super) further: Option<Arc<FurtherForms>>,
+}
+
+/// What a person has the lab search for.
+#[derive(Clone, Debug, Default)]
+pub struct Searches {
+    /// The constants of the motion.
+    pub constants: InvariantSearch,
+    pub(super) equilibria: EquilibriaSearch,
+    pub(super) symmetries: SymmetrySearch,
+    /// The ticket of the job that follows a flow.
+    pub(super) flow: Option<u64>,
+}
+
+impl Searches {
+    /// Advances the time.
+    pub(super) fn tick(&mut self, elapsed: Duration) {
+        self.constants.tick(elapsed);
+        self.equilibria.tick(elapsed);
+    }
 }

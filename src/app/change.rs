@@ -34,7 +34,7 @@ impl App {
                 ValueId::Initial(index) => Command::Initial { index, value },
             }));
         }
-        let shown = self.notice.clone();
+        let shown = self.notifications.shown.clone();
         self.forget_past_motion(shown.as_ref(), &effects);
         effects
     }
@@ -50,16 +50,16 @@ impl App {
 impl Lab {
     /// Returns the method's name: the one requested last, until the experiment confirms it.
     pub(super) fn method(&self) -> Option<&'static str> {
-        self.asked.method.or(self.snapshot.as_ref().map(|s| s.method.name))
+        self.pending.method.or(self.snapshot.as_ref().map(|s| s.method.name))
     }
 
     fn settings(&self) -> Option<Settings> {
-        self.asked.settings.or(self.snapshot.as_ref().map(|s| s.setup.settings))
+        self.pending.settings.or(self.snapshot.as_ref().map(|s| s.setup.settings))
     }
 
     fn given(&self) -> Vec<InitialOverride> {
         let fact = || self.snapshot.as_ref().map_or(Vec::new(), |s| s.setup.overrides.clone());
-        self.asked.given.clone().unwrap_or_else(fact)
+        self.pending.given.clone().unwrap_or_else(fact)
     }
 
     /// Changes a value.
@@ -70,7 +70,7 @@ impl Lab {
             ValueId::Parameter(index) => {
                 let steps_on = self.history.steps_on(index);
                 self.note(Change::Parameter { index, numbers });
-                self.set_pending(target, to);
+                self.pending.set_value(target, to);
                 vec![Effect::Tell(if steps_on {
                     Command::MoveParameter { index, value: to }
                 } else {
@@ -81,8 +81,8 @@ impl Lab {
                 let before = self.given();
                 let after = with_override(&self.loaded.system, &before, index, to);
                 self.note(Change::Initial { index, numbers, given: [before, after.clone()] });
-                self.set_pending(target, to);
-                self.asked.given = Some(after);
+                self.pending.set_value(target, to);
+                self.pending.given = Some(after);
                 vec![Effect::Tell(Command::Initial { index, value: to })]
             }
         }
@@ -126,7 +126,7 @@ impl Lab {
             Some(before) => self.note(Change::Method([before, name])),
             None => {}
         }
-        self.asked.method = Some(name);
+        self.pending.method = Some(name);
         vec![Effect::Tell(Command::Method(name.to_owned()))]
     }
 
@@ -149,7 +149,7 @@ impl Lab {
         if after != before {
             self.note(Change::Settings([before, after]));
         }
-        self.asked.settings = Some(after);
+        self.pending.settings = Some(after);
     }
 
     /// Changes a picture.
@@ -205,9 +205,8 @@ impl Lab {
             }
             effects
                 .retain(|effect| !matches!(effect, Effect::Tell(command) if command.sets_values()));
-            // what waits for a text waits no longer
-            self.held = None;
-            (self.awaited, self.awaited_law) = (Some((*motion).clone()), None);
+            self.restoration.forget_rebuild();
+            self.restoration.begin((*motion).clone(), None);
             effects.push(Effect::Tell(Command::Restore(motion)));
         }
         (effects, label)
@@ -228,13 +227,13 @@ impl Lab {
     fn checkpoint(&self) -> Option<Checkpoint> {
         let Loaded { model, system, .. } = &self.loaded;
         let seen = self.seen()?;
-        let awaited = self.held.as_ref().or(self.awaited.as_ref());
+        let awaited = self.restoration.checkpoint();
         let of_seen = || Checkpoint::of(model, system, seen).with_past(system, seen);
         let mut now = awaited.cloned().unwrap_or_else(of_seen);
         let value = |index| self.value(ValueId::Parameter(index));
         let values = (0..model.parameters.len()).map(|i| value(i).unwrap_or(seen.parameters[i]));
         now.set_parameters(model, values);
-        if let (Some(given), None) = (&self.asked.given, awaited) {
+        if let (Some(given), None) = (&self.pending.given, awaited) {
             now.start_with(model, given);
         }
         Some(now)
@@ -287,7 +286,7 @@ impl Lab {
             Change::Initial { index, numbers, given } => {
                 self.choose(ValueId::Initial(index));
                 let effect = self.begin_with(side.of(given));
-                self.set_pending(ValueId::Initial(index), side.of(numbers));
+                self.pending.set_value(ValueId::Initial(index), side.of(numbers));
                 vec![effect]
             }
             Change::Start(given) | Change::Flow(given) => vec![self.begin_with(side.of(given))],
@@ -307,19 +306,19 @@ impl Lab {
             Change::Plot { index, plots } => {
                 if let Some(plot) = self.plots.get_mut(index) {
                     *plot = side.of(*plots);
-                    self.focus = Pane::Plot(index);
+                    self.focus.pane = Pane::Plot(index);
                 }
                 self.answers.stale = true;
                 Vec::new()
             }
             Change::Method(names) => {
                 let name = side.of(names);
-                self.asked.method = Some(name);
+                self.pending.method = Some(name);
                 vec![Effect::Tell(Command::Method(name.to_owned()))]
             }
             Change::Settings(settings) => {
                 let settings = side.of(settings);
-                self.asked.settings = Some(settings);
+                self.pending.settings = Some(settings);
                 vec![Effect::Tell(Command::Settings(settings))]
             }
             Change::Together(mut changes) => {
@@ -332,30 +331,26 @@ impl Lab {
     }
 
     fn set_parameter(&mut self, index: usize, value: f64) -> Effect {
-        self.set_pending(ValueId::Parameter(index), value);
+        self.pending.set_value(ValueId::Parameter(index), value);
         Effect::Tell(Command::Parameter { index, value })
     }
 
     /// Starts the motion with these in place of the file's values.
     fn begin_with(&mut self, given: Vec<InitialOverride>) -> Effect {
         // The experiment reports the resulting other initial values.
-        self.pending.retain(|(target, _)| matches!(target, ValueId::Parameter(_)));
-        self.asked.given = Some(given.clone());
+        self.pending.values.retain(|(target, _)| matches!(target, ValueId::Parameter(_)));
+        self.pending.given = Some(given.clone());
         Effect::Tell(Command::Start(given))
     }
 
     /// Restores all values of the file.
     fn give_back(&mut self) -> Effect {
-        self.pending.clear();
+        self.pending.values.clear();
         let parameters = self.loaded.model.parameter_values().into_iter().enumerate();
-        self.pending.extend(parameters.map(|(index, value)| (ValueId::Parameter(index), value)));
-        self.asked.given = Some(Vec::new());
+        let values = parameters.map(|(index, value)| (ValueId::Parameter(index), value));
+        self.pending.values.extend(values);
+        self.pending.given = Some(Vec::new());
         Effect::Tell(Command::FullReset)
-    }
-
-    fn set_pending(&mut self, target: ValueId, value: f64) {
-        self.pending.retain(|(t, _)| *t != target);
-        self.pending.push((target, value));
     }
 }
 

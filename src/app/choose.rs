@@ -31,11 +31,12 @@ impl App {
         let line = |(index, (name, about)): (usize, &(&str, &str))| {
             Item::plain(*name, *about, Choice::Theme(index))
         };
-        let items: Vec<Item> = self.themes.iter().enumerate().map(line).collect();
+        let items: Vec<Item> = self.themes.available.iter().enumerate().map(line).collect();
         if items.is_empty() {
             return self.notify("Only one theme is available here.");
         }
-        let now = self.themes.iter().position(|(name, _)| Some(*name) == self.theme);
+        let now =
+            self.themes.available.iter().position(|(name, _)| Some(*name) == self.themes.chosen);
         let menu = Menu::new("Theme", Choosing::Theme, items);
         self.overlay = Some(Overlay::Menu(menu.on(Choice::Theme(now.unwrap_or(0)))));
         Vec::new()
@@ -80,7 +81,7 @@ impl App {
             // which axes make a plane is known once all of them are
             let begun = begun.opened(lab.loaded.physics());
             lab.redraw(plot, |plot, _| *plot = begun);
-            lab.focus = Pane::Plot(plot);
+            lab.focus.pane = Pane::Plot(plot);
             return Vec::new();
         };
         let shown = lab.plots.get(plot);
@@ -136,7 +137,7 @@ impl App {
             }
             (_, Choice::Impulse(index)) => self.apply_impulse(index),
             (_, Choice::Theme(index)) => {
-                self.theme = self.themes.get(index).map(|(name, _)| *name);
+                self.themes.chosen = self.themes.name(index);
                 Vec::new()
             }
             (_, Choice::Guide(index)) => self.take_guide(index),

@@ -25,7 +25,7 @@ impl App {
         match hit {
             HitTarget::Plot { index, at, .. } if self.overlay.is_none() => {
                 if let Some(lab) = &mut self.lab {
-                    lab.focus = Pane::Plot(index);
+                    lab.focus.pane = Pane::Plot(index);
                 }
                 self.add_start_at(index, at)
             }
@@ -110,7 +110,7 @@ impl Lab {
             self.plots.push(Plot::new(kind, (columns, view), physics.model).opened(physics));
             self.plots.len() - 1
         });
-        self.focus = Pane::Plot(index);
+        self.focus.pane = Pane::Plot(index);
         self.answers.stale = true;
         true
     }

@@ -29,6 +29,23 @@ pub enum Asker {
     Symmetries,
 }
 
+/// The background jobs requested by an application.
+#[derive(Clone, Debug, Default)]
+pub struct Jobs {
+    /// Whether jobs are sent out by [`Effect::Compute`](super::Effect::Compute), so that no frame waits for them; otherwise they run at once.
+    pub in_background: bool,
+    /// The number requested so far.
+    count: u64,
+}
+
+impl Jobs {
+    /// Creates a job with a new ticket.
+    pub(super) fn request(&mut self, asker: Asker, job: Job<Answer>) -> Computation {
+        self.count += 1;
+        Computation { ticket: self.count, asker, job }
+    }
+}
+
 /// A job to be run in the background.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Computation {

@@ -65,7 +65,7 @@ impl Lab {
             Some(_) => self.redraw(index, |shown, _| *shown = plot),
             None => self.plots.push(plot),
         }
-        self.focus = Pane::Plot(index);
+        self.focus.pane = Pane::Plot(index);
         self.answers.stale = true;
     }
 }

@@ -14,6 +14,7 @@ use tui_input::Input;
 
 use super::buffer::{Asking, BufferState, CheckedRevision, SourceBuffer, Unsaved};
 use super::field::paste;
+use super::pending::AwaitedPlots;
 use super::{App, CheckedText, EditCommand, Effect, Lab, Notification, Overlay, Page, SaveError};
 use crate::preset::{PresetOrigin, is_path};
 
@@ -77,7 +78,7 @@ impl App {
     /// Opens the file of the loaded system.
     pub(super) fn edit_file(&mut self) -> Vec<Effect> {
         // The row of the editor's state is not taken by what was said of the motion before.
-        self.notice.take_if(|notice| !notice.is_error());
+        self.notifications.shown.take_if(|notice| !notice.is_error());
         if self.ready_buffer().is_some() {
             self.overlay = Some(Overlay::Workbench);
         }
@@ -93,23 +94,12 @@ impl App {
         Some(self.workbench.lay(&self.lab.as_ref()?.loaded, place))
     }
 
-    /// Says that the system in the lab has unsaved changes from before, which do not run: a change of its text by a key would
-    /// make them run as well.
-    pub(super) fn remind_of_what_does_not_run(&self) -> Option<String> {
-        let running = &self.lab.as_ref()?.loaded.document.text;
-        let buffer = self.own_buffer()?;
-        let waits = buffer.state == BufferState::Left && buffer.editor.text() != *running;
-        let title = &buffer.title;
-        waits
-            .then(|| format!("{title} has unsaved changes that do not run; E shows and runs them."))
-    }
-
     /// Ends the program. If a text would be lost, the user has to ask twice.
     pub(super) fn quit(&mut self) -> Vec<Effect> {
         let Some(message) = self.loss().filter(|_| !self.workbench.keeps) else {
             return vec![Effect::Quit];
         };
-        if self.notice.as_ref().is_some_and(|notice| notice.text == message) {
+        if self.notifications.shown.as_ref().is_some_and(|notice| notice.text == message) {
             return vec![Effect::Quit];
         }
         self.fail(message)
@@ -118,7 +108,7 @@ impl App {
     /// Cancels the end of the program because a text could not be stored.
     pub fn stay(&mut self) {
         self.workbench.keeps = false;
-        self.notice = self.loss().map(Notification::error);
+        self.notifications.shown = self.loss().map(Notification::error);
     }
 
     /// Returns a sentence about what would be lost.
@@ -137,7 +127,7 @@ impl App {
     pub(super) fn remind(&mut self) {
         if let Some(buffer) = self.own_buffer().filter(|buffer| buffer.is_modified()) {
             let message = format!("{} has unsaved changes; E shows them.", buffer.title);
-            self.notice = Some(Notification::info(message));
+            self.notifications.show(Notification::info(message));
         }
     }
 
@@ -181,7 +171,7 @@ impl App {
             EditCommand::Cut => buffer.editor.cut(),
             EditCommand::Copy => {
                 buffer.editor.copy();
-                self.notice = Some(Notification::info("Copied; Ctrl-v pastes it."));
+                self.notifications.show(Notification::info("Copied; Ctrl-v pastes it."));
                 return Vec::new();
             }
             EditCommand::PutBack => buffer.editor.put_back(),
@@ -238,7 +228,7 @@ impl App {
             (false, false) if self.lab.is_none() => return self.leave_alone(),
             (false, false) => return Vec::new(),
         };
-        self.notice = Some(Notification::info(message));
+        self.notifications.show(Notification::info(message));
         let mut effects = if stopped { vec![Effect::StopCheck] } else { Vec::new() };
         if stopped {
             // a motion that waits for this text runs on without it
@@ -304,7 +294,7 @@ impl App {
     pub(super) fn saved_file(&mut self, outcome: Result<(PathBuf, String), SaveError>) {
         let Some(buffer) = self.workbench.top_mut() else { return };
         buffer.overrule = outcome == Err(SaveError::Changed);
-        self.notice = Some(match outcome {
+        self.notifications.show(match outcome {
             Ok((place, text)) => {
                 let shown = place.display().to_string();
                 buffer.on_disk = text;
@@ -347,7 +337,7 @@ impl App {
                     "{} was changed by another program; your text has unsaved changes.",
                     buffer.title
                 );
-                self.notice = Some(Notification::error(message));
+                self.notifications.show(Notification::error(message));
             }
             return;
         }
@@ -364,7 +354,7 @@ impl App {
     pub(super) fn found_on_disk(&mut self, there: bool) {
         let Some(lab) = &self.lab else { return };
         let title = &lab.loaded.document.path;
-        self.notice = Some(if there {
+        self.notifications.show(if there {
             Notification::info(format!("{title} exists again."))
         } else {
             Notification::error(format!(
@@ -405,24 +395,24 @@ impl App {
                     buffer.diagnostics.clear();
                     buffer.state = BufferState::Rebuilt(took);
                 }
-                let waits = |lab: &Lab| lab.awaited.is_some() || lab.held.is_some();
+                let waits = |lab: &Lab| lab.restoration.checkpoint().is_some();
                 let resumes = self.lab.as_ref().is_some_and(waits);
                 // a quantity typed for an axis or a section is no change of the text
-                let is_quantity = self.typed_axis.is_some() || self.new_section.is_some();
+                let is_quantity = self.awaited_plots.any();
                 let is_open = matches!(self.overlay, Some(Overlay::Workbench));
                 if !resumes && !is_open && !is_quantity {
                     let title = &loaded.document.path;
                     let time = took.map(|took| format!(" in {:.0} ms", took.as_secs_f64() * 1e3));
                     let time = time.unwrap_or_default();
                     let message = format!("{title}: rebuilt{time}; the motion continues.");
-                    self.notice = Some(Notification::info(message));
+                    self.notifications.show(Notification::info(message));
                 }
                 self.rebuilt(loaded)
             }
             // Errors of a text that has changed since are out of date.
             (Err(_), CheckedRevision::Older) => Vec::new(),
             (Err(diagnostics), CheckedRevision::Newest) => {
-                (self.typed_axis, self.new_section) = (None, None);
+                self.awaited_plots = AwaitedPlots::default();
                 let Some(buffer) = self.buffer() else { return Vec::new() };
                 buffer.is_wrong(&diagnostics);
                 if mends {
@@ -431,7 +421,7 @@ impl App {
                 let saved = buffer.saved_as().filter(|_| buffer.unlooked);
                 buffer.unlooked = false;
                 if let Some(message) = saved {
-                    self.notice = Some(Notification::error(message));
+                    self.notifications.show(Notification::error(message));
                 }
                 self.restore()
             }

@@ -18,8 +18,8 @@ impl App {
     /// Lists the equilibria, searches for them first, or stops searching.
     pub(super) fn find_equilibria(&mut self) -> Vec<Effect> {
         let Some(lab) = &mut self.lab else { return Vec::new() };
-        if lab.equilibria.under_way.take().is_some() {
-            self.notice = Some(Notification::info("The search for equilibria was stopped."));
+        if lab.searches.equilibria.under_way.take().is_some() {
+            self.notifications.show(Notification::info("The search for equilibria was stopped."));
             return vec![Effect::StopComputing(Asker::Equilibria)];
         }
         let Some(present) = lab.present() else { return Vec::new() };
@@ -29,12 +29,12 @@ impl App {
         let search = equilibria_search(&present);
         let job =
             Job::new("equilibria", move |progress| Answer::new(search(progress).map(Arc::new)));
-        let computation = self.computation(Asker::Equilibria, job);
+        let computation = self.jobs.request(Asker::Equilibria, job);
         if let Some(lab) = &mut self.lab {
-            lab.equilibria.under_way = Some(UnderWay::new(&computation));
+            lab.searches.equilibria.under_way = Some(UnderWay::new(&computation));
         }
-        self.notice =
-            Some(Notification::info("Searching for equilibria; F again stops the search."));
+        self.notifications
+            .show(Notification::info("Searching for equilibria; F again stops the search."));
         vec![Effect::Compute(computation)]
     }
 
@@ -44,9 +44,9 @@ impl App {
         ticket: u64,
         outcome: &Outcome<Answer>,
     ) -> Option<Vec<Effect>> {
-        let search = &mut self.lab.as_mut()?.equilibria;
+        let search = &mut self.lab.as_mut()?.searches.equilibria;
         search.under_way.take_if(|job| job.ticket == ticket)?;
-        self.notice = None;
+        self.notifications.dismiss();
         let found = match outcome {
             Outcome::Cancelled => return Some(Vec::new()),
             Outcome::Failed(sentence) => return Some(self.fail(sentence.clone())),
@@ -71,11 +71,11 @@ impl App {
     /// Reports the progress of the search.
     pub(super) fn equilibria_progressed(&mut self, ticket: u64, share: Share) {
         let Some(lab) = &mut self.lab else { return };
-        let Some(job) = &mut lab.equilibria.under_way else { return };
+        let Some(job) = &mut lab.searches.equilibria.under_way else { return };
         job.reach(ticket, share);
         if let Some(status) = job.status() {
             let text = format!("{status} F stops the search.");
-            self.notice = Some(Notification::info(text));
+            self.notifications.show(Notification::info(text));
         }
     }
 
@@ -93,7 +93,8 @@ impl App {
                 items.push(Item::plain(label, about, Choice::Mode(index, mode)));
             }
         }
-        let periods = lab.equilibria.found.as_ref().map_or(&[][..], |found| &found.periods);
+        let periods =
+            lab.searches.equilibria.found.as_ref().map_or(&[][..], |found| &found.periods);
         let title = match classes(present.physics, periods) {
             Some(classes) => {
                 format!("Equilibria, {classes}: Enter starts there")
@@ -129,7 +130,7 @@ impl App {
 impl Lab {
     /// Returns the equilibria that were found at these parameters.
     pub(super) fn equilibria_at(&self, parameters: &[f64]) -> &[Equilibrium] {
-        let found = self.equilibria.found.as_ref();
+        let found = self.searches.equilibria.found.as_ref();
         let found = found.filter(|found| found.parameters == parameters);
         found.map_or(&[], |found| &found.found)
     }

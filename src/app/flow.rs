@@ -213,7 +213,7 @@ impl App {
             return self.notify(format!("There is nothing to apply: {why}."));
         }
         let Some(lab) = &mut self.lab else { return Vec::new() };
-        let search = lab.wants_search(&mut self.jobs, self.aside).map(Effect::Compute);
+        let search = lab.wants_search(&mut self.jobs).map(Effect::Compute);
         let menu = Menu::new(FLOWS, Choosing::Flow, lab.flow_lines());
         self.overlay = Some(Overlay::Menu(menu));
         search.into_iter().collect()
@@ -259,7 +259,7 @@ impl Lab {
             let about = "changes of time and coordinates that take motions to motions";
             items.push(Item::plain("symmetries …", about, Choice::Symmetries));
         }
-        if lab.search.under_way.is_some() {
+        if lab.searches.constants.under_way.is_some() {
             let unavailable = Some("they join this list in a moment".to_owned());
             let label = "searching for constants of the motion …";
             items.push(Item { unavailable, ..Item::plain(label, "", Choice::Symmetries) });
@@ -350,9 +350,9 @@ impl App {
         };
         let job =
             Job::new("following the flow", move |progress| Answer::new(start.carried(progress)));
-        let computation = self.computation(Asker::Flow, job);
+        let computation = self.jobs.request(Asker::Flow, job);
         if let Some(lab) = &mut self.lab {
-            lab.flow = Some(computation.ticket);
+            lab.searches.flow = Some(computation.ticket);
         }
         vec![Effect::Compute(computation)]
     }
@@ -364,7 +364,7 @@ impl App {
         outcome: &Outcome<Answer>,
     ) -> Option<Vec<Effect>> {
         let lab = self.lab.as_mut()?;
-        lab.flow.take_if(|waited| *waited == ticket)?;
+        lab.searches.flow.take_if(|waited| *waited == ticket)?;
         let carried = match outcome {
             Outcome::Done(answer) => answer.of::<FlowOutcome>()?.clone(),
             Outcome::Failed(why) => Err(why.clone()),
@@ -373,7 +373,7 @@ impl App {
         Some(match carried {
             Ok(end) => {
                 let effects = lab.start_carried(end.values.clone());
-                self.notice = Some(Notification::info(end.sentence()));
+                self.notifications.show(Notification::info(end.sentence()));
                 effects
             }
             Err(why) => self.fail(format!("The flow cannot be followed: {why}.")),

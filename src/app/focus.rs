@@ -26,7 +26,7 @@ impl App {
     /// Where there is room for one pane only, shows the parameters.
     pub fn show_parameters(&mut self) {
         if let Some(lab) = self.lab.as_mut().filter(|lab| lab.drawn.single) {
-            (lab.focus, lab.untouched) = (Pane::Parameters, false);
+            lab.focus.choose(Pane::Parameters);
         }
     }
 
@@ -36,10 +36,7 @@ impl App {
         let plot = lab.plots.iter().position(|plot| plot.kind.name() == name).map(Pane::Plot);
         let list = || LISTS.iter().find(|(list, _)| *list == name).map(|(_, pane)| *pane);
         let Some(pane) = plot.or_else(list) else { return false };
-        (lab.focus, lab.untouched) = (pane, false);
-        if let Pane::Plot(index) = pane {
-            lab.bring_to_front(index);
-        }
+        lab.focus.choose(pane);
         true
     }
 }

@@ -6,6 +6,7 @@
 use std::sync::Arc;
 
 use super::answers::FurtherForms;
+use super::computation::Jobs;
 use super::{Asker, Computation, Lab};
 use crate::instrument::Answer;
 use crate::job::{Job, Outcome};
@@ -14,7 +15,7 @@ use crate::mechanics::{Equations, Further};
 impl Lab {
     /// What was found of transformations, generators and the complete integral, once it is there.
     pub fn further(&self) -> Option<&FurtherForms> {
-        self.further_search.found.as_deref()
+        self.derivations.further.as_deref()
     }
 
     /// Whether the file has any of them.
@@ -26,14 +27,12 @@ impl Lab {
     }
 
     /// The job that finds them, once for each system, after the closed forms of its equations.
-    pub(super) fn ask_for_further(&mut self, tickets: &mut u64) -> Option<Computation> {
+    pub(super) fn ask_for_further(&mut self, jobs: &mut Jobs) -> Option<Computation> {
         let equations = &self.loaded.equations;
         let waits = equations.has_pending_forms();
-        if waits || self.further_search.asked.is_some() || !self.has_further() {
+        if waits || self.derivations.further_job.is_some() || !self.has_further() {
             return None;
         }
-        *tickets += 1;
-        self.further_search.asked = Some(*tickets);
         let (model, equations) = (Arc::clone(&self.loaded.model), Arc::clone(equations));
         let job = Job::new("transformations", move |progress| {
             let mut equations = Equations::clone(&equations);
@@ -41,18 +40,20 @@ impl Lab {
             let further = Further::of(&model, &mut equations);
             Answer::new(Arc::new(FurtherForms { equations, further }))
         });
-        Some(Computation { ticket: *tickets, asker: Asker::Equations, job })
+        let computation = jobs.request(Asker::Equations, job);
+        self.derivations.further_job = Some(computation.ticket);
+        Some(computation)
     }
 
     /// Takes in what was found. Returns whether it was wanted.
     pub(super) fn take_further(&mut self, ticket: u64, outcome: &Outcome<Answer>) -> bool {
-        if self.further_search.asked != Some(ticket) {
+        if self.derivations.further_job != Some(ticket) {
             return false;
         }
         if let Outcome::Done(answer) = outcome
             && let Some(found) = answer.of::<Arc<FurtherForms>>()
         {
-            self.further_search.found = Some(Arc::clone(found));
+            self.derivations.further = Some(Arc::clone(found));
         }
         true
     }

@@ -46,7 +46,7 @@ impl App {
         self.picker.guides = guides;
         let effects = self.open_guides();
         if let Some(wrong) = wrong {
-            self.notice = Some(Notification::error(wrong));
+            self.notifications.show(Notification::error(wrong));
         }
         effects
     }

@@ -28,7 +28,7 @@ impl App {
             let job = Job::new("deriving", move |progress| {
                 Answer::new(Inquiry::with(&model, &equations, &asked, progress.token()))
             });
-            let computation = self.computation(Asker::Prompt, job);
+            let computation = self.jobs.request(Asker::Prompt, job);
             prompt.under_way = Some((text, UnderWay::new(&computation)));
             effects.push(Effect::Compute(computation));
         }

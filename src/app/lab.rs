@@ -6,12 +6,14 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use super::answers::{Answers, EquilibriaSearch, FurtherSearch, SymmetrySearch};
+use super::answers::{Answers, Derivations, Searches};
 use super::history::UndoHistory;
+use super::pane::Focus;
 use super::pending::PendingChanges;
+use super::restoration::Restoration;
 use super::steady_verdicts::SteadyVerdicts;
-use super::{DrawnPanes, InvariantSearch, LawInView, Loaded, Pane, Prediction, Selection, ValueId};
-use crate::experiment::{Checkpoint, Snapshot, Status};
+use super::{DrawnPanes, LawInView, Loaded, Pane, Prediction, Selection, ValueId};
+use crate::experiment::{Snapshot, Status};
 use crate::expr::Zero;
 use crate::instrument::{CameraPose, Plot, Present, Returned};
 use crate::mechanics::Valuation;
@@ -26,40 +28,22 @@ pub struct Lab {
     pub snapshot: Option<Arc<Snapshot>>,
     /// The pictures.
     pub plots: Vec<Plot>,
-    /// The pane with the keyboard focus.
-    pub focus: Pane,
-    /// The picture that was focused last.
-    pub front: Option<usize>,
-    /// The pictures that were focused before it, the last one first.
-    pub(super) earlier: Vec<usize>,
-    /// Whether that pane is zoomed to fill the page.
-    pub zoomed: bool,
+    /// The pane with the keyboard focus, and those that had it.
+    pub focus: Focus,
     /// What is selected in the lists.
     pub selection: Selection,
     /// The number of rows by which the law of motion is scrolled.
     pub law_scroll: u16,
-    /// Whether no key has been pressed yet: the focus is where the program put it.
-    pub untouched: bool,
     /// What drawing the panes has determined.
     pub(super) drawn: DrawnPanes,
     rods: Rods,
     /// The results computed in the background for the pictures, and the jobs under way.
     pub(super) answers: Answers,
-    /// The ticket of the job that finds the closed forms of the equations, once it was requested.
-    pub(super) closed_forms_asked: Option<u64>,
-    pub(super) further_search: FurtherSearch,
-    /// The search for constants of the motion.
-    pub search: InvariantSearch,
-    /// The flow that is being followed.
-    pub(super) flow: Option<u64>,
-    pub(super) symmetries: SymmetrySearch,
-    /// Values requested and not yet confirmed by a snapshot.
-    pub(super) pending: Vec<(ValueId, f64)>,
-    /// Other changes requested and not yet confirmed.
-    pub(super) asked: PendingChanges,
-    /// The speed requested and not yet confirmed.
-    pub(super) speed_wish: Option<f64>,
-    pub(super) equilibria: EquilibriaSearch,
+    pub(super) derivations: Derivations,
+    /// The searches for constants of the motion, equilibria and symmetries.
+    pub searches: Searches,
+    /// Changes requested and not yet confirmed by a snapshot.
+    pub(super) pending: PendingChanges,
     pub(super) history: UndoHistory,
     /// The verdicts as they are shown.
     steady: SteadyVerdicts,
@@ -67,12 +51,8 @@ pub struct Lab {
     pub prediction: Option<Box<Prediction>>,
     /// The times that are marked, in order.
     pub marks: Vec<f64>,
-    /// The checkpoint that the experiment is to restore, until it has.
-    pub(super) awaited: Option<Checkpoint>,
-    /// A digest of the law of motion under which that checkpoint was made; `None` for that of the text.
-    pub(super) awaited_law: Option<String>,
-    /// Where the motion is to continue once the text is rebuilt; until then nothing later is seen.
-    pub(super) held: Option<Checkpoint>,
+    /// The motion that the experiment is to restore.
+    pub(super) restoration: Restoration,
 }
 
 /// For each shape whether it is a rod, a line of constant length: of the spatial picture, then of each view with
@@ -122,58 +102,35 @@ impl Lab {
             rods,
             snapshot: None,
             plots,
-            focus: Pane::Parameters,
-            front: None,
-            earlier: Vec::new(),
-            zoomed: false,
+            focus: Focus::default(),
             selection: Selection::default(),
             law_scroll: 0,
-            untouched: true,
             drawn: DrawnPanes::default(),
             answers: Answers::default(),
-            closed_forms_asked: None,
-            further_search: FurtherSearch::default(),
-            search: InvariantSearch::default(),
-            flow: None,
-            symmetries: SymmetrySearch::default(),
-            pending: Vec::new(),
-            asked: PendingChanges::default(),
-            speed_wish: None,
-            equilibria: EquilibriaSearch::default(),
+            derivations: Derivations::default(),
+            searches: Searches::default(),
+            pending: PendingChanges::default(),
             history: UndoHistory::default(),
             steady: SteadyVerdicts::default(),
             prediction: None,
             marks: Vec::new(),
-            awaited: None,
-            awaited_law: None,
-            held: None,
+            restoration: Restoration::default(),
         }
     }
 
     /// Takes in a new snapshot. Returns whether it belongs to this system.
     pub(super) fn see(&mut self, snapshot: &Arc<Snapshot>) -> bool {
-        if snapshot.epoch != self.loaded.epoch {
+        if snapshot.epoch != self.loaded.epoch || !self.restoration.see(snapshot) {
             return false;
         }
-        let stopped = matches!(snapshot.status, Status::Failed(_));
-        if self.held.is_some() && !stopped {
-            return false;
-        }
-        if self.awaited.is_some() && !(snapshot.restored || stopped) {
-            return false;
-        }
-        if snapshot.restored {
-            (self.awaited, self.awaited_law) = (None, None);
-        }
-        self.speed_wish = self.speed_wish.filter(|requested| *requested != snapshot.speed);
-        self.asked.see(snapshot);
+        self.pending.see(snapshot);
         let steady = self.steady.see(snapshot);
         let with = |gauges| Arc::new(Snapshot { gauges, ..Snapshot::clone(snapshot) });
         self.snapshot = Some(steady.map_or_else(|| Arc::clone(snapshot), with));
         self.answers.stale = true;
-        let pending = std::mem::take(&mut self.pending);
-        self.pending =
-            pending.into_iter().filter(|(t, value)| self.fact(*t) != Some(*value)).collect();
+        let mut values = std::mem::take(&mut self.pending.values);
+        values.retain(|(id, value)| self.fact(*id) != Some(*value));
+        self.pending.values = values;
         true
     }
 
@@ -238,14 +195,13 @@ impl Lab {
         self.history.tick(elapsed);
         self.steady.tick(elapsed);
         self.answers.tick(elapsed);
-        self.search.tick(elapsed);
-        self.equilibria.tick(elapsed);
+        self.searches.tick(elapsed);
     }
 
     /// Returns the panes in Tab order.
     pub fn panes(&self) -> impl DoubleEndedIterator<Item = Pane> + Clone {
         let lists = [Pane::Parameters, Pane::Initial, Pane::Gauges];
-        let clipped = self.drawn.law != LawInView::Whole || self.focus == Pane::Law;
+        let clipped = self.drawn.law != LawInView::Whole || self.focus.pane == Pane::Law;
         let law = clipped.then_some(Pane::Law);
         (0..self.plots.len()).map(Pane::Plot).chain(law).chain(lists)
     }
@@ -260,8 +216,8 @@ impl Lab {
         } else if drawn.law == LawInView::Whole {
             self.law_scroll = 0;
         }
-        if drawn.single && self.untouched {
-            self.focus = self.motion().unwrap_or(self.focus);
+        if drawn.single && self.focus.untouched {
+            self.focus.pane = self.motion().unwrap_or(self.focus.pane);
         }
     }
 
@@ -290,24 +246,14 @@ impl Lab {
         self.law_scroll = rows.min(beyond.into()) as u16;
     }
 
-    /// Remembers a picture as the one focused last.
-    pub(super) fn bring_to_front(&mut self, index: usize) {
-        if self.front != Some(index) {
-            self.earlier.retain(|other| *other != index);
-            self.earlier.splice(0..0, self.front);
-            self.front = Some(index);
-        }
-    }
-
     /// Returns the pictures that were focused, the last one first.
     pub fn focused_before(&self) -> impl Iterator<Item = usize> {
-        let all = self.front.into_iter().chain(self.earlier.iter().copied());
-        all.filter(|index| *index < self.plots.len())
+        self.focus.recent.iter().copied().filter(|index| *index < self.plots.len())
     }
 
     /// Returns the focused picture and its index.
     pub fn focused_plot(&self) -> Option<(usize, &Plot)> {
-        match self.focus {
+        match self.focus.pane {
             Pane::Plot(index) => self.plots.get(index).map(|plot| (index, plot)),
             _ => None,
         }
@@ -321,7 +267,7 @@ impl Lab {
 
     /// Returns the value that keys would change.
     pub fn selected(&self) -> Option<ValueId> {
-        let target = match self.focus {
+        let target = match self.focus.pane {
             Pane::Parameters => ValueId::Parameter(self.selection.parameter),
             Pane::Initial => ValueId::Initial(self.selection.initial),
             Pane::Plot(_) | Pane::Gauges | Pane::Law => return None,
@@ -332,7 +278,7 @@ impl Lab {
     /// Moves the selection of the focused list to `to(place)`, clamped to the list.
     pub(super) fn select(&mut self, to: impl FnOnce(usize) -> usize) {
         let gauges = self.snapshot.as_ref().map_or(0, |s| s.gauges.len());
-        let (count, place) = match self.focus {
+        let (count, place) = match self.focus.pane {
             Pane::Parameters => (self.count(ValueId::Parameter), &mut self.selection.parameter),
             Pane::Initial => (self.loaded.model.moving(), &mut self.selection.initial),
             Pane::Gauges => (gauges, &mut self.selection.gauge),

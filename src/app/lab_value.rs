@@ -72,10 +72,7 @@ impl Lab {
 
     /// Returns the value: the one requested last, until the experiment confirms it.
     pub fn value(&self, target: ValueId) -> Option<f64> {
-        if let Some((_, requested)) = self.pending.iter().find(|(t, _)| *t == target) {
-            return Some(*requested);
-        }
-        self.fact(target)
+        self.pending.value(target).or_else(|| self.fact(target))
     }
 
     /// Returns the value as it is now: of a parameter that changes with the time that of its function; what keys change is

@@ -65,7 +65,7 @@ impl App {
             self.go(Page::Picker);
         }
         self.end_group();
-        self.asked = None;
+        self.request = None;
         self.workbench.clear();
         self.workbench.lay_text(text);
         (self.lab, self.picker.failure) = (None, None);
@@ -81,9 +81,9 @@ impl App {
 
     /// Leaves the editor where no system runs: the list of systems is below, at the row of the text if it is not saved.
     pub(super) fn leave_alone(&mut self) -> Vec<Effect> {
-        let notice = self.notice.take();
+        let notice = self.notifications.shown.take();
         self.go(Page::Picker);
-        self.notice = notice;
+        self.notifications.shown = notice;
         self.list_unsaved();
         self.picker.point_above(Above::Unsaved);
         self.picker.take().map(|name| self.ask(name, false)).into_iter().collect()

@@ -11,7 +11,7 @@ impl App {
     pub fn nearest(&self, place: Place) -> Option<Pane> {
         let lab = self.lab.as_ref().filter(|_| self.page != Page::Picker)?;
         match place {
-            Place::Lab => Some(lab.focus),
+            Place::Lab => Some(lab.focus.pane),
             Place::Space => lab.nearest_plot(true),
             Place::Plot => lab.nearest_plot(false),
             Place::Values => Some(Pane::Parameters),
@@ -23,16 +23,16 @@ impl App {
     /// Focuses the nearest pane of this place and carries out an action there.
     pub(super) fn perform_at(&mut self, place: Place, action: Action) -> Vec<Effect> {
         let Some(pane) = self.nearest(place) else { return Vec::new() };
-        let before = self.lab.as_ref().map(|lab| lab.focus);
+        let before = self.lab.as_ref().map(|lab| lab.focus.pane);
         self.go(Page::Lab);
         let Some(lab) = &mut self.lab else { return Vec::new() };
-        lab.focus = pane;
+        lab.focus.pane = pane;
         let name = lab.titled(pane);
-        self.notice = None;
+        self.notifications.dismiss();
         let effects = self.perform(action);
         // What the action itself reports is more important.
-        if before != Some(pane) && self.notice.is_none() {
-            self.notice = Some(Notification::info(format!("The focus moved to {name}.")));
+        if before != Some(pane) && self.notifications.shown.is_none() {
+            self.notifications.show(Notification::info(format!("The focus moved to {name}.")));
         }
         effects
     }
@@ -46,7 +46,7 @@ impl App {
         let Some(Pane::Plot(plot)) = pane else { return Vec::new() };
         self.go(Page::Lab);
         if let Some(lab) = &mut self.lab {
-            lab.focus = Pane::Plot(plot);
+            lab.focus.pane = Pane::Plot(plot);
         }
         self.take_offer(plot, index)
     }
@@ -101,6 +101,6 @@ impl Lab {
         let fits = |index: &usize| self.plots.get(*index).is_some_and(&fits);
         let focused = self.focused_plot().map(|(index, _)| index);
         let first = (0..self.plots.len()).find(fits);
-        focused.filter(fits).or(self.front.filter(fits)).or(first)
+        focused.filter(fits).or(self.focus.recent.first().copied().filter(fits)).or(first)
     }
 }

@@ -33,49 +33,62 @@ pub enum NotificationKind {
     Error,
 }
 
-/// Sentences that wait until earlier ones have been shown.
+/// The notification shown, and those that wait until it has been.
 #[derive(Clone, Debug, Default)]
-pub(super) struct NotificationQueue(VecDeque<Notification>);
+pub struct Notifications {
+    /// The one shown.
+    pub shown: Option<Notification>,
+    waiting: VecDeque<Notification>,
+}
 
-impl NotificationQueue {
+impl Notifications {
+    /// Shows a sentence now, in place of the one shown.
+    pub fn show(&mut self, notification: Notification) {
+        self.shown = Some(notification);
+    }
+
+    /// Removes the one shown; those that wait follow.
+    pub fn dismiss(&mut self) {
+        self.shown = None;
+    }
+
     /// Shows a sentence now, or after those before it.
-    pub(super) fn tell(&mut self, now: &mut Option<Notification>, notice: Notification) {
+    pub(super) fn add(&mut self, notification: Notification) {
         // A newer notification on the same subject replaces the older one.
-        let older = now.iter_mut().chain(&mut self.0).find(|other| other.says_more_of(&notice));
-        if let Some(older) = older {
-            *older = Notification { shown: older.shown, ..notice };
-        } else if now.is_none() {
-            *now = Some(notice);
-        } else if self.0.len() < WAITING {
-            self.0.push_back(notice);
+        let mut all = self.shown.iter_mut().chain(&mut self.waiting);
+        if let Some(older) = all.find(|other| other.says_more_of(&notification)) {
+            *older = Notification { shown: older.shown, ..notification };
+        } else if self.shown.is_none() {
+            self.shown = Some(notification);
+        } else if self.waiting.len() < WAITING {
+            self.waiting.push_back(notification);
         }
     }
 
-    /// Advances the time: a sentence shown long enough is replaced by the next one.
-    pub(super) fn tick(&mut self, now: &mut Option<Notification>, elapsed: Duration) {
-        *now = now.take().and_then(|notice| notice.after(elapsed));
-        let gives_way = now.as_ref().is_none_or(|notice| notice.shown >= TURN);
-        if gives_way && let Some(next) = self.0.pop_front() {
-            *now = Some(next);
+    /// Advances the time: a sentence shown long enough is replaced by the next one. Returns whether another one is shown.
+    pub(super) fn tick(&mut self, elapsed: Duration) -> bool {
+        let before = self.shown.as_ref().map(|notification| notification.text.clone());
+        self.shown = self.shown.take().and_then(|notification| notification.after(elapsed));
+        let gives_way = self.shown.as_ref().is_none_or(|notification| notification.shown >= TURN);
+        if gives_way && let Some(next) = self.waiting.pop_front() {
+            self.shown = Some(next);
         }
+        self.shown.as_ref().map(|notification| &notification.text) != before.as_ref()
     }
 
     /// Removes a sentence that dates an occurrence once there has been another of its name; `repeated` are the names of what
     /// occurred more than once.
-    pub(super) fn outdate<'a>(
-        &mut self,
-        now: &mut Option<Notification>,
-        mut repeated: impl Iterator<Item = &'a str>,
-    ) {
-        if let Some(notice) = now
-            && repeated.any(|name| notice.is_past(name))
+    pub(super) fn outdate<'a>(&mut self, mut repeated: impl Iterator<Item = &'a str>) {
+        if let Some(notification) = &self.shown
+            && repeated.any(|name| notification.is_past(name))
         {
-            *now = self.0.pop_front();
+            self.shown = self.waiting.pop_front();
         }
     }
 
-    pub(super) fn clear(&mut self) {
-        self.0.clear();
+    /// Removes those that wait.
+    pub(super) fn clear_waiting(&mut self) {
+        self.waiting.clear();
     }
 }
 
@@ -132,25 +145,25 @@ mod tests {
 
     #[test]
     fn the_newer_word_on_a_thing_takes_the_place_of_the_older() {
-        let (mut queue, mut now) = (NotificationQueue::default(), None);
+        let mut notifications = Notifications::default();
         for text in ["m: energy jumped by +1", "lift-off at t = 2", "m: energy jumped by +3"] {
-            queue.tell(&mut now, Notification::info(text));
+            notifications.add(Notification::info(text));
         }
-        assert_eq!(now.map(|n| n.text).as_deref(), Some("m: energy jumped by +3"));
-        assert_eq!(queue.0.len(), 1);
+        assert_eq!(notifications.shown.map(|n| n.text).as_deref(), Some("m: energy jumped by +3"));
+        assert_eq!(notifications.waiting.len(), 1);
     }
     #[test]
     fn what_occurred_is_not_dated_any_more_once_it_occurred_again() {
-        let mut queue = NotificationQueue::default();
-        let mut now = Some(Notification::info("kick at t = 1: energy +0.1"));
-        queue.outdate(&mut now, ["kick"].into_iter());
-        assert!(now.is_some(), "it has its turn");
-        queue.tick(&mut now, TURN);
-        queue.outdate(&mut now, ["kic", "push"].into_iter());
-        assert!(now.is_some(), "of another name");
-        queue.outdate(&mut now, std::iter::empty());
-        assert!(now.is_some(), "it is the only one");
-        queue.outdate(&mut now, ["push", "kick"].into_iter());
-        assert_eq!(now, None);
+        let mut notifications = Notifications::default();
+        notifications.show(Notification::info("kick at t = 1: energy +0.1"));
+        notifications.outdate(["kick"].into_iter());
+        assert!(notifications.shown.is_some(), "it has its turn");
+        notifications.tick(TURN);
+        notifications.outdate(["kic", "push"].into_iter());
+        assert!(notifications.shown.is_some(), "of another name");
+        notifications.outdate(std::iter::empty());
+        assert!(notifications.shown.is_some(), "it is the only one");
+        notifications.outdate(["push", "kick"].into_iter());
+        assert_eq!(notifications.shown, None);
     }
 }

@@ -30,15 +30,13 @@ impl App {
             return Vec::new();
         }
         let here = self.lab.as_ref().is_some_and(|lab| lab.loaded.name == name);
-        let later = self.asked.as_ref().is_some_and(|(asked, _)| *asked != name);
+        let later = self.request.as_ref().is_some_and(|request| request.name != name);
         if here && !later {
             self.go(Page::Lab);
             return vec![Effect::Tell(Command::Reset), Effect::Tell(Command::Play)];
         }
-        if let Some((asked, open)) = &mut self.asked
-            && *asked == name
-        {
-            *open = true;
+        if let Some(request) = self.request.as_mut().filter(|request| request.name == name) {
+            request.opens = true;
             return Vec::new();
         }
         vec![self.ask(name, true)]

@@ -127,7 +127,7 @@ impl App {
 
     /// Returns a line for each theme.
     fn theme_lines(&self) -> impl Iterator<Item = Item> {
-        self.themes.iter().enumerate().map(|(index, (name, about))| Item {
+        self.themes.available.iter().enumerate().map(|(index, (name, about))| Item {
             label: format!("theme: {name}"),
             about: (*about).to_owned(),
             keys: String::new(),
@@ -165,7 +165,7 @@ impl App {
     pub(super) fn look_at(&mut self, pane: Pane) -> Vec<Effect> {
         self.go(super::Page::Lab);
         if let Some(lab) = &mut self.lab {
-            lab.focus = pane;
+            lab.focus.pane = pane;
         }
         Vec::new()
     }
@@ -230,10 +230,10 @@ impl Lab {
     pub(super) fn choose(&mut self, target: ValueId) {
         match target {
             ValueId::Parameter(index) => {
-                (self.focus, self.selection.parameter) = (Pane::Parameters, index);
+                (self.focus.pane, self.selection.parameter) = (Pane::Parameters, index);
             }
             ValueId::Initial(index) => {
-                (self.focus, self.selection.initial) = (Pane::Initial, index);
+                (self.focus.pane, self.selection.initial) = (Pane::Initial, index);
             }
         }
     }

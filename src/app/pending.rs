@@ -1,11 +1,35 @@
-//! What was asked for and is not there yet: changes sent to the experiment, and an axis that its text has to define.
+//! What was requested and is not there yet: a system, changes sent to the experiment, and plots that its text has to define.
 //!
 //! In: changes, snapshots. Out: what was requested last. Never here: how a change is made.
 
+use super::ValueId;
 use crate::experiment::Snapshot;
 use crate::instrument::Plot;
 use crate::integrate::Settings;
 use crate::system::InitialOverride;
+
+/// A system that is being loaded.
+#[derive(Clone, Debug)]
+pub(super) struct LoadRequest {
+    pub(super) name: String,
+    /// Whether the lab is to open once it is loaded; otherwise it is only previewed.
+    pub(super) opens: bool,
+}
+
+/// The plots that wait for the text with what they show.
+#[derive(Clone, Debug, Default)]
+pub(super) struct AwaitedPlots {
+    /// The plot with a typed quantity on an axis.
+    pub(super) axis: Option<TypedAxis>,
+    /// The index of the plot that becomes a section.
+    pub(super) section: Option<usize>,
+}
+
+impl AwaitedPlots {
+    pub(super) fn any(&self) -> bool {
+        self.axis.is_some() || self.section.is_some()
+    }
+}
 
 /// A plot that waits for the text with the quantity that was typed for its next axis.
 #[derive(Clone, Debug)]
@@ -18,19 +42,33 @@ pub(super) struct TypedAxis {
     pub(super) name: String,
 }
 
-/// Changes sent to the experiment and not yet confirmed by a snapshot, except single values.
+/// Changes sent to the experiment and not yet confirmed by a snapshot.
 #[derive(Clone, Debug, Default)]
 pub(super) struct PendingChanges {
+    /// Single values.
+    pub(super) values: Vec<(ValueId, f64)>,
+    pub(super) speed: Option<f64>,
     pub(super) method: Option<&'static str>,
     pub(super) settings: Option<Settings>,
     pub(super) given: Option<Vec<InitialOverride>>,
 }
 
 impl PendingChanges {
-    /// Removes the changes that a snapshot confirms.
+    /// Removes the changes that a snapshot confirms; single values are compared by the lab.
     pub(super) fn see(&mut self, snapshot: &Snapshot) {
+        self.speed.take_if(|value| *value == snapshot.speed);
         self.method.take_if(|value| *value == snapshot.method.name);
         self.settings.take_if(|value| *value == snapshot.setup.settings);
         self.given.take_if(|value| *value == snapshot.setup.overrides);
+    }
+
+    /// Returns the value that was requested last and is not confirmed.
+    pub(super) fn value(&self, id: ValueId) -> Option<f64> {
+        self.values.iter().find(|(other, _)| *other == id).map(|(_, value)| *value)
+    }
+
+    pub(super) fn set_value(&mut self, id: ValueId, value: f64) {
+        self.values.retain(|(other, _)| *other != id);
+        self.values.push((id, value));
     }
 }

@@ -19,7 +19,7 @@ impl App {
     /// Carries out an action. It does nothing if the action does not apply.
     pub(super) fn perform(&mut self, action: Action) -> Vec<Effect> {
         if action != Action::Back && self.asked_to_leave() {
-            self.notice = None;
+            self.notifications.dismiss();
         }
         match action {
             Action::Quit if self.closes_with_quit() => {
@@ -97,9 +97,9 @@ impl App {
             Action::StepBack => vec![Effect::Tell(Command::StepBack(1))],
             Action::Slower | Action::Faster => {
                 let shown = lab.snapshot.as_ref().map_or(1.0, |s| s.speed);
-                let speed = lab.speed_wish.unwrap_or(shown);
+                let speed = lab.pending.speed.unwrap_or(shown);
                 let speed = if action == Action::Faster { faster(speed) } else { slower(speed) };
-                lab.speed_wish = Some(speed);
+                lab.pending.speed = Some(speed);
                 vec![Effect::Tell(Command::Speed(speed))]
             }
             Action::Reset => vec![Effect::Tell(Command::Reset)],
@@ -139,13 +139,13 @@ impl App {
             },
             Action::NextPane | Action::PreviousPane => {
                 let panes: Vec<Pane> = lab.panes().collect();
-                let at = panes.iter().position(|pane| *pane == lab.focus).unwrap_or(0);
+                let at = panes.iter().position(|pane| *pane == lab.focus.pane).unwrap_or(0);
                 let by = if action == Action::NextPane { 1 } else { panes.len() - 1 };
-                lab.focus = panes[(at + by) % panes.len()];
+                lab.focus.pane = panes[(at + by) % panes.len()];
                 Vec::new()
             }
             Action::Zoom => {
-                lab.zoomed = !lab.zoomed;
+                lab.focus.zoomed = !lab.focus.zoomed;
                 Vec::new()
             }
             Action::ChooseAxes => self.open_axes(),
@@ -202,25 +202,25 @@ impl App {
 
     /// Shows a notification and passes the effects on.
     fn report(&mut self, sentence: String, effects: Vec<Effect>) -> Vec<Effect> {
-        self.notice = Some(Notification::info(sentence));
+        self.notifications.show(Notification::info(sentence));
         effects
     }
 
     /// Tells the user why a key does nothing here.
     pub(super) fn notify(&mut self, text: impl Into<String>) -> Vec<Effect> {
-        self.notice = Some(Notification::hint(text));
+        self.notifications.show(Notification::hint(text));
         Vec::new()
     }
 
     /// Shows an error to the user.
     pub(super) fn fail(&mut self, text: impl Into<String>) -> Vec<Effect> {
-        self.notice = Some(Notification::error(text));
+        self.notifications.show(Notification::error(text));
         Vec::new()
     }
 
     fn with_plot(&mut self, change: impl FnOnce(&mut Plot, &super::Loaded)) -> Vec<Effect> {
         if let Some(lab) = &mut self.lab
-            && let Pane::Plot(index) = lab.focus
+            && let Pane::Plot(index) = lab.focus.pane
         {
             lab.redraw(index, change);
         }
@@ -246,7 +246,7 @@ impl App {
         let Some(lab) = &mut self.lab else { return Vec::new() };
         let pictures = lab.focused_plot().into_iter().chain(lab.plots.iter().enumerate());
         let picture = pictures.filter(|(_, plot)| plot.kind.is_scene()).map(|(i, _)| i);
-        let Some(picture) = picture.min_by_key(|i| lab.focus != Pane::Plot(*i)) else {
+        let Some(picture) = picture.min_by_key(|i| lab.focus.pane != Pane::Plot(*i)) else {
             return self
                 .notify("No picture shows the motion in space; v chooses what a pane shows.");
         };
@@ -272,13 +272,13 @@ impl App {
             return self.notify(format!("{} frames a second are the {end}.", self.meter.asked));
         };
         self.meter.asked = rate;
-        self.notice = Some(Notification::info(format!("At most {rate} frames a second.")));
+        self.notifications.show(Notification::info(format!("At most {rate} frames a second.")));
         vec![Effect::Frames(rate)]
     }
 
     fn switch_mouse(&mut self) -> Vec<Effect> {
         self.mouse = !self.mouse;
-        self.notice = Some(Notification::info(if self.mouse {
+        self.notifications.show(Notification::info(if self.mouse {
             "Mouse on: click a phase portrait to start there, drag sliders; M to select text."
         } else {
             "Mouse off: the terminal selects text; M switches it on."
@@ -294,7 +294,7 @@ impl App {
             }
             _ => {
                 // what was said before is not said of the help
-                self.notice = None;
+                self.notifications.dismiss();
                 let below = self.overlay.take().map(Box::new);
                 let scroll = self.scroll;
                 self.overlay = Some(Overlay::Help { scroll, below, search: None, typing: false });
@@ -330,27 +330,29 @@ impl App {
             }
             Some(Overlay::Workbench) | None => {}
         }
-        if let Some((name, _)) = self.asked.take_if(|_| self.page == Page::Picker) {
+        if let Some(request) = self.request.take_if(|_| self.page == Page::Picker) {
             self.resuming = None;
-            self.notice = Some(Notification::info(format!("Loading {name} was cancelled.")));
+            self.notifications
+                .show(Notification::info(format!("Loading {} was cancelled.", request.name)));
             return vec![Effect::StopLoading];
         }
         let leaves = self.asked_to_leave();
         if self.page == Page::Equations && self.stop_search() {
-            self.notice = Some(Notification::info("The search was stopped; I begins it again."));
+            self.notifications
+                .show(Notification::info("The search was stopped; I begins it again."));
             return vec![Effect::StopComputing(Asker::Search)];
         }
         match (self.page, &mut self.lab) {
             (Page::Picker, _) => self.picker.forget_search(),
-            (Page::Lab, Some(lab)) if lab.zoomed => lab.zoomed = false,
+            (Page::Lab, Some(lab)) if lab.focus.zoomed => lab.focus.zoomed = false,
             (Page::Lab, Some(_)) if !leaves => {
-                let lesson = self.hints == KeyHints::LabInLesson;
+                let lesson = self.footer.hints == KeyHints::LabInLesson;
                 let sentence = if lesson { LEAVING_LESSON } else { LEAVING };
-                self.notice = Some(Notification::info(sentence));
+                self.notifications.show(Notification::info(sentence));
                 return Vec::new();
             }
             (Page::Lab, _) | (_, None) => {
-                self.notice = None;
+                self.notifications.dismiss();
                 if let Some(lab) = &self.lab {
                     self.picker.select(&lab.loaded.name);
                 }
@@ -370,7 +372,8 @@ impl App {
 
     /// Whether the last Esc has asked for another one, which leaves the lab.
     fn asked_to_leave(&self) -> bool {
-        self.notice
+        self.notifications
+            .shown
             .as_ref()
             .is_some_and(|notice| [LEAVING, LEAVING_LESSON].contains(&&*notice.text))
     }
@@ -392,9 +395,9 @@ impl App {
             Some(Overlay::Help { .. } | Overlay::Message(_)) => self.roll(by),
             None => match (self.page, &mut self.lab) {
                 (Page::Picker, _) | (_, None) => self.picker.step(by),
-                (Page::Lab, Some(lab)) if lab.focus == Pane::Law => lab.roll_law(by),
+                (Page::Lab, Some(lab)) if lab.focus.pane == Pane::Law => lab.roll_law(by),
                 (Page::Lab, Some(lab)) => {
-                    if let Pane::Plot(_) = lab.focus {
+                    if let Pane::Plot(_) = lab.focus.pane {
                         let way = if by < 0 { ArrowDirection::Up } else { ArrowDirection::Down };
                         return self.with_plot(|plot, _| plot.shift(way.step()));
                     }

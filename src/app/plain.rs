@@ -20,7 +20,7 @@ impl App {
             self.reading.line = line;
         } else {
             self.reading.automatic = !self.reading.automatic;
-            self.notice = Some(Notification::info(if self.reading.automatic {
+            self.notifications.show(Notification::info(if self.reading.automatic {
                 "It is reread every two seconds."
             } else {
                 "It is left unchanged until Enter."

@@ -51,7 +51,7 @@ impl App {
 
     /// Ends a drag, even if the terminal did not report the release of the button.
     pub fn end_group(&mut self) {
-        self.hold = None;
+        self.drag = None;
         if let Some(lab) = &mut self.lab {
             lab.history.end_group();
         }
@@ -94,8 +94,10 @@ impl App {
         }
         let (None, Some(lab)) = (&self.overlay, &mut self.lab) else { return Vec::new() };
         match hit {
-            HitTarget::Pane(pane) => lab.focus = pane,
-            HitTarget::Gauge(index) => (lab.focus, lab.selection.gauge) = (Pane::Gauges, index),
+            HitTarget::Pane(pane) => lab.focus.pane = pane,
+            HitTarget::Gauge(index) => {
+                (lab.focus.pane, lab.selection.gauge) = (Pane::Gauges, index);
+            }
             HitTarget::Value(target) => {
                 if lab.selected() == Some(target) {
                     return self.perform(Action::TypeValue);
@@ -105,17 +107,17 @@ impl App {
             HitTarget::Bar { target, value } => {
                 lab.choose(target);
                 lab.history.begin_group();
-                self.hold = Some(Grab::Bar(target));
+                self.drag = Some(Grab::Bar(target));
                 return self.pull(target, value);
             }
             HitTarget::Time(time) => {
-                self.hold = Some(Grab::Time);
+                self.drag = Some(Grab::Time);
                 return vec![Effect::Tell(Command::LookAt(time))];
             }
             HitTarget::Plot { index, place, .. } | HitTarget::Space { index, place } => {
-                lab.focus = Pane::Plot(index);
+                lab.focus.pane = Pane::Plot(index);
                 lab.history.begin_group();
-                self.hold = Some(Grab::Picture { index, place, moved: false });
+                self.drag = Some(Grab::Picture { index, place, moved: false });
             }
             _ => {}
         }
@@ -123,7 +125,7 @@ impl App {
     }
 
     fn drag(&mut self, hit: HitTarget) -> Vec<Effect> {
-        match (self.hold, hit) {
+        match (self.drag, hit) {
             (Some(Grab::Bar(grabbed)), HitTarget::Bar { target, value }) if grabbed == target => {
                 self.pull(target, value)
             }
@@ -132,14 +134,14 @@ impl App {
                 Some(Grab::Picture { index: grabbed, place: from, .. }),
                 HitTarget::Plot { index, place, .. } | HitTarget::Space { index, place },
             ) if grabbed == index && place != from => {
-                self.hold = Some(Grab::Picture { index, place, moved: true });
+                self.drag = Some(Grab::Picture { index, place, moved: true });
                 let by = [0, 1].map(|k| place[k] - from[k]);
                 let Some(lab) = &mut self.lab else { return Vec::new() };
                 if lab.plots.get(index).is_some_and(|plot| is_face_on(plot, &lab.loaded.model)) {
                     let mut slid = false;
                     lab.redraw(index, |plot, _| slid = plot.slide(by));
                     if !slid {
-                        self.notice = Some(Notification::info(PLANE));
+                        self.notifications.show(Notification::info(PLANE));
                     }
                     return Vec::new();
                 }
@@ -151,7 +153,7 @@ impl App {
     }
 
     fn let_go(&mut self, hit: HitTarget) -> Vec<Effect> {
-        let grabbed = self.hold.take();
+        let grabbed = self.drag.take();
         let Some(lab) = &mut self.lab else { return Vec::new() };
         let effects = match (grabbed, hit) {
             (Some(Grab::Picture { moved: false, .. }), HitTarget::Plot { index, place, at }) => {
@@ -199,14 +201,14 @@ impl App {
                         lab.redraw(index, |plot, _| plot.zoom_about(factor, [true; 2], place));
                     }
                     HitTarget::Value(target) | HitTarget::Bar { target, .. } => {
-                        lab.focus = match target {
+                        lab.focus.pane = match target {
                             ValueId::Parameter(_) => Pane::Parameters,
                             ValueId::Initial(_) => Pane::Initial,
                         };
                         lab.select(|place| place.saturating_add_signed(-up));
                     }
                     HitTarget::Gauge(_) => {
-                        lab.focus = Pane::Gauges;
+                        lab.focus.pane = Pane::Gauges;
                         lab.select(|place| place.saturating_add_signed(-up));
                     }
                     _ => {}

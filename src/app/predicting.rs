@@ -20,9 +20,8 @@ impl App {
         let Some(index) = lab.plots.iter().position(|plot| prediction.is_on(plot)) else {
             return false;
         };
-        prediction.before = Some(lab.focus);
-        lab.bring_to_front(index);
-        (lab.focus, lab.untouched) = (Pane::Plot(index), false);
+        prediction.before = Some(lab.focus.pane);
+        lab.focus.choose(Pane::Plot(index));
         if let Some(viewport) = lab.plots[index].viewport_mut() {
             (viewport.zoom, viewport.pan) = ([1.0; 2], [0.0; 2]);
             viewport.cursor = Some([0.5; 2]);
@@ -40,7 +39,7 @@ impl App {
     pub fn end_prediction(&mut self) {
         let Some(lab) = &mut self.lab else { return };
         let Some(prediction) = &lab.prediction else { return };
-        lab.focus = prediction.before.unwrap_or(lab.focus);
+        lab.focus.pane = prediction.before.unwrap_or(lab.focus.pane);
         let Some(plot) = lab.plots.iter_mut().find(|plot| prediction.is_on(plot)) else { return };
         if let Some(viewport) = plot.viewport_mut() {
             viewport.cursor = None;

@@ -72,16 +72,8 @@ impl App {
         };
         let RampRequest { to, duration, form } = request;
         let ramp = NewRamp { parameter: name.clone(), to, start, duration, form };
-        if let Some(why) = self.remind_of_what_does_not_run() {
-            return self.fail(why);
-        }
-        let Some(buffer) = self.ready_buffer() else { return Vec::new() };
-        match ramp.added_to(&buffer.editor.text()) {
-            Ok(text) => {
-                buffer.editor.become_text(&text);
-                buffer.touch_at_once(false);
-            }
-            Err(why) => return self.fail(format!("The text cannot be changed: {why}.")),
+        if let Err(effects) = self.change_text(|text| ramp.added_to(text)) {
+            return effects;
         }
         if let Some(lab) = &mut self.lab {
             lab.hold_for_ramp(&name);
@@ -90,7 +82,7 @@ impl App {
         let sentence = format!(
             "{name} goes to {to} from t = {start:.3} on, in {duration}, once the law is rebuilt; E shows the ramp."
         );
-        self.notice = Some(Notification::info(sentence));
+        self.notifications.show(Notification::info(sentence));
         Vec::new()
     }
 }
@@ -98,7 +90,7 @@ impl App {
 impl Lab {
     /// Whether the motion waits for the law with a ramp that was typed.
     pub fn waits_for_law(&self) -> bool {
-        self.held.is_some()
+        self.restoration.waits_for_rebuild()
     }
 
     /// Lets the motion continue from what is seen, once the law with the ramp is there: the ramp begins at that very time, so
@@ -108,7 +100,7 @@ impl Lab {
         let Loaded { model, system, .. } = &self.loaded;
         let checkpoint = Checkpoint::of(model, system, seen).with_past(system, seen);
         let checkpoint = checkpoint.with_another_law(name);
-        self.held.get_or_insert(checkpoint);
+        self.restoration.begin_after_rebuild(checkpoint);
     }
 
     /// Adds the pane with the action variable of the only coordinate, if it is not there, and brings it into view. The focus
@@ -125,7 +117,7 @@ impl Lab {
             Some(self.plots.len() - 1)
         });
         if let Some(index) = index {
-            self.bring_to_front(index);
+            self.focus.bring_to_front(index);
             self.answers.stale = true;
         }
     }

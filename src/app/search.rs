@@ -7,7 +7,7 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use super::computation::{Asker, Computation};
+use super::computation::{Asker, Computation, Jobs};
 use super::findings::{Findings, SearchUnderWay, followed, search};
 use super::{App, Effect, EquationsSection, Lab, Page};
 use crate::experiment::{Command, FoundConstant};
@@ -24,14 +24,14 @@ const MOST: u32 = 3;
 
 impl Lab {
     /// The job of a search that is wanted now.
-    pub(super) fn wants_search(&mut self, tickets: &mut u64, aside: bool) -> Option<Computation> {
+    pub(super) fn wants_search(&mut self, jobs: &mut Jobs) -> Option<Computation> {
         let parameters = self.seen()?.parameters.to_vec();
-        let search_state = &mut self.search;
+        let search_state = &mut self.searches.constants;
         let known = search_state.outcome.as_ref().is_some_and(|(at, _)| *at == parameters);
         if known || search_state.under_way.is_some() || search_state.stopped {
             return None;
         }
-        *tickets += 1;
+        let aside = jobs.in_background;
         let (model, equations) =
             (Arc::clone(&self.loaded.model), Arc::clone(&self.loaded.equations));
         let (further, at) = (search_state.further, parameters.clone());
@@ -40,9 +40,10 @@ impl Lab {
             Answer::new(search(model, equations, &at, further, progress, aside))
         })
         .within(BUDGET * 4_u32.pow(further));
-        let computation = Computation { ticket: *tickets, asker: Asker::Search, job };
+        let computation = jobs.request(Asker::Search, job);
+        let ticket = computation.ticket;
         search_state.under_way =
-            Some(SearchUnderWay { ticket: *tickets, at: parameters, since: Duration::ZERO });
+            Some(SearchUnderWay { ticket, at: parameters, since: Duration::ZERO });
         Some(computation)
     }
 
@@ -54,22 +55,22 @@ impl Lab {
         outcome: &Outcome<Answer>,
     ) -> Option<Vec<Vec<FoundConstant>>> {
         let SearchUnderWay { at, .. } =
-            self.search.under_way.take_if(|job| job.ticket == ticket)?;
+            self.searches.constants.under_way.take_if(|job| job.ticket == ticket)?;
         let Outcome::Done(answer) = outcome else {
-            self.search.stopped = true;
+            self.searches.constants.stopped = true;
             return Some(Vec::new());
         };
         let result = answer.of::<Result<Arc<Findings>, String>>()?.clone();
         let found = result.as_ref().map(|findings| followed(findings)).unwrap_or_default();
-        self.search.outcome = Some((at, result));
-        let before = std::mem::replace(&mut self.search.followed, !found.is_empty());
+        self.searches.constants.outcome = Some((at, result));
+        let before = std::mem::replace(&mut self.searches.constants.followed, !found.is_empty());
         let changes = before || !found.is_empty();
         Some(changes.then_some(found).into_iter().collect())
     }
 
     /// What was found for the parameters as they are now.
     pub fn findings(&self) -> Option<Result<&Findings, &str>> {
-        let (at, result) = self.search.outcome.as_ref()?;
+        let (at, result) = self.searches.constants.outcome.as_ref()?;
         let now = self.seen()?;
         (now.parameters[..] == at[..])
             .then(|| result.as_ref().map(|findings| &**findings).map_err(String::as_str))
@@ -77,7 +78,7 @@ impl Lab {
 
     /// The gauges that are to follow once the parameters have changed: what was proved for all their values.
     pub(super) fn forget_search(&mut self) -> Option<Vec<FoundConstant>> {
-        let (at, result) = self.search.outcome.as_ref()?;
+        let (at, result) = self.searches.constants.outcome.as_ref()?;
         if self.seen()?.parameters[..] == at[..] {
             return None;
         }
@@ -88,9 +89,9 @@ impl Lab {
                 all.filter(|(_, c)| c.proof == Proof::Proved).map(|(kept, _)| kept).collect()
             },
         );
-        self.search.outcome = None;
-        self.search.stopped = false;
-        std::mem::take(&mut self.search.followed).then_some(kept)
+        self.searches.constants.outcome = None;
+        self.searches.constants.stopped = false;
+        std::mem::take(&mut self.searches.constants.followed).then_some(kept)
     }
 
     /// Every constant that has a flow, by its name.
@@ -108,31 +109,31 @@ impl Lab {
 impl App {
     /// The search that the page shown needs, and the gauges that no longer hold.
     pub(super) fn look_after_search(&mut self, effects: &mut Vec<Effect>) {
-        let (aside, shown) = (self.aside, self.page == Page::Equations);
+        let shown = self.page == Page::Equations;
         let Some(lab) = &mut self.lab else { return };
         if let Some(kept) = lab.forget_search() {
             effects.push(Effect::Tell(Command::Follow(kept)));
         }
         if shown {
-            effects.extend(lab.wants_search(&mut self.jobs, aside).map(Effect::Compute));
+            effects.extend(lab.wants_search(&mut self.jobs).map(Effect::Compute));
         }
     }
 
     /// Searches further than before: to a higher degree, and for a longer time.
     pub(super) fn search_further(&mut self) -> Vec<Effect> {
         let Some(lab) = &mut self.lab else { return Vec::new() };
-        if lab.search.under_way.is_some() {
+        if lab.searches.constants.under_way.is_some() {
             return self.notify("A search is running; Esc stops it.");
         }
         let fresh = self.page != Page::Equations && lab.findings().is_none();
-        if !fresh && lab.search.outcome.is_some() {
-            if lab.search.further == MOST {
+        if !fresh && lab.searches.constants.outcome.is_some() {
+            if lab.searches.constants.further == MOST {
                 return self.notify("phaselab invariants --degree searches further than this.");
             }
-            lab.search.further += 1;
-            lab.search.outcome = None;
+            lab.searches.constants.further += 1;
+            lab.searches.constants.outcome = None;
         }
-        lab.search.stopped = false;
+        lab.searches.constants.stopped = false;
         if self.page != Page::Equations {
             self.go(Page::Equations);
         }
@@ -143,14 +144,14 @@ impl App {
     /// Opens or closes the table of brackets.
     pub(super) fn show_brackets(&mut self) -> Vec<Effect> {
         let Some(lab) = &mut self.lab else { return Vec::new() };
-        lab.search.brackets = !lab.search.brackets;
+        lab.searches.constants.brackets = !lab.searches.constants.brackets;
         if self.page != Page::Equations {
             if let Some(lab) = &mut self.lab {
-                lab.search.brackets = true;
+                lab.searches.constants.brackets = true;
             }
             self.go(Page::Equations);
         }
-        let is_open = self.lab.as_ref().is_some_and(|lab| lab.search.brackets);
+        let is_open = self.lab.as_ref().is_some_and(|lab| lab.searches.constants.brackets);
         self.section = is_open.then_some(EquationsSection::Brackets);
         Vec::new()
     }
@@ -158,8 +159,8 @@ impl App {
     /// Ends the search under way. Returns whether there was one.
     pub(super) fn stop_search(&mut self) -> bool {
         let Some(lab) = &mut self.lab else { return false };
-        let was = lab.search.under_way.take().is_some();
-        lab.search.stopped |= was;
+        let was = lab.searches.constants.under_way.take().is_some();
+        lab.searches.constants.stopped |= was;
         was
     }
 }

@@ -20,8 +20,8 @@ impl Saved {
     /// Returns the session of a lab on a page, or `None` before the first snapshot.
     fn of(lab: &Lab, page: Page) -> Option<Self> {
         let Loaded { name, document, model, system, .. } = &lab.loaded;
-        let awaited_law = lab.awaited_law.clone().filter(|_| lab.awaited.is_some());
-        let checkpoint = match lab.held.as_ref().or(lab.awaited.as_ref()) {
+        let law = lab.restoration.law().cloned();
+        let checkpoint = match lab.restoration.checkpoint() {
             Some(checkpoint) => checkpoint.clone(),
             None => Checkpoint::of(model, system, lab.seen()?),
         };
@@ -30,11 +30,11 @@ impl Saved {
             phaselab: env!("CARGO_PKG_VERSION").to_owned(),
             open: name.clone(),
             page,
-            focus: lab.focus,
-            zoomed: lab.zoomed,
+            focus: lab.focus.pane,
+            zoomed: lab.focus.zoomed,
             selection: lab.selection,
             edited: false,
-            law: awaited_law.or_else(|| law_digest(&document.text)),
+            law: law.or_else(|| law_digest(&document.text)),
             plots: lab.plots.iter().map(|plot| SavedPlot::of(plot, lab.loaded.physics())).collect(),
             time_unit: model.time_unit().to_owned(),
             marks: lab.marks.clone(),
@@ -52,24 +52,15 @@ impl Lab {
         // If the quantities differ, the default pictures are better.
         if plots.len() == saved.plots.len() {
             self.plots = plots;
-            let mut pictures = saved.in_front.iter().copied();
-            (self.front, self.earlier) = (pictures.next(), pictures.collect());
+            self.focus.recent.clone_from(&saved.in_front);
         }
         if self.panes().any(|pane| pane == saved.focus) {
-            (self.focus, self.zoomed) = (saved.focus, saved.zoomed);
-            self.untouched = false;
+            (self.focus.pane, self.focus.zoomed) = (saved.focus, saved.zoomed);
+            self.focus.untouched = false;
         }
         self.marks = saved.marks.iter().copied().filter(|mark| mark.is_finite()).collect();
         self.selection = saved.selection;
         self.select(|place| place);
-    }
-
-    /// Returns the awaited checkpoint; if it was made under another law of motion, it says so.
-    fn awaited_under_its_law(&self) -> Option<Checkpoint> {
-        let awaited = self.awaited.clone()?;
-        let known = self.awaited_law.is_none() || awaited.changed.is_some();
-        let same = known || self.awaited_law == law_digest(&self.loaded.document.text);
-        Some(if same { awaited } else { awaited.with_another_law("the text") })
     }
 }
 
@@ -118,13 +109,11 @@ impl App {
             return vec![Effect::Tell(Command::Play)];
         };
         lab.restore_view(&saved);
-        (lab.awaited, lab.awaited_law) = (Some(saved.moment), saved.law);
+        lab.restoration.begin(saved.moment, saved.law);
         self.page = saved.page;
-        let is_other =
-            lab.awaited_law.is_some() && lab.awaited_law != law_digest(&lab.loaded.document.text);
-        if is_other && !saved.edited {
+        if lab.restoration.is_of_another_law(&lab.loaded.document.text) && !saved.edited {
             let name = &lab.loaded.document.path;
-            self.notice = Some(Notification::info(format!(
+            self.notifications.show(Notification::info(format!(
                 "{name} has changed since: its law and its values hold from here on."
             )));
         }
@@ -135,13 +124,9 @@ impl App {
 
     /// Sends the awaited checkpoint to the experiment, if there is one.
     pub(super) fn restore(&mut self) -> Vec<Effect> {
-        // what waited for a text waits no longer
-        if let Some(lab) = &mut self.lab
-            && let Some(held) = lab.held.take()
-        {
-            lab.awaited = Some(held);
-        }
-        let awaited = self.lab.as_ref().and_then(Lab::awaited_under_its_law);
+        let Some(lab) = &mut self.lab else { return Vec::new() };
+        lab.restoration.end_wait();
+        let awaited = lab.restoration.under_the_law_of(&lab.loaded.document.text);
         let command = |checkpoint| Effect::Tell(Command::Restore(Box::new(checkpoint)));
         awaited.map(command).into_iter().collect()
     }
@@ -153,8 +138,8 @@ impl App {
             return if alone { self.mended(loaded) } else { self.loaded(loaded) };
         };
         let mut saved = Saved::of(&old, self.page);
-        let waits = old.held.as_ref().or(old.awaited.as_ref());
-        if let (Some(saved), None, Some(seen)) = (&mut saved, waits, old.seen()) {
+        let awaited = old.restoration.checkpoint();
+        if let (Some(saved), None, Some(seen)) = (&mut saved, awaited, old.seen()) {
             // The recorded trail continues too.
             let checkpoint = std::mem::take(&mut saved.moment);
             saved.moment = checkpoint.with_past(&old.loaded.system, seen);
@@ -190,14 +175,14 @@ impl App {
         };
         lab.restore_view(&saved);
         if lab.plots.len() == old.plots.len() {
-            (lab.front, lab.earlier) = (old.front, old.earlier);
+            lab.focus.recent = old.focus.recent;
         }
         let (known, now) = (old.loaded.system.channels(), lab.loaded.system.channels());
         lab.answers.inherit(&old.answers, &|column| {
             let name = &known.get(column)?.name;
             now.iter().position(|channel| channel.name == *name)
         });
-        (lab.awaited, lab.awaited_law) = (Some(saved.moment), saved.law);
+        lab.restoration.begin(saved.moment, saved.law);
         self.lab = Some(lab);
         self.take_new_section();
         let mut effects = self.restore();

@@ -6,6 +6,7 @@
 use std::sync::Arc;
 
 use super::answers::{Answers, PlotJob};
+use super::computation::Jobs;
 use super::{App, Asker, Computation, Effect, Event, Lab, Overlay, Page, UnderWay};
 use crate::experiment::Command;
 use crate::instrument::{Answer, Need, Plot, PlotTable};
@@ -33,9 +34,8 @@ impl Lab {
         self.answers.of(plot)?.under_way.as_ref()
     }
 
-    /// Returns the jobs that plots need and that are not yet under way, numbered from `tickets` on; `aside` says whether
-    /// there is a background.
-    fn needs(&mut self, tickets: &mut u64, aside: bool) -> Vec<Computation> {
+    /// Returns the jobs that plots need and that are not yet under way.
+    fn needs(&mut self, jobs: &mut Jobs) -> Vec<Computation> {
         let mut entries = Vec::new();
         let mut wanted: Vec<Computation> = Vec::new();
         for (place, plot) in self.plots.iter().enumerate() {
@@ -52,12 +52,10 @@ impl Lab {
             let answer = entry.and_then(|entry| entry.answer.clone());
             let under_way = match plot.kind.job(plot, &present, answer.as_ref()) {
                 Need::Nothing => continue,
-                Need::Addition(_) if !aside || !is_drawn => None,
-                Need::Held => None,
+                Need::Addition(_) if !jobs.in_background || !is_drawn => None,
+                Need::Valid => None,
                 Need::Job(job) | Need::Addition(job) => {
-                    *tickets += 1;
-                    let asker = Asker::Plot(place);
-                    let computation = Computation { ticket: *tickets, asker, job };
+                    let computation = jobs.request(Asker::Plot(place), job);
                     let under_way = UnderWay::new(&computation);
                     wanted.push(computation);
                     Some(under_way)
@@ -75,13 +73,11 @@ impl Lab {
 impl Lab {
     /// Returns the job that finds the closed forms of the equations, once for each system that came without them. The
     /// motion runs meanwhile, because it does not need them.
-    fn ask_for_closed_forms(&mut self, tickets: &mut u64) -> Option<Computation> {
+    fn ask_for_closed_forms(&mut self, jobs: &mut Jobs) -> Option<Computation> {
         let equations = &self.loaded.equations;
-        if !equations.has_pending_forms() || self.closed_forms_asked.is_some() {
+        if !equations.has_pending_forms() || self.derivations.closed_forms.is_some() {
             return None;
         }
-        *tickets += 1;
-        self.closed_forms_asked = Some(*tickets);
         let equations = Arc::clone(equations);
         let job = Job::new("closed forms", move |progress| {
             let mut equations = Equations::clone(&equations);
@@ -89,12 +85,14 @@ impl Lab {
             equations.find_closed_forms();
             Answer::new(Arc::new(equations))
         });
-        Some(Computation { ticket: *tickets, asker: Asker::Equations, job })
+        let computation = jobs.request(Asker::Equations, job);
+        self.derivations.closed_forms = Some(computation.ticket);
+        Some(computation)
     }
 
     /// Takes in the equations with their closed forms. Returns whether they were wanted.
     fn take_closed_forms(&mut self, ticket: u64, outcome: &Outcome<Answer>) -> bool {
-        if self.closed_forms_asked != Some(ticket) {
+        if self.derivations.closed_forms != Some(ticket) {
             return false;
         }
         if let Outcome::Done(answer) = outcome
@@ -107,32 +105,26 @@ impl Lab {
 }
 
 impl App {
-    /// Creates a job with a new ticket.
-    pub(super) fn computation(&mut self, asker: Asker, job: Job<Answer>) -> Computation {
-        self.jobs += 1;
-        Computation { ticket: self.jobs, asker, job }
-    }
-
     /// Requests the jobs that the pictures need now, or runs them at once if there is no background.
     pub(super) fn look_after_jobs(&mut self, effects: &mut Vec<Effect>) {
         let Some(lab) = &mut self.lab else { return };
         // Keys that change no picture cost nothing here.
         let stale = std::mem::take(&mut lab.answers.stale);
-        let wanted = if stale { lab.needs(&mut self.jobs, self.aside) } else { Vec::new() };
+        let wanted = if stale { lab.needs(&mut self.jobs) } else { Vec::new() };
         effects.extend(wanted.into_iter().map(Effect::Compute));
         effects.extend(lab.ask_for_closed_forms(&mut self.jobs).map(Effect::Compute));
         if self.page == Page::Equations {
             effects.extend(lab.ask_for_further(&mut self.jobs).map(Effect::Compute));
         }
         self.look_after_search(effects);
-        if self.aside {
+        if self.jobs.in_background {
             return;
         }
         for _ in 0..PARTS {
             self.run_jobs(effects);
             let Some(lab) = self.lab.as_mut().filter(|lab| lab.answers.stale) else { return };
             lab.answers.stale = false;
-            effects.extend(lab.needs(&mut self.jobs, false).into_iter().map(Effect::Compute));
+            effects.extend(lab.needs(&mut self.jobs).into_iter().map(Effect::Compute));
         }
     }
 

@@ -5,6 +5,7 @@
 use tui_input::Input;
 
 use super::action::Action;
+use super::computation::Jobs;
 use super::drawn::Drawn;
 use super::event::Effect;
 use super::field::InputField;
@@ -13,11 +14,10 @@ use super::keymap::{CHAINS, Place};
 use super::lab::Lab;
 use super::loaded::LoadError;
 use super::menu::{Choice, Menu};
-use super::notification;
-use super::notification::Notification;
+use super::notification::Notifications;
 use super::page::{EquationsSection, Page};
 use super::pane::Pane;
-use super::pending::TypedAxis;
+use super::pending::{AwaitedPlots, LoadRequest};
 use super::picker::Picker;
 use super::prompt::Prompt;
 use super::rate::RateMeter;
@@ -38,14 +38,14 @@ pub struct App {
     pub picker: Picker,
     /// The loaded system, shown as a preview beside the picker.
     pub lab: Option<Lab>,
-    /// The notification shown.
-    pub notice: Option<Notification>,
+    /// The notification shown, and those that wait.
+    pub notifications: Notifications,
     /// Frame and step rates.
     pub meter: RateMeter,
     /// Whether the terminal reports the mouse; its own text selection does not work meanwhile.
     pub mouse: bool,
-    /// Whether time is controlled from outside, as in a demo.
-    pub held: bool,
+    /// Whether time is suspended from outside, as by a demo that pauses.
+    pub suspended: bool,
     /// Whether the screen is being recorded.
     pub recording: bool,
     /// The number of rows by which the page of text is scrolled.
@@ -54,38 +54,52 @@ pub struct App {
     pub section: Option<EquationsSection>,
     /// The files being edited, also while the editor is closed.
     pub workbench: Workbench,
-    /// Whether the status and the keys are shown below the panes, which demos may leave out.
-    pub footer: bool,
-    /// What the footer says of the keys.
-    pub hints: KeyHints,
-    /// The available themes, each with a description.
-    pub themes: Vec<(&'static str, &'static str)>,
-    /// The theme chosen by the user, instead of the one at the start.
-    pub theme: Option<&'static str>,
+    /// What is shown below the panes.
+    pub footer: Footer,
+    /// The available themes, and the one chosen.
+    pub themes: Themes,
     /// The state of the plain-reading page.
     pub reading: Reading,
-    /// The notifications that wait.
-    pub(super) notifications: notification::NotificationQueue,
     /// What the mouse drags.
-    pub hold: Option<Grab>,
-    /// Whether jobs are sent out by [`Effect::Compute`], so that no frame waits for them; otherwise they run at
-    /// once.
-    pub aside: bool,
-    /// The number of jobs requested so far.
-    pub(super) jobs: u64,
+    pub drag: Option<Grab>,
+    /// The background jobs requested.
+    pub jobs: Jobs,
     pub(super) drawn: Drawn,
-    /// The name requested last, and whether the lab is to open once it is loaded.
-    pub(super) asked: Option<(String, bool)>,
+    /// The system requested last, until it is loaded.
+    pub(super) request: Option<LoadRequest>,
     /// The session to resume once its system is loaded.
     pub(super) resuming: Option<Saved>,
     /// The wrong file whose text was asked for, until its first error is shown.
     pub(super) mending: Option<String>,
-    /// The plot that waits for the text with the quantity of its axis.
-    pub(super) typed_axis: Option<TypedAxis>,
-    /// The plot that waits for the text with its section.
-    pub(super) new_section: Option<usize>,
+    /// The plots that wait for the text with what they show.
+    pub(super) awaited_plots: AwaitedPlots,
     /// The session as it was when the user left the lab for the list of systems.
     pub(super) left: Option<Saved>,
+}
+
+/// What is shown below the panes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Footer {
+    /// Whether the status and the keys are shown, which demos may leave out.
+    pub shown: bool,
+    /// What is said of the keys.
+    pub hints: KeyHints,
+}
+
+/// The available themes, and the one chosen.
+#[derive(Clone, Debug, Default)]
+pub struct Themes {
+    /// The names, each with a description.
+    pub available: Vec<(&'static str, &'static str)>,
+    /// The name chosen by the user, instead of the one at the start.
+    pub chosen: Option<&'static str>,
+}
+
+impl Themes {
+    /// Returns the name of the theme of this index.
+    pub(super) fn name(&self, index: usize) -> Option<&'static str> {
+        self.available.get(index).map(|(name, _)| *name)
+    }
 }
 
 /// What the footer says of the keys: never of one that does something else.
@@ -133,29 +147,24 @@ impl App {
             overlay: None,
             picker: Picker::new(catalog.entries().to_vec()),
             lab: None,
-            notice: None,
+            notifications: Notifications::default(),
             meter: RateMeter::default(),
             mouse: false,
-            held: false,
+            suspended: false,
             recording: false,
             scroll: 0,
             section: None,
             workbench: Workbench::default(),
-            footer: true,
-            hints: KeyHints::Lab,
-            themes: Vec::new(),
-            theme: None,
+            footer: Footer { shown: true, hints: KeyHints::Lab },
+            themes: Themes::default(),
             reading: Reading::default(),
-            notifications: notification::NotificationQueue::default(),
-            hold: None,
-            aside: false,
-            jobs: 0,
+            drag: None,
+            jobs: Jobs::default(),
             drawn: Drawn::default(),
-            asked: None,
+            request: None,
             resuming: None,
             mending: None,
-            typed_axis: None,
-            new_section: None,
+            awaited_plots: AwaitedPlots::default(),
             left: None,
         };
         let first = match open {
@@ -176,7 +185,7 @@ impl App {
 
     /// Returns the name of the system being loaded.
     pub fn loading(&self) -> Option<&str> {
-        self.asked.as_ref().map(|(name, _)| name.as_str())
+        self.request.as_ref().map(|request| request.name.as_str())
     }
 
     /// Whether an action has an effect on the loaded system; most actions always do.
@@ -188,12 +197,12 @@ impl App {
     pub fn theme_shown(&self) -> Option<&'static str> {
         let previewed = match &self.overlay {
             Some(Overlay::Menu(menu)) => menu.current().and_then(|(_, item)| match item.choice {
-                Choice::Theme(index) => self.themes.get(index).map(|(name, _)| *name),
+                Choice::Theme(index) => self.themes.name(index),
                 _ => None,
             }),
             _ => None,
         };
-        previewed.or(self.theme)
+        previewed.or(self.themes.chosen)
     }
 
     /// Whether text is being typed, so that a paste is meaningful.
@@ -238,7 +247,7 @@ impl App {
                 [Place::Search, Place::Typing]
             }
             (Page::Picker, _) | (_, None) => [Place::Picker, Place::Anywhere],
-            (Page::Lab, Some(lab)) => match (lab.focus, lab.focused_plot()) {
+            (Page::Lab, Some(lab)) => match (lab.focus.pane, lab.focused_plot()) {
                 (_, Some((_, plot))) if plot.kind.is_scene() => [Place::Space, Place::Lab],
                 (Pane::Plot(_), _) => [Place::Plot, Place::Lab],
                 (Pane::Parameters | Pane::Initial, _) => [Place::Values, Place::Lab],

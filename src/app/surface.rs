@@ -100,19 +100,11 @@ impl App {
         surface: &NewSurface,
         sentence: String,
     ) -> Vec<Effect> {
-        if let Some(why) = self.remind_of_what_does_not_run() {
-            return self.fail(why);
-        }
-        let Some(buffer) = self.ready_buffer() else { return Vec::new() };
-        match surface.written_to(&buffer.editor.text(), view) {
-            Ok(text) => {
-                buffer.editor.become_text(&text);
-                buffer.touch_at_once(false);
-            }
-            Err(why) => return self.fail(format!("The text cannot be changed: {why}.")),
+        if let Err(effects) = self.change_text(|text| surface.written_to(text, view)) {
+            return effects;
         }
         if matches!(view, SurfaceView::New(_)) {
-            self.new_section = Some(plot);
+            self.awaited_plots.section = Some(plot);
         } else if let Some(lab) = &mut self.lab
             && let Some(shown) = lab.plots.get_mut(plot)
         {
@@ -126,19 +118,19 @@ impl App {
             shown.seeds.clear();
             lab.answers.stale = true;
         }
-        self.notice = Some(Notification::info(sentence));
+        self.notifications.show(Notification::info(sentence));
         Vec::new()
     }
 
     /// Shows the section of a text that runs now where it was asked for.
     pub(super) fn take_new_section(&mut self) {
-        let Some(plot) = self.new_section.take() else { return };
+        let Some(plot) = self.awaited_plots.section.take() else { return };
         let Some(lab) = &mut self.lab else { return };
         let last = lab.loaded.model.views.len().saturating_sub(1);
         let Some(section) = Plot::of_view(lab.loaded.physics(), last) else { return };
         if let Some(shown) = lab.plots.get_mut(plot).filter(|_| section.kind.is_section()) {
             *shown = section;
-            lab.focus = Pane::Plot(plot);
+            lab.focus.pane = Pane::Plot(plot);
             lab.answers.stale = true;
         }
     }

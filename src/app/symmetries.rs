@@ -48,7 +48,11 @@ impl Lab {
     /// The symmetries that were found at the parameters' present values.
     fn found_symmetries(&self) -> Option<&Arc<FoundSymmetries>> {
         let now = self.seen()?;
-        self.symmetries.found.as_ref().filter(|found| found.parameters[..] == now.parameters[..])
+        self.searches
+            .symmetries
+            .found
+            .as_ref()
+            .filter(|found| found.parameters[..] == now.parameters[..])
     }
 }
 
@@ -68,12 +72,12 @@ impl App {
             Answer::new(found.map(Arc::new))
         })
         .within(BUDGET);
-        let computation = self.computation(Asker::Symmetries, job);
+        let computation = self.jobs.request(Asker::Symmetries, job);
         if let Some(lab) = &mut self.lab {
-            lab.symmetries.awaited = Some(computation.ticket);
+            lab.searches.symmetries.awaited = Some(computation.ticket);
         }
-        self.notice =
-            Some(Notification::info("Searching for symmetries of the equations of motion."));
+        self.notifications
+            .show(Notification::info("Searching for symmetries of the equations of motion."));
         vec![Effect::Compute(computation)]
     }
 
@@ -83,9 +87,9 @@ impl App {
         ticket: u64,
         outcome: &Outcome<Answer>,
     ) -> Option<Vec<Effect>> {
-        let search = &mut self.lab.as_mut()?.symmetries;
+        let search = &mut self.lab.as_mut()?.searches.symmetries;
         search.awaited.take_if(|awaited| *awaited == ticket)?;
-        self.notice = None;
+        self.notifications.dismiss();
         let found = match outcome {
             Outcome::Cancelled => return Some(Vec::new()),
             Outcome::Failed(sentence) => return Some(self.fail(sentence.clone())),

@@ -30,7 +30,7 @@ impl App {
         if back {
             lab.show("separation");
         }
-        self.notice = sentence.map(Notification::info);
+        self.notifications.shown = sentence.map(Notification::info);
         let mut effects = vec![Effect::Tell(Command::Reverse)];
         if paused {
             effects.push(Effect::Tell(Command::Play));
@@ -80,7 +80,7 @@ impl App {
                 format!("Mark set at t = {}; ' returns to it.", short(time))
             }
         };
-        self.notice = Some(Notification::info(sentence));
+        self.notifications.show(Notification::info(sentence));
         Vec::new()
     }
 

@@ -45,26 +45,18 @@ impl App {
             return Some(self.set_typed_axis(axis));
         }
         let observable = NewObservable { name: name.clone(), expression: typed };
-        if let Some(why) = self.remind_of_what_does_not_run() {
-            return Some(self.fail(why));
+        if let Err(effects) = self.change_text(|text| observable.added_to(text)) {
+            return Some(effects);
         }
-        let buffer = self.ready_buffer()?;
-        match observable.added_to(&buffer.editor.text()) {
-            Ok(text) => {
-                buffer.editor.become_text(&text);
-                buffer.touch_at_once(false);
-            }
-            Err(why) => return Some(self.fail(format!("The text cannot be changed: {why}."))),
-        }
-        self.typed_axis = Some(axis);
+        self.awaited_plots.axis = Some(axis);
         let sentence = format!("{name} is now an observable of the text; E shows it.");
-        self.notice = Some(Notification::info(sentence));
+        self.notifications.show(Notification::info(sentence));
         Some(Vec::new())
     }
 
     /// Puts the quantity of a text that runs now on the axis that waits for it.
     pub(super) fn take_typed_axis(&mut self) -> Vec<Effect> {
-        self.typed_axis.take().map_or(Vec::new(), |axis| self.set_typed_axis(axis))
+        self.awaited_plots.axis.take().map_or(Vec::new(), |axis| self.set_typed_axis(axis))
     }
 
     fn set_typed_axis(&mut self, axis: TypedAxis) -> Vec<Effect> {

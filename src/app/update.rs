@@ -11,6 +11,7 @@ use super::editor::beginning;
 use super::field::{edit, paste};
 use super::key::{self, pressed};
 use super::keymap::{self, Place};
+use super::pending::{AwaitedPlots, LoadRequest};
 use super::{App, Effect, Event, Lab, LoadError, Loaded, Notification, Overlay, Page, Pane};
 use crate::experiment::Snapshot;
 
@@ -24,7 +25,7 @@ const LONG_TEXT: &str =
 impl App {
     /// Handles an event, and returns the effects to perform.
     pub fn update(&mut self, event: Event) -> Vec<Effect> {
-        let shown = self.notice.clone();
+        let shown = self.notifications.shown.clone();
         let mut effects = self.handle(event);
         self.forget_past_motion(shown.as_ref(), &effects);
         self.look_after_jobs(&mut effects);
@@ -32,9 +33,9 @@ impl App {
             self.list_unsaved();
         }
         if let Some(lab) = &mut self.lab
-            && let Pane::Plot(index) = lab.focus
+            && let Pane::Plot(index) = lab.focus.pane
         {
-            lab.bring_to_front(index);
+            lab.focus.bring_to_front(index);
         }
         effects
     }
@@ -44,20 +45,18 @@ impl App {
     pub(super) fn forget_past_motion(&mut self, before: Option<&Notification>, effects: &[Effect]) {
         let begins = |effect: &Effect| matches!(effect, Effect::Tell(command) if command.begins_another_motion());
         if effects.iter().any(begins) {
-            self.notice.take_if(|notice| Some(&*notice) == before);
-            self.notifications.clear();
+            self.notifications.shown.take_if(|notice| Some(&*notice) == before);
+            self.notifications.clear_waiting();
             // a motion that waits for a law gives way to the one that is begun
             if let Some(lab) = &mut self.lab {
-                lab.held = None;
+                lab.restoration.forget_rebuild();
             }
         }
     }
 
     /// Lets notifications expire. Returns whether another one is shown.
     pub fn tick_notifications(&mut self, elapsed: Duration) -> bool {
-        let shown = self.notice.as_ref().map(|notice| notice.text.clone());
-        self.notifications.tick(&mut self.notice, elapsed);
-        self.notice.as_ref().map(|notice| &notice.text) != shown.as_ref()
+        self.notifications.tick(elapsed)
     }
 
     pub(super) fn handle(&mut self, event: Event) -> Vec<Effect> {
@@ -71,7 +70,7 @@ impl App {
             Event::Loaded(Err(failure)) => self.failed(failure),
             Event::Rebuilt(loaded) => self.rebuilt(loaded),
             Event::Written(Ok(sentence)) => {
-                self.notice = Some(Notification::info(sentence));
+                self.notifications.show(Notification::info(sentence));
                 Vec::new()
             }
             Event::Written(Err(sentence)) => self.fail(sentence),
@@ -124,7 +123,7 @@ impl App {
 
     /// Requests a system, to be opened in the lab or only previewed.
     pub(super) fn ask(&mut self, name: String, open: bool) -> Effect {
-        self.asked = Some((name.clone(), open));
+        self.request = Some(LoadRequest { name: name.clone(), opens: open });
         Effect::Load(name)
     }
 
@@ -132,7 +131,7 @@ impl App {
         self.end_group();
         self.mending = None;
         if let Some(lab) = self.lab.as_mut().filter(|_| self.page != Page::Picker) {
-            lab.untouched = false;
+            lab.focus.untouched = false;
         }
         let places = self.places();
         if let Some(action) = keymap::action(key, places) {
@@ -206,7 +205,7 @@ impl App {
             _ => return Vec::new(),
         };
         if !whole || text.len() < all {
-            self.notice = Some(Notification::error(match self.overlay {
+            self.notifications.show(Notification::error(match self.overlay {
                 Some(Overlay::Workbench) => LONG_TEXT,
                 _ => "The pasted text was too long; only its beginning was inserted.",
             }));
@@ -222,11 +221,11 @@ impl App {
             self.meter.count(steps);
             self.reading.see(snapshot);
             for sentence in notifications(&before, &snapshot.notices) {
-                self.notifications.tell(&mut self.notice, Notification::info(sentence.clone()));
+                self.notifications.add(Notification::info(sentence.clone()));
             }
             let counts = snapshot.occurrences.tallies().iter().filter(|tally| tally.count > 1);
             let repeated = counts.map(|tally| tally.name.as_str());
-            self.notifications.outdate(&mut self.notice, repeated);
+            self.notifications.outdate(repeated);
         }
         Vec::new()
     }
@@ -237,11 +236,11 @@ impl App {
         let stale = self.workbench.put_off().then_some(Effect::StopCheck);
         self.workbench.clear();
         self.overlay.take_if(|overlay| matches!(overlay, Overlay::Workbench));
-        (self.typed_axis, self.new_section) = (None, None);
+        self.awaited_plots = AwaitedPlots::default();
         self.lab = Some(Lab::new(loaded));
         // An error message stays valid when something else is loaded.
-        self.notice.take_if(|notice| !notice.is_error());
-        self.notifications.clear();
+        self.notifications.shown.take_if(|notice| !notice.is_error());
+        self.notifications.clear_waiting();
         self.meter.forget();
         self.picker.failure = None;
         if answered == Some(true) {
@@ -277,8 +276,7 @@ impl App {
 
     /// Handles the answer to a request. Returns whether it is to be opened, if it is the latest request.
     fn answered(&mut self, name: &str) -> Option<bool> {
-        let (_, open) = self.asked.take_if(|(asked, _)| asked == name)?;
-        Some(open)
+        self.request.take_if(|request| request.name == name).map(|request| request.opens)
     }
 
     /// Shows a page, scrolled to its start.
@@ -289,8 +287,8 @@ impl App {
                 self.picker.offer(left.clone(), false);
             }
             // Notifications about the motion being left do not apply to another.
-            self.notice = None;
-            self.notifications.clear();
+            self.notifications.dismiss();
+            self.notifications.clear_waiting();
         }
         (self.page, self.overlay, self.scroll, self.section) = (page, None, 0, None);
         if page == Page::Plain {

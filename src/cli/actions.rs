@@ -41,7 +41,7 @@ use crate::system::ChannelKind;
 /// With --until the motion is followed: in place of that table, action, frequency and the angle
 /// variable w = ∂S/∂J, in turns, at times up to then, and how far w is from growing evenly, w₀ + ν (t − t₀).
 /// w is a quadrature over places, ν the time of a return. Of a law that depends on the time they are those of the
-/// system held at each instant: the action is then its adiabatic invariant.
+/// system frozen at each instant: the action is then its adiabatic invariant.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:

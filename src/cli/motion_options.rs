@@ -6,15 +6,16 @@
 use std::ffi::OsString;
 use std::sync::Arc;
 
-use super::assignment::{self, Assignment, number, tolerance};
+use super::assignment::{self, Assignment};
 use super::failure::CommandError;
 use super::interrupt::Interrupt;
+use super::method_options::MethodOptions;
+use super::open;
 use super::report::Header;
-use super::run::{header, misplaced, refuse_twins, settings};
-use super::{open, stderr};
+use super::run::header;
 use crate::diagnostic::Document;
 use crate::ensemble::Start;
-use crate::experiment::{Derived, choose_method};
+use crate::experiment::Derived;
 use crate::integrate::{Method, Settings};
 use crate::mechanics::Equations;
 use crate::model::{Direction, Model};
@@ -32,16 +33,8 @@ pub(super) struct MotionOptions {
     /// Sets an initial value: a coordinate `x`, a velocity `x'` or a momentum `p_x`.
     #[arg(long, value_name = "NAME=VALUE", allow_hyphen_values = true)]
     init: Vec<Assignment>,
-    /// The integrator, a name from `phaselab methods`.
-    #[arg(long, value_name = "NAME")]
-    method: Option<String>,
-    /// The step of a fixed-step integrator.
-    #[arg(long, value_name = "H", allow_hyphen_values = true, value_parser = number)]
-    step: Option<f64>,
-    /// The relative tolerance of an integrator that chooses its steps: a number, `fast` (1e-15, in plain `f64`) or
-    /// `exact` (1e-18, as by default: errors at the last digit shown).
-    #[arg(long, value_name = "EPS", allow_hyphen_values = true, value_parser = tolerance)]
-    tolerance: Option<f64>,
+    #[command(flatten)]
+    integrator: MethodOptions,
 }
 
 /// A model as the options set it, before anything is derived from it.
@@ -77,12 +70,7 @@ impl MotionOptions {
         let overrides = assignment::initial(&model, &parameters, &self.init)?;
         model.run.start = assignment::start(&model, &parameters, &self.init)?;
         assignment::begin_at(&mut model, &overrides);
-        let settings = settings(self.step, self.tolerance, &model)?;
-        if self.method.is_none()
-            && let Some(diagnostic) = open::unknown_method(&model)
-        {
-            return Err(open::refuse(&document, &[diagnostic]));
-        }
+        let settings = self.integrator.settings(&document, &model)?;
         let start = Start { time: model.run.start, parameters, overrides };
         Ok(ModelReading { document, model, start, surface, settings })
     }
@@ -103,24 +91,9 @@ impl MotionOptions {
             .iter()
             .map(|text| assignment::column(model, &mut equations.pool, text, called))
             .collect::<Result<_, _>>()?;
-        let system = derived
-            .compile(&columns)
-            .map_err(|why| CommandError::WrongFile(format!("{}: {why}", document.path)))?;
+        let system = open::compile(&document, &derived, &columns)?;
         let Derived { model, equations } = derived;
-        refuse_twins(&system)?;
-        for name in system.redundant() {
-            stderr::report(&format!(
-                "the constraint `{name}` repeats at the start what those before it say"
-            ));
-        }
-        let of_file = self.method.is_none() && (self.step, self.tolerance) == (None, None);
-        if of_file && let Some(diagnostic) = open::unfit_method(&model, &system) {
-            return Err(open::refuse(&document, &[diagnostic]));
-        }
-        let name = self.method.as_deref().unwrap_or(&model.run.method);
-        let method =
-            choose_method(&system, name).map_err(|why| CommandError::WrongUse(why.to_string()))?;
-        misplaced(self.step, self.tolerance, method)?;
+        let method = self.integrator.choose(&document, &model, &system)?;
         (method.make)(&system, &settings).map_err(|why| CommandError::WrongUse(why.to_string()))?;
         let (model, equations) = (Arc::new(model), Arc::new(equations));
         Ok(Laid { model, equations, system, start, method, settings })

@@ -8,8 +8,9 @@ use crate::diagnostic::{Diagnostic, Document};
 use crate::experiment::{Derived, choose_method};
 use crate::integrate::{METHODS, Settings, method_named};
 use crate::mechanics::{StructureError, structure_errors};
-use crate::model::Model;
+use crate::model::{Model, WrittenExpr};
 use crate::preset;
+use crate::printable;
 use crate::system::System;
 
 use super::failure::CommandError;
@@ -93,6 +94,39 @@ pub(super) fn unfit_method(model: &Model, system: &System) -> Option<Diagnostic>
 pub(super) fn refuse(document: &Document, diagnostics: &[Diagnostic]) -> CommandError {
     stderr::show(&document.report(diagnostics, stderr::has_colour()));
     CommandError::WrongFile(count(diagnostics.len(), &document.path))
+}
+
+/// Compiles a system with further columns, and reports the constraints that repeat others.
+pub(super) fn compile(
+    document: &Document,
+    derived: &Derived,
+    columns: &[WrittenExpr],
+) -> Result<System, CommandError> {
+    let system = derived
+        .compile(columns)
+        .map_err(|why| CommandError::WrongFile(format!("{}: {why}", document.path)))?;
+    refuse_twins(&system)?;
+    for name in system.redundant() {
+        stderr::report(&format!(
+            "the constraint `{name}` repeats at the start what those before it say"
+        ));
+    }
+    Ok(system)
+}
+
+/// Refuses two columns with the same name, because they could not be distinguished.
+fn refuse_twins(system: &System) -> Result<(), CommandError> {
+    let columns = &system.channels()[..system.columns()];
+    for (i, column) in columns.iter().enumerate() {
+        if column.name == "t" || columns[..i].iter().any(|other| other.name == column.name) {
+            let message = format!(
+                "there would be two columns `{}`; give one a name of its own, --observe NAME=EXPR",
+                printable::quoted(&column.name)
+            );
+            return Err(CommandError::WrongUse(message));
+        }
+    }
+    Ok(())
 }
 
 /// `2 errors in pendulum.toml`.

@@ -18,18 +18,18 @@ use std::sync::Arc;
 
 use serde_json::{Map, Value};
 
-use super::assignment::{self, Assignment, number, tolerance};
+use super::assignment::{self, Assignment, number};
 use super::failure::CommandError;
 use super::interrupt::Interrupt;
+use super::method_options::MethodOptions;
+use super::open;
 use super::output::{Output, OutputForm};
 use super::report::Header;
 use super::rows::RowFormat;
-use super::{open, stderr};
 use crate::claims;
-use crate::experiment::{Derived, Experiment, Setup, choose_method};
+use crate::experiment::{Derived, Experiment, Setup};
 use crate::integrate::{Method, Settings, Stepping};
 use crate::model::{Model, replace_by_ramps};
-use crate::printable;
 use crate::system::System;
 
 use adiabatic::Adiabatic;
@@ -77,16 +77,8 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "T,…", allow_hyphen_values = true, value_parser = number)]
     #[arg(value_delimiter = ',')]
     at: Option<Vec<f64>>,
-    /// The integrator, a name from `phaselab methods`.
-    #[arg(long, value_name = "NAME")]
-    method: Option<String>,
-    /// The step of a fixed-step integrator.
-    #[arg(long, value_name = "H", allow_hyphen_values = true, value_parser = number)]
-    step: Option<f64>,
-    /// The relative tolerance of an integrator that chooses its steps: a number, `fast` (1e-15, in plain `f64`) or
-    /// `exact` (1e-18, as by default: errors at the last digit shown).
-    #[arg(long, value_name = "EPS", allow_hyphen_values = true, value_parser = tolerance)]
-    tolerance: Option<f64>,
+    #[command(flatten)]
+    integrator: MethodOptions,
     /// One more column: an expression, under a name of its own or as it is written.
     #[arg(long, value_name = "[NAME=]EXPR", allow_hyphen_values = true)]
     observe: Vec<String>,
@@ -132,13 +124,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         run.start = 0.0;
     }
     let times = Times::plan(&run, arguments.until, arguments.every, arguments.at.as_deref())?;
-    let settings = settings(arguments.step, arguments.tolerance, &model)?;
-
-    if arguments.method.is_none()
-        && let Some(diagnostic) = open::unknown_method(&model)
-    {
-        return Err(open::refuse(&document, &[diagnostic]));
-    }
+    let settings = arguments.integrator.settings(&document, &model)?;
 
     let mut derived = open::derive(&document, model)?;
     let Derived { model, equations } = &mut derived;
@@ -157,27 +143,9 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         let carried = flow_of::carried(derived, &columns, written, &parameters, &given)?;
         (derived, columns, given) = (carried.derived, carried.columns, carried.given);
     }
-    let system = derived
-        .compile(&columns)
-        .map_err(|why| CommandError::WrongFile(format!("{}: {why}", document.path)))?;
+    let system = open::compile(&document, &derived, &columns)?;
     let Derived { model, equations } = derived;
-    refuse_twins(&system)?;
-    for name in system.redundant() {
-        stderr::report(&format!(
-            "the constraint `{name}` repeats at the start what those before it say"
-        ));
-    }
-    // if all settings are the file's, an unsuitable method is the file's error
-    let of_file =
-        arguments.method.is_none() && (arguments.step, arguments.tolerance) == (None, None);
-    if of_file && let Some(diagnostic) = open::unfit_method(&model, &system) {
-        return Err(open::refuse(&document, &[diagnostic]));
-    }
-    let name = arguments.method.as_deref().unwrap_or(&model.run.method);
-    let method =
-        choose_method(&system, name).map_err(|why| CommandError::WrongUse(why.to_string()))?;
-
-    misplaced(arguments.step, arguments.tolerance, method)?;
+    let method = arguments.integrator.choose(&document, &model, &system)?;
     cautions::before(&system, &equations, method);
 
     let header = header(&model, &system, &parameters, method, settings);
@@ -233,62 +201,6 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         (Err(_), Some(signal)) => Err(CommandError::Signal(signal)),
         (written, _) => written,
     }
-}
-
-/// The step and tolerance: as requested, otherwise the file's.
-pub(super) fn settings(
-    step: Option<f64>,
-    tolerance: Option<f64>,
-    model: &Model,
-) -> Result<Settings, CommandError> {
-    let wrong = |what: String| Err(CommandError::WrongUse(what));
-    let shown = printable::number;
-    match (step, tolerance) {
-        (Some(step), _) if step <= 0.0 => {
-            wrong(format!("--step {}: a step is above zero", shown(step)))
-        }
-        (_, Some(eps)) if eps <= 0.0 || eps >= 1.0 => {
-            wrong(format!("--tolerance {}: a tolerance lies between 0 and 1", shown(eps)))
-        }
-        (step, tolerance) => Ok(Settings {
-            step: step.or(model.run.step),
-            tolerance: tolerance.or(model.run.tolerance),
-        }),
-    }
-}
-
-/// A step is for fixed-step methods, a tolerance for adaptive ones.
-pub(super) fn misplaced(
-    step: Option<f64>,
-    tolerance: Option<f64>,
-    method: &Method,
-) -> Result<(), CommandError> {
-    let name = method.name;
-    let wrong = |what: String| Err(CommandError::WrongUse(what));
-    match method.stepping {
-        Stepping::Adaptive if step.is_some() => {
-            wrong(format!("--step: {name} chooses its steps by a tolerance, --tolerance"))
-        }
-        Stepping::Fixed if tolerance.is_some() => {
-            wrong(format!("--tolerance: {name} has a fixed step, --step"))
-        }
-        _ => Ok(()),
-    }
-}
-
-/// Refuses two columns with the same name, because they could not be distinguished.
-pub(super) fn refuse_twins(system: &System) -> Result<(), CommandError> {
-    let columns = &system.channels()[..system.columns()];
-    for (i, column) in columns.iter().enumerate() {
-        if column.name == "t" || columns[..i].iter().any(|other| other.name == column.name) {
-            let message = format!(
-                "there would be two columns `{}`; give one a name of its own, --observe NAME=EXPR",
-                printable::quoted(&column.name)
-            );
-            return Err(CommandError::WrongUse(message));
-        }
-    }
-    Ok(())
 }
 
 pub(super) fn header(

@@ -128,7 +128,7 @@ impl ConstrainedBalance {
         place
     }
 
-    fn look(&mut self, variables: &[f64], with_momenta: bool) -> Option<Local> {
+    fn evaluate(&mut self, variables: &[f64], with_momenta: bool) -> Option<Local> {
         let degrees = self.space.system().degrees();
         let place = self.place(variables);
         let mut out = vec![0.0; self.displaced.state_len()];
@@ -161,7 +161,7 @@ impl ConstrainedBalance {
         variables: &[f64],
         units: &[f64],
     ) -> Option<(DVector<f64>, DMatrix<f64>)> {
-        let local = self.look(variables, false)?;
+        let local = self.evaluate(variables, false)?;
         let degrees = self.space.system().degrees();
         let unknowns = self.unknowns();
         let mut rows: Vec<(f64, Vec<f64>)> = Vec::new();
@@ -204,7 +204,7 @@ impl ConstrainedBalance {
 
     /// The motion around an equilibrium, in these units of the coordinates.
     pub(super) fn around(&mut self, variables: &[f64], units: &[f64]) -> Option<AroundPlace> {
-        let local = self.look(variables, true)?;
+        let local = self.evaluate(variables, true)?;
         let degrees = self.space.system().degrees();
         let rates = |indices: &[usize]| indices.iter().map(|i| degrees + i).collect::<Vec<_>>();
         let (resting, cyclic) = (&self.resting, &self.cyclic);

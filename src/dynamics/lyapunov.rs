@@ -100,7 +100,7 @@ pub fn lyapunov(
             failure = Some(DynamicsError::Motion(fault));
             break;
         }
-        let renewed = course.look(space, &mut carrier)?;
+        let renewed = course.observe(space, &mut carrier)?;
         look(carrier.time());
         if let Some((state, vectors)) = renewed {
             carrier.start(&state, &vectors)?;

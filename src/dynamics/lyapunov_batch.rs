@@ -115,14 +115,14 @@ impl Follower for ExponentsTogether<'_> {
         OrbitCourse::Until(*until)
     }
 
-    fn look(&mut self, orbit: usize, lane: usize, batch: &mut BatchPropagator) -> OrbitCourse {
+    fn observe(&mut self, orbit: usize, lane: usize, batch: &mut BatchPropagator) -> OrbitCourse {
         let LyapunovOrbit { space, until, .. } = &self.orbits[orbit];
         let Some(LyapunovLane { course, states, steps }) = &mut self.lanes[lane] else {
             return OrbitCourse::Over;
         };
         *steps += 1;
         let mut step = LaneStep { batch: &mut *batch, lane, states: &mut *states };
-        let Ok(renewed) = course.look(space, &mut step) else { return OrbitCourse::Over };
+        let Ok(renewed) = course.observe(space, &mut step) else { return OrbitCourse::Over };
         if batch.state(lane).time >= *until {
             let motion =
                 CarriedMotion { settings: self.settings, fixed: self.fixed, steps: *steps };

@@ -125,7 +125,7 @@ impl LyapunovCourse {
     ///
     /// # Errors
     /// Returns an error if the states or the vectors in it cannot be evaluated.
-    pub(super) fn look(
+    pub(super) fn observe(
         &mut self,
         space: &PhaseSpace,
         step: &mut dyn TangentStep,

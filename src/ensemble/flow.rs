@@ -265,12 +265,12 @@ impl Follower for CarriedTogether<'_> {
         self.seen(orbit, lane, batch)
     }
 
-    fn next_look(&self, orbit: usize) -> f64 {
+    fn next_observation(&self, orbit: usize) -> f64 {
         let seen = self.carried[orbit].as_ref().map_or(0, |one| one.seen.len());
         self.times.get(seen).copied().unwrap_or(f64::NEG_INFINITY)
     }
 
-    fn look(&mut self, orbit: usize, lane: usize, batch: &mut BatchPropagator) -> OrbitCourse {
+    fn observe(&mut self, orbit: usize, lane: usize, batch: &mut BatchPropagator) -> OrbitCourse {
         self.steps[lane] += 1;
         let course = self.seen(orbit, lane, batch);
         let given_up = self.effort.is_some_and(|most| self.steps[lane] >= most);

@@ -112,7 +112,7 @@ impl Follower for OrbitsTogether<'_> {
         OrbitCourse::Until(ahead.1)
     }
 
-    fn look(&mut self, _orbit: usize, lane: usize, batch: &mut BatchPropagator) -> OrbitCourse {
+    fn observe(&mut self, _orbit: usize, lane: usize, batch: &mut BatchPropagator) -> OrbitCourse {
         let course = self.follow(lane, batch);
         if course == OrbitCourse::Over {
             self.lanes[lane] = None;

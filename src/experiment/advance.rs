@@ -70,7 +70,7 @@ impl Experiment {
         let progress = self.reach(time, &mut budget);
         if progress == AdvanceOutcome::Arrived {
             self.recorder.widen(self.motion.values());
-            self.gauge(Gauges::look);
+            self.gauge(Gauges::observe);
         }
         progress
     }
@@ -90,12 +90,12 @@ impl Experiment {
                     ..
                 })) => {
                     let time = self.motion.sign() * time;
-                    self.crossings.push(surface, time, self.motion.values());
+                    self.log.crossings.push(surface, time, self.motion.values());
                 }
                 Ok(Reached::Happened(occurrence)) => {
                     let name = occurrence.name.clone();
                     match self.note(occurrence) {
-                        Ok(sentence) => self.report_once(name, sentence),
+                        Ok(sentence) => self.notices.push_once(name, sentence),
                         Err(fault) => break Err(fault),
                     }
                 }
@@ -103,13 +103,13 @@ impl Experiment {
             }
         };
         if let Some(sentence) = self.singular_passages() {
-            self.report_once("singular configuration".to_owned(), sentence);
+            self.notices.push_once("singular configuration".to_owned(), sentence);
         }
         if let Some(sentence) = self.passed_event() {
-            self.report_once(sentence.clone(), sentence);
+            self.notices.push_once(sentence.clone(), sentence);
         }
         if let Some(sentence) = self.unstable() {
-            self.report_once(sentence.clone(), sentence);
+            self.notices.push_once(sentence.clone(), sentence);
         }
         match reached {
             Ok(Reached::There | Reached::Happened(_)) => AdvanceOutcome::Arrived,

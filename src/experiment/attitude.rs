@@ -31,8 +31,8 @@ impl AttitudeGauge {
         self.deviation = Deviation::since(time);
     }
 
-    pub(super) fn look(&mut self, values: &[f64]) {
-        self.deviation.look(missing(&self.matrix(values)));
+    pub(super) fn observe(&mut self, values: &[f64]) {
+        self.deviation.observe(missing(&self.matrix(values)));
     }
 
     pub(super) fn sample(&mut self, time: f64, values: &[f64]) {

@@ -151,7 +151,7 @@ impl CompanionMotion {
             }
         });
         self.take_observer();
-        self.message = begun.and_then(|()| self.look()).err().map(|fault| fault.to_string());
+        self.message = begun.and_then(|()| self.observe()).err().map(|fault| fault.to_string());
     }
 
     /// Takes other parameters; q and p stay.
@@ -246,13 +246,13 @@ impl CompanionMotion {
             let reached = self.motion.reach(time, limit, budget).map_err(|why| why.to_string())?;
             match reached {
                 Reached::There => {
-                    self.look().map_err(|why| why.to_string())?;
+                    self.observe().map_err(|why| why.to_string())?;
                     return Ok(true);
                 }
                 Reached::Underway => return Ok(false),
                 Reached::Ended => return Err("an event has ended it".to_owned()),
                 Reached::Happened(occurrence) => {
-                    self.look().map_err(|why| why.to_string())?;
+                    self.observe().map_err(|why| why.to_string())?;
                     if let OccurrenceKind::Crossing(surface) = occurrence.kind {
                         self.crossings.push(surface, occurrence.time, &self.values);
                     }
@@ -266,7 +266,7 @@ impl CompanionMotion {
         self.observer = self.motion.system().observer(&self.parameters);
     }
 
-    fn look(&mut self) -> Result<(), MotionError> {
+    fn observe(&mut self) -> Result<(), MotionError> {
         if self.motion.system().constraints() > 0 || self.holdings != self.motion.holdings() {
             self.take_observer();
         }

@@ -12,9 +12,11 @@ use super::event_log::EventLog;
 use super::gauges::{GaugeInputs, Gauges};
 use super::hull::Hulls;
 use super::last_change::LastChange;
+use super::notices::Notices;
 use super::observed_motion::ObservedMotion;
 use super::recorder::Recorder;
 use super::row_spacing::RowSpacing;
+use super::run_log::RunLog;
 use super::scrubbed::Scrubbed;
 use super::setup::{MethodNotFound, Setup, choose_method};
 use super::snapshot::{Failure, Gauge, MethodFact, Recorded, Snapshot, Status};
@@ -52,15 +54,11 @@ pub struct Experiment {
     pub(super) running: bool,
     pub(super) fault: Option<Failure>,
     epoch: u64,
-    pub(super) notices: Vec<String>,
-    /// The events and impulses since the last restart.
-    pub(super) occurrences: EventLog,
-    /// The crossings of the surfaces of section since then.
-    pub(super) crossings: CrossingLog,
+    pub(super) notices: Notices,
+    /// What has happened since the last restart.
+    pub(super) log: RunLog,
     /// The motions beside this one.
     pub(super) companions: Companions,
-    /// The names of occurrences that have been reported.
-    pub(super) reported_names: Vec<String>,
     /// The event that ended the motion.
     pub(super) ended: Option<String>,
     /// Whether the motion was resumed from a checkpoint.
@@ -99,11 +97,9 @@ impl Experiment {
             running: true,
             fault: None,
             epoch: 0,
-            notices: Vec::new(),
-            occurrences: EventLog::default(),
-            crossings: CrossingLog::new(model.sections.len()),
+            notices: Notices::default(),
+            log: RunLog::new(model.sections.len()),
             companions: Companions::default(),
-            reported_names: Vec::new(),
             ended: None,
             restored: false,
             row_spacing: RowSpacing::default(),
@@ -175,18 +171,17 @@ impl Experiment {
 
     /// The events and impulses since the last restart, in order of time.
     pub fn occurrences(&self) -> &EventLog {
-        &self.occurrences
+        &self.log.occurrences
     }
 
     /// The crossings of the surfaces of section since the last restart, in order of time.
     pub fn crossings(&self) -> &CrossingLog {
-        &self.crossings
+        &self.log.crossings
     }
 
     /// Only counts occurrences from now on, without storing them.
     pub fn only_count_occurrences(&mut self) {
-        self.occurrences.only_count();
-        self.crossings.only_count();
+        self.log.only_count();
     }
 
     /// Remembers no states between steps from now on: the motion cannot be carried back.
@@ -256,8 +251,8 @@ impl Experiment {
             trail: if self.scrubbed.is_some() { trail.until(seen.time()) } else { trail },
             gauges: self.show_gauges(),
             method: self.method_fact(),
-            notices: self.notices.as_slice().into(),
-            occurrences: self.occurrences.clone(),
+            notices: self.notices.sentences.as_slice().into(),
+            occurrences: self.log.occurrences.clone(),
             crossings: self.crossings_seen(),
             companions,
             separations,
@@ -278,7 +273,7 @@ impl Experiment {
 
     /// Its crossings of the surfaces of section up to there.
     fn crossings_seen(&self) -> CrossingLog {
-        let mut crossings = self.crossings.clone();
+        let mut crossings = self.log.crossings.clone();
         if self.scrubbed.is_some() {
             let channels = self.system().channels().len();
             crossings.rewind(self.seen().time(), self.motion.sign(), channels);
@@ -303,10 +298,8 @@ impl Experiment {
         self.jump = None;
         self.fault = None;
         self.ended = None;
-        self.occurrences.clear();
-        self.crossings.clear();
-        self.reported_names.clear();
-        self.notices.clear();
+        self.log.clear();
+        self.notices = Notices::default();
         self.motion.forget(self.setup.start);
         self.recorder.restart(self.setup.start);
         let state = self.initial_state();
@@ -338,7 +331,7 @@ impl Experiment {
 
     /// Passes the current values to the gauges.
     pub(super) fn gauge(&mut self, sample: impl FnOnce(&mut Gauges, &GaugeInputs<'_>)) {
-        self.motion.look_at_terms();
+        self.motion.observe_terms();
         let constants = self.constants();
         sample(&mut self.gauges, &self.motion.present(&constants));
     }

@@ -30,13 +30,13 @@ impl Deviation {
     }
 
     /// Records a deviation.
-    pub(super) fn look(&mut self, now: f64) {
+    pub(super) fn observe(&mut self, now: f64) {
         self.farthest = self.farthest.max(now);
     }
 
     /// Records a deviation at one of the evenly spaced times.
     pub(super) fn sample(&mut self, time: f64, now: f64) {
-        self.look(now);
+        self.observe(now);
         self.history.push(time, now);
     }
 

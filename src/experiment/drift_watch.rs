@@ -51,7 +51,7 @@ impl DriftWatch {
         let body = self.system.body_values(parameters);
         self.constants = Valuation::of_parameters(&self.model, parameters).with(body);
         self.steps = 0;
-        self.look(state)?;
+        self.observe(state)?;
         let mut gauges = self.gauges.clone();
         gauges.refer(&self.present(state));
         self.gauges = gauges;
@@ -61,7 +61,7 @@ impl DriftWatch {
     /// Looks at the end of a step.
     pub fn step(&mut self, state: &State) {
         self.steps += 1;
-        if self.terms.look(state) {
+        if self.terms.observe(state) {
             self.gauges.step(state.time, self.steps, &self.terms, true);
         }
     }
@@ -78,13 +78,13 @@ impl DriftWatch {
     /// # Errors
     /// Returns an error if the state cannot be observed.
     pub fn end(&mut self, state: &State) -> Result<(&[f64], Arc<[Gauge]>), MotionError> {
-        self.look(state)?;
+        self.observe(state)?;
         let gauges = self.gauges.show(&self.present(state));
         Ok((&self.values, gauges))
     }
 
-    fn look(&mut self, state: &State) -> Result<(), MotionError> {
-        self.terms.look(state);
+    fn observe(&mut self, state: &State) -> Result<(), MotionError> {
+        self.terms.observe(state);
         self.observer.observe(state, &mut self.values)
     }
 

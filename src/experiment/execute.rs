@@ -14,9 +14,6 @@ use crate::integrate::{Method, Settings, Stepping};
 use crate::num::short;
 use crate::system::{self, ChannelKind, Form, State};
 
-/// The greatest number of stored notices.
-const NOTICES: usize = 16;
-
 /// A frame on the screen, in seconds.
 pub(super) const FRAME: f64 = 1.0 / 60.0;
 
@@ -63,7 +60,7 @@ impl Experiment {
             Command::Restore(checkpoint) => self.restore(&checkpoint),
             Command::Follow(found) => self.follow(&found),
             Command::ForgetCrossings => {
-                self.crossings.clear();
+                self.log.crossings.clear();
                 self.companions.forget_crossings();
             }
             Command::AddStart(given) => self.add_start(given),
@@ -83,9 +80,6 @@ impl Experiment {
 
     /// Adds a notice for the user.
     pub fn notify(&mut self, notice: String) {
-        if self.notices.len() == NOTICES {
-            self.notices.remove(0);
-        }
         self.notices.push(notice);
     }
 
@@ -127,7 +121,7 @@ impl Experiment {
         let old = self.setup.parameters.clone();
         self.setup.parameters[index] = value;
         // what crossed before belongs to another system, and so does the run before time was reversed
-        self.crossings.clear();
+        self.log.crossings.clear();
         self.echo = None;
         if !self.motion.has_begun() {
             return self.restart();
@@ -170,9 +164,7 @@ impl Experiment {
         let by = jump + earlier.map_or(0.0, |earlier| earlier.by);
         self.jump = Some(EnergyJump { parameter: index, by });
         let lead = format!("{}: energy jumped by", self.model.parameters[index].shown);
-        if self.notices.last().is_some_and(|last| last.starts_with(&lead)) {
-            self.notices.pop();
-        }
+        self.notices.withdraw(&lead);
         if by.abs() <= rounding {
             return;
         }

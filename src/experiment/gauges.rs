@@ -4,6 +4,7 @@
 //! In: the consequences of the law of motion; the values of the channels at some times; the terms of the conserved
 //! quantities after every step. Out: [`Gauge`]s. Never here: how the values are computed.
 
+mod drift_record;
 mod formula_monitors;
 mod integration_constants;
 mod invariant_monitor;
@@ -107,7 +108,9 @@ impl Gauges {
             }));
         }
         // the energy comes first
-        monitors.sort_by_key(|monitor| monitor.channel != find(ChannelKind::Energy).unwrap_or(0));
+        monitors.sort_by_key(|monitor| {
+            monitor.subject.channel != find(ChannelKind::Energy).unwrap_or(0)
+        });
         let mut places = Vec::new();
         for (i, c) in equations.coordinates.iter().enumerate() {
             for (symbol, kind) in [
@@ -124,7 +127,7 @@ impl Gauges {
         {
             places.extend(find(ChannelKind::Attitude(i)).map(|channel| (*symbol, channel)));
         }
-        let names = monitors.iter().map(|monitor: &InvariantMonitor| monitor.name.clone());
+        let names = monitors.iter().map(|monitor: &InvariantMonitor| monitor.subject.name.clone());
         let integration = IntegrationConstants::of(model, equations, &names.collect::<Vec<_>>());
         let residuals = ResidualGauge::all(model, equations, system);
         let attitude = AttitudeGauge::of(system);
@@ -178,7 +181,9 @@ impl Gauges {
             references.iter().find(same)
         };
         for monitor in &mut self.monitors {
-            if let Some(reference) = known(&monitor.name, now.values[monitor.channel]) {
+            if let Some(reference) =
+                known(&monitor.subject.name, now.values[monitor.subject.channel])
+            {
                 self.reference_time = reference.since;
                 self.reference_steps = 0;
                 monitor.restore(reference, now.time);
@@ -219,7 +224,7 @@ impl Gauges {
         if dense {
             self.look_on_the_way(now.time, now.steps, now.values, now.terms);
         } else {
-            self.look(now);
+            self.observe(now);
         }
         for residual in &mut self.residuals {
             residual.sample(now.time, now.residuals);
@@ -230,19 +235,19 @@ impl Gauges {
     }
 
     /// Records the values at any other time.
-    pub(super) fn look(&mut self, now: &GaugeInputs<'_>) {
+    pub(super) fn observe(&mut self, now: &GaugeInputs<'_>) {
         let floor = self.floor(now.steps);
         for monitor in &mut self.monitors {
-            monitor.look(now.time, now.values, now.terms, floor);
+            monitor.observe(now.time, now.values, now.terms, floor);
         }
         let at = now.channels(&self.places);
-        self.found.look(at, now.terms, floor, false);
-        self.integration.look(at, now.terms, floor, false);
+        self.found.observe(at, now.terms, floor, false);
+        self.integration.observe(at, now.terms, floor, false);
         for residual in &mut self.residuals {
-            residual.look(now.residuals);
+            residual.observe(now.residuals);
         }
         if let Some(attitude) = &mut self.attitude {
-            attitude.look(now.values);
+            attitude.observe(now.values);
         }
     }
 
@@ -259,8 +264,8 @@ impl Gauges {
             monitor.sample(time, values, terms, floor);
         }
         let at = ChannelValues { time, values, places: &self.places };
-        self.found.look(at, terms, floor, true);
-        self.integration.look(at, terms, floor, true);
+        self.found.observe(at, terms, floor, true);
+        self.integration.observe(at, terms, floor, true);
     }
 
     /// Records the terms at the end of a step or within it.
@@ -322,11 +327,11 @@ impl Gauges {
             }
         };
         for monitor in &mut self.monitors {
-            let (_, error) = equations.pool.evaluate_with_error(monitor.expression, &at);
-            let underflows =
-                error < f64::MIN_POSITIVE && equations.pool.underflows(monitor.expression, &at);
+            let (_, error) = equations.pool.evaluate_with_error(monitor.subject.expression, &at);
+            let underflows = error < f64::MIN_POSITIVE
+                && equations.pool.underflows(monitor.subject.expression, &at);
             // if the error of the terms is not finite, the value itself is the measure
-            let value = now.values[monitor.channel].abs();
+            let value = now.values[monitor.subject.channel].abs();
             let error = if error.is_finite() { error.max(value) } else { value };
             monitor.measure(error, underflows);
         }

@@ -82,7 +82,7 @@ impl ObservedMotion {
         self.observer = self.inner.system().observer(parameters);
         self.watch = StepSampler::of(self.inner.system(), parameters);
         self.log.push(self.inner.state(), self.inner.steps());
-        self.look()
+        self.observe()
     }
 
     /// Resumes a motion that began at `start` from this state.
@@ -98,7 +98,7 @@ impl ObservedMotion {
         self.observer = self.inner.system().observer(parameters);
         self.watch = StepSampler::of(self.inner.system(), parameters);
         self.log.push(self.inner.state(), self.inner.steps());
-        self.look()
+        self.observe()
     }
 
     /// Begins at a state of its clock in which the motion was already, with these constraints released and, if steps are
@@ -114,7 +114,7 @@ impl ObservedMotion {
         self.watch.pending = false;
         self.take_observer();
         self.log.push(self.inner.state(), self.inner.steps());
-        self.look()
+        self.observe()
     }
 
     /// The residual of each constraint in the current state.
@@ -130,7 +130,7 @@ impl ObservedMotion {
         self.log.push(self.inner.state(), self.inner.steps());
         self.observer.set_parameters(parameters);
         self.watch.set_parameters(parameters);
-        self.look()
+        self.observe()
     }
 
     /// The number of impulses so far.
@@ -158,7 +158,7 @@ impl ObservedMotion {
             }
             OccurrenceKind::Mark | OccurrenceKind::Crossing(_) | OccurrenceKind::Stop => {}
         }
-        self.look()
+        self.observe()
     }
 
     /// Makes an observer with the currently active constraints.
@@ -170,10 +170,10 @@ impl ObservedMotion {
     /// Advances to the end of what was computed before an error.
     pub(super) fn reach_end(&mut self) -> Result<(), MotionError> {
         self.inner.reach_computed()?;
-        self.look()
+        self.observe()
     }
 
-    pub(super) fn look(&mut self) -> Result<(), MotionError> {
+    pub(super) fn observe(&mut self) -> Result<(), MotionError> {
         self.residuals = self.inner.residuals();
         if self.holdings != self.inner.holdings() {
             self.holdings = self.inner.holdings();
@@ -302,11 +302,11 @@ impl ObservedMotion {
     }
 
     /// Evaluates the terms of the conserved quantities in the current state.
-    pub(super) fn look_at_terms(&mut self) {
-        self.watch.terms.look(self.inner.state());
+    pub(super) fn observe_terms(&mut self) {
+        self.watch.terms.observe(self.inner.state());
     }
 
-    /// The values that the gauges read, once the terms have been [evaluated](ObservedMotion::look_at_terms).
+    /// The values that the gauges read, once the terms have been [evaluated](ObservedMotion::observe_terms).
     pub(super) fn present<'a>(&'a self, constants: &'a Valuation) -> GaugeInputs<'a> {
         let action = self.state().values.get(self.system().driven_len());
         GaugeInputs {

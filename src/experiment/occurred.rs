@@ -48,15 +48,7 @@ impl Experiment {
             }
         };
         self.recorder.insert(clock, self.motion.values());
-        self.occurrences.push(occurrence);
+        self.log.occurrences.push(occurrence);
         Ok(sentence)
-    }
-
-    /// Reports an automatic occurrence; a repeated one is reported only the first time.
-    pub(super) fn report_once(&mut self, name: String, sentence: String) {
-        if !self.reported_names.contains(&name) {
-            self.reported_names.push(name);
-            self.notify(sentence);
-        }
     }
 }

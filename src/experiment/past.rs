@@ -6,8 +6,8 @@
 use std::fmt;
 
 use super::advance::HORIZON;
-use super::{EventLog, Experiment, RunToken, Snapshot, Trail};
-use crate::analysis::CrossingLog;
+use super::run_log::RunLog;
+use super::{Experiment, RunToken, Snapshot, Trail};
 use crate::system::{Channel, System};
 
 /// Recorded rows of a motion and the names of their channels.
@@ -17,8 +17,7 @@ pub struct Past {
     trail: Trail,
     /// The run of the motion, and what happened on it.
     run: RunToken,
-    occurrences: EventLog,
-    crossings: CrossingLog,
+    log: RunLog,
 }
 
 /// A past is long, and commands that carry one are logged on one line.
@@ -42,8 +41,10 @@ impl Past {
             names: system.channels().iter().map(|channel| channel.name.clone()).collect(),
             trail: snapshot.trail.clone(),
             run: snapshot.recorded.run.clone(),
-            occurrences: snapshot.occurrences.clone(),
-            crossings: snapshot.crossings.clone(),
+            log: RunLog {
+                occurrences: snapshot.occurrences.clone(),
+                crossings: snapshot.crossings.clone(),
+            },
         }
     }
 
@@ -82,10 +83,7 @@ impl Experiment {
         }
         let limit = time + HORIZON * self.setup.spacing;
         match self.motion.resume(&past.run, (time, limit), self.setup.start) {
-            Ok(true) => {
-                self.occurrences = past.occurrences.clone();
-                self.crossings = past.crossings.clone();
-            }
+            Ok(true) => self.log = past.log.clone(),
             Ok(false) => {}
             Err(fault) => self.fault = Some(self.motion.dated(fault).into()),
         }

@@ -40,7 +40,7 @@ impl ObservedMotion {
                 self.log.note_impulse();
             }
         }
-        self.look()?;
+        self.observe()?;
         Ok(None)
     }
 
@@ -129,7 +129,7 @@ impl ObservedMotion {
             released: self.released(),
             start: state.time,
         };
-        (self.begin_at(&known).is_ok() && self.look().is_ok()).then(|| self.values().to_vec())
+        (self.begin_at(&known).is_ok() && self.observe().is_ok()).then(|| self.values().to_vec())
     }
 
     fn begin_at(&mut self, known: &KnownStep) -> Result<(), MotionError> {
@@ -147,7 +147,7 @@ impl ObservedMotion {
         loop {
             match self.inner.reach(clock, clock + horizon, &mut budget) {
                 Ok(Reached::Happened(_)) => {}
-                Ok(Reached::There) => return self.look().is_ok(),
+                Ok(Reached::There) => return self.observe().is_ok(),
                 Ok(Reached::Underway | Reached::Ended) | Err(_) => return false,
             }
         }

@@ -10,10 +10,9 @@
 use std::sync::Arc;
 
 use super::checkpoint::{Checkpoint, MotionState};
-use super::event_log::EventLog;
 use super::gauges::Gauges;
+use super::run_log::RunLog;
 use super::{AdvanceOutcome, Experiment, Trail};
-use crate::analysis::CrossingLog;
 use crate::system::State;
 
 /// The most steps and rows, and the number of them times the square of the number of variables.
@@ -36,8 +35,7 @@ pub(super) enum Rerun {
 /// What was recorded on the way.
 pub(super) struct RerunPast {
     pub(super) trail: Trail,
-    pub(super) occurrences: EventLog,
-    pub(super) crossings: CrossingLog,
+    pub(super) log: RunLog,
 }
 
 impl Experiment {
@@ -77,8 +75,7 @@ impl Experiment {
         if checkpoint.backwards || !self.is_near(&here, &there) {
             return Rerun::Lost;
         }
-        let (trail, crossings) = (self.recorder.trail(), self.crossings.clone());
-        Rerun::Near(RerunPast { trail, occurrences: self.occurrences.clone(), crossings })
+        Rerun::Near(RerunPast { trail: self.recorder.trail(), log: self.log.clone() })
     }
 
     /// Begins where the law was changed last, if it was. Returns whether the motion is known from there.

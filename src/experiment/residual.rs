@@ -53,8 +53,8 @@ impl ResidualGauge {
         self.deviation = Deviation::since(time);
     }
 
-    pub(super) fn look(&mut self, residuals: &[[f64; 2]]) {
-        self.deviation.look(self.now(residuals));
+    pub(super) fn observe(&mut self, residuals: &[[f64; 2]]) {
+        self.deviation.observe(self.now(residuals));
     }
 
     pub(super) fn sample(&mut self, time: f64, residuals: &[[f64; 2]]) {

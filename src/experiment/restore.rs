@@ -24,21 +24,21 @@ impl Experiment {
         self.restored = true;
         let mut lost = self.restore_setup(checkpoint);
         self.running = checkpoint.running;
-        let notices = std::mem::take(&mut self.notices);
+        let notices = std::mem::take(&mut self.notices.sentences);
         self.companions.clear();
         self.restart();
-        self.notices = notices;
+        self.notices.sentences = notices;
         let present = checkpoint.present.as_ref();
         let same = present.is_some_and(|present| present.fits(&self.model, self.system()));
         let past = match present {
             // what has moved on, and whose past was not recorded elsewhere
             Some(present) if self.is_past_unknown(checkpoint, present) => {
-                let notices = std::mem::take(&mut self.notices);
+                let notices = std::mem::take(&mut self.notices.sentences);
                 let rerun = self.rerun(checkpoint, present);
                 if !matches!(rerun, Rerun::Exact) {
                     self.restart();
                 }
-                self.notices = notices;
+                self.notices.sentences = notices;
                 Some(rerun)
             }
             _ => None,
@@ -85,7 +85,7 @@ impl Experiment {
             Some(Rerun::Near(known)) => {
                 let row = |row: &[f64]| (row[0] < present.time).then(|| row.to_vec());
                 self.recorder.precede(&known.trail, row);
-                (self.occurrences, self.crossings) = (known.occurrences, known.crossings);
+                self.log = known.log;
             }
             Some(_) => self.notify("the past of this motion was not kept".to_owned()),
             None => {}

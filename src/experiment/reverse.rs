@@ -41,8 +41,7 @@ impl Experiment {
         }
         self.echo = echo.map(Box::new);
         self.ended = None;
-        self.occurrences.clear();
-        self.crossings.clear();
+        self.log.clear();
         self.began = self.clock();
         self.recorder.turn(self.clock(), self.is_backwards());
         self.gauge(Gauges::refer);

@@ -56,11 +56,10 @@ impl Experiment {
         self.fault = None;
         self.ended = None;
         self.recorder.rewind(time);
-        self.occurrences.rewind(sign * time, sign);
-        self.crossings.rewind(sign * time, sign, self.motion.values().len());
+        self.log.rewind(sign * time, sign, self.motion.values().len());
         // an impulse has shifted what the gauges measure from
         if self.motion.impulses() == impulses {
-            self.gauge(Gauges::look);
+            self.gauge(Gauges::observe);
         } else {
             self.gauge(Gauges::refer);
         }

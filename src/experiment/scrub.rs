@@ -44,7 +44,7 @@ impl Experiment {
             Err(why) => return self.notify(why.to_string()),
         };
         if motion.look_at(time, &known, horizon) {
-            motion.look_at_terms();
+            motion.observe_terms();
             self.scrubbed = Some(Box::new(Scrubbed { motion }));
         } else {
             self.notify(format!("t = {} can no longer be shown", short(time)));

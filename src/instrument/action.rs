@@ -166,7 +166,7 @@ impl Instrument for ActionPlot {
                 && known.conditions == conditions
         };
         if computed(answer).is_some_and(holds) {
-            return Need::Held;
+            return Need::Valid;
         }
         let (model, equations, system) = (model.clone(), equations.clone(), system.clone());
         Need::Job(Job::new("action", move |progress: &Progress| {

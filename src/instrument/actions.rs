@@ -1,6 +1,6 @@
 //! `actions`: the action variable J = ∮ p dq of a coordinate over the energy E, with the separatrices, and where the motion is.
 //!
-//! Where the law depends on the time the curve is that of the system held at this instant, and the way of the motion over
+//! Where the law depends on the time the curve is that of the system frozen at this instant, and the way of the motion over
 //! (E, J) since the start is drawn: a slow change moves it along E and leaves J. The job computes curve and motion; what it
 //! found of earlier instants is kept. Never here: how an action is computed (`action_angle`).
 //! Source: *The Principles of Dynamics*, §§ 4.2, 4.3.
@@ -9,12 +9,12 @@ mod moment;
 
 use std::sync::Arc;
 
-use super::motion_state::{self, CoordinateState, HeldCourse};
+use super::motion_state::{self, CoordinateState, FrozenCourse};
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
     Need, Offer, Physics, Picture, Plot, Present, Upwards,
 };
-use crate::action_angle::{HeldMotion, OwnMotion, RegionKind, Separatrix, is_adiabatic};
+use crate::action_angle::{FrozenMotion, OwnMotion, RegionKind, Separatrix, is_adiabatic};
 use crate::job::{Job, Progress};
 use crate::num::{math, significant};
 use crate::system::ChannelKind;
@@ -57,7 +57,7 @@ pub(super) struct ActionsPlot;
 
 /// What was found, and of what.
 struct ComputedActions {
-    course: HeldCourse<Moment>,
+    course: FrozenCourse<Moment>,
     found: Result<Found, String>,
     /// The instants at which another law took the place of the one before, as a ramp by a key does.
     replaced: Vec<Moment>,
@@ -155,10 +155,10 @@ impl Instrument for ActionsPlot {
         let known = computed(answer);
         let leads = known.is_some_and(|known| known.course.leads_to(&state));
         if leads && known.is_some_and(|known| known.holds_at(&state)) {
-            return Need::Held;
+            return Need::Valid;
         }
         let replaced = known.filter(|_| leads).map_or(&[][..], |known| &known.replaced);
-        // a motion that was held continues at the very moment
+        // a paused motion continues at the very moment
         let before = |instant: &&Moment| instant.time <= state.time;
         let replaced: Vec<Moment> = replaced.iter().filter(before).copied().collect();
         let known = known.map(|known| known.course.clone());
@@ -166,16 +166,17 @@ impl Instrument for ActionsPlot {
             (Arc::clone(present.physics.model), Arc::clone(present.physics.system));
         Need::Job(Job::new("actions", move |progress: &Progress| {
             let known = known.as_ref();
-            let mut course = HeldCourse::continued(known, &state, &model, progress, |m| m.time);
-            let held = course.held.clone();
-            let motion = held.as_ref().map_err(Clone::clone).and_then(|held| state.held(held));
+            let mut course = FrozenCourse::continued(known, &state, &model, progress, |m| m.time);
+            let frozen = course.frozen.clone();
+            let motion =
+                frozen.as_ref().map_err(Clone::clone).and_then(|frozen| state.frozen(frozen));
             let found = motion.and_then(|mut motion| Found::of(&mut motion));
             if course.moves() {
                 // however late one looks, the change is that since the motion began
                 if course.past.is_empty()
-                    && let Ok(held) = &held
+                    && let Ok(frozen) = &frozen
                     && let Ok(first) = state.beginning(&system, model.run.start)
-                    && let Ok(mut motion) = first.held(held)
+                    && let Ok(mut motion) = first.frozen(frozen)
                 {
                     let own = motion.own().ok();
                     course.past.extend(own.and_then(|own| Moment::of(&motion, &own, first.time)));
@@ -241,7 +242,7 @@ impl Instrument for ActionsPlot {
 impl ComputedActions {
     /// Whether it is still what is to be seen in a state of the motion.
     fn holds_at(&self, now: &CoordinateState) -> bool {
-        let HeldCourse { state, .. } = &self.course;
+        let FrozenCourse { state, .. } = &self.course;
         if !self.course.is_of_this_law() {
             return false;
         }
@@ -255,7 +256,7 @@ impl ComputedActions {
 
     /// Whether the motion has come so much further that it has to be computed again.
     fn is_behind(&self, time: f64) -> bool {
-        let HeldCourse { state, past, .. } = &self.course;
+        let FrozenCourse { state, past, .. } = &self.course;
         let period = self.found.as_ref().ok().and_then(|found| found.own.row.as_ref().ok());
         let period = period.map(|row| row.period).filter(|period| period.is_finite());
         let since = past.first().map_or(0.0, |first| (time - first.time).abs());
@@ -275,7 +276,7 @@ impl ComputedActions {
 }
 
 impl Found {
-    fn of(motion: &mut HeldMotion<'_>) -> Result<Found, String> {
+    fn of(motion: &mut FrozenMotion<'_>) -> Result<Found, String> {
         let own = motion.own().map_err(|why| why.to_string())?;
         let separatrices = motion.separatrices().map_err(|why| why.to_string())?;
         let bottom = motion.bottom(&own);

@@ -2,13 +2,13 @@
 //!
 //! The job finds J, ν and w of the motion as it is now, again after a part of a period. w is a quadrature over places and ν the
 //! time of a return, so that the line is no consequence of how the points were found. Of a law that depends on the time w is
-//! that of the system held at the instant, and grows with the ν of that instant; there is no line. Never here: how they are
+//! that of the system frozen at the instant, and grows with the ν of that instant; there is no line. Never here: how they are
 //! computed (`action_angle`).
 //! Source: *The Principles of Dynamics*, § 4.2.
 
 use std::sync::Arc;
 
-use super::motion_state::{self, CoordinateState, HeldCourse};
+use super::motion_state::{self, CoordinateState, FrozenCourse};
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
     Need, Offer, Physics, Picture, Plot, Present, Upwards,
@@ -33,7 +33,7 @@ pub(super) struct AnglePlot;
 
 /// What was found, and of what.
 struct ComputedAngle {
-    course: HeldCourse<AngleMoment>,
+    course: FrozenCourse<AngleMoment>,
     /// Why there is no angle now.
     lost: Option<String>,
 }
@@ -107,18 +107,17 @@ impl Instrument for AnglePlot {
         let Some(state) = CoordinateState::of(plot, present) else { return Need::Nothing };
         let known = computed(answer);
         if known.is_some_and(|known| known.course.leads_to(&state) && known.holds_at(state.time)) {
-            return Need::Held;
+            return Need::Valid;
         }
         let known = known.map(|known| known.course.clone());
         let model = Arc::clone(present.physics.model);
         Need::Job(Job::new("angle", move |progress: &Progress| {
             let known = known.as_ref();
-            let mut course = HeldCourse::continued(known, &state, &model, progress, |m| m.time);
+            let mut course = FrozenCourse::continued(known, &state, &model, progress, |m| m.time);
             let CoordinateState { time, parameters, positions, momenta, .. } = &state;
-            let found =
-                course.held.as_ref().map_err(Clone::clone).and_then(|held| {
-                    AngleMoment::of(held, *time, parameters, [positions, momenta])
-                });
+            let found = course.frozen.as_ref().map_err(Clone::clone).and_then(|frozen| {
+                AngleMoment::of(frozen, *time, parameters, [positions, momenta])
+            });
             let lost = match found {
                 Ok(found) => {
                     course.past.push(found.after(course.past.last()));
@@ -164,8 +163,8 @@ impl Instrument for AnglePlot {
 impl ComputedAngle {
     /// Whether it is still what is to be seen at a time.
     fn holds_at(&self, time: f64) -> bool {
-        let HeldCourse { state, held, past, .. } = &self.course;
-        if held.is_err() {
+        let FrozenCourse { state, frozen, past, .. } = &self.course;
+        if frozen.is_err() {
             return true;
         }
         let period = past.last().map_or(0.0, |last| 1.0 / last.frequency);
@@ -198,7 +197,7 @@ fn sentences(answer: Option<&Answer>) -> Vec<String> {
     let Some(computed) = computed(answer) else { return vec!["being computed".to_owned()] };
     let short = |x: f64, digits| significant(x, digits, 1e-3..1e5).replace('-', "−");
     let mut lines = Vec::new();
-    match (&computed.course.held, &computed.lost, computed.course.past.last()) {
+    match (&computed.course.frozen, &computed.lost, computed.course.past.last()) {
         (Err(why), _, _) | (_, Some(why), _) => lines.push(why.clone()),
         (_, _, Some(now)) => {
             let [action, frequency] = [now.action, now.frequency].map(|x| short(x, 5));

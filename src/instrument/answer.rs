@@ -18,7 +18,7 @@ pub enum Need {
     /// No job is needed; an earlier result is dropped.
     Nothing,
     /// The last result is still valid.
-    Held,
+    Valid,
     /// This job is needed. The last result stays until it has finished.
     Job(Job<Answer>),
     /// This job adds to the picture and may take long: where there is no background it is left out.

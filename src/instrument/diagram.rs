@@ -192,7 +192,7 @@ impl Instrument for Diagram {
         let known = computed(plot, answer).filter(|known| known.conditions == motions.conditions);
         let columns = known.map_or_else(Vec::new, |known| known.columns.clone());
         if columns.len() >= MOST || known.is_some_and(|known| known.refused.is_some()) {
-            return Need::Held;
+            return Need::Valid;
         }
         let view = view(plot, present.physics);
         let task = DiagramTask {

@@ -169,7 +169,7 @@ impl Instrument for Ensemble {
         });
         let is_there = |known: &Cloud| present.running || known.is_at(present.time);
         if known.is_some_and(|known| known.holds(present.time) && is_there(known)) {
-            return Need::Held;
+            return Need::Valid;
         }
         let (known, legs) = match (known, carried_on) {
             (None, Some((known, legs))) => (Some(known), legs),

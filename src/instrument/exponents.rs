@@ -123,8 +123,8 @@ impl Instrument for Exponents {
         let known = measured(answer).filter(|known| known.conditions == conditions);
         let doublings = match known {
             None => 0,
-            Some(Measured { found: Err(_), .. }) => return Need::Held,
-            Some(known) if known.doublings >= DOUBLINGS => return Need::Held,
+            Some(Measured { found: Err(_), .. }) => return Need::Valid,
+            Some(known) if known.doublings >= DOUBLINGS => return Need::Valid,
             Some(known) => known.doublings + 1,
         };
         let Some(method) = method_named(present.method) else { return Need::Nothing };

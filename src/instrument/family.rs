@@ -162,7 +162,7 @@ impl Instrument for FamilyPlot {
         // what is there of a family under way is followed on
         let under_way = match known.map(|known| &known.outcome) {
             Some(Ok(found)) if !found.is_complete() => answer.cloned(),
-            Some(_) => return Need::Held,
+            Some(_) => return Need::Valid,
             None => None,
         };
         let (Some(channel), Some(method)) = (plot.column(1), method_named(present.method)) else {

@@ -159,7 +159,7 @@ impl Instrument for FlowPlot {
                 || known.doublings >= DOUBLINGS
                 || !known.outcome.as_ref().is_ok_and(|courses| courses.failures.is_empty()))
         {
-            return Need::Held;
+            return Need::Valid;
         }
         let is_short = |n: &u32| start + length(present.physics, *n) < present.time;
         let doublings = (0..DOUBLINGS).find(|n| !is_short(n)).unwrap_or(DOUBLINGS);

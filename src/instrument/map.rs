@@ -179,7 +179,7 @@ impl Instrument for Map {
         let values = known.map_or_else(Vec::new, |known| known.values.clone());
         let whole = values.len() >= LATTICE[0] * LATTICE[1];
         if whole || known.is_some_and(|known| known.refused.is_some()) {
-            return Need::Held;
+            return Need::Valid;
         }
         let task = MapTask { motions, number: number(plot, present.physics), length, values };
         let first = task.values.len() < AT_ONCE * PART;

@@ -1,13 +1,13 @@
 //! The state of the motion at which an action or an angle variable is asked for, and what was found so far along the motion.
 //!
-//! In: a plot over a coordinate, the motion. Out: the state there with the parameters and the initial values; the system held
+//! In: a plot over a coordinate, the motion. Out: the state there with the parameters and the initial values; the system frozen
 //! at the instant, and the instants before. Never here: actions, angles, pictures.
 
 use std::sync::Arc;
 
 use super::conditions::PlotConditions;
 use super::{Offer, Physics, Plot, Present};
-use crate::action_angle::{HeldMotion, HeldSystem};
+use crate::action_angle::{FrozenMotion, FrozenSystem};
 use crate::job::Progress;
 use crate::model::Model;
 use crate::system::{ChannelKind, Form, MotionError, System};
@@ -83,8 +83,8 @@ impl CoordinateState {
         })
     }
 
-    /// The motion of the system held at this instant.
-    pub(super) fn held<'a>(&self, system: &'a HeldSystem) -> Result<HeldMotion<'a>, String> {
+    /// The motion of the system frozen at this instant.
+    pub(super) fn frozen<'a>(&self, system: &'a FrozenSystem) -> Result<FrozenMotion<'a>, String> {
         let place = [&self.positions[..], &self.momenta[..]];
         system.at(self.time, &self.parameters, place).map_err(|why| why.to_string())
     }
@@ -95,19 +95,19 @@ impl CoordinateState {
     }
 }
 
-/// What was found along a motion, of the system held at each instant.
+/// What was found along a motion, of the system frozen at each instant.
 #[derive(Clone)]
-pub(super) struct HeldCourse<M> {
+pub(super) struct FrozenCourse<M> {
     /// The last state that was looked at.
     pub(super) state: CoordinateState,
-    pub(super) held: Result<Arc<HeldSystem>, String>,
+    pub(super) frozen: Result<Arc<FrozenSystem>, String>,
     /// What was found at the instants, in their order.
     pub(super) past: Vec<M>,
     /// Whether the instants are those of a law that was replaced since.
     replaced: bool,
 }
 
-impl<M: Clone> HeldCourse<M> {
+impl<M: Clone> FrozenCourse<M> {
     /// Whether these are instants of the motion on which a state lies.
     pub(super) fn leads_to(&self, state: &CoordinateState) -> bool {
         let (here, there) = (&self.state.conditions, &state.conditions);
@@ -122,35 +122,35 @@ impl<M: Clone> HeldCourse<M> {
     }
 
     /// The instants alone, for a law that replaces this one while the motion continues.
-    pub(super) fn of_a_replaced_law(&self) -> HeldCourse<M> {
-        HeldCourse { replaced: true, ..self.clone() }
+    pub(super) fn of_a_replaced_law(&self) -> FrozenCourse<M> {
+        FrozenCourse { replaced: true, ..self.clone() }
     }
 
     /// Goes on to a state, with the instants before it if they are of the same motion; `time` is that of an instant.
     pub(super) fn continued(
-        known: Option<&HeldCourse<M>>,
+        known: Option<&FrozenCourse<M>>,
         state: &CoordinateState,
         model: &Model,
         progress: &Progress,
         time: fn(&M) -> f64,
-    ) -> HeldCourse<M> {
+    ) -> FrozenCourse<M> {
         let same =
             known.filter(|known| known.state.coordinate == state.coordinate && !known.replaced);
-        let held = same.map_or_else(
+        let frozen = same.map_or_else(
             || {
-                HeldSystem::of(model, state.coordinate, HeldSystem::PRECISE, progress.token())
+                FrozenSystem::of(model, state.coordinate, FrozenSystem::PRECISE, progress.token())
                     .map(Arc::new)
                     .map_err(|why| why.to_string())
             },
-            |known| known.held.clone(),
+            |known| known.frozen.clone(),
         );
         let past = known.filter(|known| known.leads_to(state)).map_or(&[][..], |known| &known.past);
         let past = past.iter().filter(|instant| time(instant) < state.time).cloned().collect();
-        HeldCourse { state: state.clone(), held, past, replaced: false }
+        FrozenCourse { state: state.clone(), frozen, past, replaced: false }
     }
 
     /// Whether the law depends on the time.
     pub(super) fn moves(&self) -> bool {
-        self.held.as_ref().is_ok_and(|held| held.depends_on_time())
+        self.frozen.as_ref().is_ok_and(|frozen| frozen.depends_on_time())
     }
 }

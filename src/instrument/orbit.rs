@@ -140,7 +140,7 @@ impl Instrument for OrbitPlot {
             .filter(|known| known.conditions == conditions && known.asked <= present.time);
         let unexplained = known.map(|known| (known.asked, &known.unexplained));
         if let Some((_, None)) = unexplained {
-            return Need::Held;
+            return Need::Valid;
         }
         let (Some(x), Some(y), Some(method)) =
             (plot.column(0), plot.column(1), method_named(present.method))

@@ -151,7 +151,7 @@ impl Instrument for PathsPlot {
             (known.coordinate, known.duration) == (coordinate, duration)
                 && known.conditions == conditions
         }) {
-            return Need::Held;
+            return Need::Valid;
         }
         let reach = reach(present, channel);
         let (model, equations, system) = (model.clone(), equations.clone(), system.clone());

@@ -139,7 +139,7 @@ impl Instrument for Phase {
         if let Some(survey) = answer.and_then(Answer::of::<Survey>)
             && survey.still_holds(present.parameters, motion)
         {
-            return Need::Held;
+            return Need::Valid;
         }
         // With more degrees of freedom the plane is only a projection of phase space; with explicit time its curves
         // would move.

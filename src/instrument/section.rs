@@ -200,7 +200,7 @@ impl Instrument for SectionPlot {
             None => None,
             Some(known) if !known.pending.0.is_empty() => None,
             Some(known) => match plot.seeds.get(known.seeds.len()) {
-                None => return Need::Held,
+                None => return Need::Valid,
                 seed => seed.copied(),
             },
         };

@@ -135,7 +135,7 @@ impl Instrument for SpectrumPlot {
     fn job(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Need {
         let conditions = PlotConditions::of(present, &plot.seeds);
         if found(answer).is_some_and(|known| known.conditions == conditions) {
-            return Need::Held;
+            return Need::Valid;
         }
         let Physics { model, equations, system } = present.physics;
         let (Some(channel), Some(method)) = (plot.column(0), method_named(present.method)) else {

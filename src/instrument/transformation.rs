@@ -231,7 +231,7 @@ impl Instrument for TransformationPlot {
         let known = known.filter(|known| stays(known) && (fresh(known) || verdict.is_none()));
         if let Some(known) = known {
             if verdict.is_some() {
-                return Need::Held;
+                return Need::Valid;
             }
             let (window, grid) = (known.window, Arc::clone(&known.grid));
             let (branches, time) = (known.branches.clone(), known.time);

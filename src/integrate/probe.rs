@@ -38,7 +38,7 @@ impl Probe {
 
     /// The values at a state.
     pub(super) fn of(&mut self, state: &State) -> Result<&[f64], MotionError> {
-        self.event_functions.look(state, &mut self.values)?;
+        self.event_functions.observe(state, &mut self.values)?;
         Ok(&self.values)
     }
 
@@ -49,7 +49,7 @@ impl Probe {
         time: f64,
     ) -> Result<&[f64], MotionError> {
         self.move_to(motion, time)?;
-        self.event_functions.look(&self.state, &mut self.values)?;
+        self.event_functions.observe(&self.state, &mut self.values)?;
         Ok(&self.values)
     }
 

@@ -21,7 +21,7 @@ pub trait Follower {
     fn begin(&mut self, orbit: usize, lane: usize, batch: &mut BatchPropagator) -> OrbitCourse;
 
     /// The time up to which an orbit that is under way need not be looked at.
-    fn next_look(&self, _orbit: usize) -> f64 {
+    fn next_observation(&self, _orbit: usize) -> f64 {
         f64::NEG_INFINITY
     }
 
@@ -29,7 +29,7 @@ pub trait Follower {
     fn look_at_all(&mut self, _batch: &BatchPropagator) {}
 
     /// Looks at an orbit after a step.
-    fn look(&mut self, orbit: usize, lane: usize, batch: &mut BatchPropagator) -> OrbitCourse;
+    fn observe(&mut self, orbit: usize, lane: usize, batch: &mut BatchPropagator) -> OrbitCourse;
 
     /// An orbit has to be followed alone, from its beginning.
     fn leave(&mut self, orbit: usize);
@@ -59,7 +59,8 @@ pub fn side_by_side(
         if places.iter().all(Option::is_none) {
             return true;
         }
-        let look = |place: Option<usize>| place.map_or(f64::INFINITY, |i| follower.next_look(i));
+        let look =
+            |place: Option<usize>| place.map_or(f64::INFINITY, |i| follower.next_observation(i));
         if !batch.steps_unseen(&limits, &places.map(look)) {
             return false;
         }
@@ -69,7 +70,7 @@ pub fn side_by_side(
             if batch.status(lane) == LaneStatus::Irregular {
                 follower.leave(orbit);
                 *place = None;
-            } else if let OrbitCourse::Until(limit) = follower.look(orbit, lane, batch) {
+            } else if let OrbitCourse::Until(limit) = follower.observe(orbit, lane, batch) {
                 limits[lane] = limit;
             } else {
                 *place = None;

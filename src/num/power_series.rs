@@ -53,14 +53,19 @@ pub fn cosine_of_half(coefficients: &[f64]) -> Vec<f64> {
 mod tests {
     use super::{cosine_of_arctangent, cosine_of_half, square_root};
 
+    fn near(found: &[f64], expected: &[f64]) {
+        assert_eq!(found.len(), expected.len());
+        for (found, expected) in found.iter().zip(expected) {
+            assert!((found - expected).abs() < 1e-16, "{found}, not {expected}");
+        }
+    }
+
     /// cos(π/2 + x) = −sin x = −x + x³/6 − x⁵/120, which passes zero where the angle is π.
     #[test]
     fn the_cosine_of_half_an_angle_passes_zero_at_the_cut() {
         let angle = [core::f64::consts::PI, 2.0, 0.0, 0.0, 0.0, 0.0];
         let expected = [0.0, -1.0, 0.0, 1.0 / 6.0, 0.0, -1.0 / 120.0];
-        for (found, expected) in cosine_of_half(&angle).iter().zip(expected) {
-            assert!((found - expected).abs() < 1e-16, "{found}, not {expected}");
-        }
+        near(&cosine_of_half(&angle), &expected);
     }
 
     /// tan x = x + x³/3 + 2x⁵/15 + …, and cos x.
@@ -68,9 +73,7 @@ mod tests {
     fn the_cosine_of_an_angle_follows_from_its_tangent() {
         let tangent = [0.0, 1.0, 0.0, 1.0 / 3.0, 0.0, 2.0 / 15.0, 0.0];
         let cosine = [1.0, 0.0, -0.5, 0.0, 1.0 / 24.0, 0.0, -1.0 / 720.0];
-        for (found, expected) in cosine_of_arctangent(&tangent).iter().zip(cosine) {
-            assert!((found - expected).abs() < 1e-16, "{found}, not {expected}");
-        }
+        near(&cosine_of_arctangent(&tangent), &cosine);
     }
 
     #[test]

@@ -237,11 +237,11 @@ impl<D: FnMut(usize, RunOutcome)> Follower for RunTogether<'_, D> {
     fn look_at_all(&mut self, batch: &BatchPropagator) {
         if let Some(terms) = &mut self.terms {
             let underway = |lane| batch.status(lane) == LaneStatus::Underway;
-            terms.look(std::array::from_fn(|lane| underway(lane).then(|| batch.state(lane))));
+            terms.observe(std::array::from_fn(|lane| underway(lane).then(|| batch.state(lane))));
         }
     }
 
-    fn look(&mut self, orbit: usize, lane: usize, batch: &mut BatchPropagator) -> OrbitCourse {
+    fn observe(&mut self, orbit: usize, lane: usize, batch: &mut BatchPropagator) -> OrbitCourse {
         let (_, end) = self.runs[orbit];
         let (state, watch) = (batch.state(lane), &mut self.watches[lane]);
         let together = self.terms.as_ref();

@@ -168,7 +168,7 @@ impl Lesson {
 
     /// Gives the lab's keys to the person, or takes them for the lesson.
     pub(super) fn share_keys(&mut self) {
-        self.runner.lab.app.hints =
+        self.runner.lab.app.footer.hints =
             if self.has_lab() { KeyHints::LabInLesson } else { KeyHints::Hidden };
     }
 
@@ -247,7 +247,7 @@ impl Lesson {
         {
             *since = since.min(now);
         }
-        self.runner.hold(!self.is_moving());
+        self.runner.suspend(!self.is_moving());
         Ok(())
     }
 
@@ -363,7 +363,7 @@ impl Lesson {
             let found = in_words(claim, &self.runner.lab.app);
             let done = found.map_or_else(|| "Done.".to_owned(), |found| format!("Done: {found}."));
             self.said.push(paragraph(ParagraphKind::Right, done));
-            self.runner.hold(true);
+            self.runner.suspend(true);
             self.enter(LessonStage::Said);
         }
     }
@@ -371,7 +371,7 @@ impl Lesson {
     /// Opens the system again as its file says, so that what follows does not depend on what the person did.
     fn begin_anew(&mut self) {
         self.runner.lab = self.runner.lab.anew(self.runner.script.head.fps);
-        self.runner.lab.app.footer = self.runner.script.head.footer;
+        self.runner.lab.app.footer.shown = self.runner.script.head.footer;
         self.runner.keys.clear();
         self.time = 0;
         self.personal = false;
@@ -403,7 +403,7 @@ impl Lesson {
             matches!(step, ScriptStep::Lesson(LessonStep::Task { .. } | LessonStep::Free(_)))
         };
         self.personal |= last.is_some_and(|(_, step)| personal(step));
-        self.runner.hold(false);
+        self.runner.suspend(false);
         self.enter(LessonStage::Playing);
     }
 

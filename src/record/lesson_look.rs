@@ -6,14 +6,13 @@
 use crossterm::event::{KeyCode, KeyEvent};
 
 use super::headless_lab::HeadlessLab;
-use crate::app::{Event, Page, Pane};
+use crate::app::{Event, Focus, Page};
 
 /// What was seen before somebody looked around.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 pub(super) struct LessonView {
     page: Page,
-    focus: Pane,
-    front: Option<usize>,
+    focus: Focus,
 }
 
 impl LessonView {
@@ -32,18 +31,16 @@ impl LessonView {
             _ => false,
         };
         let Some(lab) = app.lab.as_ref().filter(|_| looks) else { return false };
-        let view = LessonView { page: app.page, focus: lab.focus, front: lab.front };
-        before.get_or_insert(view);
+        before.get_or_insert_with(|| LessonView { page: app.page, focus: lab.focus.clone() });
         host.happen(Event::Key(key));
         true
     }
 
     /// Returns to what was seen before somebody looked around, so that what follows does not depend on it.
     pub(super) fn look_back(self, host: &mut HeadlessLab) {
-        let LessonView { page, focus, front } = self;
-        host.app.page = page;
+        host.app.page = self.page;
         if let Some(lab) = &mut host.app.lab {
-            (lab.focus, lab.front) = (focus, front);
+            lab.focus = self.focus;
         }
     }
 }

@@ -85,7 +85,7 @@ impl ScriptRunner {
         budget: Budget,
     ) -> Result<ScriptRunner, Diagnostic> {
         let mut lab = HeadlessLab::open(document, called, script.head.fps, budget);
-        lab.app.footer = script.head.footer;
+        lab.app.footer.shown = script.head.footer;
         if lab.app.lab.is_none() {
             let place = script.head.open.as_ref().map_or(0..0, |open| open.place.clone());
             let message = format!("`{called}` cannot be opened: it has errors");
@@ -362,8 +362,8 @@ impl ScriptRunner {
     }
 
     /// Pauses or resumes time; the screen shows which.
-    pub fn hold(&mut self, held: bool) {
-        self.lab.app.held = held;
+    pub fn suspend(&mut self, suspended: bool) {
+        self.lab.app.suspended = suspended;
     }
 
     /// The screen as it would be drawn now.

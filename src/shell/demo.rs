@@ -58,7 +58,7 @@ impl Screen for Demo {
             (KeyCode::Char('q') | KeyCode::Esc, _) => ScreenRequest::Quit,
             (KeyCode::Char(' '), _) => {
                 self.paused = !self.paused;
-                self.performance.hold(self.paused);
+                self.performance.suspend(self.paused);
                 ScreenRequest::Nothing
             }
             _ => ScreenRequest::Nothing,

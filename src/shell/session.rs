@@ -54,12 +54,7 @@ pub(super) struct Session {
     checker: Checker,
     /// The watch on the system's file, if it is to be watched.
     watch: Option<Watch>,
-    store: Option<Store>,
-    /// The times since the session was saved, since the texts were stored, and since the other program was checked
-    /// for.
-    since: Since,
-    /// The revision of the texts stored last.
-    kept_texts: u64,
+    saving: Saving,
     /// Writes the file that a key requested.
     writer: Writer,
     /// The background jobs of each asker.
@@ -78,13 +73,33 @@ pub(super) struct Session {
     still: Duration,
     /// The screen's size when it was last drawn.
     size: Size,
-    /// Whether the terminal has a clipboard, and what is to be put into it.
-    has_clipboard: bool,
-    clipboard: Option<String>,
-    /// The result of saving at the end.
-    left: Option<ExitResult>,
+    clipboard: Clipboard,
+    exit: Exit,
+}
+
+/// What saves the session while the laboratory is open.
+#[derive(Default)]
+struct Saving {
+    store: Option<Store>,
+    since: Since,
+    /// The revision of the texts stored last.
+    stored_texts: u64,
+}
+
+/// The terminal's clipboard.
+struct Clipboard {
+    is_there: bool,
+    /// The text to be put into it.
+    text: Option<String>,
+}
+
+/// The end of the program.
+#[derive(Default)]
+struct Exit {
+    /// The result of saving, once it was done.
+    result: Option<ExitResult>,
     /// Whether the program was being terminated when it was saved.
-    hurried: bool,
+    is_forced: bool,
 }
 
 /// The result of saving at the end.
@@ -105,7 +120,7 @@ const UNHURRIED: Duration = Duration::from_secs(10);
 const FOR_TEXTS: Duration = Duration::from_millis(1200);
 const HURRIED: Duration = Duration::from_millis(100);
 
-/// The times since the last run of each periodic task.
+/// The times since the session was saved, since the texts were stored, and since the other program was checked for.
 #[derive(Debug, Default)]
 struct Since {
     saved: Duration,
@@ -123,26 +138,24 @@ impl Session {
     ) -> io::Result<Self> {
         let (mut app, effects) = App::new(&catalog, request.open.as_deref());
         app.mouse = pace.mouse;
-        app.aside = true;
+        app.jobs.in_background = true;
         app.meter.asked = pace.frames;
         app.meter.most = request.most_frames();
-        app.themes = PALETTES.iter().map(|palette| (palette.name, palette.about)).collect();
-        app.theme = Some(look.theme.palette().name);
+        app.themes.available =
+            PALETTES.iter().map(|palette| (palette.name, palette.about)).collect();
+        app.themes.chosen = Some(look.theme.palette().name);
         let loader = Loader::new(Arc::new(catalog));
-        let (detail, store) = (Detail::default(), None);
         let watch = request.watch.then(Watch::default);
         let (worker, checker) = (Worker::idle()?, Checker::new());
         let mut session = Self {
             app,
             look,
-            detail,
+            detail: Detail::default(),
             worker,
             loader,
             checker,
             watch,
-            store,
-            since: Since::default(),
-            kept_texts: 0,
+            saving: Saving::default(),
             writer: Writer::new(),
             sides: HashMap::new(),
             warning: None,
@@ -152,10 +165,11 @@ impl Session {
             painter: Painter::default(),
             still: Duration::ZERO,
             size: Size::default(),
-            has_clipboard: clipboard::is_there(&|name| std::env::var(name).ok()),
-            clipboard: None,
-            left: None,
-            hurried: false,
+            clipboard: Clipboard {
+                is_there: clipboard::is_there(&|name| std::env::var(name).ok()),
+                text: None,
+            },
+            exit: Exit::default(),
         };
         session.find_guides();
         session.perform(effects);
@@ -218,7 +232,7 @@ impl Session {
                     Ok(text) => {
                         self.update(Event::FileRead { text, asked: true });
                     }
-                    Err(why) => self.app.notice = Some(Notification::error(why.to_string())),
+                    Err(why) => self.app.notifications.show(Notification::error(why.to_string())),
                 },
                 Effect::Repaint => request = ScreenRequest::Repaint,
                 Effect::Frames(count) => request = ScreenRequest::Frames(count),
@@ -241,10 +255,10 @@ impl Session {
     /// done yet, and puts them on the disk, unless that takes long.
     pub(super) fn left(&mut self) -> ExitResult {
         self.on_exit(true);
-        if let Some(store) = self.store.as_mut().filter(|_| !self.hurried) {
+        if let Some(store) = self.saving.store.as_mut().filter(|_| !self.exit.is_forced) {
             store.sync(HURRIED);
         }
-        self.left.take().unwrap_or(ExitResult { recorded: Ok(()), kept: Ok(()) })
+        self.exit.result.take().unwrap_or(ExitResult { recorded: Ok(()), kept: Ok(()) })
     }
 
     /// Starts a loaded system.
@@ -300,7 +314,7 @@ impl Screen for Session {
         let app = &self.app;
         let paused = app.snapshot().is_some_and(|snapshot| snapshot.status != Status::Running);
         let awaited = app.loading().is_some()
-            || app.notice.is_some()
+            || app.notifications.shown.is_some()
             || self.writer.is_busy()
             || self.sides.values().any(SideJob::is_busy);
         let editing = matches!(app.overlay, Some(Overlay::Workbench));
@@ -316,9 +330,9 @@ impl Screen for Session {
         }
         self.report_faults();
         self.save_periodically(elapsed);
-        let noticed = self.app.notice.is_some();
+        let noticed = self.app.notifications.shown.is_some();
         self.update(Event::Tick(elapsed));
-        let mut changed = self.app.notice.is_some() != noticed;
+        let mut changed = self.app.notifications.shown.is_some() != noticed;
         if let Some(outcome) = self.loader.take() {
             match &outcome {
                 Ok((name, _)) => info!("loaded {name}"),
@@ -331,7 +345,7 @@ impl Screen for Session {
                 .map_err(|failure| self.with_text_kept(failure));
             self.update(Event::Loaded(loaded));
             if let Some(warning) = self.warning.take() {
-                self.app.notice = Some(Notification::error(warning));
+                self.app.notifications.show(Notification::error(warning));
             }
             changed = true;
         }
@@ -375,15 +389,15 @@ impl Screen for Session {
     }
 
     fn clipboard(&mut self) -> Option<String> {
-        self.clipboard.take()
+        self.clipboard.text.take()
     }
 
     fn on_exit(&mut self, hurried: bool) {
-        if self.left.is_some() {
+        if self.exit.result.is_some() {
             return;
         }
         self.leave_guide();
-        self.hurried = hurried;
+        self.exit.is_forced = hurried;
         // A working thread would use up the time that is left.
         self.loader.stop();
         self.checker.stop();
@@ -394,7 +408,7 @@ impl Screen for Session {
             (true, true) => HURRIED,
         };
         // Files outlive the program: they are put on the disk when the terminal is a shell's again.
-        if let Some(store) = &self.store {
+        if let Some(store) = &self.saving.store {
             store.hurry(true);
         }
         // The texts come first, since they could not be recovered.
@@ -403,7 +417,7 @@ impl Screen for Session {
         let recorded = recorder.map_or(Ok(()), |recorder| recorder.end(!hurried).map(|_| ()));
         let written = if hurried { None } else { self.writer.wait(UNHURRIED) };
         let written = written.map_or(Ok(()), |report| report.map(|_| ()).map_err(io::Error::other));
-        self.left = Some(ExitResult { recorded: recorded.and(written), kept });
+        self.exit.result = Some(ExitResult { recorded: recorded.and(written), kept });
     }
 
     /// What the user has chosen in the meantime stays.
@@ -412,8 +426,8 @@ impl Screen for Session {
         self.look = self.look.on(colour);
         let suits = self.look.theme.palette().name;
         info!("the terminal's background is {colour:?}: the {suits} theme");
-        if self.app.theme == Some(initial) {
-            self.app.theme = Some(suits);
+        if self.app.themes.chosen == Some(initial) {
+            self.app.themes.chosen = Some(suits);
         }
         if let Some(guided) = &mut self.guided {
             guided.background(colour);

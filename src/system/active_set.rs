@@ -98,6 +98,6 @@ fn independent_at_start(
         (0..model.coordinates.len()).map(|i| values.output(i)).collect();
     let mut conditions = Conditions::new(programs, count);
     conditions.set_parameters(&parameters);
-    conditions.look(DoubleDouble::written(model.run.start), &positions);
+    conditions.observe(DoubleDouble::written(model.run.start), &positions);
     Ok(conditions.independent(&vec![true; count]))
 }

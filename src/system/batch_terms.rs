@@ -78,7 +78,7 @@ impl BatchTerms {
     }
 
     /// Evaluates the states of the lanes that have one.
-    pub fn look(&mut self, states: [Option<&State>; BATCH]) {
+    pub fn observe(&mut self, states: [Option<&State>; BATCH]) {
         let mut time = Batch::ZERO;
         for (lane, state) in states.iter().enumerate() {
             let Some(state) = state else { continue };

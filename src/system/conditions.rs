@@ -153,7 +153,7 @@ impl Conditions {
     }
 
     /// Evaluates the constraints at a time and coordinates, which all other methods then refer to.
-    pub(super) fn look(&mut self, time: DoubleDouble, positions: &[DoubleDouble]) {
+    pub(super) fn observe(&mut self, time: DoubleDouble, positions: &[DoubleDouble]) {
         let positions = &positions[..self.degrees];
         self.rounded.iter_mut().zip(positions).for_each(|(rounded, x)| *rounded = x.high);
         // the programs contain no equations to solve, so they cannot meet a singular matrix

@@ -86,7 +86,7 @@ impl System {
         let mut conditions = Conditions::new(&constrained.programs, self.constraints());
         conditions.set_parameters(&self.inputs(parameters));
         let positions: Vec<DoubleDouble> = (0..self.degrees()).map(|i| state.exact(i)).collect();
-        conditions.look(state.exact_time(), &positions);
+        conditions.observe(state.exact_time(), &positions);
         Some(conditions)
     }
 

@@ -107,7 +107,7 @@ impl EventFunctions {
     }
 
     /// Evaluates every event's function at a state.
-    pub fn look(&mut self, state: &State, out: &mut [f64]) -> Result<(), MotionError> {
+    pub fn observe(&mut self, state: &State, out: &mut [f64]) -> Result<(), MotionError> {
         self.native.write(state, &mut self.inputs)?;
         for (rounded, x) in self.rounded.iter_mut().zip(&self.inputs) {
             *rounded = x.high;

@@ -90,6 +90,7 @@ impl<R: Coefficient> SeriesBuilder<R> {
         self.jet.advance(0, clock.time, clock.scale)
     }
 
+    #[cfg(feature = "jit")]
     pub(super) fn len(&self) -> usize {
         self.state.len() / (self.order + 1)
     }

@@ -100,7 +100,7 @@ impl Projection {
         let mut factored = Factored::new(n + rows.len());
         let mut last = f64::INFINITY;
         for _ in 0..CORRECTIONS {
-            self.conditions.look(time, state);
+            self.conditions.observe(time, state);
             let worst = rows.iter().map(|&k| (residual(self, k, state).relative(), k));
             let (size, worst) = worst.fold(
                 (0.0, 0),
@@ -156,7 +156,7 @@ impl Projection {
     ) -> Result<Vec<DoubleDouble>, LegendreError> {
         let n = self.degrees;
         let rows = self.rows();
-        self.conditions.look(time, state);
+        self.conditions.observe(time, state);
         let mut factored = Factored::new(n + rows.len());
         let mut reactions = vec![DoubleDouble::ZERO; rows.len()];
         let mut numbers = state[..2 * n].to_vec();

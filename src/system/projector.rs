@@ -50,7 +50,7 @@ impl ConstraintProjector {
     pub fn take_levels(&mut self, state: &State) {
         self.load(state);
         let conditions = self.projection.conditions();
-        conditions.look(state.exact_time(), &self.numbers);
+        conditions.observe(state.exact_time(), &self.numbers);
         conditions.take_levels();
     }
 
@@ -109,7 +109,7 @@ impl ConstraintProjector {
         self.load(state);
         let enforced = self.system.holding().enforced.clone();
         let conditions = self.projection.conditions();
-        conditions.look(state.exact_time(), &self.numbers);
+        conditions.observe(state.exact_time(), &self.numbers);
         let units = like.map(|like| like.0.units());
         conditions.span(&enforced, units).map(Directions)
     }
@@ -122,7 +122,7 @@ impl ConstraintProjector {
         let n = self.system.degrees();
         let active = self.system.holding().active.clone();
         let conditions = self.projection.conditions();
-        conditions.look(state.exact_time(), &self.numbers);
+        conditions.observe(state.exact_time(), &self.numbers);
         let residual = |k: usize| {
             if active[k] {
                 let position = conditions.position(k).relative();

@@ -26,7 +26,7 @@ impl ConstraintProjector {
         let enforced = self.enforced();
         let degrees = self.numbers.len() / 2;
         let conditions = self.projection.conditions();
-        conditions.look(state.exact_time(), &self.numbers);
+        conditions.observe(state.exact_time(), &self.numbers);
         let rows = enforced.into_iter().map(|(k, holonomic)| SurfaceRow {
             row: (0..degrees).map(|i| conditions.entry(k, i).high).collect(),
             rate: conditions.rate(k).high,

@@ -58,7 +58,7 @@ impl TermWatch {
     }
 
     /// Evaluates a state. Returns `false` if that is not possible.
-    pub fn look(&mut self, state: &State) -> bool {
+    pub fn observe(&mut self, state: &State) -> bool {
         let at_canonical = state.form != self.system.form() && self.canonical.is_some();
         if at_canonical {
             self.system.inputs_of(state, &mut self.exact);

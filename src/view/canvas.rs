@@ -12,9 +12,9 @@ use ratatui::widgets::{Clear, Widget};
 use unicode_width::UnicodeWidthChar;
 
 use super::RenderStyle;
+use super::cache::FrameCache;
 use super::colour::ColourDepth;
 use super::glyphs::TextWidth;
-use super::kept::Kept;
 use super::region::ScreenRegion;
 use super::theme::Role;
 use super::wrap::shortened;
@@ -34,8 +34,8 @@ pub(super) struct Canvas<'a> {
     pub(super) moving: Option<[f64; 2]>,
     /// Whether the list with the focus says what its selected value means.
     pub(super) explained: bool,
-    /// What is kept from the last frame.
-    pub(super) kept: Kept,
+    /// What is cached from the last frame.
+    pub(super) cache: FrameCache,
     /// Whether what is drawn stands beside what has the keys: no pane of it looks focused.
     pub(super) beside: bool,
 }
@@ -54,7 +54,7 @@ impl<'a> Canvas<'a> {
             reading: None,
             moving: None,
             explained: false,
-            kept: Kept::default(),
+            cache: FrameCache::default(),
             beside: false,
         }
     }

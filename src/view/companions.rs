@@ -4,9 +4,9 @@
 
 use ratatui::style::Style;
 
+use super::cache::{self, Track, TrailKey};
 use super::canvas::Canvas;
 use super::glyphs::Glyphs;
-use super::kept::{self, Track, TrailKey};
 use super::number::readable;
 use super::plot::{Ages, Marker, Pen, PlotFrame, Raster};
 use super::quantity::Quantities;
@@ -42,14 +42,14 @@ pub(super) fn trails(
         let track = Track::Channels([x, y]);
         let (epoch, motion) = (q.snapshot.epoch, one.number);
         let key = TrailKey { epoch, motion, frame: *frame, track };
-        let kept = canvas.kept.trail(key, (&one.trail, look.glyphs), |row| {
+        let trail = canvas.cache.trail(key, (&one.trail, look.glyphs), |row| {
             Some([*row.get(1 + x)?, *row.get(1 + y)?, 0.0])
         });
         let ramp = look.theme.trail(series(one.number));
-        let since = kept::since(&one.trail, ramp.len());
+        let since = cache::since(&one.trail, ramp.len());
         let now = [x, y].map(|k| one.values.get(k).copied().unwrap_or(f64::NAN));
         let ages = Ages { since: &since, ramp, layer: level, behind: None };
-        kept.draw(raster, ages, now);
+        trail.draw(raster, ages, now);
         mark(raster, frame, (one, &look.theme), (now, level + 1));
     }
 }
@@ -69,10 +69,10 @@ pub(super) fn curves(
         let track = Track::Curve(channel, shade.dash, since);
         let (epoch, motion) = (q.snapshot.epoch, one.number);
         let key = TrailKey { epoch, motion, frame: *frame, track };
-        let kept = canvas.kept.trail(key, (&one.trail, look.glyphs), |row| {
+        let trail = canvas.cache.trail(key, (&one.trail, look.glyphs), |row| {
             Some([*row.first()?, *row.get(1 + channel)?, 0.0])
         });
-        kept.draw(raster, kept::whole(&[f64::MIN], &[shade], level), now);
+        trail.draw(raster, cache::whole(&[f64::MIN], &[shade], level), now);
         mark(raster, frame, (one, &look.theme), (now, level + 1));
     }
 }

@@ -19,7 +19,7 @@ pub(super) const BRACKETS: &str = "Brackets";
 
 /// Adds the verdict in a line.
 pub(super) fn verdict(lab: &Lab, page: &mut TextPage) {
-    if let Some(status) = lab.search.status() {
+    if let Some(status) = lab.searches.constants.status() {
         page.words(Role::Dim, status);
         return;
     }
@@ -30,7 +30,7 @@ pub(super) fn verdict(lab: &Lab, page: &mut TextPage) {
             page.words(role, capital(&findings.summary));
         }
         Some(Err(why)) => page.words(Role::Dim, format!("Integrable or not: not known; {why}.")),
-        None if lab.search.was_stopped() => {
+        None if lab.searches.constants.was_stopped() => {
             page.words(Role::Dim, "Integrable or not: the search was stopped; I begins it again.");
         }
         None => page.words(Role::Dim, "Integrable or not: the search has not ended yet."),
@@ -107,14 +107,14 @@ pub(super) fn found(lab: &Lab, look: &RenderStyle, page: &mut TextPage) {
     }
     let constants = known + invariants.found.len();
     if findings.hamiltonian && constants > 0 {
-        let brackets = constants > 1 && !lab.search.brackets;
+        let brackets = constants > 1 && !lab.searches.constants.brackets;
         let hint = if brackets { "B shows the brackets of the constants; " } else { "" };
         page.words(
             Role::Dim,
             format!("{hint}J carries the state along the flow of one, or of a symmetry."),
         );
     }
-    if lab.search.brackets {
+    if lab.searches.constants.brackets {
         let parameters = !lab.loaded.model.parameters.is_empty();
         brackets(findings, parameters, look, page, &write);
     }

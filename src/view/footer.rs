@@ -38,7 +38,7 @@ pub(super) fn footer(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
         Some((text, role)) => (canvas.text(&text), role),
         None => (meaning, role),
     };
-    let mut hints = match app.hints {
+    let mut hints = match app.footer.hints {
         KeyHints::Hidden => Vec::new(),
         KeyHints::Lab | KeyHints::LabInLesson => hints(canvas, app),
     };
@@ -47,7 +47,7 @@ pub(super) fn footer(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
     // The last two hints, help and quit, are always shown; the others are dropped to make room for the meaning.
     let room = usize::from(area.width);
     // If its pane is small, a gauge's reason appears in full nowhere else.
-    let gauge = app.lab.as_ref().is_some_and(|lab| lab.focus == Pane::Gauges);
+    let gauge = app.lab.as_ref().is_some_and(|lab| lab.focus.pane == Pane::Gauges);
     let most = if gauge { room } else { room * 2 / 3 };
     let meant = if meaning.is_empty() { 0 } else { meaning.width().min(most) + 2 };
     while hints.len() > 2 && meant + wide > room + 3 {
@@ -76,7 +76,8 @@ fn current_notification(app: &App) -> Option<(String, Role)> {
     if app.open_buffer().is_some() {
         return None;
     }
-    let notice = app.notice.as_ref().map(|notice| (notice.text.clone(), notice_role(notice)));
+    let notice =
+        app.notifications.shown.as_ref().map(|notice| (notice.text.clone(), notice_role(notice)));
     notice.or_else(|| app.banner().map(|banner| (banner, Role::Bad)))
 }
 
@@ -158,7 +159,7 @@ fn ended(snapshot: &Snapshot) -> Option<String> {
 /// The meaning, unit and range of the selected item.
 fn meaning(canvas: &Canvas<'_>, lab: &Lab) -> String {
     let glyphs = canvas.look.glyphs;
-    if lab.focus == Pane::Gauges {
+    if lab.focus.pane == Pane::Gauges {
         let gauge = lab.snapshot.as_ref().and_then(|s| s.gauges.get(lab.selection.gauge));
         return gauge.map_or_else(String::new, |gauge| {
             let name = glyphs.pick(&gauge.shown, &gauge.name);
@@ -208,7 +209,7 @@ fn hints(canvas: &Canvas<'_>, app: &App) -> Vec<Hint> {
             Action::Quit => app.closes_with_quit(),
             _ => false,
         };
-        let leaves = row.action == Action::Quit && app.hints == KeyHints::LabInLesson;
+        let leaves = row.action == Action::Quit && app.footer.hints == KeyHints::LabInLesson;
         let pointed = row.action == Action::Cursor && app.lab.as_ref().is_some_and(Lab::has_cursor);
         let word = match row.hint {
             _ if pointed => "no cursor",

@@ -204,6 +204,7 @@ mod tests {
             let mut terminal = vt100::Parser::new(SIZE.height, SIZE.width, 0);
             terminal.process("left by somebody else\r\n\x1b[7mso".as_bytes());
             let mut screen = Frames::new(true).expect("memory");
+            prop_assert!(!pictures.is_empty());
             for (cells, forget) in pictures {
                 if forget {
                     terminal.process(b"\x1b[41mthe terminal was resized");
@@ -227,6 +228,7 @@ mod tests {
         ) {
             let mut terminal = vt100::Parser::new(SIZE.height, SIZE.width, 0);
             let mut screen = Frames::new(false).expect("memory");
+            prop_assert!(!pictures.is_empty());
             for (cells, most) in pictures {
                 let mut drawn = Buffer::empty(Rect::from(SIZE));
                 paint(&cells, drawn.area, &mut drawn);

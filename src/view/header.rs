@@ -85,10 +85,10 @@ pub(super) fn status(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
     let waits = app.lab.as_ref().is_some_and(Lab::waits_for_law);
     let (sign, word, role) = match &snapshot.status {
         Status::Running if waits => (glyphs.pick("‖", "="), "waiting", Role::Warn),
-        Status::Running if !app.held && snapshot.backwards => {
+        Status::Running if !app.suspended && snapshot.backwards => {
             (glyphs.pick("◀", "<"), "back   ", Role::Warn)
         }
-        Status::Running if !app.held => (glyphs.pick("▶", ">"), "running", Role::Good),
+        Status::Running if !app.suspended => (glyphs.pick("▶", ">"), "running", Role::Good),
         Status::Running | Status::Paused => (glyphs.pick("‖", "="), "paused ", Role::Warn),
         Status::Ended(_) => (glyphs.pick("■", "#"), "ended  ", Role::Warn),
         Status::Failed(_) => (glyphs.pick("■", "#"), "stopped", Role::Bad),

@@ -17,7 +17,7 @@ use crate::app::{App, Grab, HitTarget};
 pub struct HitMap {
     /// The regions; later ones lie over earlier ones.
     regions: Vec<(Rect, ScreenRegion)>,
-    hold: Option<Grab>,
+    drag: Option<Grab>,
 }
 
 /// Collects the regions of an application's screen.
@@ -26,7 +26,7 @@ pub fn hit_targets(app: &App, look: &RenderStyle, area: Rect) -> HitMap {
     let mut canvas = Canvas::over(&mut buffer, look);
     canvas.regions = Some(Vec::new());
     paint(&mut canvas, app, area);
-    HitMap { regions: canvas.regions.unwrap_or_default(), hold: app.hold }
+    HitMap { regions: canvas.regions.unwrap_or_default(), drag: app.drag }
 }
 
 /// Returns what lies at one position of the screen.
@@ -44,8 +44,8 @@ impl HitMap {
     /// Returns what lies at a position; during a drag, that is the dragged item wherever the mouse is.
     pub fn at(&self, column: u16, row: u16) -> Option<HitTarget> {
         let at = Position::new(column, row);
-        let held = |region: &ScreenRegion| match (self.hold, region) {
-            (Some(Grab::Bar(held)), ScreenRegion::Bar(target, _)) => held == *target,
+        let is_dragged = |region: &ScreenRegion| match (self.drag, region) {
+            (Some(Grab::Bar(dragged)), ScreenRegion::Bar(target, _)) => dragged == *target,
             (Some(Grab::Time), ScreenRegion::Time(_)) => true,
             (
                 Some(Grab::Picture { index, .. }),
@@ -53,8 +53,8 @@ impl HitMap {
             ) => index == *i,
             _ => false,
         };
-        let found = match self.hold {
-            Some(_) => self.regions.iter().find(|(_, region)| held(region)),
+        let found = match self.drag {
+            Some(_) => self.regions.iter().find(|(_, region)| is_dragged(region)),
             None => self.regions.iter().rev().find(|(area, _)| area.contains(at)),
         };
         found.and_then(|(area, region)| resolved(*region, *area, at))

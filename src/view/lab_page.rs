@@ -37,8 +37,10 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App, lab: &Lab) ->
                 // The last picture takes turns with those that have no slot.
                 let here = |other: &usize| *other == index || !shown.contains(other);
                 let last = shown.last() == Some(&index);
-                let sharing: Vec<usize> =
-                    (0..lab.plots.len()).filter(here).take_while(|_| last && !lab.zoomed).collect();
+                let sharing: Vec<usize> = (0..lab.plots.len())
+                    .filter(here)
+                    .take_while(|_| last && !lab.focus.zoomed)
+                    .collect();
                 plot(canvas, place, lab, (index, &sharing));
             }
             Slot::Law | Slot::Pane(Pane::Law) => {
@@ -84,14 +86,14 @@ pub(super) fn draw_motion(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab) {
 
 /// Draws the law of motion, and returns how much of it is in view.
 fn law(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, title: &[Span]) -> LawInView {
-    let inner = canvas.pane(area, title, lab.focus == Pane::Law);
+    let inner = canvas.pane(area, title, lab.focus.pane == Pane::Law);
     canvas.target(area, HitTarget::Pane(Pane::Law));
-    let mut kept = std::mem::take(&mut canvas.kept);
-    let rows = kept.law(&lab.loaded.equations, inner.width, || {
+    let mut cache = std::mem::take(&mut canvas.cache);
+    let rows = cache.law(&lab.loaded.equations, inner.width, || {
         equations::law(lab, canvas.look).laid_out(canvas, inner.width)
     });
     let drawn = draw_rows(canvas, inner, lab.law_scroll, rows);
-    canvas.kept = kept;
+    canvas.cache = cache;
     let above = lab.law_scroll.min(drawn.beyond);
     out_of_sight(canvas, area, above.into(), usize::from(drawn.beyond - above));
     if drawn.beyond == 0 { LawInView::Whole } else { LawInView::Clipped(drawn.beyond) }
@@ -112,7 +114,7 @@ fn list(
     title: &[Span],
     field: Option<&InputField>,
 ) {
-    let focused = lab.focus == pane;
+    let focused = lab.focus.pane == pane;
     let inner = canvas.pane(area, title, focused);
     canvas.target(area, HitTarget::Pane(pane));
     let values = |kind, selected| ValueList { lab, kind, selected, focused, field };
@@ -165,7 +167,7 @@ fn out_of_sight(canvas: &mut Canvas<'_>, area: Rect, above: usize, below: usize)
 
 /// Draws a picture; `sharing` are the pictures that take turns in its frame.
 fn plot(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, (index, sharing): (usize, &[usize])) {
-    let focused = lab.focus == Pane::Plot(index);
+    let focused = lab.focus.pane == Pane::Plot(index);
     let (Some(plot), Some(q)) = (lab.plots.get(index), Quantities::of(lab, canvas.look)) else {
         canvas.pane(area, &[], focused);
         return;

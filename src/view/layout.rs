@@ -62,8 +62,8 @@ impl Slot {
 /// The areas of the lab's panes.
 pub(super) fn panes(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
     let Rect { width, height, .. } = area;
-    if lab.zoomed {
-        vec![(Slot::Pane(lab.focus), area)]
+    if lab.focus.zoomed {
+        vec![(Slot::Pane(lab.focus.pane), area)]
     } else if width >= 110 && height >= 26 {
         wide(area, lab)
     } else if width >= 64 && height >= 16 {
@@ -76,8 +76,8 @@ pub(super) fn panes(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
         vec![(plot_slot(lab), above), (Slot::Lists(list(lab)), below)]
     } else {
         // The motion comes first, until a key has been pressed.
-        let motion = lab.motion().filter(|_| lab.untouched);
-        vec![(Slot::Pane(motion.unwrap_or(lab.focus)), area)]
+        let motion = lab.motion().filter(|_| lab.focus.untouched);
+        vec![(Slot::Pane(motion.unwrap_or(lab.focus.pane)), area)]
     }
 }
 
@@ -136,7 +136,7 @@ fn column(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
     let parameters = lab.count(ValueId::Parameter) as u16;
     // A frame takes two rows, a gauge two and the gauges' headings one; the meaning of the selected parameter takes
     // two, and the reason of the selected gauge some more while there is one. Rows to spare are the law's.
-    let focused = if lab.focus == Pane::Gauges { REASON } else { 0 };
+    let focused = if lab.focus.pane == Pane::Gauges { REASON } else { 0 };
     let wants = [
         parameters + 2 + meaning(lab, area.width),
         lab.count(ValueId::Initial) as u16 + 2,
@@ -229,7 +229,7 @@ pub(super) fn view_of_motion(lab: &Lab) -> Option<usize> {
 }
 
 fn plot_slot(lab: &Lab) -> Slot {
-    let focused = matches!(lab.focus, Pane::Plot(_)).then_some(lab.focus);
+    let focused = matches!(lab.focus.pane, Pane::Plot(_)).then_some(lab.focus.pane);
     // If there is room for one picture only, it is the scene.
     let motion = lab.plots.iter().position(|plot| plot.kind.is_scene());
     // What was predicted stays beside its outcome.
@@ -242,13 +242,13 @@ fn plot_slot(lab: &Lab) -> Slot {
 
 /// The list shown if there is room for only one.
 fn list(lab: &Lab) -> Pane {
-    if matches!(lab.focus, Pane::Plot(_)) { Pane::Parameters } else { lab.focus }
+    if matches!(lab.focus.pane, Pane::Plot(_)) { Pane::Parameters } else { lab.focus.pane }
 }
 
 /// The list of values shown if there is room for only one.
 fn values(lab: &Lab) -> Pane {
-    match lab.focus {
-        Pane::Initial | Pane::Law => lab.focus,
+    match lab.focus.pane {
+        Pane::Initial | Pane::Law => lab.focus.pane,
         _ => Pane::Parameters,
     }
 }

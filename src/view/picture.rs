@@ -5,9 +5,9 @@
 
 use ratatui::layout::Rect;
 
+use super::cache::{self, Track, TrailKey};
 use super::canvas::{Canvas, Span, row, wide};
 use super::ink::{colourless_mark, is_colourless, marker, pen};
-use super::kept::{self, Track, TrailKey};
 use super::marks::Marks;
 use super::names;
 use super::number::with_powers;
@@ -79,7 +79,7 @@ pub(super) fn draw(
         Picture::Axes { upwards, layers, occurrences } => (upwards, layers, occurrences),
     };
     let look = canvas.look;
-    let (whole, zoomable) = (area, !q.lab.zoomed);
+    let (whole, zoomable) = (area, !q.lab.focus.zoomed);
     let (area, beside) = legend::beside(whole, (&layers, zoomable), canvas.look);
     let mut axes = Axes::new(across?, axis_upwards(q, &upwards, viewport));
     if let Across::Channel(x, None) = plot.kind.across(plot, &present, answer)
@@ -188,15 +188,15 @@ fn draw_lines(
     (frame, q): (&PlotFrame, &Quantities<'_>),
     lines: &[(Level, Layer)],
 ) {
-    let mut kept = std::mem::take(&mut canvas.kept);
-    raster.lay(kept.lines(lines, frame, || {
+    let mut cache = std::mem::take(&mut canvas.cache);
+    raster.lay(cache.lines(lines, frame, || {
         let mut fresh = Raster::new(frame.area, canvas.look.glyphs);
         for (level, layer) in lines {
             draw_layer(canvas, &mut fresh, (frame, q), (*level, layer));
         }
         fresh
     }));
-    canvas.kept = kept;
+    canvas.cache = cache;
 }
 
 fn draw_layer(
@@ -208,13 +208,13 @@ fn draw_layer(
     let look = canvas.look;
     match layer {
         Layer::Landscape(landscape) => {
-            let mut kept = std::mem::take(&mut canvas.kept);
-            raster.lay(kept.levels(landscape, (frame, level), || {
+            let mut cache = std::mem::take(&mut canvas.cache);
+            raster.lay(cache.levels(landscape, (frame, level), || {
                 let mut fresh = Raster::new(frame.area, look.glyphs);
                 level_curves::draw(canvas, &mut fresh, frame, landscape, level);
                 fresh
             }));
-            canvas.kept = kept;
+            canvas.cache = cache;
         }
         Layer::Trail([x, y]) | Layer::RecentTrail([x, y], _) => {
             let rows = &q.snapshot.trail;
@@ -225,14 +225,14 @@ fn draw_layer(
                 _ => (Track::Channels([*x, *y]), f64::NEG_INFINITY),
             };
             let key = TrailKey { epoch: q.snapshot.epoch, motion: 0, frame: *frame, track };
-            let kept = canvas.kept.trail(key, (rows, look.glyphs), |row| {
+            let trail = canvas.cache.trail(key, (rows, look.glyphs), |row| {
                 let recent = rows.order(*row.first()?) >= begin;
                 recent.then_some([*row.get(1 + x)?, *row.get(1 + y)?, 0.0])
             });
             let ramp = look.theme.trail(0);
-            let since = kept::since(rows, ramp.len());
+            let since = cache::since(rows, ramp.len());
             let ages = Ages { since: &since, ramp, layer: level, behind: None };
-            kept.draw(raster, ages, [q.value(*x), q.value(*y)]);
+            trail.draw(raster, ages, [q.value(*x), q.value(*y)]);
         }
         Layer::Curve { index, channel } => {
             let now = [q.snapshot.time, q.value(*channel)];
@@ -240,11 +240,11 @@ fn draw_layer(
             let since = frame.x.lo - (frame.x.hi - frame.x.lo);
             let track = Track::Curve(*channel, shade.dash, since);
             let key = TrailKey { epoch: q.snapshot.epoch, motion: 0, frame: *frame, track };
-            let kept = canvas.kept.trail(key, (&q.snapshot.trail, look.glyphs), |row| {
+            let trail = canvas.cache.trail(key, (&q.snapshot.trail, look.glyphs), |row| {
                 Some([*row.first()?, *row.get(1 + channel)?, 0.0])
             });
             let since = [f64::MIN];
-            kept.draw(raster, kept::whole(&since, &[shade], level), now);
+            trail.draw(raster, cache::whole(&since, &[shade], level), now);
         }
         Layer::Line(points, stroke) => {
             let pen = match stroke.ink {

@@ -26,7 +26,7 @@ pub(super) fn document(q: &Quantities<'_>) -> TextPage {
         write(info.summary.clone());
     }
     write(status_words(q));
-    let focus = lab.name_of(lab.focus);
+    let focus = lab.name_of(lab.focus.pane);
     let chosen = lab.selected().and_then(|target| lab.value_info(target));
     let selected = chosen.map_or_else(String::new, |f| format!(", {} selected", name(q, &f)));
     write(format!("Focus: {focus}{selected}."));

@@ -5,11 +5,11 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
+use super::cache::FrameCache;
 use super::canvas::{Canvas, row};
 use super::constants;
 use super::equations;
 use super::help;
-use super::kept::Kept;
 use super::lab_page;
 use super::layout::{LEAST, ScreenLayout, split_rows};
 use super::look::RenderStyle;
@@ -36,14 +36,14 @@ pub fn draw(app: &App, look: &RenderStyle, area: Rect, buffer: &mut Buffer) -> D
 /// Draws one screen after the other, the same as [`draw`], and keeps what does not change between them.
 #[derive(Debug, Default)]
 pub struct Painter {
-    kept: Kept,
+    cache: FrameCache,
 }
 
 impl Painter {
     /// How many recorded rows have been stroked into trails so far: those that are new in each frame, and all where a trail is
     /// begun anew.
     pub fn stroked(&self) -> u64 {
-        self.kept.stroked()
+        self.cache.stroked()
     }
 
     /// Draws the whole screen over a blank area, and returns how far its page of text can be scrolled.
@@ -57,12 +57,12 @@ impl Painter {
         let themed = look.chosen_by(app);
         let look = themed.as_ref().unwrap_or(look);
         let mut canvas = Canvas::over(buffer, look);
-        canvas.kept = std::mem::take(&mut self.kept);
-        canvas.kept.begin(look);
+        canvas.cache = std::mem::take(&mut self.cache);
+        canvas.cache.begin(look);
         let drawn = paint(&mut canvas, app, area);
         let cursor = canvas.cursor.map(|at| (at.x, at.y));
-        self.kept = canvas.kept;
-        self.kept.end();
+        self.cache = canvas.cache;
+        self.cache.end();
         Drawn { cursor, reading: canvas.reading, moving: canvas.moving, ..drawn }
     }
 }
@@ -70,7 +70,7 @@ impl Painter {
 pub(super) fn paint(canvas: &mut Canvas<'_>, app: &App, area: Rect) -> Drawn {
     let area = area.intersection(canvas.buffer.area);
     // Above what a lesson says, the motion is shown in whatever rows there are, alone if they are few.
-    let low = app.hints != KeyHints::Lab && area.height < LEAST.1;
+    let low = app.footer.hints != KeyHints::Lab && area.height < LEAST.1;
     if area.width < LEAST.0 || area.height < LEAST.1 && !low {
         too_small(canvas, area);
         return Drawn::default();
@@ -87,8 +87,8 @@ pub(super) fn paint(canvas: &mut Canvas<'_>, app: &App, area: Rect) -> Drawn {
     // The plain page contains the status itself and must not change while it is read.
     let status = !matches!(app.page, Page::Picker | Page::Plain) && app.lab.is_some();
     // A value is typed in the footer.
-    let footer = app.footer || matches!(app.overlay, Some(Overlay::Field(_)));
-    let screen = ScreenLayout::of(area, status && app.footer, footer);
+    let footer = app.footer.shown || matches!(app.overlay, Some(Overlay::Field(_)));
+    let screen = ScreenLayout::of(area, status && app.footer.shown, footer);
     header::header(canvas, screen.header, app);
     let drawn = body(canvas, screen.body, app);
     footer::notice(canvas, screen.body, app);

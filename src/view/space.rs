@@ -23,9 +23,9 @@ mod track;
 use ratatui::layout::{Position, Rect};
 use ratatui::style::Style;
 
+use super::cache::FrameCache;
 use super::canvas::Canvas;
 use super::companions;
-use super::kept::Kept;
 use super::plot::{Camera, DepthBuffer, Marker, Pen, PlotFrame, Raster, Visibility};
 use super::quantity::Quantities;
 use super::theme::Role;
@@ -95,22 +95,22 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
         artist.surfaces(shape);
     }
     artist.fill();
-    let mut kept = std::mem::take(&mut canvas.kept);
+    let mut cache = std::mem::take(&mut canvas.cache);
     for (one, there) in q.snapshot.companions.iter().zip(&beside) {
         artist.take(there, Some(one.number));
         for (shape, _) in q.lab.shapes(*eye) {
-            artist.ghost(shape, &mut kept);
+            artist.ghost(shape, &mut cache);
         }
     }
     artist.take(q, None);
     for (shape, rod) in q.lab.shapes(*eye) {
         match shape {
             Shape::Line { from, to } if rod => artist.rod(from, to),
-            _ => artist.shape(shape, &mut kept),
+            _ => artist.shape(shape, &mut cache),
         }
     }
     artist.halos();
-    canvas.kept = kept;
+    canvas.cache = cache;
     let seen = eye.frame.and_then(|frame| q.lab.loaded.equations.supplements.frames.get(frame));
     let forces = artist.apparent(seen.map_or(&[], Vec::as_slice));
     artist.raster.draw(canvas.buffer);
@@ -175,7 +175,7 @@ impl<'a> ScenePainter<'a> {
 }
 
 impl ScenePainter<'_> {
-    fn shape(&mut self, shape: &Shape, kept: &mut Kept) {
+    fn shape(&mut self, shape: &Shape, cache: &mut FrameCache) {
         let theme = &self.q.look.theme;
         let solid = Pen::new(theme[Role::Text], SOLID);
         let ground = Pen::shaded(theme.line(Role::Level), GROUND);
@@ -200,7 +200,7 @@ impl ScenePainter<'_> {
                 let radius = radius.map(|radius| self.q.number(radius));
                 self.mass(at, radius);
             }
-            Shape::Trace { at } => self.track(at, kept),
+            Shape::Trace { at } => self.track(at, cache),
             Shape::Caption { at, text } => {
                 let at = self.point(at);
                 if self.sight(at) == Visibility::Clear {

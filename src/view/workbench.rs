@@ -58,12 +58,16 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App, sheet: &Sourc
     ];
     let inner = canvas.pane(left, &title, true);
     let room = usize::from(inner.width.saturating_sub(2));
-    let notice = app.notice.as_ref().map(|notice| words(&canvas.text(&notice.text), room).len());
+    let notice = app
+        .notifications
+        .shown
+        .as_ref()
+        .map(|notice| words(&canvas.text(&notice.text), room).len());
     let foot = rows_below(sheet, notice.unwrap_or(0) as u16, inner.height);
     let (text, below) = split_rows(inner, inner.height - foot);
     let drawn = lines(canvas, text, sheet);
     let below = columns(below, 1, below.width.saturating_sub(2));
-    self::foot(canvas, below, sheet, (app.notice.as_ref(), app.lab.is_some()));
+    self::foot(canvas, below, sheet, (app.notifications.shown.as_ref(), app.lab.is_some()));
     drawn
 }
 

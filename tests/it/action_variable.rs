@@ -1,6 +1,6 @@
 //! The picture of the action variable: closed forms, separatrices, what a slow and a fast change leave, and what has none.
 
-use phaselab::action_angle::{HeldSystem, NotHeld};
+use phaselab::action_angle::{FrozenSystem, NotFrozen};
 use phaselab::cancel::Cancel;
 use phaselab::diagnostic::Document;
 use phaselab::experiment::Command;
@@ -182,10 +182,10 @@ fn a_well_beside_an_abyss_has_its_curve() {
 #[test]
 fn what_has_no_action_is_told_why() {
     let cases = [
-        ("H = \"p_q^2/2 + q^2/2\"\nforces = { q = \"-p_q/10\" }", NotHeld::EnergyNotConserved),
+        ("H = \"p_q^2/2 + q^2/2\"\nforces = { q = \"-p_q/10\" }", NotFrozen::EnergyNotConserved),
         (
             "H = \"p_q^2/2 + q^2/2\"\n[[impulses]]\nname = \"a\"\nevery = 2\nchange = { p_q = 1 }",
-            NotHeld::Impulses,
+            NotFrozen::Impulses,
         ),
     ];
     for (law, why) in cases {
@@ -194,7 +194,7 @@ fn what_has_no_action_is_told_why() {
         );
         let model = Document::new("t", &text).read().unwrap_or_else(|_| panic!("{text}")).model;
         let settings = Settings { step: None, tolerance: None };
-        let found = HeldSystem::of(&model, 0, settings, &Cancel::new()).err();
+        let found = FrozenSystem::of(&model, 0, settings, &Cancel::new()).err();
         assert_eq!(found, Some(why));
     }
     let mut course = Course::showing(

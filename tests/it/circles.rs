@@ -271,7 +271,7 @@ fn a_facade_holds_modules_and_what_it_gives_out() {
 #[test]
 fn a_system_is_opened_by_the_stages_of_prepared() {
     // claims are compared with what was derived for them; a system held at an instant is another system
-    let may = ["experiment::prepared", "claims::check", "action_angle::held"];
+    let may = ["experiment::prepared", "claims::check", "action_angle::frozen"];
     let opens =
         |code: &str| code.contains("mechanics::derive") || code.contains("System::compile(");
     let source = Source::read();

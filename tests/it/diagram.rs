@@ -79,7 +79,7 @@ fn a_diagram_is_saved_as_a_table() {
     let mut app = begun(DRIVEN);
     let index =
         app.lab.as_ref().unwrap().plots.iter().position(|plot| plot.kind.name() == "diagram");
-    let focus = |app: &mut App, pane: Pane| app.lab.as_mut().unwrap().focus = pane;
+    let focus = |app: &mut App, pane: Pane| app.lab.as_mut().unwrap().focus.pane = pane;
     // the motion itself where no diagram is focused
     focus(&mut app, Pane::Parameters);
     assert_eq!(app.lab.as_ref().unwrap().focused_table(), None);
@@ -226,7 +226,7 @@ fn a_key_shows_the_exponent_where_there_is_no_section() {
 }
 
 fn told(app: &mut App) -> String {
-    app.notice.take().map(|notice| notice.text).unwrap_or_default()
+    app.notifications.shown.take().map(|notice| notice.text).unwrap_or_default()
 }
 
 /// The rows of what a plot over a range has computed.

@@ -5,6 +5,7 @@ use std::f64::consts::{PI, TAU};
 use phaselab::experiment::Experiment;
 
 use crate::experiment::{build, run};
+use crate::nonempty;
 
 /// Methods, each with its step if that is fixed.
 const METHODS: [(&str, Option<f64>); 7] = [
@@ -147,7 +148,7 @@ fn a_root_that_begins_to_exist_is_no_zero() {
     let expected: Vec<f64> = both.skip(1).take_while(|t| *t < 15.0).collect();
     for (method, step) in METHODS {
         let steps = step.map_or(vec![None], |step| vec![Some(step), Some(0.5 * step)]);
-        for step in steps {
+        for step in nonempty(steps) {
             let event = ("sqrt(x - 0.5) - 0.3", "either", "mark");
             let start = "initial = 1.0, velocity = 0.0";
             let found = times(&moving((OSCILLATOR, start), event, 15.0, (method, step)));

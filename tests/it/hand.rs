@@ -132,7 +132,7 @@ pub(crate) fn lab(name: &str, time: f64) -> App {
     let loaded = loaded(name, 1);
     let seen = snapshot(&loaded, time);
     let (mut app, _) = App::new(catalog(), Some(name));
-    app.themes = PALETTES.iter().map(|palette| (palette.name, palette.about)).collect();
+    app.themes.available = PALETTES.iter().map(|palette| (palette.name, palette.about)).collect();
     app.update(Event::Loaded(Ok(loaded)));
     app.update(Event::Snapshot(Arc::new(seen)));
     app

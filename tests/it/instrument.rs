@@ -12,6 +12,7 @@ use phaselab::mechanics::derive_for_motion;
 use phaselab::preset;
 
 use crate::hand::{begun, catalog, in_lab, loaded, pendulum, press, snapshot};
+use crate::nonempty;
 use crate::screen::{rich, rows};
 
 /// The kinds that the pendulum has: all but sections, whose surface a file names (`section` tests those), and
@@ -74,7 +75,7 @@ fn every_kind_has_a_name_of_its_own() {
 
 #[test]
 fn every_kind_is_drawn_told_of_and_kept() {
-    for kind in kinds() {
+    for kind in nonempty(kinds()) {
         let mut app = with_all_kinds();
         let (index, shown) = plot(&app, kind.name());
         press(&mut app, &["Tab"].repeat(3 + index).join(" "));
@@ -143,7 +144,7 @@ fn sessions_are_read_as_they_were_written_before() {
 fn every_kind_can_be_chosen() {
     let pendulum = pendulum();
     let offered = offers(pendulum.physics());
-    for kind in kinds() {
+    for kind in nonempty(kinds()) {
         let own: Vec<_> = offered.iter().filter(|(of, _)| *of == kind).collect();
         assert!(!own.is_empty(), "{kind:?}");
         for (_, offer) in own {
@@ -175,7 +176,7 @@ fn a_misspelt_kind_gets_the_nearest_of_the_table() {
 /// A lab whose jobs run elsewhere, and the jobs requested until the first snapshot of the pendulum.
 fn aside() -> (App, Vec<Computation>) {
     let (mut app, _) = App::new(catalog(), Some("pendulum"));
-    app.aside = true;
+    app.jobs.in_background = true;
     app.update(Event::Loaded(Ok(pendulum())));
     let effects = app.update(Event::Snapshot(Arc::new(snapshot(&pendulum(), 2.0))));
     (app, computations(effects))
@@ -184,7 +185,7 @@ fn aside() -> (App, Vec<Computation>) {
 #[test]
 fn the_motion_is_shown_before_its_equations_are_solved() {
     let (mut app, _) = App::new(catalog(), Some("double-pendulum"));
-    app.aside = true;
+    app.jobs.in_background = true;
     let unsolved = |name, epoch| {
         let mut loaded = loaded(name, epoch);
         loaded.equations = Arc::new(derive_for_motion(&loaded.model).unwrap());
@@ -272,7 +273,7 @@ fn an_answer_that_nobody_waits_for_is_dropped() {
 #[test]
 fn a_motion_that_leaves_its_level_curves_is_still_seen() {
     let (mut app, _) = App::new(catalog(), Some("harmonic-oscillator"));
-    app.aside = true;
+    app.jobs.in_background = true;
     let system = loaded("harmonic-oscillator", 1);
     app.update(Event::Loaded(Ok(system.clone())));
     let seen = |time: f64| Event::Snapshot(Arc::new(snapshot(&system, time)));
@@ -306,7 +307,9 @@ fn a_job_that_panics_is_reported_and_the_lab_goes_on() {
     let (mut app, asked) = aside();
     let outcome = Outcome::Failed("level curves stopped by a defect".to_owned());
     app.update(Event::Computed { ticket: asked[0].ticket, outcome });
-    assert!(app.notice.take().is_some_and(|notice| notice.text.contains("by a defect")));
+    assert!(
+        app.notifications.shown.take().is_some_and(|notice| notice.text.contains("by a defect"))
+    );
     assert_eq!(press(&mut app, "r"), [Effect::Tell(Command::Reset)]);
 }
 

@@ -19,7 +19,7 @@ pub(crate) fn open(ready: Prepared) -> (App, Experiment) {
     let Prepared { document, model, equations, system, mut experiment } = ready;
     experiment.set_epoch(1);
     let (mut app, _) = App::new(catalog(), Some("test"));
-    app.aside = true;
+    app.jobs.in_background = true;
     let name = "test".to_owned();
     let loaded = Loaded { name, epoch: 1, document, model, equations, system };
     let effects = app.update(Event::Loaded(Ok(loaded)));

@@ -65,6 +65,13 @@ mod worker;
 
 use proptest::test_runner::Config;
 
+/// The items of a list, which must have some, so that a loop over them checks something.
+fn nonempty<T>(items: impl IntoIterator<Item = T>) -> Vec<T> {
+    let items: Vec<T> = items.into_iter().collect();
+    assert!(!items.is_empty(), "there is nothing to check");
+    items
+}
+
 /// The number of random cases of a property, scaled by `PROPTEST_CASES` relative to its default of 256 if that is set.
 fn cases(count: u32) -> Config {
     let config = Config::default();

@@ -291,7 +291,7 @@ fn a_key_colours_orbits_by_whether_they_are_regular() {
     // elsewhere it says what it is for
     let (mut app, _) = opened(shipped("henon-heiles"), 1.0);
     typed(&mut app, "Tab Tab Tab Tab Tab H");
-    assert!(app.notice.take().is_some_and(|notice| notice.text.contains("section")));
+    assert!(app.notifications.shown.take().is_some_and(|notice| notice.text.contains("section")));
 }
 
 #[test]
@@ -368,7 +368,7 @@ fn one_key_fills_a_section() {
     // elsewhere it says what it is for
     let (mut app, _) = opened(shipped("henon-heiles"), 1.0);
     typed(&mut app, "Tab Tab Tab Tab Tab G");
-    assert!(app.notice.take().is_some_and(|notice| notice.text.contains("section")));
+    assert!(app.notifications.shown.take().is_some_and(|notice| notice.text.contains("section")));
 }
 
 #[test]
@@ -386,7 +386,7 @@ fn enter_begins_at_the_cursor_or_says_why_not() {
     let [Effect::Tell(Command::Start(given))] = &effects[..] else { panic!("{effects:?}") };
     assert!(given.contains(&InitialOverride::Position(1, 0.1)) && given.len() == 4);
     assert_eq!(at(&mut app, [0.1, 0.7]), []);
-    let told = app.notice.take().expect("a reason").text;
+    let told = app.notifications.shown.take().expect("a reason").text;
     assert!(told.contains("outside the region that the energy"), "{told}");
 }
 
@@ -418,7 +418,7 @@ fn the_picture_is_computed_anew_only_where_it_would_be_another() {
 #[test]
 fn without_a_background_further_orbits_are_computed_once_they_are_asked_for() {
     let (mut app, index) = opened(prepared(OSCILLATORS), 10.0);
-    app.aside = false;
+    app.jobs.in_background = false;
     let mut ready = prepared(OSCILLATORS);
     ready.experiment.set_epoch(1);
     ready.experiment.execute(Command::Initial { index: 3, value: 0.3 });

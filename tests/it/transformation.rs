@@ -116,7 +116,7 @@ fn in_the_active_view_the_point_is_moved_and_the_coordinates_stay() {
     };
     let before = shown(&app, &plots(&app)[0]).0;
     assert!(before.len() >= 14, "the grid of the passive view");
-    app.lab.as_mut().expect("a lab").focus = Pane::Plot(place(&app));
+    app.lab.as_mut().expect("a lab").focus.pane = Pane::Plot(place(&app));
     press(&mut app, "Q");
     let plot = plots(&app)[0].clone();
     let (arrow, words) = shown(&app, &plot);
@@ -144,13 +144,13 @@ fn in_the_active_view_the_point_is_moved_and_the_coordinates_stay() {
     assert_eq!(shown(&app, &plots(&app)[0]).0, before);
     let phase = app.lab.as_ref().expect("a lab").plots.iter();
     let phase = phase.clone().position(|plot| plot.kind.name() == "phase").expect("a phase plane");
-    app.lab.as_mut().expect("a lab").focus = Pane::Plot(phase);
+    app.lab.as_mut().expect("a lab").focus.pane = Pane::Plot(phase);
     press(&mut app, "Q");
     assert_eq!(shown(&app, &plots(&app)[0]).0, arrow);
-    assert_eq!(app.lab.as_ref().expect("a lab").focus, Pane::Plot(phase), "the focus stays");
+    assert_eq!(app.lab.as_ref().expect("a lab").focus.pane, Pane::Plot(phase), "the focus stays");
     let mut app = in_lab();
     press(&mut app, "Q");
-    let told = app.notice.take().map(|notice| notice.text).unwrap_or_default();
+    let told = app.notifications.shown.take().map(|notice| notice.text).unwrap_or_default();
     assert!(told.contains("Only a transformation"), "{told}");
 }
 

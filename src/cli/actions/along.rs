@@ -1,13 +1,13 @@
 //! The action and the angle variable of one coordinate along its motion.
 //!
 //! In: a motion, times. Out: at each time energy, action, frequency and w = ∂S/∂J, and how far w is from growing evenly. Of a
-//! law that depends on the time they are those of the system held at that instant. Never here: how they are computed.
+//! law that depends on the time they are those of the system frozen at that instant. Never here: how they are computed.
 //! Source: *The Principles of Dynamics*, §§ 4.2, 4.3.
 
 use serde_json::{Value, json};
 
 use super::Arguments;
-use crate::action_angle::{AngleMoment, HeldSystem};
+use crate::action_angle::{AngleMoment, FrozenSystem};
 use crate::cli::cells::{self, TableCell, TableFormat};
 use crate::cli::crowd::{self, Tally};
 use crate::cli::decimal::divisions;
@@ -67,7 +67,7 @@ fn followed(
 ) -> Result<ActionsAlong, CommandError> {
     let could_not = |why: String| CommandError::CouldNot(why);
     let (system, start) = (&laid.system, &laid.start);
-    let held = HeldSystem::of(&laid.model, index, HeldSystem::PRECISE, interrupt.cancel())
+    let frozen = FrozenSystem::of(&laid.model, index, FrozenSystem::PRECISE, interrupt.cancel())
         .map_err(|why| could_not(why.to_string()))?;
     let degrees = laid.model.coordinates.len();
     let kinds =
@@ -89,7 +89,7 @@ fn followed(
         coordinate: laid.model.coordinates[index].name.clone(),
         places: Vec::new(),
         moments: Vec::new(),
-        depends_on_time: held.depends_on_time(),
+        depends_on_time: frozen.depends_on_time(),
         why: None,
     };
     let mut tally = Tally::new(0, times.len());
@@ -98,7 +98,7 @@ fn followed(
             return Ok(along);
         }
         let (positions, momenta) = values.split_at(degrees);
-        match AngleMoment::of(&held, time, &start.parameters, [positions, momenta]) {
+        match AngleMoment::of(&frozen, time, &start.parameters, [positions, momenta]) {
             Ok(moment) => {
                 along.places.push(positions[index]);
                 along.moments.push(moment.after(along.moments.last()));
@@ -170,7 +170,7 @@ impl ActionsAlong {
                 "w = w0 + frequency*(t - t0) to {} of a turn\n",
                 crate::num::short(largest)
             ),
-            None => "the law depends on the time: action, frequency and angle are those of the system held \
+            None => "the law depends on the time: action, frequency and angle are those of the system frozen \
                      at each instant\n"
                 .to_owned(),
         };

@@ -4,7 +4,7 @@
 //! *adiabatic*, or *not conserved*. Never here: the motion between.
 //! Source: *The Principles of Dynamics*, § 4.3.
 
-use crate::action_angle::{ActionRow, HeldSystem, is_adiabatic};
+use crate::action_angle::{ActionRow, FrozenSystem, is_adiabatic};
 use crate::cancel::Cancel;
 use crate::cli::report::Invariant;
 use crate::integrate::Settings;
@@ -13,7 +13,7 @@ use crate::system::{Form, State, System};
 
 /// What is needed to know the action at any time of the run.
 pub(super) struct Adiabatic {
-    held: HeldSystem,
+    frozen: FrozenSystem,
     model: Model,
     parameters: Vec<f64>,
 }
@@ -25,15 +25,15 @@ impl Adiabatic {
             return None;
         }
         let settings = Settings { step: None, tolerance: None };
-        let held = HeldSystem::of(model, 0, settings, cancel).ok()?;
-        Some(Adiabatic { held, model: model.clone(), parameters: parameters.to_vec() })
+        let frozen = FrozenSystem::of(model, 0, settings, cancel).ok()?;
+        Some(Adiabatic { frozen, model: model.clone(), parameters: parameters.to_vec() })
     }
 
     /// The action of a state; `None` if its motion does not return at these parameters.
     fn action(&self, system: &System, state: &State) -> Option<ActionRow> {
         let state = system.convert(state, Form::Momentum, &self.parameters).ok()?;
         let halves = [&state.values[..1], &state.values[1..2]];
-        let own = self.held.at(state.time, &self.parameters, halves).ok()?.own().ok()?;
+        let own = self.frozen.at(state.time, &self.parameters, halves).ok()?.own().ok()?;
         own.row.ok().filter(|row| row.action.is_finite() && row.action != 0.0)
     }
 

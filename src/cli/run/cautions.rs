@@ -51,7 +51,7 @@ fn without_value(experiment: &Experiment) -> Vec<String> {
     let mut values = vec![0.0; count];
     // a motion that has not begun has no state
     let has_begun = snapshot.state.is_finite() && !snapshot.state.values.is_empty();
-    if !has_begun || functions.look(&snapshot.state, &mut values).is_err() {
+    if !has_begun || functions.observe(&snapshot.state, &mut values).is_err() {
         return Vec::new();
     }
     let without = events.iter().zip(values).filter(|(_, value)| value.is_nan());

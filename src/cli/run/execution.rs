@@ -281,6 +281,8 @@ impl Run<'_> {
 
 #[cfg(test)]
 mod tests {
+    use std::path::Path;
+
     use serde_json::{Map, Value};
 
     use super::super::super::output::OutputForm;
@@ -290,8 +292,16 @@ mod tests {
     fn ended(format: RowFormat) -> String {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("out");
+        let table = begun(&path, format);
+        table.clone().end_within_a_step(&Interrupt::default());
+        assert!(table.rows().is_none(), "nobody writes behind the end");
+        std::fs::read_to_string(path).expect("it is there")
+    }
+
+    /// A table with one row.
+    fn begun(path: &Path, format: RowFormat) -> PendingRows {
         let form = if format == RowFormat::Csv { OutputForm::Text } else { OutputForm::Json };
-        let out = Output::open(Some(&path), form).expect("it can be written");
+        let out = Output::open(Some(path), form).expect("it can be written");
         let header = Header {
             phaselab: "0",
             title: "it".to_owned(),
@@ -301,10 +311,7 @@ mod tests {
         };
         let mut rows = Rows::begin(format, out, &header).expect("written");
         rows.row(&[0.0, 1.0]).expect("written");
-        let table = PendingRows(Arc::new(Mutex::new(Some(rows))));
-        table.clone().end_within_a_step(&Interrupt::default());
-        assert!(table.rows().is_none(), "nobody writes behind the end");
-        std::fs::read_to_string(path).expect("it is there")
+        PendingRows(Arc::new(Mutex::new(Some(rows))))
     }
 
     #[test]
@@ -321,9 +328,10 @@ mod tests {
 
     #[test]
     fn whoever_is_writing_is_not_disturbed() {
-        let table = PendingRows(Arc::default());
+        let folder = tempfile::tempdir().expect("a folder");
+        let table = begun(&folder.path().join("out"), RowFormat::Csv);
         let rows = table.rows();
         table.end_within_a_step(&Interrupt::default());
-        drop(rows);
+        assert!(rows.is_some(), "they are still to be written");
     }
 }

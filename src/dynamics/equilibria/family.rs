@@ -78,10 +78,10 @@ pub(super) enum Belonging {
 impl EquilibriumSearch<'_> {
     /// Directions beside which every one along a family has no part: the kernel of J.
     fn kernel(&mut self, place: &DVector<f64>) -> Option<Directions> {
-        let (_, df) = self.look(place)?;
+        let (_, df) = self.evaluate(place)?;
         let beside = [1.0, -1.0].map(|side| {
             let moved = side * LONGEST * size_of(place);
-            self.look(&place.add_scalar(moved)).map_or(0.0, |(_, df)| df.amax())
+            self.evaluate(&place.add_scalar(moved)).map_or(0.0, |(_, df)| df.amax())
         });
         let cut = VANISHES * df.amax().max(beside[0]).max(beside[1]);
         below(df, cut)
@@ -155,7 +155,7 @@ impl EquilibriumSearch<'_> {
 
     /// The directions of a family at a place, from those a little way off.
     fn turned(&mut self, place: &DVector<f64>, before: &Directions) -> Option<Directions> {
-        let (_, df) = self.look(place)?;
+        let (_, df) = self.evaluate(place)?;
         let cut = EXACT * df.amax();
         let kernel = below(df, cut)?;
         if kernel.len() == before.len() {

@@ -227,7 +227,7 @@ impl<'a> EquilibriumSearch<'a> {
             return false;
         }
         let mut mobility = |moved: f64| {
-            let (_, df) = self.look(&place.add_scalar(moved * size_of(&place)))?;
+            let (_, df) = self.evaluate(&place.add_scalar(moved * size_of(&place)))?;
             Some(df.view((0, half), (half, half)).amax())
         };
         let here = mobility(0.0);
@@ -238,13 +238,13 @@ impl<'a> EquilibriumSearch<'a> {
 
     /// The same place without the digits of coordinates on which no force depends there but for underflow, as near the zero of V = x⁶⁰.
     fn without_lost_digits(&mut self, place: DVector<f64>) -> DVector<f64> {
-        let Some((f, df)) = self.look(&place) else { return place };
+        let Some((f, df)) = self.evaluate(&place) else { return place };
         if df.row_iter().all(|row| row.amax() > 0.0) {
             return place;
         }
         let within = NO_DIGITS * size_of(&place);
         let round = place.map(|x| if x.abs() <= within { 0.0 } else { x });
-        let is_zero = self.look(&round).is_some_and(|(g, _)| g.amax() <= f.amax());
+        let is_zero = self.evaluate(&round).is_some_and(|(g, _)| g.amax() <= f.amax());
         if is_zero { round } else { place }
     }
 
@@ -319,7 +319,10 @@ impl<'a> EquilibriumSearch<'a> {
     }
 
     /// What must vanish at a place and its derivatives, all in units.
-    pub(super) fn look(&mut self, place: &DVector<f64>) -> Option<(DVector<f64>, DMatrix<f64>)> {
+    pub(super) fn evaluate(
+        &mut self,
+        place: &DVector<f64>,
+    ) -> Option<(DVector<f64>, DMatrix<f64>)> {
         self.look_in_units(&self.unscaled(place))
     }
 

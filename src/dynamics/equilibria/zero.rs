@@ -53,7 +53,7 @@ impl EquilibriumSearch<'_> {
         held: &[DVector<f64>],
     ) -> Option<DVector<f64>> {
         let mut place = from.clone();
-        let (mut f, df) = self.look(&place)?;
+        let (mut f, df) = self.evaluate(&place)?;
         let mut correction = Correction::new(&df, &f, held, size_of(&place))?;
         let mut best = (place.clone(), f.clone(), correction.clone());
         let (mut before, mut vain): (Option<DVector<f64>>, usize) = (None, 0);
@@ -66,7 +66,7 @@ impl EquilibriumSearch<'_> {
             let mut next = None;
             for multiple in jump.into_iter().chain([1.0]).filter(|_| !least) {
                 let there = &place + step * multiple;
-                let Some((g, dg)) = self.look(&there) else { continue };
+                let Some((g, dg)) = self.evaluate(&there) else { continue };
                 let Some(after) = Correction::new(&dg, &g, held, size) else { continue };
                 let (_, f, one) = &best;
                 let shrinks = after.step.norm() < SHRINKS * one.step.norm()
@@ -99,7 +99,7 @@ impl EquilibriumSearch<'_> {
         place: &DVector<f64>,
         held: &[DVector<f64>],
     ) -> Option<DVector<f64>> {
-        let (f, df) = self.look(place)?;
+        let (f, df) = self.evaluate(place)?;
         let noise = self.noise(place, &f, &df)?;
         let size = size_of(place);
         let [left, lost] = [f, noise].map(|f| Correction::new(&df, &f, held, size));
@@ -118,7 +118,7 @@ impl EquilibriumSearch<'_> {
         if step.amax() > NEAR_ITS_ZERO * size {
             return false;
         }
-        let Some((f, df)) = self.look(place) else { return false };
+        let Some((f, df)) = self.evaluate(place) else { return false };
         let whole = if held.is_empty() {
             Some(step.clone())
         } else {
@@ -144,7 +144,7 @@ impl EquilibriumSearch<'_> {
         }
         for step in 1..=NOISE_SAMPLES {
             let moved = NOISE_DISTANCE * size_of(place) * f64::from(step);
-            let (g, _) = self.look(&place.add_scalar(moved))?;
+            let (g, _) = self.evaluate(&place.add_scalar(moved))?;
             let linear = f + df * DVector::from_element(df.ncols(), moved);
             let apart = g - linear;
             noise.zip_apply(&apart, |noise, apart| *noise = noise.max(apart.abs()));

@@ -100,9 +100,9 @@ impl FormulaMonitors {
         let pool = &*self.pool;
         let value = |symbol: Symbol| at.of(symbol, pool, &self.constants);
         let of = |monitor: &InvariantMonitor| {
-            let (number, error) = pool.evaluate_with_error(monitor.expression, &value);
+            let (number, error) = pool.evaluate_with_error(monitor.subject.expression, &value);
             let underflows =
-                error < f64::MIN_POSITIVE && pool.underflows(monitor.expression, &value);
+                error < f64::MIN_POSITIVE && pool.underflows(monitor.subject.expression, &value);
             (number, (error, underflows))
         };
         let (values, errors) = self.monitors.iter().map(of).unzip();
@@ -136,7 +136,7 @@ impl FormulaMonitors {
     ) {
         let FormulaValues { values, .. } = self.values(now);
         for (monitor, value) in self.monitors.iter_mut().zip(values) {
-            let Some(reference) = known(&monitor.name, value) else { continue };
+            let Some(reference) = known(&monitor.subject.name, value) else { continue };
             monitor.restore(&reference, now.time);
             self.since = reference.since;
         }
@@ -149,7 +149,7 @@ impl FormulaMonitors {
     }
 
     /// Records the values at a time; those of a sample in the history as well.
-    pub(super) fn look(
+    pub(super) fn observe(
         &mut self,
         at: ChannelValues<'_>,
         terms: &TermWatch,
@@ -162,7 +162,7 @@ impl FormulaMonitors {
             if is_sample {
                 monitor.sample(at.time, &values, terms, floor);
             } else {
-                monitor.look(at.time, &values, terms, floor);
+                monitor.observe(at.time, &values, terms, floor);
             }
         }
     }

@@ -122,7 +122,7 @@ impl IntegrationConstants {
     }
 
     /// Records the values at a time; those of a sample in the history as well.
-    pub(super) fn look(
+    pub(super) fn observe(
         &mut self,
         at: ChannelValues<'_>,
         terms: &TermWatch,
@@ -132,9 +132,9 @@ impl IntegrationConstants {
         if self.beta.is_empty() {
             return;
         }
-        self.alpha.look(at, terms, floor, is_sample);
+        self.alpha.observe(at, terms, floor, is_sample);
         if self.follow_branch(at, terms) {
-            self.beta.look(at, terms, floor, is_sample);
+            self.beta.observe(at, terms, floor, is_sample);
         }
     }
 

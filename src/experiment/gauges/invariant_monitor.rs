@@ -4,8 +4,9 @@
 
 use std::sync::Arc;
 
+use super::drift_record::{Distance, DriftRecord, Early};
 use super::mean::Mean;
-use crate::analysis::{self, Errors, History, LEFT, LOST, Stretch, Unseen, Verdict};
+use crate::analysis::{self, Errors, LEFT, LOST, Stretch, Unseen, Verdict};
 use crate::experiment::{Gauge, Reference};
 use crate::expr::Expr;
 use crate::system::{BatchTerms, TermSums, TermWatch};
@@ -30,51 +31,38 @@ const ERROR: f64 = 1e3;
 /// The state of one gauge.
 #[derive(Clone, Debug)]
 pub(super) struct InvariantMonitor {
-    pub(super) name: String,
-    shown: String,
-    reason: String,
-    /// Whether it follows from the law of motion that the quantity is constant.
-    proved: bool,
-    /// The reason why it is not constant, if it is not.
-    broken: Option<String>,
-    pub(super) channel: usize,
-    /// The index of its quantity in a [`TermWatch`]; the balance subtracts the work.
-    quantity: Option<usize>,
-    /// The expression that its rounding error is measured with.
-    pub(super) expression: Expr,
+    pub(super) subject: Subject,
     /// Whether its reference jumps with an impulse.
     jumps: bool,
-    /// Its value when the reference was taken.
+    reference: ReferenceValue,
+    rounding: RoundingError,
+    drift: DriftRecord,
+}
+
+/// What distances are measured from.
+#[derive(Clone, Debug)]
+struct ReferenceValue {
+    /// The value when the reference was taken.
     initial: f64,
-    /// The value that distances are measured from: the initial value plus the jumps of impulses.
-    reference: f64,
-    /// The reference as the sum of its terms in `f64`.
-    rough_reference: f64,
+    /// The initial value plus the jumps of impulses.
+    value: f64,
+    /// The same as the sum of its terms in `f64`.
+    rough: f64,
     /// Whether it has constant terms so large that its value has fewer digits than the sum of the others.
     offset: bool,
-    /// The last distance from the reference.
-    last: f64,
     /// The terms at rest when the reference was taken.
     at_rest: Vec<f64>,
-    /// The greatest error of its value since then, in units of ε.
-    rounding: f64,
+}
+
+/// The error of the values since the reference was taken.
+#[derive(Clone, Debug, Default)]
+struct RoundingError {
+    /// The greatest so far, in units of ε.
+    greatest: f64,
     /// The greatest distance so far that rounding explains.
     explained: f64,
     /// Whether terms that are not 0 were seen where their error is less than a normal number.
     underflows: bool,
-    /// The mean size of its moving part.
-    moving: Mean,
-    /// The greatest distance from the reference since then.
-    farthest: f64,
-    /// The greatest drift: a distance over the mean moving part up to that time, or over the moving part at that time
-    /// if it was greater.
-    worst: f64,
-    /// When its drift first exceeded the limit.
-    left: Option<f64>,
-    /// The first distances beyond rounding, as long as it is not known how much moves.
-    early: Early,
-    /// The signed distances.
-    distances: History,
 }
 
 /// The end of a step, as a monitor sees it.
@@ -88,120 +76,106 @@ pub(in crate::experiment) struct MonitoredStep {
 }
 
 /// The quantity that a monitor watches.
+#[derive(Clone, Debug)]
 pub(super) struct Subject {
     pub(super) name: String,
     pub(super) shown: String,
     pub(super) reason: String,
+    /// Whether it follows from the law of motion that the quantity is constant.
     pub(super) proved: bool,
+    /// The reason why it is not constant, if it is not.
     pub(super) broken: Option<String>,
     pub(super) channel: usize,
+    /// The index of its quantity in a [`TermWatch`]; the balance subtracts the work.
     pub(super) quantity: Option<usize>,
+    /// The expression that its rounding error is measured with.
     pub(super) expression: Expr,
 }
 
 impl InvariantMonitor {
     pub(super) fn new(subject: Subject) -> InvariantMonitor {
-        let Subject { name, shown, reason, proved, broken, channel, quantity, expression } =
-            subject;
+        let unknown = f64::NAN;
         InvariantMonitor {
-            jumps: name != ENERGY_BALANCE,
-            name,
-            shown,
-            reason,
-            proved,
-            broken,
-            channel,
-            quantity,
-            expression,
-            initial: f64::NAN,
-            reference: f64::NAN,
-            rough_reference: f64::NAN,
-            offset: false,
-            last: 0.0,
-            at_rest: Vec::new(),
-            rounding: 0.0,
-            explained: 0.0,
-            underflows: false,
-            moving: Mean::default(),
-            farthest: 0.0,
-            worst: 0.0,
-            left: None,
-            early: Early::default(),
-            distances: History::new(),
+            jumps: subject.name != ENERGY_BALANCE,
+            subject,
+            reference: ReferenceValue {
+                initial: unknown,
+                value: unknown,
+                rough: unknown,
+                offset: false,
+                at_rest: Vec::new(),
+            },
+            rounding: RoundingError::default(),
+            drift: DriftRecord::beginning(Mean::default()),
         }
     }
 
     /// Takes the current value as the reference.
     pub(super) fn refer(&mut self, time: f64, values: &[f64], terms: &TermWatch) {
-        self.initial = values[self.channel];
-        self.reference = self.initial;
-        let offset = self.quantity.is_some_and(|quantity| terms.has_offset(quantity));
+        let initial = values[self.subject.channel];
+        let quantity = self.subject.quantity;
         let varying = self.summed(terms).map_or(0.0, |sums| sums.size);
-        self.offset = offset && varying * LARGE < self.initial.abs();
-        self.last = 0.0;
-        self.rough_reference =
+        let offset = quantity.is_some_and(|quantity| terms.has_offset(quantity))
+            && varying * LARGE < initial.abs();
+        let rough =
             self.summed(terms).map_or(f64::NAN, |sums| self.rough(sums.value, terms.work()));
-        self.at_rest = self.quantity.map_or_else(Vec::new, |quantity| terms.at_rest(quantity));
-        self.rounding = 0.0;
-        self.explained = 0.0;
-        self.underflows = false;
-        self.moving = Mean::beginning(time);
-        self.farthest = 0.0;
-        self.worst = 0.0;
-        self.left = None;
-        self.early = Early::default();
-        self.distances = History::new();
+        let at_rest = quantity.map_or_else(Vec::new, |quantity| terms.at_rest(quantity));
+        self.reference = ReferenceValue { initial, value: initial, rough, offset, at_rest };
+        self.rounding = RoundingError::default();
+        self.drift = DriftRecord::beginning(Mean::beginning(time));
     }
 
     /// Continues from the saved reference of the same quantity.
     pub(super) fn restore(&mut self, known: &Reference, time: f64) {
-        self.rough_reference += known.from - self.reference;
+        self.reference.rough += known.from - self.reference.value;
         self.forget_digits(known.from);
-        self.reference = known.from;
-        self.initial = known.initial.unwrap_or(known.from);
+        self.reference.value = known.from;
+        self.reference.initial = known.initial.unwrap_or(known.from);
         let scale = known.scale.unwrap_or_else(|| known.from.abs());
-        self.moving = Mean::of(scale, time - known.since, time);
-        self.farthest = known.farthest.unwrap_or(known.max_drift * scale);
-        self.worst = known.max_drift;
-        self.left = known.left;
-        self.early = Early::over();
+        self.drift.moving = Mean::of(scale, time - known.since, time);
+        self.drift.farthest = known.farthest.unwrap_or(known.max_drift * scale);
+        self.drift.worst = known.max_drift;
+        self.drift.left = known.left;
+        self.drift.early = Early::over();
     }
 
     /// Shifts the reference by the jump of an impulse.
     pub(super) fn shift(&mut self, before: &[f64], after: &[f64]) {
-        let jump = after[self.channel] - before[self.channel];
+        let jump = after[self.subject.channel] - before[self.subject.channel];
         if self.jumps && jump.is_finite() {
-            self.reference += jump;
-            self.rough_reference += jump;
-            self.forget_digits(before[self.channel].abs().max(after[self.channel].abs()));
+            self.reference.value += jump;
+            self.reference.rough += jump;
+            self.forget_digits(
+                before[self.subject.channel].abs().max(after[self.subject.channel].abs()),
+            );
         }
     }
 
     /// Takes into account that a reference was computed from a value of this size.
     fn forget_digits(&mut self, value: f64) {
-        if self.offset {
+        if self.reference.offset {
             self.widen(value.abs());
         }
     }
 
     /// Records the rounding error of its value, in units of ε, and whether it is that small by underflow.
     pub(super) fn measure(&mut self, error: f64, underflows: bool) {
-        self.underflows |= underflows;
-        if !self.offset {
+        self.rounding.underflows |= underflows;
+        if !self.reference.offset {
             self.widen(error);
         }
     }
 
     fn widen(&mut self, error: f64) {
         if error.is_finite() {
-            self.rounding = self.rounding.max(error);
+            self.rounding.greatest = self.rounding.greatest.max(error);
         }
     }
 
     /// The sums over its terms, if it has terms.
     fn summed(&self, terms: &TermWatch) -> Option<TermSums> {
-        let quantity = self.quantity.filter(|&quantity| terms.has(quantity))?;
-        Some(terms.sums(quantity, &self.at_rest))
+        let quantity = self.subject.quantity.filter(|&quantity| terms.has(quantity))?;
+        Some(terms.sums(quantity, &self.reference.at_rest))
     }
 
     /// Its value, given the sum of its terms.
@@ -210,19 +184,25 @@ impl InvariantMonitor {
     }
 
     /// Records an accurate value and returns its distance; `floor` is the rounding error of a value of size 1.
-    pub(super) fn look(&mut self, time: f64, values: &[f64], terms: &TermWatch, floor: f64) -> f64 {
-        let mut distance = values[self.channel] - self.reference;
+    pub(super) fn observe(
+        &mut self,
+        time: f64,
+        values: &[f64],
+        terms: &TermWatch,
+        floor: f64,
+    ) -> f64 {
+        let mut distance = values[self.subject.channel] - self.reference.value;
         let mut moving = 0.0;
         if let Some(sums) = self.summed(terms) {
             // the terms may have grown
             self.widen(sums.size);
             moving = sums.moving;
             // where an impulse ends every step the ends of steps are not seen
-            if time > self.moving.time() && self.worst <= LOST {
-                self.moving.note(time, moving);
+            if time > self.drift.moving.time() && self.drift.worst <= LOST {
+                self.drift.moving.note(time, moving);
             }
-            if self.offset {
-                distance = self.rough(sums.value, terms.work()) - self.rough_reference;
+            if self.reference.offset {
+                distance = self.rough(sums.value, terms.work()) - self.reference.rough;
             }
         }
         self.note(time, distance, moving, floor);
@@ -231,8 +211,8 @@ impl InvariantMonitor {
 
     /// Records an accurate value for the history as well.
     pub(super) fn sample(&mut self, time: f64, values: &[f64], terms: &TermWatch, floor: f64) {
-        let distance = self.look(time, values, terms, floor);
-        self.distances.push(time, distance);
+        let distance = self.observe(time, values, terms, floor);
+        self.drift.distances.push(time, distance);
     }
 
     /// Records the value at the end of a step or within it.
@@ -244,8 +224,10 @@ impl InvariantMonitor {
 
     /// Records the values at the ends of several steps.
     pub(super) fn steps(&mut self, terms: &BatchTerms, ends: &[MonitoredStep]) {
-        let Some(quantity) = self.quantity.filter(|&quantity| terms.has(quantity)) else { return };
-        let sums = terms.sums(quantity, &self.at_rest);
+        let Some(quantity) = self.subject.quantity.filter(|&quantity| terms.has(quantity)) else {
+            return;
+        };
+        let sums = terms.sums(quantity, &self.reference.at_rest);
         for (lane, (end, sums)) in ends.iter().zip(sums).enumerate() {
             self.step_with(end.time, (sums, terms.work(lane)), end.floor, end.dense);
         }
@@ -259,71 +241,72 @@ impl InvariantMonitor {
         floor: f64,
         dense: bool,
     ) {
-        let distance = self.rough(value, work) - self.rough_reference;
+        let distance = self.rough(value, work) - self.reference.rough;
         self.widen(size);
         // the moving part of a lost motion is no measure of it
-        if self.worst <= LOST {
-            self.moving.note(time, moving);
+        if self.drift.worst <= LOST {
+            self.drift.moving.note(time, moving);
         }
-        if distance.abs() > floor * self.rounding {
+        if distance.abs() > floor * self.rounding.greatest {
             self.note(time, distance, moving, floor);
             // if there are rows within a step, these make the history
             if !dense {
-                self.distances.push(time, distance);
+                self.drift.distances.push(time, distance);
             }
         }
     }
 
     fn note(&mut self, time: f64, distance: f64, moving: f64, floor: f64) {
         let distance = distance.abs();
-        self.last = distance;
-        if distance > self.farthest {
-            self.farthest = distance;
+        self.drift.last = distance;
+        if distance > self.drift.farthest {
+            self.drift.farthest = distance;
         }
-        let explained = floor * self.rounding;
-        self.explained = self.explained.max(explained);
+        let explained = floor * self.rounding.greatest;
+        self.rounding.explained = self.rounding.explained.max(explained);
         let beyond = distance > explained;
         // a motion that has not begun says nothing of what will move
-        if !beyond && moving == 0.0 && self.moving.value() == 0.0 {
+        if !beyond && moving == 0.0 && self.drift.moving.value() == 0.0 {
             return;
         }
-        let held = self.early.take(beyond.then_some(Distance { time, size: distance, moving }));
-        if beyond && !held {
+        let deferred =
+            self.drift.early.take(beyond.then_some(Distance { time, size: distance, moving }));
+        if beyond && !deferred {
             let drift = self.drift_of(distance, moving);
-            self.worst = self.worst.max(drift);
+            self.drift.worst = self.drift.worst.max(drift);
             // rows lie before the end of the step, which was recorded first
-            if drift > LEFT && self.left.is_none_or(|left| time < left) {
-                self.left = Some(time);
+            if drift > LEFT && self.drift.left.is_none_or(|left| time < left) {
+                self.drift.left = Some(time);
             }
         }
-        if self.early.is_known() {
-            (self.worst, self.left) = self.drifted();
-            self.early = Early::over();
+        if self.drift.early.is_known() {
+            (self.drift.worst, self.drift.left) = self.drifted();
+            self.drift.early = Early::over();
         }
     }
 
     /// Why a drift would not be seen, if it would not: all its terms have always been below the numbers that have all their digits,
     /// and not because they are 0; or a motion whose energy is all but constant terms could be lost within their rounding error.
     fn unseen(&self) -> Option<Unseen> {
-        let moving = self.moving.value();
-        if self.underflows && self.rounding < f64::MIN_POSITIVE {
+        let moving = self.drift.moving.value();
+        if self.rounding.underflows && self.rounding.greatest < f64::MIN_POSITIVE {
             return Some(Unseen::Underflow);
         }
-        let is_lost = analysis::rounding_floor(0) * self.rounding > LOST * moving;
-        let within_rounding = self.farthest <= self.explained;
+        let is_lost = analysis::rounding_floor(0) * self.rounding.greatest > LOST * moving;
+        let within_rounding = self.drift.farthest <= self.rounding.explained;
         // the terms of others may all be constant, so that what moves of them is rounding
-        (self.quantity == Some(ENERGY) && moving > 0.0 && is_lost && within_rounding)
-            .then(|| Unseen::Unresolved(self.rounding / moving))
+        (self.subject.quantity == Some(ENERGY) && moving > 0.0 && is_lost && within_rounding)
+            .then(|| Unseen::Unresolved(self.rounding.greatest / moving))
     }
 
     fn drift_of(&self, distance: f64, moving: f64) -> f64 {
-        distance / self.scale_of(moving.max(self.moving.value()))
+        distance / self.scale_of(moving.max(self.drift.moving.value()))
     }
 
     /// The greatest drift, and when it first exceeded the limit.
     fn drifted(&self) -> (f64, Option<f64>) {
-        let (mut worst, mut left) = (self.worst, self.left);
-        for &Distance { time, size, moving } in &self.early.distances {
+        let (mut worst, mut left) = (self.drift.worst, self.drift.left);
+        for &Distance { time, size, moving } in &self.drift.early.distances {
             let drift = self.drift_of(size, moving);
             worst = worst.max(drift);
             if drift > LEFT && left.is_none_or(|left| time < left) {
@@ -335,65 +318,72 @@ impl InvariantMonitor {
 
     /// The scale of drift: the mean moving part, or the size of the terms if nothing moves.
     fn scale(&self) -> f64 {
-        self.scale_of(self.moving.value())
+        self.scale_of(self.drift.moving.value())
     }
 
     /// The scale of drift where this much moves.
     fn scale_of(&self, moving: f64) -> f64 {
         // terms that balance each other move by more than their sum
-        let is_error = moving <= 2.0 * self.farthest && moving <= ERROR * self.explained;
-        if is_error { self.rounding } else { moving }
+        let is_error =
+            moving <= 2.0 * self.drift.farthest && moving <= ERROR * self.rounding.explained;
+        if is_error { self.rounding.greatest } else { moving }
     }
 
     pub(super) fn show(&self, values: &[f64], since: f64, floor: f64, errors: Errors) -> Gauge {
-        let value = values[self.channel];
-        let (scale, rounding) = (self.scale(), floor * self.rounding);
+        let value = values[self.subject.channel];
+        let (scale, rounding) = (self.scale(), floor * self.rounding.greatest);
         // a rounding error is small compared with the terms
         let drift = |distance: f64| match distance {
             0.0 => 0.0,
-            _ if distance <= rounding => distance / scale.max(self.rounding),
+            _ if distance <= rounding => distance / scale.max(self.rounding.greatest),
             _ => distance / scale,
         };
-        let distance = if self.offset { self.last } else { (value - self.reference).abs() };
-        let beyond = self.farthest > rounding;
-        let is_below_digits = self.farthest < f64::EPSILON * self.rounding;
+        let distance = if self.reference.offset {
+            self.drift.last
+        } else {
+            (value - self.reference.value).abs()
+        };
+        let beyond = self.drift.farthest > rounding;
+        let is_below_digits = self.drift.farthest < f64::EPSILON * self.rounding.greatest;
         let (worst, since_when) = self.drifted();
-        let max_drift = if beyond { worst } else { drift(self.farthest.max(distance)) };
+        let max_drift = if beyond { worst } else { drift(self.drift.farthest.max(distance)) };
         let drift_now = drift(distance).min(max_drift);
         let left = beyond && max_drift > LEFT;
         // what is only supposed to be conserved may change with the motion
-        let errors = if self.proved { errors } else { Errors::Accumulated };
+        let errors = if self.subject.proved { errors } else { Errors::Accumulated };
         let unseen = self.unseen();
         let is_unknown = unseen.is_some();
-        let verdict = match (&self.broken, unseen) {
+        let verdict = match (&self.subject.broken, unseen) {
             (Some(law), _) => Verdict::Broken(law.clone()),
             (None, Some(unseen)) => Verdict::Unknown(unseen),
             (None, None) if beyond && max_drift > LOST => Verdict::Lost,
-            (None, None) => match Verdict::of(&self.distances, self.farthest, rounding, errors) {
-                Verdict::Secular(slope) => Verdict::Secular(slope / scale),
-                Verdict::Exact(_) if is_below_digits => Verdict::Exact(analysis::Growth::Level),
-                other => other,
-            },
+            (None, None) => {
+                match Verdict::of(&self.drift.distances, self.drift.farthest, rounding, errors) {
+                    Verdict::Secular(slope) => Verdict::Secular(slope / scale),
+                    Verdict::Exact(_) if is_below_digits => Verdict::Exact(analysis::Growth::Level),
+                    other => other,
+                }
+            }
         };
-        let history = self.distances.stretches().iter().map(Stretch::peak);
+        let history = self.drift.distances.stretches().iter().map(Stretch::peak);
         Gauge {
-            name: self.name.clone(),
-            shown: self.shown.clone(),
+            name: self.subject.name.clone(),
+            shown: self.subject.shown.clone(),
             reason: match unseen {
-                Some(Unseen::Underflow) => format!("{}; {UNDERFLOW}", self.reason),
-                Some(Unseen::Unresolved(_)) => format!("{}; {UNRESOLVED}", self.reason),
-                None => self.reason.clone(),
+                Some(Unseen::Underflow) => format!("{}; {UNDERFLOW}", self.subject.reason),
+                Some(Unseen::Unresolved(_)) => format!("{}; {UNRESOLVED}", self.subject.reason),
+                None => self.subject.reason.clone(),
             },
-            proved: self.proved && self.broken.is_none(),
+            proved: self.subject.proved && self.subject.broken.is_none(),
             value,
-            initial: self.initial,
+            initial: self.reference.initial,
             scale,
-            farthest: self.farthest,
-            reference: self.reference,
+            farthest: self.drift.farthest,
+            reference: self.reference.value,
             reference_time: since,
             drift: if is_unknown { f64::NAN } else { drift_now },
             max_drift: if is_unknown { f64::NAN } else { max_drift },
-            left: (left && !is_unknown && self.broken.is_none())
+            left: (left && !is_unknown && self.subject.broken.is_none())
                 .then(|| since_when.unwrap_or(since)),
             history: if is_unknown {
                 Arc::default()
@@ -402,49 +392,5 @@ impl InvariantMonitor {
             },
             verdict,
         }
-    }
-}
-
-/// A distance from the reference, and what moved at that time.
-#[derive(Clone, Copy, Debug)]
-struct Distance {
-    time: f64,
-    size: f64,
-    moving: f64,
-}
-
-/// The number of first looks, whose distances are held until there were …
-const FIRST_LOOKS: u32 = 64;
-
-/// … so many.
-const LOOKS_TO_KNOW: u32 = 2 * FIRST_LOOKS;
-
-/// The distances at the first looks. A motion that begins at rest moves little in its first steps, and the error of the first
-/// may be as large as all that has moved: they are compared with what moves a few steps later.
-#[derive(Clone, Debug, Default)]
-struct Early {
-    looks: u32,
-    distances: Vec<Distance>,
-}
-
-impl Early {
-    /// That of a motion that has moved.
-    fn over() -> Early {
-        Early { looks: LOOKS_TO_KNOW + 1, distances: Vec::new() }
-    }
-
-    /// Whether what moves is just known.
-    fn is_known(&self) -> bool {
-        self.looks == LOOKS_TO_KNOW
-    }
-
-    /// Takes a look, with a distance if rounding does not explain it. Returns whether the distance is held.
-    fn take(&mut self, distance: Option<Distance>) -> bool {
-        if self.looks < LOOKS_TO_KNOW {
-            self.looks += 1;
-        }
-        let is_first = self.looks <= FIRST_LOOKS;
-        self.distances.extend(distance.filter(|_| is_first));
-        is_first
     }
 }

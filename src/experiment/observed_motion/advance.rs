@@ -41,7 +41,7 @@ impl ObservedMotion {
             match &reached {
                 Reached::Underway if *budget > 0 => continue,
                 Reached::Happened(occurrence) => self.record(occurrence)?,
-                Reached::There => self.look()?,
+                Reached::There => self.observe()?,
                 Reached::Underway | Reached::Ended => {}
             }
             return Ok(reached);
@@ -86,7 +86,7 @@ impl ObservedMotion {
             } else {
                 let form = self.inner.computed().form;
                 for (i, steps) in (0..count).zip(steps + 1..) {
-                    if single.look(&block.state(i, form)) {
+                    if single.observe(&block.state(i, form)) {
                         gauges.step(sign * block.times.0[i], steps, single, dense(i));
                     }
                 }
@@ -122,7 +122,7 @@ impl ObservedMotion {
         if inside && self.inner.method().order.is_none() {
             let time = begin + self.watch.next_weyl() * (end - begin);
             let StepSampler { terms, state, values, .. } = &mut self.watch;
-            if self.inner.anywhere_inside(time, state).is_ok() && terms.look(state) {
+            if self.inner.anywhere_inside(time, state).is_ok() && terms.observe(state) {
                 if due && self.observer.observe(state, values).is_ok() {
                     mark_lost(&mut self.lost, values);
                     gauges.look_on_the_way(self.sign * time, steps, values, terms);
@@ -131,7 +131,7 @@ impl ObservedMotion {
             }
         }
         let (StepSampler { terms, values, .. }, state) = (&mut self.watch, self.inner.computed());
-        if whole && terms.look(state) {
+        if whole && terms.observe(state) {
             if due
                 && self.inner.method().order.is_some()
                 && self.observer.observe(state, values).is_ok()

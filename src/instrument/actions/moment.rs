@@ -1,9 +1,9 @@
 //! An instant of a motion of which the action is known, and what has changed since another.
 //!
-//! In: the motion of the held system at a time. Out: its action and energy, their relative changes, as written. Never here:
+//! In: the motion of the frozen system at a time. Out: its action and energy, their relative changes, as written. Never here:
 //! whether a change is slow.
 
-use crate::action_angle::{HeldMotion, OwnMotion, RegionKind};
+use crate::action_angle::{FrozenMotion, OwnMotion, RegionKind};
 use crate::num::significant;
 
 /// An instant of the motion.
@@ -18,7 +18,7 @@ pub(super) struct Moment {
 
 impl Moment {
     /// That of a motion which returns.
-    pub(super) fn of(motion: &HeldMotion<'_>, own: &OwnMotion, time: f64) -> Option<Moment> {
+    pub(super) fn of(motion: &FrozenMotion<'_>, own: &OwnMotion, time: f64) -> Option<Moment> {
         let row = own.row.as_ref().ok().filter(|row| row.kind != RegionKind::Unbounded)?;
         let height = own.energy - motion.bottom(own);
         Some(Moment { time, energy: own.energy, height, action: row.action })

@@ -49,7 +49,7 @@ pub(super) fn job(present: &Present<'_>, answer: Option<&Answer>) -> Need {
         settings: present.settings,
     };
     if computed(answer).is_some_and(|known| known.conditions == conditions) {
-        return Need::Held;
+        return Need::Valid;
     }
     let Physics { model, equations, system } = present.physics;
     let (model, equations) = (Arc::clone(model), Arc::clone(equations));

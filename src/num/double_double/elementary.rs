@@ -319,6 +319,7 @@ mod tests {
         let rows: [(&[DoubleDouble], &[f64], u32); 2] =
             [(&COSINE, &COSINE_TAIL, 2), (&SINE, &SINE_TAIL, 3)];
         for (first, tail, start) in rows {
+            assert!(!first.is_empty() && !tail.is_empty());
             let tail = tail.iter().map(|&c| DoubleDouble::from(c));
             for (j, c) in first.iter().copied().chain(tail).enumerate() {
                 let n = start + 2 * j as u32;

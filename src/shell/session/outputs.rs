@@ -87,8 +87,8 @@ impl Session {
 
     /// Puts a text into the terminal's clipboard, or else into a file.
     pub(super) fn copy(&mut self, what: &'static str, text: String, ending: &'static str) {
-        if self.has_clipboard && text.len() <= clipboard::MOST {
-            self.clipboard = Some(text);
+        if self.clipboard.is_there && text.len() <= clipboard::MOST {
+            self.clipboard.text = Some(text);
             let format = if ending == "tex" { " as LaTeX" } else { "" };
             return self.report(Ok(format!("{what} are copied{format}: paste them anywhere.")));
         }
@@ -131,7 +131,7 @@ impl Session {
         let report = recorder.map_or_else(|| why.to_string(), |recorder| recorder.give_up(why));
         error!("{report}");
         self.app.recording = false;
-        self.app.notice = Some(Notification::error(format!("{report}.")));
+        self.app.notifications.show(Notification::error(format!("{report}.")));
     }
 
     /// Ends a recording, and reports its name.

@@ -35,7 +35,7 @@ impl Session {
                 self.take_texts(store.texts().to_vec(), open);
                 self.app.workbench.keeps = store.keeps_texts();
                 let troubles = std::mem::take(&mut store.troubles);
-                self.store = Some(store);
+                self.saving.store = Some(store);
                 troubles
             }
         };
@@ -51,7 +51,7 @@ impl Session {
         }
         if !troubles.is_empty() {
             let report = troubles.join("; ");
-            self.app.notice = Some(Notification::error(&report));
+            self.app.notifications.show(Notification::error(&report));
             self.warning = Some(report);
         }
     }
@@ -70,12 +70,12 @@ impl Session {
 
     /// Queues the current session and the unsaved texts for saving, without waiting for the disk.
     pub(super) fn keep(&mut self, last: bool) -> io::Result<()> {
-        self.since = Since::default();
+        self.saving.since = Since::default();
         if let Some(snapshot) = self.worker.newest() {
             self.update(Event::Snapshot(snapshot));
         }
         self.keep_texts(last);
-        let Some(store) = &mut self.store else { return Ok(()) };
+        let Some(store) = &mut self.saving.store else { return Ok(()) };
         if let Some(mut saved) = self.app.saved() {
             saved.open = absolute(saved.open)?;
             store.save(saved);
@@ -85,9 +85,9 @@ impl Session {
 
     /// Queues the unsaved texts for storing.
     fn keep_texts(&mut self, last: bool) {
-        self.since.texts = Duration::ZERO;
-        self.kept_texts = self.app.workbench.revision();
-        let Some(store) = &mut self.store else { return };
+        self.saving.since.texts = Duration::ZERO;
+        self.saving.stored_texts = self.app.workbench.revision();
+        let Some(store) = &mut self.saving.store else { return };
         // If the file cannot be resolved, the text is stored under its current name.
         let place = |text: Unsaved| placed(text.clone()).unwrap_or(text);
         store.keep_texts(self.app.unsaved().into_iter().map(place).collect(), last);
@@ -96,7 +96,7 @@ impl Session {
     /// Saves the session and the texts, waiting for the disk at most this long.
     pub(super) fn keep_within(&mut self, time: Duration) -> io::Result<()> {
         self.keep(true)?;
-        let Some(store) = &mut self.store else { return Ok(()) };
+        let Some(store) = &mut self.saving.store else { return Ok(()) };
         let first = store.settle(time).into_iter().next();
         self.app.workbench.keeps = store.keeps_texts();
         first.map_or(Ok(()), Err)
@@ -108,14 +108,14 @@ impl Session {
         if !self.app.workbench.keeps || self.app.unsaved().is_empty() {
             return true;
         }
-        if let Some(store) = &self.store {
+        if let Some(store) = &self.saving.store {
             store.hurry(true);
         }
         if let Err(error) = self.keep_within(UNHURRIED) {
             error!("{error}");
         }
         if !self.app.workbench.keeps {
-            if let Some(store) = &self.store {
+            if let Some(store) = &self.saving.store {
                 store.hurry(false);
             }
             self.app.stay();
@@ -126,28 +126,30 @@ impl Session {
     /// Saves the session and the texts periodically. An error is reported only once; it will occur again at the
     /// end.
     pub(super) fn save_periodically(&mut self, elapsed: Duration) {
-        let since = &mut self.since;
+        let since = &mut self.saving.since;
         for time in [&mut since.saved, &mut since.texts, &mut since.looked] {
             *time = time.saturating_add(elapsed);
         }
-        if self.since.looked >= TAKING_OVER {
-            self.since.looked = Duration::ZERO;
+        if self.saving.since.looked >= TAKING_OVER {
+            self.saving.since.looked = Duration::ZERO;
             self.take_over();
         }
         let mut errors = Vec::new();
-        if self.since.saved >= SAVING {
+        if self.saving.since.saved >= SAVING {
             errors.extend(self.keep(false).err());
-        } else if self.since.texts >= TEXTS && self.kept_texts != self.app.workbench.revision() {
+        } else if self.saving.since.texts >= TEXTS
+            && self.saving.stored_texts != self.app.workbench.revision()
+        {
             self.keep_texts(false);
         }
-        if let Some(store) = &mut self.store {
+        if let Some(store) = &mut self.saving.store {
             errors.extend(store.errors());
             self.app.workbench.keeps = store.keeps_texts();
         }
         if let Some(error) = errors.first() {
             let report = error.to_string();
             if self.warning.as_ref() != Some(&report) {
-                self.app.notice = Some(Notification::error(&report));
+                self.app.notifications.show(Notification::error(&report));
                 self.warning = Some(report);
             }
         }
@@ -155,14 +157,14 @@ impl Session {
 
     /// Takes over saving the session if the program that did so has ended.
     fn take_over(&mut self) {
-        let Some(store) = &mut self.store else { return };
+        let Some(store) = &mut self.saving.store else { return };
         let Some(texts) = store.take_over() else { return };
         let troubles = std::mem::take(&mut store.troubles);
         let mut report =
             vec!["The other phaselab has ended; this one saves the session now.".into()];
         report.extend(troubles);
         info!("{}", report.join(" "));
-        self.app.notice = Some(Notification::info(report.join(" ")));
+        self.app.notifications.show(Notification::info(report.join(" ")));
         self.warning = None;
         self.take_texts(texts, None);
         self.keep_texts(false);
@@ -170,7 +172,7 @@ impl Session {
 
     /// Adds the location of an unsaved text to the message about a system that cannot be loaded.
     pub(super) fn with_text_kept(&self, mut failure: LoadError) -> LoadError {
-        let place = self.store.as_ref().and_then(Store::place_of_texts);
+        let place = self.saving.store.as_ref().and_then(Store::place_of_texts);
         let unsaved = self.app.unsaved().iter().any(|text| text.name == failure.name);
         if let Some(place) = place.filter(|_| unsaved) {
             let place = place.display();

@@ -432,5 +432,6 @@ mod tests {
             buffer.sight_of([v; 3]);
         }
         buffer.face(&[], 0);
+        assert!(buffer.dots().count() > 0, "what is finite is drawn");
     }
 }

@@ -5,10 +5,10 @@
 //! blank. Never here: axes, or the meaning of the curves.
 
 mod bands;
+mod cached_trail;
 mod cloud;
 mod course;
 mod halo;
-mod kept_trail;
 mod letter;
 mod marker;
 mod polyline;
@@ -24,7 +24,7 @@ use super::scale::PlotFrame;
 use crate::num::math;
 use crate::view::glyphs::Glyphs;
 use crate::view::theme::{Dash, Shade};
-pub use kept_trail::{Ages, KeptTrail};
+pub use cached_trail::{Ages, CachedTrail};
 use letter::{letter, points};
 pub use marker::Marker;
 

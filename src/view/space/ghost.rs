@@ -4,14 +4,14 @@
 
 use super::{SOLID, ScenePainter, TRACK, circle, companions, solid};
 use crate::model::{Point, Shape};
-use crate::view::kept::Kept;
+use crate::view::cache::FrameCache;
 use crate::view::plot::{Marker, Pen};
 use crate::view::quantity::QuantitySource;
 
 impl ScenePainter<'_> {
     /// Draws what moves of a motion beside the main one: its lines, rims, edges, masses and tracks, in its colour. Its surfaces
     /// would hide the main one.
-    pub(super) fn ghost(&mut self, shape: &Shape, kept: &mut Kept) {
+    pub(super) fn ghost(&mut self, shape: &Shape, cache: &mut FrameCache) {
         let moves = |point: &Point| {
             point.iter().any(|e| matches!(self.q.place(*e), QuantitySource::Channel(_)))
         };
@@ -33,7 +33,7 @@ impl ScenePainter<'_> {
                     self.raster.marker(&self.frame, flat, Marker::Number(number), &pen);
                 }
             }
-            Shape::Trace { at } => self.track(at, kept),
+            Shape::Trace { at } => self.track(at, cache),
             // in space a circle that does not turn is scenery
             Shape::Circle { centre, radius, normal }
                 if moves(normal) || moves(centre) && self.range.is_none() =>

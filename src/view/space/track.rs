@@ -4,13 +4,13 @@
 
 use super::{ScenePainter, TRACK, colours};
 use crate::model::Point;
+use crate::view::cache::{self, FrameCache, Track, TrailKey};
 use crate::view::companions;
-use crate::view::kept::{self, Kept, Track, TrailKey};
 use crate::view::plot::Ages;
 
 impl ScenePainter<'_> {
     /// Draws the track of a point through the reference frame.
-    pub(super) fn track(&mut self, point: &Point, kept: &mut Kept) {
+    pub(super) fn track(&mut self, point: &Point, cache: &mut FrameCache) {
         let sources = point.map(|expression| self.q.place(expression));
         let rows = &self.q.snapshot.trail;
         let track = Track::Point(sources, self.camera, self.seen);
@@ -24,7 +24,7 @@ impl ScenePainter<'_> {
         let [right, up, near] = self.camera.project(self.point(point));
         let present = [right, up];
         // Each past point is transformed to the reference frame at its own time.
-        let drawn = kept.trail(key, (rows, self.q.look.glyphs), |row| {
+        let drawn = cache.trail(key, (rows, self.q.look.glyphs), |row| {
             let row = row.get(1..)?;
             let r = sources.map(|source| source.read(row));
             let seen = self.reference_frame.as_ref().map_or(r, |frame| frame.point(row, r));
@@ -32,7 +32,7 @@ impl ScenePainter<'_> {
         });
         let series = self.beside.map_or_else(|| self.colour(point), companions::series);
         let ramp = colours::ramp(self.q, &self.colours, point, series);
-        let since = kept::since(rows, ramp.len());
+        let since = cache::since(rows, ramp.len());
         let ages = Ages { since: &since, ramp, layer: TRACK, behind: Some((&self.depth, near)) };
         drawn.draw(&mut self.raster, ages, present);
     }

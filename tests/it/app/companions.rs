@@ -40,7 +40,7 @@ fn the_right_button_adds_a_motion_and_the_left_one_begins_the_main_one() {
     let index = picture(&real, "phase");
     let hit = HitTarget::Plot { index, place: [0.5, 0.5], at: [0.5, 0.25] };
     click(&mut real, MouseButton::Right, hit);
-    assert_eq!(real.lab().focus, Pane::Plot(index));
+    assert_eq!(real.lab().focus.pane, Pane::Plot(index));
     let seen = real.seen();
     assert_eq!(seen.companions.len(), 1);
     assert_eq!(seen.companions[0].values[0], 0.5);
@@ -57,7 +57,9 @@ fn the_right_button_adds_a_motion_and_the_left_one_begins_the_main_one() {
         HitTarget::Plot { index, place: [0.5, 0.5], at: [1.0, 0.2] },
     );
     assert_eq!(real.seen().companions.len(), 1);
-    assert!(real.app.notice.as_ref().unwrap().text.contains("No motion can start from"));
+    assert!(
+        real.app.notifications.shown.as_ref().unwrap().text.contains("No motion can start from")
+    );
 }
 
 #[test]
@@ -73,8 +75,8 @@ fn each_motion_has_its_number_in_every_portrait_in_the_scene_and_against_time() 
         let look = RenderStyle { theme: Theme::dark(depth), glyphs };
         for kind in ["space", "phase", "time"] {
             let index = picture(&real, kind);
-            real.app.lab.as_mut().unwrap().focus = Pane::Plot(index);
-            real.app.lab.as_mut().unwrap().zoomed = true;
+            real.app.lab.as_mut().unwrap().focus.pane = Pane::Plot(index);
+            real.app.lab.as_mut().unwrap().focus.zoomed = true;
             let with = screen(&real, &look);
             assert!(
                 with.iter().skip(1).any(|row| row.contains('1')),
@@ -98,18 +100,18 @@ fn a_neighbour_opens_the_picture_of_their_separation_once() {
     let before = real.lab().plots.len();
     real.press("d");
     assert_eq!(real.lab().plots.len(), before + 1);
-    assert_eq!(real.lab().focus, Pane::Plot(before));
+    assert_eq!(real.lab().focus.pane, Pane::Plot(before));
     real.press("d");
     assert_eq!(real.lab().plots.len(), before + 1);
     assert_eq!(real.seen().companions.len(), 2);
     real.press("C");
     assert!(real.seen().companions.is_empty());
     real.press("C");
-    assert!(real.app.notice.as_ref().unwrap().text.contains("no motions"));
+    assert!(real.app.notifications.shown.as_ref().unwrap().text.contains("no motions"));
     for _ in 0..7 {
         real.press("d");
     }
-    assert!(real.app.notice.as_ref().unwrap().text.contains("at most"));
+    assert!(real.app.notifications.shown.as_ref().unwrap().text.contains("at most"));
 }
 
 #[test]

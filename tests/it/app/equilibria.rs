@@ -22,13 +22,13 @@ fn named(text: &str) -> Vec<Equilibrium> {
 
 /// Presses F, and computes what it asks for.
 fn found(real: &mut Real) -> Vec<(String, Choice)> {
-    real.app.aside = true;
+    real.app.jobs.in_background = true;
     let effects = real.app.update(Event::Key(key("F")));
     let Some(Effect::Compute(Computation { ticket, job, asker })) = effects
         .into_iter()
         .find(|e| matches!(e, Effect::Compute(c) if c.asker == Asker::Equilibria))
     else {
-        panic!("no search: {:?}", real.app.notice)
+        panic!("no search: {:?}", real.app.notifications.shown)
     };
     assert_eq!(asker, Asker::Equilibria);
     let progress = Progress::new();
@@ -39,7 +39,7 @@ fn found(real: &mut Real) -> Vec<(String, Choice)> {
         Some(Overlay::Menu(menu)) => {
             menu.items.iter().map(|item| (item.label.clone(), item.choice)).collect()
         }
-        _ => panic!("no list: {:?}", real.app.notice),
+        _ => panic!("no list: {:?}", real.app.notifications.shown),
     }
 }
 
@@ -73,7 +73,7 @@ fn the_pendulum_rests_below_stably_and_above_unstably() {
     assert_eq!(effects, [Effect::StopComputing(Asker::Equilibria)]);
     let share = Share { done: 3, total: Some(600) };
     real.app.update(Event::Progress { ticket: 1, share });
-    assert!(real.app.notice.as_ref().unwrap().text.contains("stopped"));
+    assert!(real.app.notifications.shown.as_ref().unwrap().text.contains("stopped"));
 }
 
 #[test]

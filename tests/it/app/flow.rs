@@ -218,7 +218,9 @@ fn the_shift_of_time_leads_back_along_a_motion_with_friction() {
 fn where_nothing_has_a_flow_the_key_says_why() {
     let mut real = Real::of("rolling-coin");
     real.press("J");
-    assert!(real.app.notice.as_ref().is_some_and(|n| n.text.contains("nothing to apply")));
+    assert!(
+        real.app.notifications.shown.as_ref().is_some_and(|n| n.text.contains("nothing to apply"))
+    );
     real.press("2 J");
     assert!(real.app.overlay.is_none());
 }
@@ -234,7 +236,7 @@ fn a_generator_that_is_typed_or_of_the_file_carries_the_state() {
     apply(&mut real, "generator of the file: p_x", "0.25");
     let after = ["x", "p_x", "energy"].map(|name| value(&real, name));
     assert!((after[0] - before[0] - 0.25).abs() < 1e-14 && after[1] == before[1], "{after:?}");
-    let said = real.app.notice.as_ref().expect("a notice").text.clone();
+    let said = real.app.notifications.shown.as_ref().expect("a notice").text.clone();
     assert!(said.contains("H has changed from 2.125 to 3.25"), "{said}");
     // H itself by its own name, a quarter of a turn of ω = 2 on, and back
     let formula = "any function of q and p, typed; H changes unless [H, G] = 0";
@@ -254,7 +256,7 @@ fn a_generator_that_is_typed_or_of_the_file_carries_the_state() {
         let sign = epsilon.signum();
         assert!((after[0] - sign * before[1] / 2.0).abs() < 1e-13, "{after:?}");
         assert!((after[1] + sign * 2.0 * before[0]).abs() < 1e-13, "{after:?}");
-        let said = real.app.notice.as_ref().expect("a notice").text.clone();
+        let said = real.app.notifications.shown.as_ref().expect("a notice").text.clone();
         assert!(said.contains("as before, since [H, G] = 0"), "{said}");
     }
     // what cannot be read is said in the field
@@ -283,7 +285,7 @@ fn a_flow_knows_the_numbers_that_were_searched_as_parameters() {
     assert!(vector.contains("10⁻³⁰") || vector.contains("10⁻³¹"), "{vector}");
     let before = ["x", "y", "energy"].map(|name| value(&real, name));
     apply(&mut real, &vector, "0.001");
-    let notice = real.app.notice.as_ref().map(|n| n.text.clone()).unwrap_or_default();
+    let notice = real.app.notifications.shown.as_ref().map(|n| n.text.clone()).unwrap_or_default();
     let after = ["x", "y", "energy"].map(|name| value(&real, name));
     let moved = (after[0] - before[0]).hypot(after[1] - before[1]);
     assert!(moved > 1e-4, "{vector}: {before:?} {after:?} {notice}");

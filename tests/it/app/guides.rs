@@ -55,7 +55,9 @@ fn a_lesson_that_was_left_and_a_demo_are_selected_again() {
     let wrong = Some("the progress is not kept".to_owned());
     app.update(Event::GuideLeft { guides: guides(LessonTaken::Partly), wrong });
     assert_eq!(listed(&app).0, Choice::Guide(0));
-    assert!(app.notice.as_ref().is_some_and(|notice| notice.text.contains("not kept")));
+    assert!(
+        app.notifications.shown.as_ref().is_some_and(|notice| notice.text.contains("not kept"))
+    );
     press(&mut app, "Down Down Enter");
     app.update(Event::GuideLeft { guides: guides(LessonTaken::Partly), wrong: None });
     assert_eq!(listed(&app).0, Choice::Guide(2));
@@ -66,7 +68,7 @@ fn a_lesson_that_was_left_and_a_demo_are_selected_again() {
 fn a_key_lists_them_from_anywhere() {
     let mut app = in_lab();
     press(&mut app, "F2");
-    assert!(app.overlay.is_none() && app.notice.is_some());
+    assert!(app.overlay.is_none() && app.notifications.shown.is_some());
     app.picker.guides = guides(LessonTaken::NotYet);
     press(&mut app, "F2 k e p");
     assert_eq!(listed(&app).0, Choice::Guide(1));

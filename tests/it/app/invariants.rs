@@ -124,7 +124,7 @@ fn another_value_of_a_parameter_is_another_question() {
 #[test]
 fn the_search_is_a_job_with_a_budget_that_can_be_stopped() {
     let mut app = lab("henon-heiles", 0.0);
-    app.aside = true;
+    app.jobs.in_background = true;
     let effects = press(&mut app, "2");
     let [Effect::Compute(computation)] = &effects[..] else { panic!("{effects:?}") };
     assert_eq!(computation.asker, Asker::Search);

@@ -151,20 +151,20 @@ fn facts(app: &App) -> Vec<(String, String)> {
     fact("cursor", format!("{:?}", bench.map(|bench| bench.editor.cursor())));
     fact("asked", format!("{:?}", bench.map(|bench| bench.asking.is_some())));
     fact("scrolled", app.scroll.to_string());
-    fact("theme", format!("{:?}", app.theme));
+    fact("theme", format!("{:?}", app.themes.chosen));
     let read = app.reading.snapshot.as_ref().map(|snapshot| snapshot.time);
     fact("reads t =", format!("{read:?}"));
     fact("line read", app.reading.line.to_string());
     fact("read anew by itself", app.reading.automatic.to_string());
-    let notice = app.notice.as_ref().map_or("nothing", |notice| notice.text.as_str());
+    let notice = app.notifications.shown.as_ref().map_or("nothing", |notice| notice.text.as_str());
     fact("told", notice.to_owned());
     let search = app.picker.search.as_ref().map(|search| search.value().to_owned());
     fact("search", format!("{search:?}"));
     let system = app.picker.current().map_or("none", |entry| entry.name.as_str());
     fact("system", system.to_owned());
     let Some(lab) = &app.lab else { return facts };
-    fact("focus", format!("{:?}", lab.focus));
-    fact("zoomed", lab.zoomed.to_string());
+    fact("focus", format!("{:?}", lab.focus.pane));
+    fact("zoomed", lab.focus.zoomed.to_string());
     let selection = lab.selection;
     fact("parameter", selection.parameter.to_string());
     fact("initial value", selection.initial.to_string());
@@ -282,7 +282,8 @@ fn the_palette_lists_every_row_and_does_what_its_key_does() {
                 }
                 if !here || !app.offers(row.action) {
                     press(&mut open, "Enter");
-                    let told = open.notice.map(|notice| notice.text).unwrap_or_default();
+                    let told =
+                        open.notifications.shown.map(|notice| notice.text).unwrap_or_default();
                     assert!(told.contains(item.unavailable.as_ref().unwrap()), "{told}");
                     continue;
                 }
@@ -393,10 +394,11 @@ fn the_palette_acts_on_the_nearest_pane() {
         app.update(Event::Paste("show or hide a cursor".to_owned()));
         press(&mut app, "Enter");
         let lab = app.lab.as_ref().unwrap();
-        assert_eq!((app.page, lab.focus), (Page::Lab, Pane::Plot(1)), "{begin}");
+        assert_eq!((app.page, lab.focus.pane), (Page::Lab, Pane::Plot(1)), "{begin}");
         let cursor = lab.plots[1].viewport().unwrap().cursor;
         assert_eq!(cursor, Some([0.5, 0.5]), "{begin}");
-        let told = app.notice.as_ref().map(|notice| notice.text.clone()).unwrap_or_default();
+        let told =
+            app.notifications.shown.as_ref().map(|notice| notice.text.clone()).unwrap_or_default();
         assert_eq!(told, "The focus moved to phase plane, p_θ against θ.", "{begin}");
     }
     // The motion in space is another pane; a plot that was focused is the nearest.
@@ -404,12 +406,12 @@ fn the_palette_acts_on_the_nearest_pane() {
     press(&mut app, ":");
     app.update(Event::Paste("look from higher".to_owned()));
     press(&mut app, "Enter");
-    assert_eq!(app.lab.as_ref().unwrap().focus, Pane::Plot(0));
+    assert_eq!(app.lab.as_ref().unwrap().focus.pane, Pane::Plot(0));
     let mut app = in_lab();
     press(&mut app, "Tab Tab Tab Tab Tab Tab Tab :");
     app.update(Event::Paste("show or hide a cursor".to_owned()));
     press(&mut app, "Enter");
-    assert_eq!(app.lab.as_ref().unwrap().focus, Pane::Plot(3), "the one focused last");
+    assert_eq!(app.lab.as_ref().unwrap().focus.pane, Pane::Plot(3), "the one focused last");
     // Among the systems there is no pane.
     let (_, menu) = palette(&at_picker());
     assert!(menu.items.iter().all(|item| !matches!(item.choice, Choice::ActionAt(..))));
@@ -466,9 +468,9 @@ fn the_palette_finds_the_energy() {
 fn a_notice_goes_by_itself() {
     let mut app = in_lab();
     press(&mut app, "u");
-    assert!(app.notice.is_some());
+    assert!(app.notifications.shown.is_some());
     app.update(Event::Tick(Duration::from_secs(20)));
-    assert_eq!(app.notice, None);
+    assert_eq!(app.notifications.shown, None);
 }
 
 #[test]
@@ -483,5 +485,5 @@ fn a_fault_is_answered_by_a_reset_and_not_by_play() {
     faulted.status = Status::Failed(fault);
     app.update(Event::Snapshot(Arc::new(faulted)));
     assert!(press(&mut app, "Space").is_empty());
-    assert!(app.notice.is_some_and(|notice| notice.text.contains("reset")));
+    assert!(app.notifications.shown.is_some_and(|notice| notice.text.contains("reset")));
 }

@@ -34,7 +34,7 @@ fn keys_lead_to_the_mark_before_and_to_the_mark_after() {
 #[test]
 fn without_a_mark_in_the_past_a_sentence_says_so() {
     let mut app = in_lab();
-    let before = app.notice.clone();
+    let before = app.notifications.shown.clone();
     assert!(press(&mut app, "\"").is_empty());
-    assert_ne!(app.notice.map(|notice| notice.text), before.map(|notice| notice.text));
+    assert_ne!(app.notifications.shown.map(|notice| notice.text), before.map(|notice| notice.text));
 }

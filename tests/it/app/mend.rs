@@ -78,7 +78,7 @@ fn a_wrong_file_is_edited_at_its_first_error_and_then_runs() {
     assert_eq!(app.lab.as_ref().map(|lab| lab.loaded.name.as_str()), Some(name));
     press(&mut app, "Esc");
     assert_eq!(app.page, Page::Lab);
-    assert!(app.overlay.is_none() && app.lab.as_ref().unwrap().focus == Pane::Parameters);
+    assert!(app.overlay.is_none() && app.lab.as_ref().unwrap().focus.pane == Pane::Parameters);
     assert!(app.unsaved().iter().any(|text| text.name == name), "it is not saved yet");
 }
 
@@ -110,7 +110,8 @@ fn an_unsaved_text_of_a_wrong_file_is_listed_among_the_systems() {
     rest(&mut app);
     press(&mut app, "x Esc");
     assert_eq!(app.page, Page::Picker);
-    let told = app.notice.as_ref().map(|notice| notice.text.clone()).unwrap_or_default();
+    let told =
+        app.notifications.shown.as_ref().map(|notice| notice.text.clone()).unwrap_or_default();
     assert_eq!(told, "wrong.toml has unsaved changes; Enter returns to it.");
     assert_eq!(app.picker.selected_above(), Some(Above::Unsaved));
     assert!(text_of(&app).contains("Unsaved: ./wrong.toml"), "{}", text_of(&app));

@@ -9,7 +9,7 @@ use super::real::Real;
 
 /// The sentence that is shown.
 fn said(real: &Real) -> String {
-    real.app.notice.as_ref().map(|notice| notice.text.clone()).unwrap_or_default()
+    real.app.notifications.shown.as_ref().map(|notice| notice.text.clone()).unwrap_or_default()
 }
 
 /// The pendulum after g was changed: the energy has jumped.

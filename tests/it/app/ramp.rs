@@ -15,7 +15,7 @@ const OSCILLATOR: &str = "title = \"t\"\n[coordinates]\nq = { initial = 1.0, mom
 
 /// Types into the field of the ramp.
 fn ask(real: &mut Real, typed: &str) {
-    while real.lab().focus != Pane::Parameters {
+    while real.lab().focus.pane != Pane::Parameters {
         real.press("Tab");
     }
     real.press("c");
@@ -68,8 +68,8 @@ fn a_ramp_that_is_typed_is_a_part_of_the_text() {
     assert!((at(start) - 1.0).abs() < 1e-15 && (at(start + 60.0) - 2.0).abs() < 1e-15);
     assert!((at(start + 15.0) - (1.0 + 3.0 / 16.0 - 2.0 / 64.0)).abs() < 1e-12);
     // the action variable is in view, and the next ramp begins with the same key
-    assert_eq!(real.lab().focus, Pane::Parameters);
-    let front = real.lab().front.expect("a picture in front");
+    assert_eq!(real.lab().focus.pane, Pane::Parameters);
+    let front = *real.lab().focus.recent.first().expect("a picture in front");
     assert_eq!(real.lab().plots[front].kind.name(), "actions");
     real.press("c");
     assert!(matches!(&real.app.overlay, Some(Overlay::Field(_))), "{:?}", real.app.overlay);

@@ -163,7 +163,7 @@ fn a_new_reference_measures_drift_from_here_and_says_so() {
     let gauge = &real.seen().gauges[0];
     assert_eq!((gauge.drift, gauge.max_drift, gauge.reference_time), (0.0, 0.0, time));
     // The notification disappears by itself; the reference time of the gauges remains visible.
-    real.app.notice = None;
+    real.app.notifications.dismiss();
     for size in [(80, 24), (120, 40)] {
         let area = Rect::new(0, 0, size.0, size.1);
         let mut buffer = Buffer::empty(area);
@@ -210,14 +210,16 @@ fn what_is_taken_back_is_shown() {
     let closer = zoom(&real);
     real.press("u");
     assert_ne!(zoom(&real), closer);
-    assert_eq!(real.lab().focus, phaselab::app::Pane::Plot(1));
+    assert_eq!(real.lab().focus.pane, phaselab::app::Pane::Plot(1));
     real.press("u");
-    assert_eq!(real.lab().focus, phaselab::app::Pane::Parameters);
+    assert_eq!(real.lab().focus.pane, phaselab::app::Pane::Parameters);
 }
 
 #[test]
 fn undo_and_redo_tell_what_went_where() {
-    let told = |real: &Real| real.app.notice.as_ref().map(|n| n.text.clone()).unwrap_or_default();
+    let told = |real: &Real| {
+        real.app.notifications.shown.as_ref().map(|n| n.text.clone()).unwrap_or_default()
+    };
     let check = |keys: &str, undone: &str, redone: &str| {
         let mut real = Real::of("pendulum");
         real.press(keys);
@@ -291,7 +293,7 @@ proptest! {
         let start = real.state();
         for (edit, wait) in edits {
             // on a value `v` adds a picture, which stays
-            let on_a_value = !matches!(real.lab().focus, phaselab::app::Pane::Plot(_));
+            let on_a_value = !matches!(real.lab().focus.pane, phaselab::app::Pane::Plot(_));
             if EDITS[edit].starts_with('v') && on_a_value {
                 continue;
             }

@@ -34,7 +34,10 @@ fn what_was_looked_at_is_looked_at_again() {
     let (again, effects) = resumed(saved.clone());
     let (lab, before) = (again.lab.as_ref().unwrap(), app.lab.as_ref().unwrap());
     assert_eq!(lab.plots, before.plots);
-    assert_eq!((lab.focus, lab.zoomed, lab.selection), (before.focus, true, before.selection));
+    assert_eq!(
+        (lab.focus.pane, lab.focus.zoomed, lab.selection),
+        (before.focus.pane, true, before.selection)
+    );
     // what was in front of other pictures is so again, wherever the focus is
     press(&mut app, "Tab Tab Tab");
     let in_front = |app: &App| app.lab.as_ref().unwrap().focused_before().collect::<Vec<_>>();
@@ -66,7 +69,7 @@ fn another_system_than_the_session_s_begins_as_always() {
     let saved = Saved { open: "planet".to_owned(), ..kept(&in_lab()) };
     let (app, effects) = resumed(saved);
     assert_eq!(effects, [Effect::Tell(Command::Play)]);
-    assert_eq!(app.lab.unwrap().focus, Pane::Parameters);
+    assert_eq!(app.lab.unwrap().focus.pane, Pane::Parameters);
 }
 
 const FILE: &str = r#"
@@ -97,7 +100,7 @@ fn a_rebuilt_system_is_looked_at_as_before() {
     let text = format!("{FILE}[[observables]]\nname = \"r\"\nexpression = \"sqrt(x^2 + y^2)\"\n");
     let effects = app.update(Event::Rebuilt(lowered(&text)));
     let lab = app.lab.as_ref().unwrap();
-    assert_eq!((lab.focus, lab.plots.len()), (before.focus, before.plots.len()));
+    assert_eq!((lab.focus.pane, lab.plots.len()), (before.focus.pane, before.plots.len()));
     let names = |lab: &phaselab::app::Lab| {
         let name = |i: &usize| lab.loaded.system.channels()[*i].name.clone();
         let names = lab.plots.iter().map(|plot| {
@@ -178,7 +181,8 @@ fn only_a_change_of_the_law_is_one() {
         app.resume(saved);
         let effects = app.update(Event::Loaded(Ok(lowered(text))));
         assert_eq!(changed(&effects).as_deref(), what, "resumed with {text}");
-        let said = app.notice.as_ref().map(|notice| notice.text.clone()).unwrap_or_default();
+        let said =
+            app.notifications.shown.as_ref().map(|notice| notice.text.clone()).unwrap_or_default();
         assert_eq!(said.contains("has changed since"), what.is_some(), "{said}");
     }
 }
@@ -202,7 +206,10 @@ fn the_first_row_of_the_list_goes_on_with_the_session() {
     assert_eq!(effects, [Effect::Tell(Command::Restore(Box::new(saved.moment)))]);
     assert_eq!((app.page, by_option.page), (Page::Equations, Page::Equations));
     let (lab, other) = (app.lab.as_ref().unwrap(), by_option.lab.as_ref().unwrap());
-    assert_eq!((lab.focus, lab.zoomed, &lab.plots), (other.focus, true, &other.plots));
+    assert_eq!(
+        (lab.focus.pane, lab.focus.zoomed, &lab.plots),
+        (other.focus.pane, true, &other.plots)
+    );
 }
 
 /// The row above the systems begins one of one's own; a search is among the systems only.

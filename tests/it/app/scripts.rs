@@ -26,7 +26,7 @@ fn place(app: &App) -> String {
             format!("picker {name}{}", search.unwrap_or_default())
         }
         (Page::Lab, Some(lab)) => {
-            let pane = match lab.focus {
+            let pane = match lab.focus.pane {
                 Pane::Plot(i) => {
                     let plot = &lab.plots[i];
                     let column = |column: &Vec<usize>| match (&column[..], plot.kind.name()) {
@@ -42,7 +42,7 @@ fn place(app: &App) -> String {
                 Pane::Gauges => format!("gauge {}", lab.selection.gauge),
                 Pane::Law => format!("law {}", lab.law_scroll),
             };
-            format!("lab {pane}{}", if lab.zoomed { " zoomed" } else { "" })
+            format!("lab {pane}{}", if lab.focus.zoomed { " zoomed" } else { "" })
         }
         (page, _) => format!("{page:?}").to_lowercase(),
     };
@@ -238,9 +238,11 @@ fn news_of_the_experiment_is_reported_once() {
     let mut told = snapshot(&pendulum(), 2.5);
     told.notices = ["the energy jumped".to_owned()].into();
     app.update(Event::Snapshot(Arc::new(told.clone())));
-    assert!(app.notice.take().is_some_and(|notice| notice.text == "the energy jumped"));
+    assert!(
+        app.notifications.shown.take().is_some_and(|notice| notice.text == "the energy jumped")
+    );
     app.update(Event::Snapshot(Arc::new(told)));
-    assert_eq!(app.notice, None);
+    assert_eq!(app.notifications.shown, None);
 }
 
 #[test]
@@ -279,10 +281,10 @@ pub(super) fn with_impulses(names: &[&str]) -> App {
 fn an_impulse_is_struck_by_its_key_or_by_its_name() {
     let mut app = in_lab();
     assert_eq!(asked(&press(&mut app, "b")), "");
-    assert!(app.notice.is_some_and(|notice| notice.text.contains("no impulses")));
+    assert!(app.notifications.shown.is_some_and(|notice| notice.text.contains("no impulses")));
     let mut app = with_impulses(&[]);
     assert_eq!(asked(&press(&mut app, "b")), "");
-    assert!(app.notice.is_some_and(|notice| notice.text.contains("by themselves")));
+    assert!(app.notifications.shown.is_some_and(|notice| notice.text.contains("by themselves")));
     let mut app = with_impulses(&["push"]);
     assert_eq!(asked(&press(&mut app, "b")), "ApplyImpulse(1)");
     let mut app = with_impulses(&["push", "kick"]);
@@ -297,8 +299,8 @@ fn a_reset_takes_back_what_was_reported_before() {
     for key in ["r", "R"] {
         let mut app = in_lab();
         press(&mut app, "b");
-        assert!(app.notice.is_some());
+        assert!(app.notifications.shown.is_some());
         press(&mut app, key);
-        assert_eq!(app.notice, None, "{key}");
+        assert_eq!(app.notifications.shown, None, "{key}");
     }
 }

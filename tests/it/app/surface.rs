@@ -104,7 +104,9 @@ fn the_direction_is_turned_by_a_key() {
     }
     focus(&mut app, "phase");
     press(&mut app, "|");
-    assert!(app.notice.as_ref().unwrap().text.contains("Only a section has a direction"));
+    assert!(
+        app.notifications.shown.as_ref().unwrap().text.contains("Only a section has a direction")
+    );
 }
 
 /// An angle passes a value once in a turn, in either direction; the sine of half of it vanishes there alone.

@@ -20,7 +20,7 @@ fn undisturbed(name: &str, frames: &[u32]) -> Experiment {
 }
 
 fn said(real: &Real) -> String {
-    real.app.notice.as_ref().map(|notice| notice.text.clone()).unwrap_or_default()
+    real.app.notifications.shown.as_ref().map(|notice| notice.text.clone()).unwrap_or_default()
 }
 
 /// The state, bit by bit.

@@ -76,7 +76,7 @@ fn a_method_is_asked_only_for_what_it_uses() {
         let mut app = in_lab();
         press(&mut app, keys);
         assert!(app.overlay.is_none(), "{keys}");
-        assert_eq!(app.notice.map(|notice| notice.text).as_deref(), Some(told));
+        assert_eq!(app.notifications.shown.map(|notice| notice.text).as_deref(), Some(told));
     }
 }
 
@@ -85,7 +85,7 @@ fn a_value_beyond_its_range_is_taken_and_said() {
     let mut app = in_lab();
     let effects = press(&mut app, "Enter Ctrl-u 9 9 Enter");
     assert_eq!(effects, [Effect::Tell(Command::Parameter { index: 0, value: 99.0 })]);
-    assert!(app.notice.is_some_and(|notice| notice.text.contains("0.1 to 5")));
+    assert!(app.notifications.shown.is_some_and(|notice| notice.text.contains("0.1 to 5")));
 }
 
 #[test]
@@ -95,7 +95,7 @@ fn a_long_paste_is_cut_and_said() {
     app.update(Event::Paste("7".repeat(1 << 20)));
     let Some(Overlay::Field(field)) = &app.overlay else { panic!("the field is gone") };
     assert!(field.input.value().len() <= 4096);
-    assert!(app.notice.is_some());
+    assert!(app.notifications.shown.is_some());
     press(&mut app, "Esc");
     app.update(Event::Paste("q r R".to_owned()));
     assert!(app.overlay.is_none(), "a paste is no keys");

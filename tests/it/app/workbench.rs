@@ -99,7 +99,7 @@ fn what_has_a_name_in_both_texts_is_looked_at_as_before() {
     );
     rest(&mut app);
     let lab = app.lab.as_ref().unwrap();
-    assert!(lab.zoomed);
+    assert!(lab.focus.zoomed);
     assert_eq!(lab.plots.len(), before.len());
     let viewport = |plots: &[Plot]| plots.iter().filter(|p| p.kind.name() == "phase").count();
     assert_eq!(viewport(&lab.plots), viewport(&before));
@@ -261,7 +261,7 @@ fn a_name_that_is_taken_is_asked_for_again() {
     let mut app = edited();
     press(&mut app, "Ctrl-s Enter");
     app.update(Event::FileSaved(Err(SaveError::Exists(PathBuf::from("mine.toml")))));
-    assert!(app.notice.as_ref().unwrap().text.contains("already exists"));
+    assert!(app.notifications.shown.as_ref().unwrap().text.contains("already exists"));
     assert!(sheet(&app).asking.is_some());
     press(&mut app, "Esc");
     assert!(sheet(&app).asking.is_none(), "Esc leaves the question, not the text");
@@ -294,7 +294,7 @@ fn a_file_changed_by_another_program_is_written_over_only_on_demand() {
     let save = press(&mut app, "Ctrl-s");
     assert!(matches!(&save[..], [Effect::Save { known: Some(_), .. }]), "{save:?}");
     app.update(Event::FileSaved(Err(SaveError::Changed)));
-    assert!(app.notice.as_ref().unwrap().text.contains("changed by another program"));
+    assert!(app.notifications.shown.as_ref().unwrap().text.contains("changed by another program"));
     let again = press(&mut app, "Ctrl-s");
     assert!(matches!(&again[..], [Effect::Save { known: None, .. }]), "{again:?}");
     assert_eq!(press(&mut app, "Ctrl-o"), [Effect::Reread(PathBuf::from("./my.toml"))]);
@@ -340,7 +340,7 @@ fn a_watched_file_does_not_replace_what_is_not_saved() {
     let mine = sheet(&app).editor.text();
     app.update(file("title = \"Other\"\n"));
     assert_eq!(sheet(&app).editor.text(), mine);
-    assert!(app.notice.as_ref().unwrap().text.contains("changed by another program"));
+    assert!(app.notifications.shown.as_ref().unwrap().text.contains("changed by another program"));
 }
 
 #[test]
@@ -410,7 +410,7 @@ fn without_resuming_the_file_runs_and_the_text_waits_for_its_editor() {
     press(&mut app, "# Enter");
     let (mut again, effects) = started_again(&app, false);
     assert_eq!(effects, [Effect::Tell(Command::Play)]);
-    assert!(again.notice.as_ref().unwrap().text.contains("E shows them"));
+    assert!(again.notifications.shown.as_ref().unwrap().text.contains("E shows them"));
     assert_eq!(again.update(Event::Tick(Duration::from_secs(1))), []);
     assert_eq!(again.unsaved(), app.unsaved(), "it is kept on");
     // the file is watched, not the text
@@ -438,7 +438,7 @@ fn a_text_from_before_is_not_run_by_a_key() {
     }
     assert!(again.overlay.is_some(), "a field for the surface");
     press(&mut again, "t h e t a = 0 . 2 Enter");
-    let notice = again.notice.as_ref().map_or("", |notice| &notice.text);
+    let notice = again.notifications.shown.as_ref().map_or("", |notice| &notice.text);
     assert!(
         notice.ends_with("has unsaved changes that do not run; E shows and runs them."),
         "{notice}"
@@ -457,7 +457,7 @@ fn another_system_s_start_leaves_kept_texts_alone() {
     let (mut again, _) = App::new(catalog(), Some("planet"));
     again.workbench.put(app.unsaved());
     again.update(Event::Loaded(Ok(loaded("planet", 1))));
-    assert_eq!(again.notice, None);
+    assert_eq!(again.notifications.shown, None);
     press(&mut again, "E Esc");
     assert_eq!(again.unsaved(), app.unsaved());
 }
@@ -483,7 +483,7 @@ fn a_second_rebuild_before_the_first_was_seen_goes_on_with_the_same_motion() {
 fn leaving_keeps_the_text_and_coming_back_finds_it() {
     let mut app = edited();
     press(&mut app, "x y Esc");
-    assert!(app.notice.as_ref().unwrap().text.contains("unsaved changes"));
+    assert!(app.notifications.shown.as_ref().unwrap().text.contains("unsaved changes"));
     assert!(app.overlay.is_none());
     // q in the editor is a letter, in the lab it leaves
     press(&mut app, "E q");
@@ -503,12 +503,12 @@ fn a_text_that_would_be_lost_is_not_lost_at_the_first_q() {
     for keys in ["q", "Esc q"] {
         let mut app = app.clone();
         assert_eq!(press(&mut app, keys), []);
-        assert!(app.notice.as_ref().unwrap().text.ends_with(lost));
+        assert!(app.notifications.shown.as_ref().unwrap().text.ends_with(lost));
         assert_eq!(press(&mut app, "q"), [Effect::Quit]);
     }
     // saving it failed
     kept.stay();
-    assert!(kept.notice.as_ref().unwrap().text.ends_with(lost));
+    assert!(kept.notifications.shown.as_ref().unwrap().text.ends_with(lost));
     assert_eq!(press(&mut kept, "q"), [Effect::Quit]);
 }
 
@@ -524,7 +524,8 @@ fn reading_anew_gives_a_shipped_text_back() {
 
 #[test]
 fn saving_what_has_an_error_says_so() {
-    let told = |app: &App| app.notice.clone().map(|notice| notice.text).unwrap_or_default();
+    let told =
+        |app: &App| app.notifications.shown.clone().map(|notice| notice.text).unwrap_or_default();
     let saved = |app: &mut App| {
         let [Effect::Save { place, text, .. }] = &press(app, "Ctrl-s")[..] else { panic!("no") };
         app.update(Event::FileSaved(Ok((place.clone(), text.clone()))));
@@ -569,7 +570,7 @@ fn of_a_paste_that_is_too_long_the_beginning_is_taken() {
     let mut app = edited();
     let long = "0123456789\n".repeat(100_000);
     app.update(Event::Paste(long.clone()));
-    assert!(app.notice.as_ref().unwrap().text.contains("too long"));
+    assert!(app.notifications.shown.as_ref().unwrap().text.contains("too long"));
     let text = sheet(&app).editor.text();
     let taken = text.bytes().zip(long.bytes()).take_while(|(a, b)| a == b).count();
     assert_eq!(taken, 256 << 10);
@@ -578,7 +579,8 @@ fn of_a_paste_that_is_too_long_the_beginning_is_taken() {
 #[test]
 fn what_becomes_of_a_watched_file_is_reported() {
     let mut app = own_file();
-    let told = |app: &App| app.notice.clone().map(|notice| notice.text).unwrap_or_default();
+    let told =
+        |app: &App| app.notifications.shown.clone().map(|notice| notice.text).unwrap_or_default();
     let text = app.lab.as_ref().unwrap().loaded.document.text.clone();
     app.update(Event::FileThere(false));
     assert_eq!(told(&app), "./my.toml no longer exists; its last valid version keeps running.");

@@ -220,7 +220,7 @@ fn a_key_shows_the_next_principle() {
     assert_eq!(measure(&app, "action", "foci"), Some(0.0));
     let plots = &app.lab.as_ref().unwrap().plots;
     let place = plots.iter().position(|plot| plot.kind.name() == "action").unwrap();
-    app.lab.as_mut().unwrap().focus = Pane::Plot(place);
+    app.lab.as_mut().unwrap().focus.pane = Pane::Plot(place);
     press(&mut app, "Q");
     let maupertuis = shown(&mut app);
     assert!(maupertuis.contains("kinetic focus at t = 2.5"), "{maupertuis}");

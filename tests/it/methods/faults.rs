@@ -4,6 +4,7 @@ use phaselab::integrate::{METHODS, Settings, Stepping};
 use phaselab::system::{Form, MotionErrorKind};
 
 use crate::build::{dissipative, hamiltonian, lagrangian};
+use crate::nonempty;
 
 use super::{Case, case, double_pendulum, fixed, named, pendulum, quartic};
 
@@ -183,7 +184,7 @@ fn every_method_stops_where_somebody_asks() {
 
 #[test]
 fn steps_that_cannot_be_counted_to_the_end_are_refused_at_once() {
-    for method in fixed() {
+    for method in nonempty(fixed()) {
         let mut stepper = pendulum().stepper(method, 1e-300);
         let message = stepper.step(10.0).expect_err("too many").to_string();
         assert!(

@@ -4,6 +4,7 @@ use phaselab::integrate::{Method, Settings, Stepper};
 use phaselab::system::Form;
 
 use crate::build::{dissipative, hamiltonian, lagrangian};
+use crate::nonempty;
 
 use super::{Case, case, double_pendulum, fixed, heavy_top, named, pendulum};
 
@@ -89,7 +90,7 @@ fn what_grows_by_itself_is_not_the_methods_fault() {
 #[test]
 fn steps_where_none_are_asked_for_are_stable() {
     for case in [pendulum(), double_pendulum(), heavy_top()] {
-        for method in fixed().filter(|method| (method.fits)(&case.system).is_ok()) {
+        for method in nonempty(fixed().filter(|method| (method.fits)(&case.system).is_ok())) {
             let mut stepper = case.stepper_with(method, Settings::default());
             for _ in 0..600 {
                 stepper.step(1e6).expect("goes on");

@@ -8,6 +8,7 @@ use super::{
     Case, distance, double_pendulum, driven, entangled, fixed, heavy_top, henon_heiles, named,
     pendulum, quartic,
 };
+use crate::nonempty;
 
 /// ‖M 𝕁 Mᵀ − 𝕁‖ of the map from the start to `time`, M by differences of order 4.
 fn defect(case: &Case, method: &Method, step: f64, time: f64) -> f64 {
@@ -126,7 +127,7 @@ fn a_look_between_steps_disturbs_nothing() {
 
 #[test]
 fn steps_are_counted_not_summed() {
-    for method in fixed() {
+    for method in nonempty(fixed()) {
         let mut stepper = pendulum().stepper(method, 0.1);
         for _ in 0..1000 {
             stepper.step(1e9).expect("goes on");

@@ -153,7 +153,7 @@ fn the_motion_is_seen_wherever_there_is_a_view_of_it() {
             }
         }
         let last = app.lab.as_ref().unwrap().plots.len() - 1;
-        app.lab.as_mut().unwrap().front = Some(last);
+        app.lab.as_mut().unwrap().focus.bring_to_front(last);
         assert!(shown(&app, (80, 24)).has(last), "{}", entry.name);
     }
     assert!(unseen.is_empty(), "{unseen:#?}");

@@ -99,7 +99,7 @@ fn every_pane_answers_in_its_own_frame() {
         let panes: Vec<Pane> = app.lab.as_ref().unwrap().panes().collect();
         for _ in &panes {
             press(&mut app, "Tab");
-            let focus = app.lab.as_ref().unwrap().focus;
+            let focus = app.lab.as_ref().unwrap().focus.pane;
             let belongs = |target: &HitTarget| match *target {
                 HitTarget::Pane(pane) => pane == focus,
                 HitTarget::Plot { index, .. } | HitTarget::Space { index, .. } => {
@@ -201,7 +201,7 @@ fn a_bar_is_dragged_and_taken_back_in_one_step() {
     });
     assert!(bar.len() > 8, "{bar:?}");
     act(&mut real, size, Down(Left), bar[2]);
-    assert_eq!(real.app.hold, Some(Grab::Bar(ValueId::Parameter(1))));
+    assert_eq!(real.app.drag, Some(Grab::Bar(ValueId::Parameter(1))));
     for place in &bar {
         act(&mut real, size, Drag(Left), *place);
         real.app.update(Event::Tick(std::time::Duration::from_secs(2)));
@@ -213,7 +213,7 @@ fn a_bar_is_dragged_and_taken_back_in_one_step() {
     let (_, max, _) = real.lab().value_info(ValueId::Parameter(1)).unwrap().range.unwrap();
     assert_eq!(real.seen().parameters[1], max);
     act(&mut real, size, Up(Left), (119, 0));
-    assert_eq!(real.app.hold, None);
+    assert_eq!(real.app.drag, None);
     real.press("u");
     assert_eq!(real.seen().parameters, before);
     real.press("U");
@@ -358,7 +358,7 @@ fn a_drag_moves_a_part_of_a_scene_in_a_plane() {
 fn keys_zoom_a_plot_about_the_moving_point_or_the_cursor() {
     let mut real = Real::of("pendulum");
     real.run(75);
-    while real.lab().focus != Pane::Plot(1) {
+    while real.lab().focus.pane != Pane::Plot(1) {
         real.press("Tab");
     }
     let now = discs(&real.app, 41..79);
@@ -397,12 +397,12 @@ fn a_motion_in_a_plane_does_not_turn_under_the_mouse() {
     act(&mut real, size, Drag(Left), (x + 6, y - 1));
     act(&mut real, size, Up(Left), (x + 6, y - 1));
     assert_eq!(real.lab().plots, before);
-    let told = real.app.notice.as_ref().map(|notice| notice.text.as_str());
+    let told = real.app.notifications.shown.as_ref().map(|notice| notice.text.as_str());
     assert!(told.is_some_and(|text| text.contains("stays in a plane")), "{told:?}");
     // Keys still turn it, and then the last line says how it is turned back.
     let footer =
         |real: &Real| super::rows(&super::screen(&real.app, &super::rich(), (160, 40)))[39].clone();
-    real.app.notice = None;
+    real.app.notifications.dismiss();
     assert!(!footer(&real).contains("initial view"), "{}", footer(&real));
     real.press("Left");
     assert!(footer(&real).contains("Home initial view"), "{}", footer(&real));
@@ -421,7 +421,7 @@ fn a_drag_turns_a_picture_and_moves_a_window_with_the_mouse() {
         act(&mut real, size, Drag(Left), (x + 3, y));
         act(&mut real, size, Drag(Left), (x + 6, y - 1));
         act(&mut real, size, Up(Left), (x + 6, y - 1));
-        assert_eq!(real.lab().focus, Pane::Plot(picture));
+        assert_eq!(real.lab().focus.pane, Pane::Plot(picture));
         let after = real.lab().plots.clone();
         match (before[picture].sight, after[picture].sight, grabbed) {
             (Sight::Camera(a), Sight::Camera(b), _) => {
@@ -457,10 +457,10 @@ fn clicks_do_what_stands_there() {
     click(&mut real, size, place);
     let place = on(&real, "Initial values");
     click(&mut real, size, place);
-    assert_eq!(real.lab().focus, Pane::Initial);
+    assert_eq!(real.lab().focus.pane, Pane::Initial);
     let place = on(&real, "Gauges");
     click(&mut real, size, place);
-    assert_eq!(real.lab().focus, Pane::Gauges);
+    assert_eq!(real.lab().focus.pane, Pane::Gauges);
     let place = on(&real, "? help");
     click(&mut real, size, place);
     assert!(matches!(real.app.overlay, Some(Overlay::Help { .. })));
@@ -475,7 +475,7 @@ fn clicks_do_what_stands_there() {
     real.press("Tab");
     let place = on(&real, "Parameters");
     click(&mut real, size, place);
-    assert_eq!(real.lab().focus, Pane::Parameters);
+    assert_eq!(real.lab().focus.pane, Pane::Parameters);
 }
 
 #[test]
@@ -493,7 +493,7 @@ fn a_value_is_selected_by_one_click_and_typed_by_two() {
     let plot = places(&real.app, size, |target| matches!(target, HitTarget::Plot { .. }))[0];
     click(&mut real, size, plot);
     assert!(real.app.overlay.is_none());
-    assert!(matches!(real.lab().focus, Pane::Plot(_)), "{:?}", real.lab().focus);
+    assert!(matches!(real.lab().focus.pane, Pane::Plot(_)), "{:?}", real.lab().focus.pane);
     click(&mut real, size, place);
     click(&mut real, size, place);
     real.press("7");
@@ -549,7 +549,7 @@ fn nothing_is_under_a_place_that_shows_nothing() {
         }
     }
     // A dragged knob that is no longer shown, and a value that does not exist.
-    app.hold = Some(Grab::Bar(ValueId::Parameter(99)));
+    app.drag = Some(Grab::Bar(ValueId::Parameter(99)));
     assert_eq!(at(&app, (80, 24), (5, 5)), None);
     let effects = app.update(Event::Mouse(Drag(Left), HitTarget::Text));
     assert!(effects.is_empty());
@@ -570,8 +570,8 @@ fn what_is_held_is_let_go_when_the_keys_lead_elsewhere() {
     let mut real = Real::of("pendulum");
     let bar = places(&real.app, size, |target| matches!(target, HitTarget::Bar { .. }));
     act(&mut real, size, Down(Left), bar[0]);
-    assert!(real.app.hold.is_some());
+    assert!(real.app.drag.is_some());
     real.press("2");
-    assert_eq!(real.app.hold, None);
+    assert_eq!(real.app.drag, None);
     assert_eq!(at(&real.app, size, (20, 20)), Some(HitTarget::Text));
 }

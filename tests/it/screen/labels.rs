@@ -15,6 +15,7 @@ use ratatui::style::Color;
 use super::{rich, rows, screen};
 use crate::app::real::Real;
 use crate::hand::{begun, catalog, gauge, in_lab, lab, loaded, press, snapshot};
+use crate::nonempty;
 
 /// The arrows of a picture in space, as their labels.
 fn arrows(model: &Model) -> Vec<&str> {
@@ -194,7 +195,7 @@ fn no_name_is_written_over_another() {
 fn a_notification_takes_nothing_from_the_frame_below_it() {
     let mut app = in_lab();
     let text = "lift-off at t = 0.5634: the constraint sphere no longer holds";
-    app.notice = Some(Notification::info(text.to_owned()));
+    app.notifications.show(Notification::info(text.to_owned()));
     let buffer = screen(&app, &rich(), (80, 24));
     let (x, y) = super::find(&buffer, "lift-off at").expect("the notification");
     let modifiers = |x: u16| buffer[(x, y)].modifier;
@@ -239,9 +240,9 @@ fn a_notification_leaves_no_part_of_a_word_in_the_frame() {
     let frame = bottom(&app);
     let mark = frame.find("+1 down").expect("a list that is clipped");
     // From a notification that ends before the mark to one that covers it.
-    for long in mark - 8..mark + 9 {
+    for long in nonempty(mark - 8..mark + 9) {
         let text = "x".repeat(long);
-        app.notice = Some(Notification::info(text.clone()));
+        app.notifications.show(Notification::info(text.clone()));
         let row = bottom(&app);
         let rest = row.split_once(&text).expect("the notification").1.replace("+1 down", "");
         assert!(!rest.contains(char::is_alphabetic), "{row}");
@@ -423,7 +424,7 @@ fn the_names_of_the_axes_are_not_written_over_each_other() {
         let mut real = Real::of(name);
         for _ in 0..6 {
             let index = real.lab().motion().unwrap();
-            real.app.lab.as_mut().unwrap().focus = index;
+            real.app.lab.as_mut().unwrap().focus.pane = index;
             real.press("z");
             let corner = rows(&screen(&real.app, &rich(), (80, 24)));
             let corner: Vec<String> =

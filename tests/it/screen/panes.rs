@@ -96,7 +96,7 @@ fn the_law_of_motion_scrolls_where_it_is_clipped() {
         let (_, drawn) = super::drawn(&app, &rich(), size);
         app.update(Event::Drawn(drawn));
         press(&mut app, keys);
-        assert_eq!(app.lab.as_ref().unwrap().focus, Pane::Law, "{size:?}");
+        assert_eq!(app.lab.as_ref().unwrap().focus.pane, Pane::Law, "{size:?}");
         let (buffer, drawn) = super::drawn(&app, &rich(), size);
         app.update(Event::Drawn(drawn));
         let Some(LawInView::Clipped(beyond)) = drawn.panes.map(|panes| panes.law) else {
@@ -120,7 +120,7 @@ fn the_law_of_motion_scrolls_where_it_is_clipped() {
     let panes = DrawnPanes { single: false, ..DrawnPanes::default() };
     app.update(Event::Drawn(Drawn { panes: Some(panes), ..Drawn::default() }));
     press(&mut app, "Shift-Tab");
-    assert!(matches!(app.lab.as_ref().unwrap().focus, Pane::Plot(_)));
+    assert!(matches!(app.lab.as_ref().unwrap().focus.pane, Pane::Plot(_)));
 }
 
 /// On the smallest screen the motion is what is seen, with the status; a key goes to the other panes.
@@ -137,7 +137,10 @@ fn on_the_smallest_screen_the_motion_comes_first() {
         assert!(dots.count() > 5, "{name}: a picture");
         assert!(rows(&buffer)[8].contains("t 2"), "{name}: the status");
         app.update(Event::Drawn(drawn));
-        assert_eq!(app.lab.as_ref().unwrap().focus, app.lab.as_ref().unwrap().motion().unwrap());
+        assert_eq!(
+            app.lab.as_ref().unwrap().focus.pane,
+            app.lab.as_ref().unwrap().motion().unwrap()
+        );
         press(&mut app, "Shift-Tab");
         let buffer = screen(&app, &rich(), (40, 10));
         assert!(find(&buffer, "Gauges").is_some(), "{name}: {:#?}", rows(&buffer));
@@ -146,7 +149,7 @@ fn on_the_smallest_screen_the_motion_comes_first() {
     let mut app = in_lab();
     let (_, drawn) = super::drawn(&app, &rich(), (80, 24));
     app.update(Event::Drawn(drawn));
-    assert_eq!(app.lab.as_ref().unwrap().focus, Pane::Parameters);
+    assert_eq!(app.lab.as_ref().unwrap().focus.pane, Pane::Parameters);
 }
 
 /// Without the footer the panes have its room; a value that is typed is seen all the same.
@@ -154,7 +157,7 @@ fn on_the_smallest_screen_the_motion_comes_first() {
 fn a_footer_can_be_left_out() {
     let mut app = in_lab();
     let with = rows(&screen(&app, &rich(), (80, 24)));
-    app.footer = false;
+    app.footer.shown = false;
     let without = rows(&screen(&app, &rich(), (80, 24)));
     assert!(with[23].contains("quit") && with[22].contains("fps"));
     assert!(without[23].starts_with('╰') || without[23].starts_with('└'), "{without:#?}");
@@ -649,7 +652,7 @@ fn the_energy_reaches_from_one_turning_point_of_a_pendulum_to_the_other() {
         real.look();
         let lab = real.app.lab.as_mut().unwrap();
         let potential = lab.plots.iter().position(|plot| plot.kind.name() == "potential");
-        (lab.focus, lab.zoomed) = (Pane::Plot(potential.expect("a potential")), true);
+        (lab.focus.pane, lab.focus.zoomed) = (Pane::Plot(potential.expect("a potential")), true);
         let buffer = screen(&real.app, &rich(), (120, 40));
         let warn = rich().theme[Role::Warn].fg.unwrap();
         let amber = |y: u16| -> Vec<u16> {
@@ -725,7 +728,7 @@ fn news_are_reported_one_after_the_other_and_leave_the_hints_room() {
         app.update(Event::Tick(Duration::from_millis(2100)));
     }
     app.update(Event::Tick(Duration::from_secs(6)));
-    assert_eq!(app.notice, None);
+    assert_eq!(app.notifications.shown, None);
 }
 
 #[test]
@@ -898,7 +901,7 @@ fn a_notice_leaves_the_keys_in_sight() {
     for (text, size) in [("struck", (80, 24)), (long.as_str(), (80, 24)), ("struck", (40, 10))] {
         let mut app = in_lab();
         let before = rows(&screen(&app, &rich(), size));
-        app.notice = Some(Notification::info(text));
+        app.notifications.show(Notification::info(text));
         let after = rows(&screen(&app, &rich(), size));
         let last = usize::from(size.1) - 1;
         assert_eq!(after[last - 1..], before[last - 1..], "status and keys are as they were");
@@ -918,9 +921,9 @@ fn a_notice_blanks_nothing_beside_it_but_what_is_left_of_words_in_a_frame() {
         press(&mut app, keys);
         for size in [(80, 24), (60, 16), (120, 12)] {
             let before = rows(&screen(&app, &rich(), size));
-            app.notice = Some(Notification::info("told"));
+            app.notifications.show(Notification::info("told"));
             let after = rows(&screen(&app, &rich(), size));
-            app.notice = None;
+            app.notifications.dismiss();
             let last = usize::from(size.1) - 3;
             let beside = |row: &str| row.chars().skip(9).collect::<String>();
             assert_eq!(beside(&after[last]), beside(&before[last]), "page {keys} at {size:?}");
@@ -932,7 +935,7 @@ fn a_notice_blanks_nothing_beside_it_but_what_is_left_of_words_in_a_frame() {
     let before = rows(&screen(&app, &rich(), size));
     let mut torn = 0;
     for long in 78..110 {
-        app.notice = Some(Notification::info(format!("{0} {0} {0}", "m".repeat(long))));
+        app.notifications.show(Notification::info(format!("{0} {0} {0}", "m".repeat(long))));
         let after = rows(&screen(&app, &rich(), size));
         for row in (0..after.len()).filter(|row| after[*row].contains(&"m".repeat(long))) {
             let [before, after] = [&before, &after].map(|rows| rows[row].chars().skip(3 + long));
@@ -947,13 +950,13 @@ fn a_notice_blanks_nothing_beside_it_but_what_is_left_of_words_in_a_frame() {
     assert!(torn > 5, "{torn} of\n{}", before.join("\n"));
     let mut app = lab("heavy-top", 1.0);
     if let Some(lab) = &mut app.lab {
-        (lab.focus, lab.zoomed) = (Pane::Initial, true);
+        (lab.focus.pane, lab.focus.zoomed) = (Pane::Initial, true);
     }
     let size = (40, 10);
     let before = rows(&screen(&app, &rich(), size));
     assert!(before[7].contains(" ↓"), "{before:#?}");
     for long in 3..36 {
-        app.notice = Some(Notification::info("m".repeat(long)));
+        app.notifications.show(Notification::info("m".repeat(long)));
         let after = rows(&screen(&app, &rich(), size));
         let rest = after[7].trim_start_matches(['╰', '─', ' ']).trim_start_matches('m');
         let words: String = rest.chars().filter(|c| !"─╯ ".contains(*c)).collect();

@@ -4,13 +4,14 @@ use phaselab::app::App;
 use phaselab::view::RenderStyle;
 use phaselab::view::colour::{ColourDepth, Rgb};
 use phaselab::view::glyphs::Glyphs;
-use phaselab::view::theme::{PALETTES, Role, Theme};
+use phaselab::view::theme::{PALETTES, Palette, Role, Theme};
 use ratatui::buffer::{Buffer, Cell};
-use ratatui::style::Color;
+use ratatui::style::{Color, Style};
 
 use super::{rich, screen};
 use crate::app::real::Real;
 use crate::hand::{begun, lab};
+use crate::nonempty;
 
 /// The pane of the momentum sphere at 120 × 40: its columns, its rows.
 const PANE: [std::ops::Range<u16>; 2] = [41..79, 2..22];
@@ -188,34 +189,40 @@ fn a_thick_body_is_filled_while_it_turns() {
 /// The side in the shade is told from the background in every palette, and so is the brightest one.
 #[test]
 fn no_tone_is_lost_in_the_background() {
-    for palette in &PALETTES {
-        let theme = Theme::new(palette, ColourDepth::True);
-        let styles = [theme[Role::Level]].into_iter().chain((0..7).map(|n| theme.curve(n)));
-        for tones in styles.filter_map(|style| theme.tones(style)) {
-            for tone in tones {
-                let ratio = Rgb::of(*tone).expect("a colour").contrast(palette.background);
-                assert!(ratio >= 1.45, "{}: {tone:?} {ratio}", palette.name);
-            }
-        }
+    for (palette, _, tone) in nonempty(tones(ColourDepth::True)) {
+        let ratio = Rgb::of(tone).expect("a colour").contrast(palette.background);
+        assert!(ratio >= 1.45, "{}: {tone:?} {ratio}", palette.name);
     }
+}
+
+/// The styles of level curves and series.
+fn styles(theme: &Theme) -> Vec<Style> {
+    [theme[Role::Level]].into_iter().chain((0..7).map(|n| theme.curve(n))).collect()
+}
+
+/// The tones of every palette that has some, with the theme at this depth.
+fn tones(depth: ColourDepth) -> impl Iterator<Item = (&'static Palette, Theme, Color)> {
+    let palettes: &'static [Palette] = &PALETTES;
+    palettes.iter().flat_map(move |palette| {
+        let theme = Theme::new(palette, depth);
+        let tones = styles(&theme).into_iter().filter_map(|style| theme.tones(style));
+        let tones: Vec<Color> = tones.flatten().copied().collect();
+        tones.into_iter().map(move |tone| (palette, theme.clone(), tone))
+    })
 }
 
 /// A line on any tone differs from it in brightness, whatever its own colour, at both depths that have tones.
 #[test]
 fn whatever_is_written_on_a_tone_is_legible() {
-    for palette in &PALETTES {
-        for depth in [ColourDepth::True, ColourDepth::Ansi256] {
-            let theme = Theme::new(palette, depth);
-            let styles: Vec<_> =
-                [theme[Role::Level]].into_iter().chain((0..7).map(|n| theme.curve(n))).collect();
-            for tone in styles.iter().filter_map(|style| theme.tones(*style)).flatten() {
-                for style in styles.iter().chain([&theme[Role::Dim], &theme[Role::Accent]]) {
-                    let written = theme.legible(*style, *tone).fg.and_then(Rgb::of);
-                    let written = written.unwrap_or(palette.foreground).brightness();
-                    let behind = Rgb::of(*tone).expect("a colour").brightness();
-                    let apart = (written - behind).abs();
-                    assert!(apart >= 0.25, "{} {depth:?}: {style:?} on {tone:?}", palette.name);
-                }
+    for depth in [ColourDepth::True, ColourDepth::Ansi256] {
+        for (palette, theme, tone) in nonempty(tones(depth)) {
+            let written = [theme[Role::Dim], theme[Role::Accent]];
+            for style in nonempty(styles(&theme).into_iter().chain(written)) {
+                let written = theme.legible(style, tone).fg.and_then(Rgb::of);
+                let written = written.unwrap_or(palette.foreground).brightness();
+                let behind = Rgb::of(tone).expect("a colour").brightness();
+                let apart = (written - behind).abs();
+                assert!(apart >= 0.25, "{} {depth:?}: {style:?} on {tone:?}", palette.name);
             }
         }
     }

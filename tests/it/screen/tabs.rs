@@ -29,7 +29,7 @@ fn the_shown_list_is_named_in_its_frame_whatever_its_width() {
         for size in [(80, 15), (80, 14), (70, 14), (64, 12), (50, 22), (40, 24)] {
             for (pane, name, _) in LISTS {
                 if let Some(lab) = &mut real.app.lab {
-                    lab.focus = pane;
+                    lab.focus.pane = pane;
                 }
                 let drawn = rows(&screen(&real.app, &style, size));
                 let border = |row: &&String| row.contains('╭') || row.contains("+-");
@@ -44,7 +44,7 @@ fn the_shown_list_is_named_in_its_frame_whatever_its_width() {
 fn all_titles_fit_beside_a_plot_of_a_standard_screen_and_are_clicked_there() {
     let mut real = Real::of("pendulum");
     if let Some(lab) = &mut real.app.lab {
-        lab.focus = Pane::Gauges;
+        lab.focus.pane = Pane::Gauges;
     }
     let size = (80, 15);
     let buffer = screen(&real.app, &rich(), size);
@@ -67,7 +67,7 @@ fn a_tab_stays_while_another_picture_has_the_focus() {
         let (potential, other) =
             (place("potential"), if size.0 == 80 { 0 } else { place("phase") });
         for index in [potential, other] {
-            real.app.lab.as_mut().unwrap().focus = Pane::Plot(index);
+            real.app.lab.as_mut().unwrap().focus.pane = Pane::Plot(index);
             real.app.update(Event::Tick(std::time::Duration::ZERO));
         }
         let buffer = screen(&real.app, &rich(), size);
@@ -102,7 +102,7 @@ fn pictures_that_share_a_frame_are_named_as_far_as_there_is_room() {
     let area = Rect::new(0, 0, size.0, size.1);
     let next = hit_test(&real.app, &rich(), area, x, y);
     let Some(HitTarget::Pane(Pane::Plot(index))) = next else { panic!("{next:?}") };
-    real.app.lab.as_mut().unwrap().focus = Pane::Plot(index);
+    real.app.lab.as_mut().unwrap().focus.pane = Pane::Plot(index);
     real.app.update(Event::Tick(std::time::Duration::ZERO));
     let middle = hit_test(&real.app, &rich(), area, 60, 8);
     let is_shown = matches!(middle, Some(HitTarget::Plot { index: shown, .. }) if shown == index);

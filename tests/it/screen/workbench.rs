@@ -180,9 +180,9 @@ fn what_is_reported_leaves_the_keys_in_sight() {
     let told = "Saved: /home/somebody/a/long/way/to/a/file.toml, with 1 error: 12:3 no such name";
     for size in [(80, 24), (120, 40), (200, 60)] {
         for look in [rich(), plain()] {
-            app.notice = None;
+            app.notifications.dismiss();
             let before = rows(&screen(&app, &look, size));
-            app.notice = Some(Notification::error(told));
+            app.notifications.show(Notification::error(told));
             let after = rows(&screen(&app, &look, size));
             assert_eq!(before.last(), after.last(), "{size:?}");
             assert!(after.last().unwrap().contains("F1 help"), "{after:#?}");
@@ -232,8 +232,8 @@ fn the_text_has_the_rows_that_messages_leave() {
         let (buffer, shown) = drawn(&app, &rich(), (80, height));
         assert!(shown.rows >= least, "{}: {:#?}", shown.rows, rows(&buffer));
     }
-    app.notice = Some(Notification::info("lift-off at t = 2"));
+    app.notifications.show(Notification::info("lift-off at t = 2"));
     assert_eq!(drawn(&app, &rich(), (80, 24)).1.rows, 18, "a line in place of the status");
-    app.notice = Some(Notification::info("a message that is longer than a line ".repeat(2)));
+    app.notifications.show(Notification::info("a message that is longer than a line ".repeat(2)));
     assert_eq!(drawn(&app, &rich(), (80, 24)).1.rows, 17);
 }

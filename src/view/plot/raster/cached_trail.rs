@@ -32,7 +32,7 @@ struct StrokeStamp {
 
 /// A trail over a frame.
 #[derive(Clone, Debug)]
-pub struct KeptTrail {
+pub struct CachedTrail {
     blank: Raster,
     /// The newest stamp of each dot, cell by cell; −∞ where there never was one.
     stamps: Vec<[f64; DOTS]>,
@@ -77,7 +77,7 @@ impl Ages<'_> {
     }
 }
 
-impl KeptTrail {
+impl CachedTrail {
     /// Creates an empty trail over a frame: fading, or a line with a pattern.
     pub fn new(frame: &PlotFrame, glyphs: Glyphs, line: Option<Dash>) -> Self {
         let blank = Raster::new(frame.area, glyphs);
@@ -230,13 +230,14 @@ mod tests {
             PlotFrame::new(Scale::linear(-1.0, 1.0).wrapped(2.0), whole, area),
         ];
         let points = walk(900);
+        assert_eq!(points.len(), 900);
         for (frame, depth) in
             frames.iter().flat_map(|f| [ColourDepth::True, ColourDepth::None].map(|d| (f, d)))
         {
             let theme = Theme::dark(depth);
             let ramp = theme.trail(1);
             for glyphs in [Glyphs::Braille, Glyphs::HalfBlock, Glyphs::Ascii] {
-                let mut kept = KeptTrail::new(frame, glyphs, None);
+                let mut kept = CachedTrail::new(frame, glyphs, None);
                 for (index, point) in points.iter().enumerate() {
                     kept.to([point[0], point[1], 0.0], index as f64);
                     let count = index + 1;
@@ -269,7 +270,7 @@ mod tests {
         let scale = Scale::linear(0.0, 1.0);
         let frame = PlotFrame::new(scale, scale, area);
         let theme = Theme::dark(ColourDepth::True);
-        let mut kept = KeptTrail::new(&frame, Glyphs::Braille, None);
+        let mut kept = CachedTrail::new(&frame, Glyphs::Braille, None);
         kept.to([0.0, 0.1, 0.0], 0.0);
         kept.to([0.4, 0.1, 0.0], 1.0);
         kept.to([0.9, 0.8, 0.0], 2.0);

@@ -1,4 +1,4 @@
-//! What is kept between frames until what it shows changes: drawn trails, level curves, lines of pictures and the text of
+//! A cache between frames, of what is drawn until what it shows changes: drawn trails, level curves, lines of pictures and the text of
 //! the law.
 //!
 //! In: the recorded motion, and what decides how it is drawn. Out: the same picture as without it, at the cost of what
@@ -10,7 +10,7 @@ use ratatui::style::Style;
 
 use super::RenderStyle;
 use super::glyphs::Glyphs;
-use super::plot::{Ages, Camera, KeptTrail, PlotFrame, Raster};
+use super::plot::{Ages, CachedTrail, Camera, PlotFrame, Raster};
 use super::quantity::QuantitySource;
 use super::theme::{Dash, Shade};
 use crate::analysis::Landscape;
@@ -21,29 +21,29 @@ use crate::mechanics::Equations;
 /// The styled pieces of a row of text.
 type Row = Vec<(String, Style)>;
 
-/// Everything that is kept.
+/// What was drawn in the last frames.
 #[derive(Debug, Default)]
-pub(super) struct Kept {
-    look: Option<KeptStyle>,
-    trails: Vec<Held<TrailKey, DrawnTrail>>,
-    levels: Vec<Held<LevelsKey, Raster>>,
-    lines: Vec<Held<LinesKey, Raster>>,
+pub(super) struct FrameCache {
+    look: Option<CachedStyle>,
+    trails: Vec<CachedEntry<TrailKey, DrawnTrail>>,
+    levels: Vec<CachedEntry<LevelsKey, Raster>>,
+    lines: Vec<CachedEntry<LinesKey, Raster>>,
     law: Option<(LawKey, Vec<Row>)>,
     /// How many rows of trails have been stroked.
     stroked: u64,
 }
 
-/// The parts of a render style that decide how something kept looks.
+/// The parts of a render style that decide how what is cached looks.
 #[derive(Debug, PartialEq)]
-struct KeptStyle {
+struct CachedStyle {
     palette: &'static str,
     trail: Vec<Shade>,
     glyphs: Glyphs,
 }
 
-/// Something kept, and whether the current frame needed it.
+/// An entry, and whether the current frame needed it.
 #[derive(Debug)]
-struct Held<Key, Value> {
+struct CachedEntry<Key, Value> {
     key: Key,
     value: Value,
     used: bool,
@@ -75,7 +75,7 @@ pub(super) enum Track {
 /// A drawn trail, and the rows by which its continuation is known.
 #[derive(Debug)]
 struct DrawnTrail {
-    trail: KeptTrail,
+    trail: CachedTrail,
     first: Vec<f64>,
     last: Vec<f64>,
 }
@@ -95,17 +95,17 @@ struct LinesKey {
     frame: PlotFrame,
 }
 
-/// The law whose text is kept, and its width in columns.
+/// The law whose text is cached, and its width in columns.
 #[derive(Debug)]
 struct LawKey {
     equations: Arc<Equations>,
     width: u16,
 }
 
-impl Kept {
-    /// Begins a frame. Nothing is kept of another theme or other characters.
+impl FrameCache {
+    /// Begins a frame. Nothing stays of another theme or other characters.
     pub(super) fn begin(&mut self, style: &RenderStyle) {
-        let look = KeptStyle {
+        let look = CachedStyle {
             palette: style.theme.palette().name,
             trail: style.theme.trail(0).to_vec(),
             glyphs: style.glyphs,
@@ -113,16 +113,16 @@ impl Kept {
         if self.look.as_ref() != Some(&look) {
             *self = Self { look: Some(look), stroked: self.stroked, ..Self::default() };
         }
-        self.trails.iter_mut().for_each(|kept| kept.used = false);
-        self.levels.iter_mut().for_each(|kept| kept.used = false);
-        self.lines.iter_mut().for_each(|kept| kept.used = false);
+        self.trails.iter_mut().for_each(|entry| entry.used = false);
+        self.levels.iter_mut().for_each(|entry| entry.used = false);
+        self.lines.iter_mut().for_each(|entry| entry.used = false);
     }
 
     /// Ends a frame: what it did not need is dropped.
     pub(super) fn end(&mut self) {
-        self.trails.retain(|kept| kept.used);
-        self.levels.retain(|kept| kept.used);
-        self.lines.retain(|kept| kept.used);
+        self.trails.retain(|entry| entry.used);
+        self.levels.retain(|entry| entry.used);
+        self.lines.retain(|entry| entry.used);
     }
 
     /// The trail of a motion, carried on to its newest row; `locate` gives the point of a row: right, up, towards the
@@ -132,14 +132,14 @@ impl Kept {
         key: TrailKey,
         (rows, glyphs): (&Trail, Glyphs),
         locate: impl Fn(&[f64]) -> Option<[f64; 3]>,
-    ) -> &KeptTrail {
-        let found = self.trails.iter().position(|kept| kept.key == key);
+    ) -> &CachedTrail {
+        let found = self.trails.iter().position(|entry| entry.key == key);
         let index = found.unwrap_or_else(|| {
             let value = DrawnTrail::empty(&key, glyphs);
-            self.trails.push(Held { key, value, used: true });
+            self.trails.push(CachedEntry { key, value, used: true });
             self.trails.len() - 1
         });
-        let Held { key, value, used } = &mut self.trails[index];
+        let CachedEntry { key, value, used } = &mut self.trails[index];
         *used = true;
         let new = value.continuation(rows).unwrap_or_else(|| {
             *value = DrawnTrail::empty(key, glyphs);
@@ -166,14 +166,14 @@ impl Kept {
         (frame, level): (&PlotFrame, u8),
         draw: impl FnOnce() -> Raster,
     ) -> &Raster {
-        let same = |kept: &Held<LevelsKey, Raster>| {
-            Arc::ptr_eq(&kept.key.landscape, landscape)
-                && kept.key.frame == *frame
-                && kept.key.level == level
+        let same = |entry: &CachedEntry<LevelsKey, Raster>| {
+            Arc::ptr_eq(&entry.key.landscape, landscape)
+                && entry.key.frame == *frame
+                && entry.key.level == level
         };
         let index = self.levels.iter().position(same).unwrap_or_else(|| {
             let key = LevelsKey { landscape: Arc::clone(landscape), frame: *frame, level };
-            self.levels.push(Held { key, value: draw(), used: true });
+            self.levels.push(CachedEntry { key, value: draw(), used: true });
             self.levels.len() - 1
         });
         self.levels[index].used = true;
@@ -187,14 +187,14 @@ impl Kept {
         frame: &PlotFrame,
         draw: impl FnOnce() -> Raster,
     ) -> &Raster {
-        let same = |kept: &Held<LinesKey, Raster>| {
-            kept.key.frame == *frame
-                && kept.key.lines.len() == lines.len()
-                && kept.key.lines.iter().zip(lines).all(|(a, b)| same_line(a, b))
+        let same = |entry: &CachedEntry<LinesKey, Raster>| {
+            entry.key.frame == *frame
+                && entry.key.lines.len() == lines.len()
+                && entry.key.lines.iter().zip(lines).all(|(a, b)| same_line(a, b))
         };
         let index = self.lines.iter().position(same).unwrap_or_else(|| {
             let key = LinesKey { lines: lines.to_vec(), frame: *frame };
-            self.lines.push(Held { key, value: draw(), used: true });
+            self.lines.push(CachedEntry { key, value: draw(), used: true });
             self.lines.len() - 1
         });
         self.lines[index].used = true;
@@ -225,7 +225,7 @@ impl DrawnTrail {
             Track::Curve(_, dash, _) => Some(dash),
             Track::Channels(_) | Track::Recent(..) | Track::Point(..) => None,
         };
-        let trail = KeptTrail::new(&key.frame, glyphs, line);
+        let trail = CachedTrail::new(&key.frame, glyphs, line);
         Self { trail, first: Vec::new(), last: Vec::new() }
     }
 

@@ -1,4 +1,4 @@
-//! A system held at an instant: whatever depends on the time keeps the value it has then, so that the energy is
+//! A system frozen at an instant: whatever depends on the time keeps the value it has then, so that the energy is
 //! conserved and the motion of one coordinate returns.
 //!
 //! In: a model, a coordinate, the time and the state of a motion. Out: the action, period and energy of that coordinate as if
@@ -25,11 +25,11 @@ use crate::system::{ChannelKind, CompileError, InitialOverride, MotionError, Sys
 
 /// Why a system has no action variable, as a sentence for the user.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
-pub enum NotHeld {
+pub enum NotFrozen {
     /// Its variables are given by their brackets.
     #[error("variables given by their brackets have no momenta, and no actions")]
     NoMomenta,
-    /// It is held to constraints.
+    /// It is subject to constraints.
     #[error(
         "under constraints there is no action of a coordinate: choose coordinates that need none"
     )]
@@ -48,9 +48,9 @@ pub enum NotHeld {
     Compile(String),
 }
 
-impl From<CompileError> for NotHeld {
+impl From<CompileError> for NotFrozen {
     fn from(why: CompileError) -> Self {
-        NotHeld::Compile(why.to_string())
+        NotFrozen::Compile(why.to_string())
     }
 }
 
@@ -65,7 +65,7 @@ pub struct OwnMotion {
 
 /// A system of which everything that depends on the time stands still, compiled with the events by which returns are
 /// located.
-pub struct HeldSystem {
+pub struct FrozenSystem {
     coordinate: usize,
     turning: System,
     turns: String,
@@ -75,7 +75,7 @@ pub struct HeldSystem {
     method: (&'static Method, Settings),
 }
 
-impl HeldSystem {
+impl FrozenSystem {
     /// Settings of the motions by which returns are located, for more digits than are shown.
     pub const PRECISE: Settings = Settings { step: None, tolerance: Some(1e-15) };
 
@@ -88,17 +88,17 @@ impl HeldSystem {
         coordinate: usize,
         settings: Settings,
         cancel: &Cancel,
-    ) -> Result<Self, NotHeld> {
+    ) -> Result<Self, NotFrozen> {
         if model.is_poisson() {
-            return Err(NotHeld::NoMomenta);
+            return Err(NotFrozen::NoMomenta);
         }
         if !model.constraints.is_empty() {
-            return Err(NotHeld::Constrained);
+            return Err(NotFrozen::Constrained);
         }
         let scheduled = |impulse: &Impulse| !impulse.times.is_empty() || impulse.period.is_some();
         let strikes = |event: &Event| matches!(event.action, EventAction::Impulse(_));
         if model.impulses.iter().any(scheduled) || model.events.iter().any(strikes) {
-            return Err(NotHeld::Impulses);
+            return Err(NotFrozen::Impulses);
         }
         let mut model = model.clone();
         model.leave_views_out();
@@ -118,10 +118,10 @@ impl HeldSystem {
         let depends_on_time = hold_time(&mut model);
         let action = model.pool.variable(model.symbols.action);
         let columns = [WrittenExpr { written: "action".to_owned(), expression: action }];
-        let compile = |model: &Model| -> Result<System, NotHeld> {
+        let compile = |model: &Model| -> Result<System, NotFrozen> {
             let equations = derive_for_motion(model)?;
             if equations.energy_rate != Expr::ZERO {
-                return Err(NotHeld::EnergyNotConserved);
+                return Err(NotFrozen::EnergyNotConserved);
             }
             Ok(System::compile(model, &equations, &columns)?.with_cancel(cancel.clone()))
         };
@@ -157,7 +157,7 @@ impl HeldSystem {
         time: f64,
         parameters: &[f64],
         [positions, momenta]: [&[f64]; 2],
-    ) -> Result<HeldMotion<'a>, MotionError> {
+    ) -> Result<FrozenMotion<'a>, MotionError> {
         let mut parameters = parameters.to_vec();
         parameters.push(time);
         let positions = positions.iter().enumerate();
@@ -168,7 +168,7 @@ impl HeldSystem {
             .collect();
         let start = Start { time: 0.0, parameters, overrides };
         let potential = EffectivePotential::survey(&self.turning, &start, self.coordinate)?;
-        Ok(HeldMotion { held: self, start, potential })
+        Ok(FrozenMotion { frozen: self, start, potential })
     }
 
     /// The place of a quantity among the columns of the system.
@@ -188,29 +188,29 @@ impl HeldSystem {
     }
 }
 
-/// A held system at one instant, with the other coordinates as they are.
-pub struct HeldMotion<'a> {
-    held: &'a HeldSystem,
+/// A frozen system at one instant, with the other coordinates as they are.
+pub struct FrozenMotion<'a> {
+    frozen: &'a FrozenSystem,
     start: Start,
     potential: EffectivePotential<'a>,
 }
 
-impl HeldMotion<'_> {
+impl FrozenMotion<'_> {
     /// The coordinate as the motion has it.
     ///
     /// # Errors
     /// Returns an error if the state cannot be observed.
     pub fn own(&mut self) -> Result<OwnMotion, MotionError> {
-        let system = &self.held.turning;
+        let system = &self.frozen.turning;
         let mut values = vec![0.0; system.columns()];
         let state = self.start.state(system)?;
         system.observer(&self.start.parameters).observe_columns(&state, &mut values)?;
-        let place = values[self.held.column(ChannelKind::Position(self.held.coordinate))];
-        let energy = values[self.held.column(ChannelKind::Energy)];
+        let place = values[self.frozen.column(ChannelKind::Position(self.frozen.coordinate))];
+        let energy = values[self.frozen.column(ChannelKind::Energy)];
         let along = (energy, way(self.potential.velocity(&self.start)?));
         let regions = self.potential.regions(energy);
         let row = match nearest(&regions, place, self.potential.period()) {
-            Some(region) => action_row(&mut self.potential, &self.held.systems(), region, along),
+            Some(region) => action_row(&mut self.potential, &self.frozen.systems(), region, along),
             None => Err(NoAction::NoReturn("the coordinate is at rest".to_owned())),
         };
         Ok(OwnMotion { energy, row })
@@ -221,15 +221,15 @@ impl HeldMotion<'_> {
     /// # Errors
     /// Returns an error if the motion does not return, or the state cannot be observed.
     pub fn angle(&mut self, row: &ActionRow) -> Result<f64, NoAction> {
-        let system = &self.held.turning;
+        let system = &self.frozen.turning;
         let mut values = vec![0.0; system.columns()];
         let observed = self.start.state(system).and_then(|state| {
             system.observer(&self.start.parameters).observe_columns(&state, &mut values)
         });
         observed.map_err(|why| NoAction::NoReturn(why.to_string()))?;
-        let value = |kind| values[self.held.column(kind)];
-        let place = value(ChannelKind::Position(self.held.coordinate));
-        let velocity = value(ChannelKind::Velocity(self.held.coordinate));
+        let value = |kind| values[self.frozen.column(kind)];
+        let place = value(ChannelKind::Position(self.frozen.coordinate));
+        let velocity = value(ChannelKind::Velocity(self.frozen.coordinate));
         angle(&mut self.potential, row, place, velocity)
     }
 
@@ -242,7 +242,7 @@ impl HeldMotion<'_> {
         let along = (energy, way(velocity));
         let mut rows = Vec::new();
         for region in self.potential.regions(energy) {
-            let row = action_row(&mut self.potential, &self.held.systems(), region, along)?;
+            let row = action_row(&mut self.potential, &self.frozen.systems(), region, along)?;
             if row.kind != RegionKind::Unbounded {
                 rows.push(row);
             }
@@ -277,11 +277,11 @@ fn way(velocity: f64) -> Root {
 
 /// Puts a parameter in the place of the time, the last of all, and returns whether the law depends on it.
 fn hold_time(model: &mut Model) -> bool {
-    const NAME: &str = "the instant at which it is held";
+    const NAME: &str = "the instant at which it is frozen";
     let symbol = model.pool.symbol(NAME);
-    let held = model.pool.variable(symbol);
+    let frozen = model.pool.variable(symbol);
     let time = model.symbols.time;
-    let map: HashMap<Symbol, Expr> = HashMap::from([(time, held)]);
+    let map: HashMap<Symbol, Expr> = HashMap::from([(time, frozen)]);
     let Model { pool, mechanics, parameters, .. } = model;
     let mut depends = false;
     for e in mechanics.expressions_mut() {

@@ -1,0 +1,85 @@
+//! The distances of a gauge from its reference, and the drift they are.
+//!
+//! In: distances, and what moved at that time. Out: the greatest of them, and their history. Never here: what a distance is measured
+//! from, or which of them rounding explains.
+
+use super::mean::Mean;
+use crate::analysis::History;
+
+/// The distances from the reference since it was taken.
+#[derive(Clone, Debug)]
+pub(super) struct DriftRecord {
+    /// The last distance.
+    pub(super) last: f64,
+    /// The mean size of the moving part.
+    pub(super) moving: Mean,
+    /// The greatest distance.
+    pub(super) farthest: f64,
+    /// The greatest drift: a distance over the mean moving part up to that time, or over the moving part at that time
+    /// if it was greater.
+    pub(super) worst: f64,
+    /// When the drift first exceeded the limit.
+    pub(super) left: Option<f64>,
+    /// The first distances beyond rounding, as long as it is not known how much moves.
+    pub(super) early: Early,
+    /// The signed distances.
+    pub(super) distances: History,
+}
+
+impl DriftRecord {
+    pub(super) fn beginning(moving: Mean) -> DriftRecord {
+        DriftRecord {
+            last: 0.0,
+            moving,
+            farthest: 0.0,
+            worst: 0.0,
+            left: None,
+            early: Early::default(),
+            distances: History::new(),
+        }
+    }
+}
+
+/// A distance from the reference, and what moved at that time.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Distance {
+    pub(super) time: f64,
+    pub(super) size: f64,
+    pub(super) moving: f64,
+}
+
+/// The number of first looks, whose distances are deferred until there were …
+const FIRST_LOOKS: u32 = 64;
+
+/// … so many.
+const LOOKS_TO_KNOW: u32 = 2 * FIRST_LOOKS;
+
+/// The distances at the first looks. A motion that begins at rest moves little in its first steps, and the error of the first
+/// may be as large as all that has moved: they are compared with what moves a few steps later.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Early {
+    looks: u32,
+    pub(super) distances: Vec<Distance>,
+}
+
+impl Early {
+    /// That of a motion that has moved.
+    pub(super) fn over() -> Early {
+        Early { looks: LOOKS_TO_KNOW + 1, distances: Vec::new() }
+    }
+
+    /// Whether what moves is just known.
+    pub(super) fn is_known(&self) -> bool {
+        self.looks == LOOKS_TO_KNOW
+    }
+
+    /// Takes a look, with a distance if rounding does not explain it. Returns whether the distance is deferred.
+    pub(super) fn take(&mut self, distance: Option<Distance>) -> bool {
+        if self.looks < LOOKS_TO_KNOW {
+            self.looks += 1;
+        }
+        let is_first = self.looks <= FIRST_LOOKS;
+        self.distances.extend(distance.filter(|_| is_first));
+        is_first
+    }
+}
