@@ -88,16 +88,17 @@ fn text(study: &Study, map: &FlowMap) -> String {
     if let (Some(found), Some(expected)) = (map.determinant, map.determinant_expected) {
         text.push_str(&format!("det M = {}, expected {}\n", shown(found), shown(expected)));
     }
-    if let (Some(residual), Some(rounding)) = (map.symplectic_residual, map.symplectic_rounding) {
+    if let Some(residual) = map.symplectic_residual {
         let form = if study.space.is_constrained() {
             "|MᵀJM − PᵀJP|, P the projection onto them"
         } else {
             "|MJMᵀ − J|"
         };
-        text.push_str(&format!(
-            "largest entry of {form}: {}, of which rounding may be {rounding:.0e}\n",
-            magnitude(residual)
-        ));
+        let left = match map.symplectic_rounding {
+            Some(rounding) => format!("of which rounding may be {rounding:.0e}"),
+            None => "next to where M has no limit".to_owned(),
+        };
+        text.push_str(&format!("largest entry of {form}: {}, {left}\n", magnitude(residual)));
     }
     text
 }

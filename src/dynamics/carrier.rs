@@ -19,6 +19,9 @@ use crate::system::{MotionError, MotionErrorKind, Saltation, State, System};
 /// A motion changes within as many steps as these, also where they are short.
 const STEPS: f64 = 100.0;
 
+/// A motion continues where it goes on for this part of the time that it has lasted.
+const BEYOND: f64 = 1e-2;
+
 /// A motion with tangent vectors, in steps of a method. Under a method of fixed step the vectors
 /// are those of the method's own map.
 pub struct Carrier {
@@ -176,7 +179,8 @@ impl Carrier {
         Ok(())
     }
 
-    /// An error where a motion stops that meets no impulse: one that reaches infinity is reported as such.
+    /// An error where a motion stops that meets no impulse: one that reaches infinity is reported as such, and one whose vectors
+    /// alone stop it.
     fn explained(&self, fault: MotionError) -> MotionError {
         let stopped = StoppedMotion {
             system: &self.system,
@@ -185,7 +189,31 @@ impl Carrier {
             parameters: self.space.parameters(),
             begun: self.begun.as_ref(),
         };
-        stopped.blow_up(&fault).or_else(|| stopped.beyond_the_clock(&fault)).unwrap_or(fault)
+        let cause = stopped.blow_up(&fault).or_else(|| stopped.beyond_the_clock(&fault));
+        cause.or_else(|| self.stopped_by_vectors(&fault)).unwrap_or(fault)
+    }
+
+    /// The error of a motion that continues without its vectors, as at the pole of spherical coordinates.
+    fn stopped_by_vectors(&self, fault: &MotionError) -> Option<MotionError> {
+        let begun = self.begun.as_ref()?;
+        let lasted = fault.time - begun.time;
+        let vanishing = matches!(fault.kind, MotionErrorKind::StepUnderflow(_));
+        if !vanishing || lasted == 0.0 {
+            return None;
+        }
+        let plain = self.space.system();
+        let mut alone = (self.method.make)(plain, &self.settings).ok()?;
+        alone.start(&plain.extended(begun, &self.system), self.space.parameters()).ok()?;
+        let beyond = fault.time + BEYOND * lasted;
+        // without vectors the steps are no shorter
+        for _ in 0..=2 * self.steps {
+            alone.step(beyond).ok()?;
+            if alone.time() == beyond {
+                let kind = MotionErrorKind::NoDerivative;
+                return Some(MotionError { kind, ..fault.clone() });
+            }
+        }
+        None
     }
 
     /// The product of the determinants of the derivatives of all impulses since the start.

@@ -18,7 +18,7 @@ use super::phase_space::{PhaseSpace, VectorField};
 
 use crate::integrate::{Method, Settings, Stepping};
 use crate::num::{gauss, math};
-use crate::system::{MotionError, State};
+use crate::system::{MotionError, MotionErrorKind, State};
 
 /// The nodes in a step at which the divergence is summed: a long step of a series, …
 const NODES: usize = 16;
@@ -46,7 +46,7 @@ pub struct FlowMap {
     /// no form is preserved on the constraints.
     pub symplectic_residual: Option<f64>,
     /// What rounding may leave of it: that of M at the end, and that of every step, amplified by the flow after it; under
-    /// constraints that of M and P alone.
+    /// constraints that of M and P alone. `None` also next to where M has no limit.
     pub symplectic_rounding: Option<f64>,
     /// What rounding may leave of M itself; `None` under constraints.
     pub rounding: Option<MapRounding>,
@@ -150,6 +150,9 @@ fn followed(
             failure,
         });
     }
+    // next to where M has no limit it is known to no digits that rounding alone would leave
+    let no_limit = |fault: &MotionError| matches!(fault.kind, MotionErrorKind::NoDerivative);
+    let has_limit = !failure.as_ref().is_some_and(no_limit);
     let hamiltonian = canonical && space.is_hamiltonian();
     let inverse = |m: &DMatrix<f64>| {
         if hamiltonian { Some(PhaseSpace::symplectic_inverse(m)) } else { m.clone().try_inverse() }
@@ -164,7 +167,7 @@ fn followed(
         determinant: Some(matrix.determinant()),
         determinant_expected: divergence.map(|_| math::exp(logarithm) * carrier.jump_determinant()),
         symplectic_residual: symplectic.map(|(residual, _)| residual),
-        symplectic_rounding: symplectic.map(|(_, rounding)| rounding),
+        symplectic_rounding: symplectic.filter(|_| has_limit).map(|(_, rounding)| rounding),
         rounding: rounding.map(|rounding| rounding.of_map(&inverse)),
         state,
         matrix,

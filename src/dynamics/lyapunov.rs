@@ -18,7 +18,7 @@ use super::tangent_growth::TangentGrowth;
 use super::transverse::Removed;
 use crate::integrate::{Method, Settings};
 use crate::num::{math, short};
-use crate::system::State;
+use crate::system::{MotionErrorKind, State};
 
 /// The points of the curve.
 const POINTS: usize = 200;
@@ -157,6 +157,14 @@ fn result(
     let judged = judged(motion, growth, (&exponents, &uncertainty), megno);
     // what ends is not followed for as long as one wishes
     let (verdict, reason) = match (&failure, judged) {
+        // neighbours that part next to a pole of the coordinates tell nothing of the motion, which continues
+        (Some(DynamicsError::Motion(fault)), _) if fault.kind == MotionErrorKind::NoDerivative => {
+            let reason = format!(
+                "the tangent vectors have no limit after {}, which is too short to tell",
+                short(end - begin)
+            );
+            (Chaos::Undecided, reason)
+        }
         (Some(why), (Chaos::Regular, _)) if !why.is_cancelled() => {
             let reason =
                 format!("the motion ends after {}, which is too short to tell", short(end - begin));

@@ -85,6 +85,8 @@ pub enum MotionErrorKind {
     NoConvergence(f64),
     /// The step became too small to advance the time. Contains the step size.
     StepUnderflow(f64),
+    /// Tangent vectors cannot be carried on, while the motion itself continues.
+    NoDerivative,
     /// The time has too few digits for the next step or impulse. Contains the spacing of
     /// representable times.
     ClockStands(f64),
@@ -212,6 +214,9 @@ impl fmt::Display for MotionError {
             MotionErrorKind::StepUnderflow(_) => {
                 write!(f, "the step became too small to move the clock at t = {time}")?;
             }
+            MotionErrorKind::NoDerivative => {
+                write!(f, "the tangent vectors have no limit at t = {time}")?;
+            }
             MotionErrorKind::ClockStands(spacing) => write!(
                 f,
                 "the clock cannot continue from t = {time}: its digits are {} apart there",
@@ -314,6 +319,10 @@ impl fmt::Display for MotionError {
             }
             MotionErrorKind::NoConvergence(_) | MotionErrorKind::Swings => ": try a smaller step",
             MotionErrorKind::StepUnderflow(_) => ": a collision or another singularity lies ahead",
+            MotionErrorKind::NoDerivative => {
+                ": the motion itself continues, so that no collision lies there, but a pole of the coordinates or another place at \
+                 which motions have no derivative by their start; other coordinates may have one"
+            }
             MotionErrorKind::ClockStands(_) => ", and the next step, impulse or event comes sooner",
             MotionErrorKind::NoInterval(..) => ": its interval must be above zero",
             MotionErrorKind::TooManySteps(..) => ": try a larger step",

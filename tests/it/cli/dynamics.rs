@@ -59,6 +59,33 @@ fn an_orbit_and_its_family_are_written() {
     assert_eq!(done.code, 2);
 }
 
+/// In the field of a magnetic monopole of strength g, with p_f = 2 g, the motion passes the pole θ = π: f' = g/(r² (1 − cos θ)) is
+/// finite there. By p_f it has no derivative, as f jumps by π where p_f passes 2 g. That is no collision. So it is for a spherical
+/// pendulum that swings through its lowest point, where f jumps by π with the sign of p_f.
+#[test]
+fn a_pole_of_the_coordinates_is_told_from_a_collision() {
+    let monopole = "title = \"MICZ\"\n[coordinates]\nr = { initial = 1, momentum = 0.1 }\n\
+                    th = { initial = 1.2, momentum = 0.3 }\nf = { initial = 0, momentum = 0.8 }\n[parameters]\ng = 0.4\n\
+                    [hamiltonian]\nH = \"1/2*(p_r^2 + p_th^2/r^2 + (p_f-g*(1-cos(th)))^2/(r*sin(th))^2) + g^2/(2*r^2) - 1/r\"\n";
+    let pendulum = "title = \"Spherical pendulum\"\n[coordinates]\nth = { initial = 1, velocity = 0 }\nf = { initial = 0, velocity = 0 }\n\
+                    [lagrangian]\nL = \"1/2*(th'^2 + sin(th)^2*f'^2) + cos(th)\"\n";
+    let falling = "title = \"Falling\"\n[coordinates]\nr = { initial = 1, momentum = 0 }\n\
+                   [hamiltonian]\nH = \"1/2*p_r^2 - 1/r\"\n";
+    let study = |file: &str, words: &[&str]| with_file(file, &[words, &["--until=3"]].concat());
+    for words in [&["flow", "system.toml"][..], &["lyapunov", "system.toml", "--exponents=all"]] {
+        for file in [monopole, pendulum] {
+            assert_eq!(study(file, &["run", "system.toml"]).code, 0);
+            let done = study(file, words);
+            assert_eq!(done.code, 1, "{}", done.stdout);
+            assert!(done.stderr.contains("a pole of the coordinates"), "{}", done.stderr);
+            assert!(!done.stdout.contains("rounding may be"), "{}", done.stdout);
+            assert!(!done.stdout.contains("regular from"), "{}", done.stdout);
+        }
+        let done = study(falling, words);
+        assert!(done.stderr.contains("a collision or another"), "{}", done.stderr);
+    }
+}
+
 /// The Lorenz system is written as forces beside H = 0, whose energy is constant and selects nothing. Its orbit AB is that of
 /// D. Viswanath, Nonlinearity 16 (2003), 1035, table 1: T = 1.5586522107161747, z = 27 at x = −13.763610682134,
 /// y = −19.578751942452; the multipliers' product is e^((−10 − 1 − 8/3) T).
