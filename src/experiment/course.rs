@@ -200,6 +200,19 @@ impl Experiment {
         ))
     }
 
+    /// A sentence about the first singular configuration that the comparison motion has passed.
+    pub fn comparison_passage(&self) -> Option<String> {
+        let (time, place) = self.motion.comparison_passage()?;
+        let place: Vec<String> =
+            place.iter().map(|(name, x)| format!(", {name} = {}", short(*x))).collect();
+        Some(format!(
+            "the motion of [comparison] passed a singular configuration of its constraints at t = {}{}: its numbers are uncertain \
+             from there on",
+            short(self.motion.sign() * time),
+            place.concat()
+        ))
+    }
+
     /// A sentence about the first event whose impulse slows the motion and lets it go on to the other side.
     pub fn passed_event(&self) -> Option<String> {
         let (name, time) = self.motion.passed_event()?;

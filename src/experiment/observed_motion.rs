@@ -330,6 +330,11 @@ impl ObservedMotion {
         self.inner.singular_passages()
     }
 
+    /// The first singular configuration that the comparison motion passed: when, and its coordinates there.
+    pub(super) fn comparison_passage(&self) -> Option<(f64, Vec<(String, f64)>)> {
+        self.inner.comparison_passage()
+    }
+
     /// The first event whose impulse did not turn the motion back, and when.
     pub(super) fn passed_event(&self) -> Option<(&str, f64)> {
         self.inner.passed_event()

@@ -5,6 +5,7 @@
 //! here: rows, gauges, observables of a state.
 
 mod advance;
+mod comparison_watch;
 mod constraint_watch;
 mod occurrence;
 mod passed_event;

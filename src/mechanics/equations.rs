@@ -202,6 +202,8 @@ pub struct AuxiliaryRates {
 /// The vakonomic comparison motion.
 #[derive(Clone, Debug)]
 pub struct Vakonomic {
+    /// The first of its numbers among the auxiliary ones, its first coordinate.
+    pub first: Option<Symbol>,
     /// L with the constraints substituted into it.
     pub lagrangian: Result<Expr, NoClosedForm>,
 }

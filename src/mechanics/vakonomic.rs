@@ -30,7 +30,10 @@ pub(super) fn vakonomic(
     comparison: &Comparison,
 ) -> Vakonomic {
     let Flow::Lagrange { mass, force, .. } = equations.flow.clone() else {
-        return Vakonomic { lagrangian: Err(NoClosedForm("there is no Lagrangian".to_owned())) };
+        return Vakonomic {
+            first: None,
+            lagrangian: Err(NoClosedForm("there is no Lagrangian".to_owned())),
+        };
     };
     let rows = equations.constraints.clone();
     let (n, m) = (equations.coordinates.len(), rows.len());
@@ -106,7 +109,7 @@ pub(super) fn vakonomic(
         initial: AuxiliaryRates { plain: initial, matrix: start_matrix, right: start_right },
     });
     let lagrangian = shortened(equations, model, comparison);
-    Vakonomic { lagrangian }
+    Vakonomic { first: comparison.symbols.first().map(|pair| pair.0), lagrangian }
 }
 
 /// The error of a comparison whose constraints cannot be solved for the velocities that are to be eliminated: one of them has none of

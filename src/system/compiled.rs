@@ -50,6 +50,8 @@ pub(super) struct Shared {
     legendre: Arc<Program>,
     /// The index, among the auxiliary numbers, at which an attitude begins.
     pub(super) attitude: Option<usize>,
+    /// The index, among them, at which the coordinates and velocities of the comparison motion begin.
+    pub(super) comparison: Option<usize>,
     /// Initial values of the auxiliary numbers, as functions of a state in the native form.
     pub(super) auxiliary: Arc<Program>,
     /// Initial coordinates, rates and periods (zero for none), as functions of the parameters
@@ -215,6 +217,7 @@ impl System {
             initial,
             constraints,
             attitude: builder.attitude(),
+            comparison: builder.comparison(),
             auxiliary: builder.auxiliary_start()?,
             known: coordinates.iter().map(known).collect(),
             energy,

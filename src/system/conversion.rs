@@ -50,6 +50,19 @@ impl System {
         given: &[InitialOverride],
     ) -> Result<State, MotionError> {
         let mut state = self.begin(start, parameters, given)?;
+        self.begin_auxiliary(&mut state, parameters)?;
+        Ok(state)
+    }
+
+    /// Sets the auxiliary numbers of a state in the native form to those with which a motion begins there.
+    ///
+    /// # Errors
+    /// Returns an error if they have no finite values.
+    pub fn begin_auxiliary(
+        &self,
+        state: &mut State,
+        parameters: &[f64],
+    ) -> Result<(), MotionError> {
         let program = &self.shared.auxiliary;
         if program.outputs() > 0 {
             let mut values: Evaluator<DoubleDouble> = Evaluator::new(Arc::clone(program));
@@ -60,9 +73,9 @@ impl System {
             for i in 0..program.outputs() {
                 state.set(self.moving() + i, values.output(i));
             }
-            self.check_finite(&state)?;
+            self.check_finite(state)?;
         }
-        Ok(state)
+        Ok(())
     }
 
     /// The initial state without its auxiliary numbers.

@@ -36,6 +36,8 @@ impl fmt::Display for Passage {
 pub enum MotionErrorKind {
     /// An error at a place that another method passes.
     Passable(Box<MotionErrorKind>, Passage),
+    /// The comparison motion, which is integrated beside the motion, has this error; the motion itself continues.
+    OfComparison(Box<MotionErrorKind>),
     /// A pivot of the mass matrix vanishes.
     SingularMass,
     /// Under constraints, the momenta do not determine the velocities: a coordinate has no mass of its own.
@@ -144,8 +146,13 @@ impl fmt::Display for MotionError {
             let plain = MotionError { time, kind: (**kind).clone(), place };
             return write!(f, "{plain}; {passage} passes it");
         }
+        if let MotionErrorKind::OfComparison(kind) = &self.kind {
+            let MotionError { time, place, .. } = self.clone();
+            let plain = MotionError { time, kind: (**kind).clone(), place };
+            return write!(f, "the motion of [comparison]: {plain}");
+        }
         match &self.kind {
-            MotionErrorKind::Passable(..) => {}
+            MotionErrorKind::Passable(..) | MotionErrorKind::OfComparison(_) => {}
             MotionErrorKind::SingularMass => {
                 write!(f, "the mass matrix is singular at t = {time}")?;
             }
@@ -288,6 +295,7 @@ impl fmt::Display for MotionError {
             | MotionErrorKind::FreeVelocities(_)
             | MotionErrorKind::SeveralStarts(_)
             | MotionErrorKind::Passable(..)
+            | MotionErrorKind::OfComparison(_)
             | MotionErrorKind::Ended(_)
             | MotionErrorKind::BlowsUp(_)
             | MotionErrorKind::OutOfRange(Some(_))

@@ -106,7 +106,19 @@ impl ConstraintProjector {
     /// The directions of the constraints at a state, in the units of `like` if it is given. Returns
     /// `None` at a singular configuration.
     pub fn directions(&mut self, state: &State, like: Option<&Directions>) -> Option<Directions> {
-        self.load(state);
+        self.directions_at(state, 0, like)
+    }
+
+    /// The same where the coordinates of the state begin at an index, as those of a comparison motion.
+    pub fn directions_at(
+        &mut self,
+        state: &State,
+        first: usize,
+        like: Option<&Directions>,
+    ) -> Option<Directions> {
+        for (i, x) in self.numbers.iter_mut().enumerate() {
+            *x = state.exact(first + i);
+        }
         let enforced = self.system.holding().enforced.clone();
         let conditions = self.projection.conditions();
         conditions.observe(state.exact_time(), &self.numbers);

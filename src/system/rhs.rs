@@ -107,7 +107,15 @@ impl ProgramBuilder<'_> {
 
     /// The index, among the auxiliary numbers, at which an attitude begins.
     pub(super) fn attitude(&self) -> Option<usize> {
-        let first = self.equations.supplements.attitude_symbols?[0][0];
+        self.auxiliary_index(self.equations.supplements.attitude_symbols?[0][0])
+    }
+
+    /// The index, among the auxiliary numbers, at which the comparison motion begins.
+    pub(super) fn comparison(&self) -> Option<usize> {
+        self.auxiliary_index(self.equations.supplements.vakonomic.as_ref()?.first?)
+    }
+
+    fn auxiliary_index(&self, first: Symbol) -> Option<usize> {
         let mut auxiliary =
             self.equations.supplements.auxiliary.iter().flat_map(|auxiliary| &auxiliary.symbols);
         auxiliary.position(|&symbol| symbol == first)

@@ -47,6 +47,11 @@ impl System {
         self.shared.attitude.map(|place| self.moving() + place)
     }
 
+    /// The index in a state of the coordinates of the comparison motion, which its velocities follow.
+    pub fn comparison_place(&self) -> Option<usize> {
+        self.shared.comparison.map(|place| self.moving() + place)
+    }
+
     /// The index in a state of the work done on it.
     pub fn work_place(&self) -> Option<usize> {
         let quadratures = self.quadratures();

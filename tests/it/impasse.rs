@@ -793,3 +793,37 @@ fn jumps_are_the_same_events_for_every_method() {
         }
     }
 }
+
+/// A sleigh on a slope beside its comparison motion, whose f reaches π/2, where the row of y' = x' tan f has a pole, before that
+/// of the sleigh does. The comparison motion is that of H = ½ (p_x cos f + p_y sin f)² + p_f²/0.6 + y/2, which is smooth there.
+#[test]
+fn a_singular_configuration_of_the_comparison_motion_is_called_its_own() {
+    let sleigh = "[coordinates]\nx = { initial = 0, velocity = 0.5 }\ny = { initial = 0 }\nf = { initial = 0.3, velocity = 1.1 }\n\
+                  [lagrangian]\nL = \"1/2*(x'^2 + y'^2) + 0.15*f'^2 - 0.5*y\"\n\
+                  [[constraints]]\nname = \"edge\"\nexpression = \"y' - x'*tan(f)\"\n";
+    let both = format!("{sleigh}[comparison]\neliminate = [\"y\"]\n");
+    let smooth = "[coordinates]\nx = { initial = 0, momentum = \"0.5/cos(0.3)^2\" }\ny = { initial = 0, momentum = 0 }\n\
+                  f = { initial = 0.3, momentum = 0.33 }\n\
+                  [hamiltonian]\nH = \"1/2*(p_x*cos(f) + p_y*sin(f))^2 + p_f^2/0.6 + 1/2*y\"\n";
+    let message = fault(file(&both), 1.1);
+    assert!(message.starts_with("the motion of [comparison]: "), "{message}");
+    let time = fault_time(&message);
+    let mut other = file(smooth);
+    run(&mut other, time);
+    assert!((value(&other, "f") - std::f64::consts::FRAC_PI_2).abs() < 1e-9, "{message}");
+    assert!(message.contains("other f = 1.5707963267"), "{message}");
+    let x = message.split("other x = ").nth(1).and_then(|rest| rest.split(',').next());
+    let x: f64 = x.and_then(|x| x.parse().ok()).expect("a place");
+    assert!((x - value(&other, "x")).abs() < 1e-9, "{message}");
+
+    for method in ["dop853", "rk4"] {
+        let passed = "the motion of [comparison] passed a singular configuration of its constraints at t = 1.021";
+        let until = |until: &str| said(&both, &["--until", until, "--method", method]);
+        assert!(until("1.1").contains(passed), "{method}: {}", until("1.1"));
+        assert!(!until("1").contains("comparison"), "{method}: {}", until("1"));
+    }
+    // the motion itself comes to its own at t = (π/2 − 0.3)/1.1
+    let message = fault(file(sleigh), 1.3);
+    assert!((fault_time(&message) - (std::f64::consts::FRAC_PI_2 - 0.3) / 1.1).abs() < 1e-9);
+    assert!(!message.contains("comparison"), "{message}");
+}

@@ -127,6 +127,9 @@ impl Run<'_> {
         if let Some(passed) = self.experiment.singular_passages() {
             stderr::report(&passed);
         }
+        if let Some(passed) = self.experiment.comparison_passage() {
+            stderr::report(&passed);
+        }
         if let Some(passed) = self.experiment.passed_event() {
             stderr::report(&passed);
         }

@@ -181,6 +181,7 @@ impl Propagator {
             self.system.orthonormalise(&mut self.before);
             self.stepper.replace_state(&self.before);
             self.watch_step();
+            self.watch_comparison();
         }
         Ok(())
     }

@@ -68,6 +68,7 @@ impl Propagator {
             }
             _ => None,
         };
+        self.watch_comparison_from_here();
         self.watch.regular = Some(self.state.clone());
         self.watch.begun = Some(self.state.clone());
         self.watch.regular_step = 0.0;
@@ -134,7 +135,7 @@ impl Propagator {
 
     /// Explains an error: one caused by a singular configuration is reported as such, and one at a
     /// place that another method passes is reported with that method.
-    pub fn explained(&mut self, fault: MotionError) -> MotionError {
+    pub(super) fn with_cause(&mut self, fault: MotionError) -> MotionError {
         let stopped = StoppedMotion {
             system: &self.system,
             method: self.method,
@@ -315,7 +316,7 @@ impl Propagator {
     }
 
     /// Integrates the motion from a state to a time by a method.
-    fn trial(
+    pub(super) fn trial(
         &mut self,
         method: &'static crate::integrate::Method,
         settings: Settings,
@@ -358,7 +359,7 @@ impl Propagator {
 }
 
 /// How an integration by another method went.
-enum Trial {
+pub(super) enum Trial {
     /// It reached this state beyond the place.
     Passed(State),
     /// It stopped too.

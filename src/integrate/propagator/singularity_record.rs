@@ -18,4 +18,14 @@ pub(super) struct SingularityRecord {
     pub(super) regular_step: f64,
     /// The state at which it last began or continued.
     pub(super) begun: Option<State>,
+    pub(super) comparison: ComparisonRecord,
+}
+
+/// The same of the comparison motion beside it.
+#[derive(Clone, Debug, Default)]
+pub(super) struct ComparisonRecord {
+    /// The time of the last sample, and the directions where the comparison motion was.
+    pub(super) seen: Option<(f64, Directions)>,
+    /// The first passage, with the coordinates there.
+    pub(super) first: Option<(f64, Vec<f64>)>,
 }
