@@ -23,6 +23,8 @@ use crate::system::System;
 
 /// A system, its start and its method.
 #[derive(Debug, clap::Args)]
+// where options of another struct are among them the group is empty, and a command with these as an option would never have them
+#[group(args = ["name"])]
 pub(super) struct MotionOptions {
     /// A preset's name, or a file.
     #[arg(value_name = "PRESET|FILE")]

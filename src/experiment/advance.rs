@@ -106,7 +106,7 @@ impl Experiment {
             self.notices.push_once("singular configuration".to_owned(), sentence);
         }
         if let Some(sentence) = self.comparison_passage() {
-            self.report_once(sentence.clone(), sentence);
+            self.notices.push_once(sentence.clone(), sentence);
         }
         if let Some(sentence) = self.passed_event() {
             self.notices.push_once(sentence.clone(), sentence);

@@ -23,11 +23,11 @@ use super::program::{Op, Program, Register, Singular};
 use super::schedule::Schedule;
 use crate::expr::FunctionId;
 use crate::num::{Analytic, Batch, DoubleDouble, Kernel, Real, vectorized};
+pub(super) use orders::Coefficient;
 #[cfg(feature = "jit")]
 pub(super) use outline::JetPlan;
 use series_index::{PoleDegree, SeriesIndex};
 pub use side::Side;
-pub(super) use tables::Coefficient;
 use tables::Tables;
 
 /// The registers of one program as power series, in one precision.
@@ -158,8 +158,9 @@ impl<R: Coefficient> Jet<R> {
         Ok(())
     }
 
-    /// Computes the orders above `first` of the series of a state, which are as long as the registers' and lie one after
-    /// another: each from the order before. Ends where `ends` says so, which is asked before each order, and returns false.
+    /// Computes the orders of the series of a state above the first of `orders` and up to their end, each from the one before.
+    /// The series are as long as the registers' and lie one after another. Before each order `ends` is asked whether to stop,
+    /// and false is returned where that is so.
     #[inline(always)]
     pub(super) fn grow<const FUSED: bool>(
         &mut self,
@@ -170,7 +171,7 @@ impl<R: Coefficient> Jet<R> {
     ) -> Result<bool, Singular> {
         self.take_in(state, count, orders.start);
         let mut next = orders.start;
-        if next == 0 && orders.end > 0 {
+        if next == 0 && orders.end > 0 && !ends() {
             self.begin(time)?;
         }
         let Jet { program, schedule, tables } = self;

@@ -3,8 +3,7 @@
 //! In: matrices and right-hand sides of several orbits. Out: the solution of each. Never here: operations that
 //! depend on the size of a number, which programs of several orbits do not have.
 
-use super::orders::Orders;
-use super::tables::{Coefficient, Elimination};
+use super::orders::{Coefficient, Elimination, Orders};
 use crate::num::{BATCH, Batch};
 use crate::system::program::Program;
 use crate::system::solve::Factored;

@@ -6,7 +6,6 @@
 use super::operands::OperandSlices;
 use super::series_index::SeriesIndex;
 use super::side::Side;
-use super::tables::{Coefficient, Elimination};
 use crate::num::{Analytic, Real};
 use crate::system::finishing_pass::{
     Integral, LinearSolution, LinearSum, OperationRun, Product, Related, Scaling, TermSign,
@@ -14,6 +13,49 @@ use crate::system::finishing_pass::{
 use crate::system::parametric_power;
 use crate::system::program::{Op, Program, Register};
 use crate::system::schedule::{ConvolutionFactor, Denominator, Direct, Ends, Relation, Schedule};
+use crate::system::solve::Factored;
+
+/// A coefficient of a power series.
+pub trait Coefficient: Analytic {
+    /// A matrix of linear equations.
+    type Factored: Elimination<Self>;
+
+    /// The coefficient of order `k` of an operation that is evaluated by itself.
+    fn alone(orders: &mut Orders<'_, Self>, program: &Program, register: u32, k: usize) -> Self;
+}
+
+/// A matrix that is factored, to solve linear equations with.
+pub trait Elimination<R>: Clone + Send + Sync + std::fmt::Debug {
+    /// Room for a matrix of this size.
+    fn new(size: usize) -> Self;
+    /// Factors the matrix whose entries `entry` gives by row and column. Returns false if it is
+    /// singular.
+    #[must_use]
+    fn factor(&mut self, entry: impl Fn(usize, usize) -> R) -> bool;
+    /// Solves for a right-hand side, in place. With `FUSED` it must be inlined into a kernel.
+    fn solve<const FUSED: bool>(&mut self, right: &mut [R]);
+}
+
+impl<R: Real> Elimination<R> for Factored<R> {
+    fn new(size: usize) -> Factored<R> {
+        Factored::new(size)
+    }
+    fn factor(&mut self, entry: impl Fn(usize, usize) -> R) -> bool {
+        Factored::factor(self, entry)
+    }
+    #[inline(always)]
+    fn solve<const FUSED: bool>(&mut self, right: &mut [R]) {
+        self.solve_with::<FUSED>(right);
+    }
+}
+
+impl<R: Real> Coefficient for R {
+    type Factored = Factored<R>;
+
+    fn alone(orders: &mut Orders<'_, R>, program: &Program, register: u32, k: usize) -> R {
+        orders.alone(program, register, k)
+    }
+}
 
 /// The tables of a jet as slices, whose places need not be looked up again after each number that is stored.
 pub struct Orders<'a, R: Coefficient> {
