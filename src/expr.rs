@@ -9,6 +9,7 @@
 //! forms, proofs of vanishing, and three notations ([`Pool::text`], [`Pool::unicode`],
 //! [`Pool::latex`]). Never here: coordinates, velocities, units, files, numerical motion.
 
+mod attempt;
 mod ball;
 mod common_root;
 mod conditioning;
@@ -35,6 +36,7 @@ mod range;
 mod rewrite;
 mod sample;
 mod simplify;
+mod steps;
 mod sum;
 mod symbol;
 mod syntax;
@@ -47,6 +49,7 @@ mod unicode;
 mod vanishing;
 mod zero_test;
 
+pub use attempt::Attempt;
 pub use function::{
     BilinearEquation, Convolution, Divisor, FUNCTIONS, Function, KinkBranches, Operand, Recurrence,
     Rule,

@@ -41,6 +41,8 @@ pub struct EffectivePotential<'a> {
     rest_elsewhere: Option<f64>,
     /// Between which places its tops are given.
     resolved: [f64; 2],
+    /// Where the coordinate begins.
+    begin: f64,
     /// Where the coordinate begins, with its momentum of rest, if the energy is greatest there.
     greatest: Option<[f64; 2]>,
 }
@@ -89,6 +91,7 @@ impl<'a> EffectivePotential<'a> {
             period,
             rest_elsewhere: None,
             resolved: [f64::NEG_INFINITY, f64::INFINITY],
+            begin: at,
             greatest: None,
         };
         // a velocity without a value is no reason to refuse anything
@@ -109,8 +112,8 @@ impl<'a> EffectivePotential<'a> {
         self.greatest
     }
 
-    /// Between which places its tops are given: of a coordinate without its period there may be any number of them, and those far
-    /// away may be too narrow to be seen.
+    /// Between which places its wells and tops are given: of a coordinate without its period there may be any number of them,
+    /// and those far away may be too narrow to be seen.
     pub fn resolved(&self) -> [f64; 2] {
         self.resolved
     }
@@ -297,7 +300,8 @@ impl<'a> EffectivePotential<'a> {
         f64::midpoint(low, high)
     }
 
-    /// All regions that an energy allows, from left to right; those of a rotation have no ends.
+    /// All regions that an energy allows, from left to right; those of a rotation have no ends. Beyond the places between which
+    /// wells are [seen](Self::resolved) there is only that of the start.
     pub fn regions(&mut self, energy: f64) -> Vec<AllowedInterval> {
         // on a separatrix the top itself is out of reach, on whichever side of the energy rounding has put it
         let noise = NOISE * (energy.abs() + self.height);
@@ -339,7 +343,15 @@ impl<'a> EffectivePotential<'a> {
             if !whole {
                 regions.retain(|region| region.left.is_some() && region.right.is_some());
             }
+            return regions;
         }
+        let [first, last] = self.resolved;
+        let (begin, seen) = (self.begin, |end: f64| (first..=last).contains(&end));
+        regions.retain(|region| {
+            let holds_start = region.left.is_none_or(|left| left <= begin)
+                && region.right.is_none_or(|right| begin <= right);
+            holds_start || region.left.into_iter().chain(region.right).all(seen)
+        });
         regions
     }
 

@@ -169,7 +169,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     };
     if !range.is_empty() {
         stderr::report(&format!(
-            "separatrices are listed {range}; the potential has more wells beyond. If {name} is an angle, give its `period` in \
+            "wells and separatrices are listed {range}; the potential has more of them beyond. If {name} is an angle, give its `period` in \
              the file"
         ));
     }

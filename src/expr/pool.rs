@@ -12,6 +12,7 @@ use super::measure::{DISTINCT, NodeMeasure, SymbolSet};
 use super::memo::Memo;
 use super::node::{Expr, Node};
 use super::notation::{latex_name, unicode_name};
+use super::steps::Steps;
 use super::symbol::{Rank, Symbol, SymbolInfo};
 use crate::cancel::Cancel;
 use crate::num::Number;
@@ -31,6 +32,7 @@ pub struct Pool {
     names: Arc<FxHashMap<String, Symbol>>,
     size: usize,
     full: bool,
+    pub(super) steps: Steps,
     cancel: Cancel,
     /// Radicands whose roots a power has removed; they are not negative.
     under_roots: Vec<Expr>,
@@ -54,6 +56,7 @@ impl Pool {
             names: Arc::default(),
             size: 0,
             full: false,
+            steps: Steps::UNBOUNDED,
             cancel: Cancel::new(),
             under_roots: Vec::new(),
             memo: Memo::default(),
@@ -122,7 +125,8 @@ impl Pool {
         self.nodes.len()
     }
 
-    /// Returns whether the pool has exceeded [`NODE_LIMIT`] or work on it was cancelled.
+    /// Returns whether the pool has exceeded [`NODE_LIMIT`] or the allowance of an
+    /// [attempt](Pool::attempt), or work on it was cancelled.
     /// Expressions built since then are not valid, and the stage that built them must return an
     /// error.
     pub fn is_full(&self) -> bool {
@@ -314,6 +318,9 @@ impl Pool {
     /// Stores a canonical node, or finds the existing one. Only the constructors call this.
     pub(super) fn intern(&mut self, node: Node) -> Expr {
         let stopped = self.is_stopped();
+        let mut parts = 0;
+        node.for_each_part(|_| parts += 1);
+        self.full |= !self.steps.take(1 + parts as u64);
         let hash = FxBuildHasher.hash_one(&node);
         let known = self.index.find(hash, |&e| *self.nodes[e.index()] == node);
         if let Some(&e) = known.filter(|_| !stopped) {
@@ -324,8 +331,6 @@ impl Pool {
             return Expr::ZERO;
         }
         let e = Expr(self.nodes.len() as u32);
-        let mut parts = 0;
-        node.for_each_part(|_| parts += 1);
         self.size += 1 + parts / 4;
         self.measures.push(NodeMeasure::of(&node, &self.measures));
         self.nodes.push(Arc::new(node));

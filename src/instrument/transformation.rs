@@ -182,7 +182,10 @@ impl Instrument for TransformationPlot {
             }
             _ => judged(answer).map_or_else(Vec::new, |judged| judged.lines.clone()),
         };
-        lines.extend(of_image(plot, present).map(str::to_owned));
+        let image = of_image(plot, present).map(str::to_owned);
+        // that there is none comes first, as what is at the end may have no room
+        let place = if now.iter().all(|x| x.is_finite()) { lines.len() } else { 0 };
+        lines.splice(place..place, image);
         lines.extend(of_branches(branches.map_or(0, Branches::others), rings[0], rings[1]));
         let ranges = [0, 1].map(|axis| range(plot, present, (answer, &images), axis));
         lines.extend(outside(&images, &ranges));

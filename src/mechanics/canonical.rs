@@ -25,6 +25,10 @@ use crate::num::Number;
 pub(super) const WITNESSES: usize = 8;
 const LOOKED_AT: u64 = 64;
 
+/// The steps of the pool that each may take of what is searched for of a transformation: the map, its inverse, K, each
+/// generating function.
+pub(super) const ALLOWANCE: u64 = 1_000_000;
+
 /// A transformation as relations between the old and the new variables.
 #[derive(Clone, Debug)]
 pub struct PhaseMap {
@@ -144,6 +148,10 @@ impl PhaseMap {
         if !self.parts.is_empty() {
             return None;
         }
+        equations.attempt(ALLOWANCE, |equations| self.forwards_by_solving(model, equations))
+    }
+
+    fn forwards_by_solving(&self, model: &Model, equations: &mut Equations) -> Option<Solution> {
         let points: Vec<Valuation> =
             (0..LOOKED_AT).map(|n| Valuation::near_start(model, equations, n)).collect();
         let (relations, new) = (self.implicit.relations.clone(), self.implicit.new.clone());
@@ -189,6 +197,10 @@ impl PhaseMap {
         if !self.parts.is_empty() {
             return None;
         }
+        equations.attempt(ALLOWANCE, |equations| self.backwards_by_solving(model, equations))
+    }
+
+    fn backwards_by_solving(&self, model: &Model, equations: &mut Equations) -> Option<Solution> {
         let images = self.images(model, equations, WITNESSES);
         let accept = |pool: &mut Pool, found: &Solution, strict: bool| {
             let back = |at: &Valuation| {

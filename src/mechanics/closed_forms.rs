@@ -41,10 +41,9 @@ impl Equations {
     /// Whether Hamilton–Jacobi separates in the file's coordinates.
     pub fn separation(&mut self) -> &Separation {
         if self.supplements.separation.is_none() {
-            let before = self.pool.clone();
+            let attempt = self.pool.begin(u64::MAX);
             self.find_separation();
-            if self.pool.is_full() {
-                self.pool = before;
+            if !self.pool.end(attempt) {
                 let why = "Levi-Civita's conditions grow beyond all bounds".to_owned();
                 self.supplements.separation = Some(Separation::Unknown(why));
             }
@@ -193,13 +192,7 @@ impl Equations {
         &mut self,
         find: impl FnOnce(&mut Pool) -> Result<T, NoClosedForm>,
     ) -> Result<T, NoClosedForm> {
-        let before = self.pool.clone();
-        let found = find(&mut self.pool);
-        if self.pool.is_full() {
-            self.pool = before;
-            return Err(too_large());
-        }
-        found
+        self.pool.attempt(u64::MAX, |pool| Some(find(pool))).unwrap_or_else(|| Err(too_large()))
     }
 
     /// Returns an error if a moving mass matrix couples too many coordinates to be eliminated.

@@ -338,6 +338,18 @@ impl Equations {
         constants.into_iter().map(|(s, n)| (s, self.pool.number(n))).collect()
     }
 
+    /// Does something that may be done without, as an [attempt](Pool::attempt) of the pool. Nothing else of the equations
+    /// may change by it.
+    pub(super) fn attempt<T>(
+        &mut self,
+        allowance: u64,
+        find: impl FnOnce(&mut Equations) -> Option<T>,
+    ) -> Option<T> {
+        let attempt = self.pool.begin(allowance);
+        let found = find(self);
+        if self.pool.end(attempt) { found } else { None }
+    }
+
     /// Returns whether the state consists of positions and velocities (Lagrangian) rather than
     /// momenta.
     pub fn is_lagrangian(&self) -> bool {

@@ -4,7 +4,7 @@
 //! In: a model and its equations, whose pool grows. Out: [`Further`]. Never here: how any of it is written.
 
 use super::bracket::{bracket, in_phase_space};
-use super::canonical::PhaseMap;
+use super::canonical::{ALLOWANCE, PhaseMap};
 use super::canonical_verdict::CanonicalVerdict;
 use super::conservation::{Classed, class_of, classes};
 use super::constrain::with_reactions;
@@ -95,12 +95,19 @@ impl TransformationReport {
     }
 
     fn of(model: &Model, equations: &mut Equations, map: PhaseMap) -> Self {
+        // it stays, whatever becomes of K
+        let _ = equations.hamiltonian();
         let verdict = map.verdict(model, equations);
         let backwards = map.backwards(model, equations);
-        let hamiltonian = map.new_hamiltonian(model, equations, &verdict, backwards.as_ref());
+        let hamiltonian = equations.attempt(ALLOWANCE, |equations| {
+            Some(map.new_hamiltonian(model, equations, &verdict, backwards.as_ref()))
+        });
+        let too_long = || Err(NoClosedForm("what follows on the way to it is too long".to_owned()));
+        let hamiltonian = hamiltonian.unwrap_or_else(too_long);
         let hamiltonian_in_old = match &hamiltonian {
             Ok(_) => None,
-            Err(_) => map.hamiltonian_in_old(model, equations, &verdict),
+            Err(_) => equations
+                .attempt(ALLOWANCE, |equations| map.hamiltonian_in_old(model, equations, &verdict)),
         };
         let functions = Vec::new();
         TransformationReport { map, verdict, backwards, hamiltonian, hamiltonian_in_old, functions }

@@ -10,7 +10,7 @@ use std::collections::HashMap;
 
 use nalgebra::DMatrix;
 
-use super::canonical::PhaseMap;
+use super::canonical::{ALLOWANCE, PhaseMap};
 use super::equations::Equations;
 use super::isolate::{self, Solution};
 use super::potential::potential;
@@ -156,9 +156,9 @@ impl PhaseMap {
         given: &Transformation,
     ) -> Vec<GeneratingFunction> {
         let Some(forwards) = self.forwards.clone() else { return Vec::new() };
-        let Some(value) = self.value_of_first(&mut equations.pool, given, &forwards) else {
-            return Vec::new();
-        };
+        let value =
+            equations.pool.attempt(ALLOWANCE, |pool| self.value_of_first(pool, given, &forwards));
+        let Some(value) = value else { return Vec::new() };
         let all = choices(given).into_iter().map(|wanted| {
             let written = match &given.law {
                 TransformationLaw::Generating { types, function } if *types == wanted => {
@@ -168,7 +168,13 @@ impl PhaseMap {
             };
             let (function, proved) = match written {
                 Some(function) => (Ok(function), true),
-                None => self.of_types(model, equations, given, (&forwards, value), &wanted),
+                None => {
+                    let found = equations.attempt(ALLOWANCE, |equations| {
+                        Some(self.of_types(model, equations, given, (&forwards, value), &wanted))
+                    });
+                    let too_long = || (Err(NoFunction::NotWritten(variables_of(&wanted))), false);
+                    found.unwrap_or_else(too_long)
+                }
             };
             GeneratingFunction { types: wanted, function, proved }
         });

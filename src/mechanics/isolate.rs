@@ -19,6 +19,9 @@ const BUDGET: usize = 400;
 /// … or after which it has built so many expressions: what has a solution that can be read needs far fewer.
 const MOST_BUILT: usize = 10_000;
 
+/// … or after so many steps of the pool, ten times those of the longest search of a preset that has a result.
+const ALLOWANCE: u64 = 300_000;
+
 /// A solution, or an expression on the way to it, may not be heavier.
 const HEAVIEST: u64 = 4_000;
 
@@ -32,9 +35,11 @@ pub(super) fn solve(
     unknowns: &[Symbol],
     accept: &mut dyn FnMut(&mut Pool, &Solution) -> bool,
 ) -> Option<Solution> {
-    let most = pool.built() + MOST_BUILT;
-    let mut search = Isolation { wanted: unknowns.to_vec(), budget: BUDGET, most, accept };
-    search.step(pool, equations.to_vec(), unknowns, Vec::new())
+    pool.attempt(ALLOWANCE, |pool| {
+        let most = pool.built() + MOST_BUILT;
+        let mut search = Isolation { wanted: unknowns.to_vec(), budget: BUDGET, most, accept };
+        search.step(pool, equations.to_vec(), unknowns, Vec::new())
+    })
 }
 
 struct Isolation<'a> {

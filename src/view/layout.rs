@@ -185,7 +185,7 @@ fn meaning(lab: &Lab, width: u16) -> u16 {
 /// As many plots as there is room for, in their order; those against time come last and have the wide slots, where
 /// one of them replaces a phase portrait if there is none, and a section comes after the motion in space. If the motion
 /// is in none of them although there is a view of it, that view replaces the last phase portrait, or else the last one that
-/// is not against time. Of the rest the plot that is focused, or was last, takes the last slot.
+/// is not against time; with room for three, it leaves (q, p) beside (Q, P) and replaces one against time or another map. Of the rest the plot that is focused, or was last, takes the last slot.
 fn chosen(lab: &Lab, room: usize) -> Vec<Pane> {
     let kind = |index: &usize| lab.plots[*index].kind.name();
     let mut shown: Vec<usize> = (0..lab.plots.len().min(room)).collect();
@@ -201,7 +201,13 @@ fn chosen(lab: &Lab, room: usize) -> Vec<Pane> {
         && let Some(motion) = view_of_motion(lab)
     {
         let last = |is: &dyn Fn(&str) -> bool| shown.iter().rposition(|index| is(kind(index)));
-        let replaced = last(&|kind| kind == "phase").or(last(&|kind| kind != "time"));
+        let maps = shown.iter().filter(|index| kind(index) == "transformation").count();
+        let replaced = match (maps, shown.len()) {
+            (0, _) | (_, ..=2) => last(&|kind| kind == "phase"),
+            (1, _) => last(&|kind| kind == "time"),
+            _ => last(&|kind| kind == "time").or(last(&|kind| kind == "transformation")),
+        };
+        let replaced = replaced.or(last(&|kind| kind != "time"));
         if let Some(place) = replaced.or(shown.len().checked_sub(1)) {
             shown[place] = motion;
         }

@@ -49,7 +49,11 @@ impl<'a> Marks<'a> {
             });
             let point = place(earlier).and_then(|a| {
                 let b = if share > 0.0 { place(later?)? } else { a };
-                Some([0, 1].map(|k| a[k] + share * (b[k] - a[k])))
+                // at a caustic an image has a value on one side only
+                Some([0, 1].map(|k| {
+                    let all = [a[k] + share * (b[k] - a[k]), a[k], b[k]];
+                    all.into_iter().find(|x| x.is_finite()).unwrap_or(f64::NAN)
+                }))
             });
             points.extend(point.map(|point| (occurrence.name.as_str(), point)));
         }

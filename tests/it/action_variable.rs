@@ -46,6 +46,30 @@ fn the_pendulum_has_its_action_and_its_separatrix() {
     assert!(round.value("action") > 8.0);
 }
 
+/// An angle without its period has wells without end, of which those far away are too narrow to be seen and are left out. The
+/// others are at 2πk ± arccos(−E), of the period 2π/M(1, cos(θ₀/2)) by Gauss's arithmetic-geometric mean M.
+#[test]
+fn an_energy_has_the_wells_that_are_seen() {
+    let text = "title = \"t\"\n[coordinates]\nq = { initial = 0.0, momentum = 0.0 }\n[hamiltonian]\nH = \"p_q^2/2 - cos(q)\"\n";
+    let model = Document::new("t", text).read().unwrap_or_else(|_| panic!("{text}")).model;
+    let settings = Settings { step: None, tolerance: None };
+    let held =
+        HeldSystem::of(&model, 0, settings, &Cancel::new()).expect("it conserves its energy");
+    let rows = held.at(0.0, &[], [&[0.0], &[0.0]]).expect("a state").rows(-0.9).expect("wells");
+    assert!(rows.len() > 10, "{}", rows.len());
+    let swing = 0.9_f64.acos();
+    let mut means = [1.0, (swing / 2.0).cos()];
+    for _ in 0..6 {
+        means = [f64::midpoint(means[0], means[1]), (means[0] * means[1]).sqrt()];
+    }
+    for (row, k) in rows.iter().zip(-(rows.len() as i32 / 2)..) {
+        let [left, right] = row.turning_points.map(|end| end.expect("it turns"));
+        near(left, 2.0 * PI * f64::from(k) - swing, 1e-12);
+        near(right, 2.0 * PI * f64::from(k) + swing, 1e-12);
+        near(row.period, 2.0 * PI / means[0], 1e-10);
+    }
+}
+
 #[test]
 fn an_oscillator_has_a_straight_line() {
     let mut course = Course::showing(

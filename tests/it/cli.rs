@@ -28,6 +28,7 @@ mod section;
 mod signals;
 mod sweep;
 mod transformations;
+mod transformations_beside;
 mod transformations_composed;
 mod transformations_made;
 mod transformations_nearest;

@@ -303,21 +303,6 @@ fn names_of_the_file_are_free() {
     }
 }
 
-/// An angle without a period has wells without end, of which those far away are narrower than what is looked at.
-#[test]
-fn wells_too_narrow_to_be_seen_are_named_and_no_other_reason_is_given() {
-    let angle = |period: &str| {
-        format!(
-            "title = \"A\"\n[coordinates]\nq = {{ initial = 1.1{period} }}\n[lagrangian]\nL = \"1/2*q'^2 + cos(q)\"\n"
-        )
-    };
-    let arguments = ["actions", "system.toml", "--energy=-0.5"];
-    let refused = with_file(&angle(""), &arguments);
-    assert!(!refused.stderr.contains("separate"), "{}", refused.stderr);
-    refused.fails(1, &["wells narrower", "`period`"]);
-    with_file(&angle(", period = \"2*pi\""), &arguments).success();
-}
-
 /// The action of the motion itself is known, and the separatrices as far as the wells are seen: the nearest have lobes of 16.
 #[test]
 fn an_angle_without_its_period_has_the_separatrices_that_are_seen() {

@@ -100,6 +100,8 @@ fn a_caustic_is_told_and_stepped_over() {
             plot.viewport_mut().expect("it has axes").active = active;
             let (_, words) = shown(&course.app, &plot);
             assert_eq!(words.iter().any(|line| line == said), beyond, "at {time}: {words:?}");
+            // what comes last may have no room
+            assert!(active || !beyond || words[0] == said, "at {time}: {words:?}");
         }
     }
 }
