@@ -41,8 +41,9 @@ pub fn stationary_path_between(
     };
     lagrangian.within_budget(|lagrangian| {
         match continued(lagrangian, &straight, duration) {
-            Err(why) if !is_final(lagrangian, &why) => failed = clearer(failed, why),
-            outcome => return outcome,
+            None => {}
+            Some(Err(why)) if !is_final(lagrangian, &why) => failed = clearer(failed, why),
+            Some(outcome) => return outcome,
         }
         from_arcs(lagrangian, [from, to], (&straight, duration), failed)
     })
@@ -116,9 +117,9 @@ fn continued(
     lagrangian: &mut Lagrangian,
     straight: &dyn Fn(f64) -> Vec<f64>,
     duration: f64,
-) -> Result<StationaryPath, DynamicsError> {
+) -> Option<Result<StationaryPath, DynamicsError>> {
     let step = duration / f64::from(STEPS);
-    let mut path = stationary_path(lagrangian, &|time| straight(time / step), step)?;
+    let mut path = stationary_path(lagrangian, &|time| straight(time / step), step).ok()?;
     for k in 2..=STEPS {
         let (before, now) = (step * f64::from(k - 1), step * f64::from(k));
         let guess = |time: f64| match time / now {
@@ -129,7 +130,11 @@ fn continued(
             }
             part => straight(part),
         };
-        path = stationary_path(lagrangian, &guess, now)?;
+        let found = stationary_path(lagrangian, &guess, now);
+        if k == STEPS {
+            return Some(found);
+        }
+        path = found.ok()?;
     }
-    Ok(path)
+    None
 }

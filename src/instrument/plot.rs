@@ -165,7 +165,7 @@ impl Plot {
     }
 
     /// Zooms horizontally, vertically, or both, about a point that stays where it is, given in fractions of the width and height.
-    /// A camera that sees the whole scene again has it in the middle.
+    /// Where all is seen again it is in the middle.
     pub fn zoom_about(&mut self, factor: f64, axes: [bool; 2], place: [f64; 2]) {
         let nearer = |zoom: f64| (zoom * factor).clamp(0.05, 200.0);
         // what a point keeps from the middle of the window, or from its end, while all grows by a ratio
@@ -184,7 +184,8 @@ impl Plot {
                 for k in [0, 1].into_iter().filter(|&k| axes[k]) {
                     let zoom = nearer(viewport.zoom[k]);
                     let ratio = zoom / viewport.zoom[k];
-                    viewport.pan[k] = panned(viewport.pan[k], ratio, place[k] - anchor[k]);
+                    let panned = panned(viewport.pan[k], ratio, place[k] - anchor[k]);
+                    viewport.pan[k] = if zoom < WHOLE_SCENE { 0.0 } else { panned };
                     viewport.zoom[k] = zoom;
                 }
             }

@@ -54,7 +54,7 @@ fn an_energy_has_the_wells_that_are_seen() {
     let model = Document::new("t", text).read().unwrap_or_else(|_| panic!("{text}")).model;
     let settings = Settings { step: None, tolerance: None };
     let held =
-        HeldSystem::of(&model, 0, settings, &Cancel::new()).expect("it conserves its energy");
+        FrozenSystem::of(&model, 0, settings, &Cancel::new()).expect("it conserves its energy");
     let rows = held.at(0.0, &[], [&[0.0], &[0.0]]).expect("a state").rows(-0.9).expect("wells");
     assert!(rows.len() > 10, "{}", rows.len());
     let swing = 0.9_f64.acos();

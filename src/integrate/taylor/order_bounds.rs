@@ -4,7 +4,7 @@
 //! coefficients, the constants of the rule.
 //!
 //! ```text
-//!                 k = p−11  p−10  …  p        one lane for each of the last orders
+//!                 k = p−11  p−10  …  p        one lane for each of the last orders; the first two are not among them
 //!   j = 0             ·      ·       ·
 //!   j = 1             ·      ·       ·        (ln |c_j| − ln |c_k|)/(k − j) + ln ε/(p − j)
 //!   …                                         the largest of each column
@@ -30,7 +30,8 @@ struct Bound {
 #[derive(Clone, Debug)]
 pub(super) struct OrderBounds {
     bounds: Vec<Bound>,
-    /// By how much the logarithm of the step may be longer; infinite for an order that does not enter.
+    /// By how much the logarithm of the step may be longer; infinite for an order that is not among the last, which therefore
+    /// allows anything.
     indulgence: [f64; WIDTH],
 }
 

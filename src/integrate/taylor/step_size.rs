@@ -9,7 +9,7 @@
 use super::argument_step::{
     FARTHEST_ARGUMENT, before_pole, may_pass_pole, of_argument, of_steep_pole,
 };
-use super::last_orders::{INDULGENCE, ROOM, indulgence_of};
+use super::last_orders::{INDULGENCE, ROOM, WIDTH, indulgence_of};
 use super::order_bounds::OrderBounds;
 use super::rough_logarithms::Logarithms;
 use super::step_screen::{StepScreen, powers_of};
@@ -39,7 +39,7 @@ const SPARED: f64 = 1e3;
 pub(super) fn order_for(tolerance: f64, degrees: usize) -> usize {
     let long = (EXACT_BELOW..LOOSE).contains(&tolerance) && degrees <= SMALL;
     let part = if long { 0.8 } else { 0.66 };
-    ((-math::ln(tolerance) * part).ceil() as usize).clamp(12, 44)
+    ((-math::ln(tolerance) * part).ceil() as usize).clamp(WIDTH, 44)
 }
 
 /// From this tolerance on it is loose; time scales of motions are measured with it.
