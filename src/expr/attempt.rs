@@ -71,6 +71,7 @@ mod tests {
         assert_eq!((pool.built(), pool.is_full()), (built, false));
         // what comes after it is what it is without it
         let mut other = Pool::new();
+        product(&mut other, 3);
         let (after, alone) = (product(&mut pool, 4), product(&mut other, 4));
         assert_eq!(pool.text(after), other.text(alone));
         assert_eq!(pool.attempt(1_000_000, |pool| Some(product(pool, 3))), Some(small));
