@@ -101,7 +101,9 @@ impl Verdict {
                 .or_else(|| departure(whole, floor))
                 .or_else(|| early_departure(whole, floor)),
             // so far the state has only gone one way, and its function with it
-            Errors::OfState if !turns(whole, RETURNED) => return Verdict::Open,
+            Errors::OfState if !turns(whole, RETURNED) && !repeats(whole, floor) => {
+                return Verdict::Open;
+            }
             Errors::OfState => trend(whole),
         };
         match slope {
@@ -153,6 +155,21 @@ const RETURNED: f64 = 1.5;
 
 /// The same where errors accumulate: it has come back three times and is away again.
 const OFTEN: f64 = 7.0;
+
+/// Whether what lies beside a straight line comes and goes with a motion that returns: steps along a staircase, which has
+/// not come back itself. A curve that only bends, or a line as straight as rounding allows, shows no return.
+fn repeats(intervals: &[Stretch], floor: f64) -> bool {
+    let (slope, _) = line(intervals);
+    let rest: Vec<f64> = intervals.iter().map(|s| s.mean - slope * s.middle()).collect();
+    let greatest = rest.iter().copied().fold(f64::MIN, f64::max);
+    let width = greatest - rest.iter().copied().fold(f64::MAX, f64::min);
+    let way: f64 = rest.windows(2).map(|pair| (pair[1] - pair[0]).abs()).sum();
+    width > FAR * floor && way >= REPEATED * width
+}
+
+/// How much longer the way beside the line is than its width, at least: there and back seven times. So many changes of level
+/// are not all alike by where the steps of the method fall.
+const REPEATED: f64 = 14.0;
 
 /// The slope of a lasting trend, if there is one. However the whole is divided into blocks, their
 /// means must rise (or fall) throughout, with no step between them much smaller than the others;

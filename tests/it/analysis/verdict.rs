@@ -141,6 +141,37 @@ fn what_grows_is_secular_with_its_slope() {
     assert!((stairs.expect("a staircase is a trend") / (-1e-6 / 7.3) - 1.0).abs() < 0.05);
 }
 
+/// Under a symplectic method an error that only goes one way may be that of a state that only goes one way. A staircase with a
+/// step in each of twenty periods is not: the state has returned, and its error has not.
+#[test]
+fn a_staircase_of_a_function_of_the_state_is_secular_where_the_motion_has_returned() {
+    let verdict = |drift: &dyn Fn(f64) -> f64| {
+        let history = history(6000, drift);
+        Verdict::of(&history, history.peak(), FLOOR, Errors::OfState)
+    };
+    // a step of this part of a period, as a passage through the pericentre
+    let stairs = |periods: f64, t: f64| {
+        let phase = periods * t / 600.0;
+        phase.floor() + (phase.fract() / 0.2).min(1.0)
+    };
+    for periods in [10.0, 20.0, 29.3] {
+        let slope = secular(&verdict(&|t| -1e-7 * stairs(periods, t)));
+        let expected = -1e-7 * periods / 600.0;
+        assert!((slope.expect("a staircase") / expected - 1.0).abs() < 0.05, "{periods}");
+    }
+    // with few steps their chance may be that of the places where the method's steps fall
+    assert_eq!(verdict(&|t| 1e-7 * stairs(4.0, t)), Verdict::Open);
+    // a part of a swing, with ripples much smaller than its bend, and a line
+    for width in [0.4, 0.8, 1.4] {
+        let swing = |t: f64| 1e-6 * (width * (t / 300.0 - 1.0)).sin();
+        assert_eq!(verdict(&swing), Verdict::Open, "{width}");
+        let bend = 1e-6 * width.powi(3) / 30.0;
+        let rippled = |t: f64| swing(t) + 0.1 * bend * (0.3 * t).sin();
+        assert_eq!(verdict(&rippled), Verdict::Open, "{width}");
+    }
+    assert_eq!(verdict(&|t| 1e-7 * t), Verdict::Open);
+}
+
 #[test]
 fn a_trend_is_found_under_a_swing_ten_times_its_size() {
     let found = verdict(6000, |t| 1e-8 * t + 6e-5 * (2.0 * t).sin());
