@@ -8,6 +8,7 @@ mod claim;
 mod constraint;
 mod coordinate;
 mod description;
+mod kinks;
 mod literal;
 mod occurrence;
 mod parameter;

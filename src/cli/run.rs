@@ -146,7 +146,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let system = open::compile(&document, &derived, &columns)?;
     let Derived { model, equations } = derived;
     let method = arguments.integrator.choose(&document, &model, &system)?;
-    cautions::before(&system, &equations, method);
+    cautions::before(&model, &system, &equations, method);
 
     let header = header(&model, &system, &parameters, method, settings);
     let setup = Setup {

@@ -246,7 +246,7 @@ impl Pool {
 
     /// Like [`Pool::reachable`], without the nodes at which `stop` holds and what is below them
     /// alone.
-    pub(super) fn reachable_until(&self, roots: &[Expr], stop: impl Fn(Expr) -> bool) -> Vec<Expr> {
+    pub(crate) fn reachable_until(&self, roots: &[Expr], stop: impl Fn(Expr) -> bool) -> Vec<Expr> {
         let Some(top) = roots.iter().max() else { return Vec::new() };
         // parts have smaller handles than wholes: one walk downwards over a set of bits meets every
         // node after all that it is a part of

@@ -50,10 +50,15 @@ impl Ramp {
         if u == 1.0 { to } else { from + (to - from) * part }
     }
 
+    /// The part of its time that is behind, from 0 to 1, as a function of t in the syntax of files.
+    fn progress(&self) -> String {
+        format!("min(max((t - ({:?}))/({:?}), 0), 1)", self.start, self.duration)
+    }
+
     /// The value as a function of t, in the syntax of files.
     fn written(&self) -> String {
         let [from, to] = self.values;
-        let u = format!("min(max((t - ({:?}))/({:?}), 0), 1)", self.start, self.duration);
+        let u = self.progress();
         let part = match self.form {
             RampForm::Linear => u,
             RampForm::Cubic => format!("(3*{u}^2 - 2*{u}^3)"),
@@ -83,9 +88,12 @@ pub fn replace_by_ramps(model: &mut Model, ramps: &[Ramp]) -> Result<Ramped, Ram
             }
         }
         let mut pool = model.pool.clone();
-        let read = Scope::new(model, Allowed::Event, "a ramp").read(&mut pool, &ramp.written());
+        let mut scope = Scope::new(model, Allowed::Event, "a ramp");
+        let mut read = |text: &str| scope.read(&mut pool, text).ok_or(RampRefused::TooLarge);
+        let (value, progress) = (read(&ramp.written())?, read(&ramp.progress())?);
         model.pool = pool;
-        ramped.insert(symbol, read.ok_or(RampRefused::TooLarge)?);
+        ramped.insert(symbol, value);
+        model.ramped.proceed(progress, ramp.form == RampForm::Smooth);
     }
     let Model { pool, mechanics, constraints, impulses, events, observables, definitions, .. } =
         model;

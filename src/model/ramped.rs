@@ -45,6 +45,8 @@ impl RampForm {
 #[derive(Clone, Debug, Default)]
 pub struct Ramped {
     functions: HashMap<Symbol, Expr>,
+    /// The clamped progress of each part, and whether every part that has it begins and ends smoothly.
+    progress: HashMap<Expr, bool>,
     named: Vec<NamedRamp>,
     instant: Option<Symbol>,
 }
@@ -170,6 +172,8 @@ impl Ramped {
             let passed = pool.div(passed, part.duration);
             let passed = pool.call(FunctionId::Max, &[passed, Expr::ZERO]);
             let u = pool.call(FunctionId::Min, &[passed, limit.unwrap_or(one)]);
+            // one that a later part takes over from stops at once
+            self.proceed(u, part.form == RampForm::Smooth && limit.is_none());
             let share = part.form.share(pool, u);
             let change = if k == 0 {
                 pool.mul(change, share)
@@ -246,6 +250,16 @@ impl Ramped {
     /// Lets a parameter be a function of the time.
     pub(super) fn insert(&mut self, parameter: Symbol, value: Expr) {
         self.functions.insert(parameter, value);
+    }
+
+    /// Notes the clamped progress of a part, and whether it begins and ends smoothly.
+    pub(super) fn proceed(&mut self, progress: Expr, smoothly: bool) {
+        self.progress.entry(progress).and_modify(|all| *all &= smoothly).or_insert(smoothly);
+    }
+
+    /// Whether this is the clamped progress of parts of ramps that all begin and end smoothly.
+    pub fn is_smooth_progress(&self, e: Expr) -> bool {
+        self.progress.get(&e).is_some_and(|smooth| *smooth)
     }
 
     /// Whether no parameter changes with the time.

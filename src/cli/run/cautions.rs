@@ -4,11 +4,12 @@ use crate::cli::stderr;
 use crate::experiment::Experiment;
 use crate::integrate::{METHODS, Method};
 use crate::mechanics::Equations;
+use crate::model::Model;
 use crate::printable;
 use crate::system::System;
 
 /// Warns before the run about a law with a step, and about a method that ignores the kinks of the motion.
-pub(super) fn before(system: &System, equations: &Equations, method: &Method) {
+pub(super) fn before(model: &Model, system: &System, equations: &Equations, method: &Method) {
     if equations.law_jumps() {
         let law = if equations.is_lagrangian() { "L" } else { "H" };
         stderr::report(&format!(
@@ -16,7 +17,8 @@ pub(super) fn before(system: &System, equations: &Equations, method: &Method) {
              make the step a steep slope, as with tanh, or give the impulse as an event"
         ));
     }
-    if system.has_kinks() && !method.locates_kinks {
+    let has_kinks = system.has_kinks() && model.has_kinks_beside_smooth_ramps();
+    if has_kinks && !method.locates_kinks {
         let others: Vec<&str> =
             METHODS.iter().filter(|m| m.locates_kinks).map(|m| m.name).collect();
         stderr::report(&format!(

@@ -692,6 +692,49 @@ fn a_method_that_passes_over_kinks_says_which_one_does_not() {
     run("taylor").success();
 }
 
+/// A force that changes smoothly has no kink where it begins or ends to change. What else the law has is none of its concern.
+#[test]
+fn a_smooth_ramp_is_no_kink() {
+    let told = |law: &str, ramps: &[&str], option: Option<&str>| {
+        let mut text = format!(
+            "title = \"A swing\"\n[coordinates]\nx = {{ initial = 1 }}\n[parameters]\ng = 1.0\nh = 1.0\n\
+             [lagrangian]\nL = \"1/2*x'^2 - {law}\"\n"
+        );
+        for ramp in ramps {
+            text.push_str(&format!("[[ramps]]\n{ramp}\n"));
+        }
+        let mut arguments = vec!["run", "system.toml", "--until", "3", "--at", "3"];
+        arguments.extend(["--method", "leapfrog", "--step", "0.01"]);
+        arguments.extend(option.iter().flat_map(|ramp| ["--ramp", ramp]));
+        let done = with_file(&text, &arguments);
+        assert_eq!(done.code, 0, "{}", done.stderr);
+        done.stderr.contains("steps over the kinks of this motion")
+    };
+    let part = |name: &str, to: f64, start: f64, form: &str| {
+        format!(
+            "parameter = \"{name}\"\nto = {to}\nstart = {start}\nduration = 1\nform = \"{form}\""
+        )
+    };
+    let smooth = &part("g", 2.0, 1.0, "smooth")[..];
+    let later = part("g", 3.0, 2.0, "smooth");
+    let sooner = part("g", 3.0, 1.5, "smooth");
+    let linear = part("g", 2.0, 1.0, "linear");
+    let other = part("h", 2.0, 1.0, "linear");
+    let law = "1/2*(g + h)*x^2";
+    assert!(!told(law, &[smooth], None));
+    assert!(!told(law, &[smooth, &later], None));
+    assert!(!told("1/2*max(h, 2)*g*x^2", &[smooth], None), "a number");
+    assert!(!told(law, &[], Some("g=1:2:0:2")));
+    assert!(told("abs(x)", &[], None));
+    assert!(told("g*abs(x)", &[smooth], None));
+    assert!(told("g*abs(x)", &[], Some("g=1:2:0:2")));
+    assert!(told("1/2*(g + max(t - 1, 0))*x^2", &[smooth], None), "the same switch");
+    assert!(told(law, &[&linear], None));
+    assert!(told(law, &[], Some("g=1:2:0:2:linear")));
+    assert!(told(law, &[smooth, &other], None), "at the same times");
+    assert!(told(law, &[smooth, &sooner], None), "stopped half-way");
+}
+
 /// With E = 0.2 a particle would be thrown back by a step of 0.6 that is a slope; of −0.3 sign x no derivative shows the force.
 #[test]
 fn a_step_of_the_law_is_told() {

@@ -1,0 +1,31 @@
+//! Kinks of a law that is not smooth.
+//!
+//! In: a model, its ramps included. Out: whether its law switches anywhere but at the ends of smooth ramps. Never here: where a
+//! motion meets a kink.
+
+use super::Model;
+use crate::expr::{Expr, FunctionId, Node, Rule};
+
+impl Model {
+    /// Whether `abs`, `sign`, `min`, `max` or the cut of an `atan2` is applied in the law to anything but parameters, apart from
+    /// the progress of ramps that begin and end smoothly. Constraints belong to the law.
+    pub fn has_kinks_beside_smooth_ramps(&self) -> bool {
+        let mut mechanics = self.mechanics.clone();
+        let mut roots: Vec<Expr> = mechanics.expressions_mut().into_iter().map(|e| *e).collect();
+        roots.extend(self.constraints.iter().map(|constraint| constraint.expression));
+        let ramped = |e: Expr| self.ramped.is_smooth_progress(e);
+        let reached = self.pool.reachable_until(&roots, ramped);
+        reached.into_iter().any(|e| self.is_switch(e))
+    }
+
+    /// Whether an expression switches where something other than a parameter has a value.
+    fn is_switch(&self, e: Expr) -> bool {
+        let Node::Call(function, _) = self.pool.node(e) else { return false };
+        let switches =
+            *function == FunctionId::Atan2 || matches!(function.row().rule, Rule::Branch(_));
+        let is_fixed = |symbol| self.parameters.iter().any(|p| p.symbol == symbol);
+        let moves =
+            |e: Expr| matches!(*self.pool.node(e), Node::Symbol(symbol) if !is_fixed(symbol));
+        switches && self.pool.reachable(&[e]).into_iter().any(moves)
+    }
+}
