@@ -2,8 +2,8 @@
 //! the constraints at which V is stationary.
 //!
 //! The unknowns are the coordinates that rest and the velocities of the cyclic ones. The accelerations that the constraints
-//! leave must vanish, the cyclic momenta have their values, and the coordinates lie on the surface: more equations than
-//! unknowns, which agree at an equilibrium.
+//! leave must vanish and the velocities that they prescribe, the cyclic momenta have their values, and the coordinates lie on
+//! the surface: more equations than unknowns, which agree at an equilibrium.
 //!
 //! Around one, displacements along the surface are q = N s, with N the directions that the constraints allow. They follow
 //! s̈ = K s + C ṡ, and −(Nᵀ M N) K is the second derivative of V, the multipliers' part included, along the surface.
@@ -56,6 +56,29 @@ struct Local {
     surface: Vec<SurfaceRow>,
 }
 
+impl Local {
+    /// ∂A₀/∂q of each constraint A q̇ + A₀ = 0. Where nothing moves A ∂q̈/∂q̇ is its opposite. It is zero where it is but rounding.
+    fn prescribed_slopes(&self) -> Vec<Vec<f64>> {
+        let degrees = self.acceleration.len();
+        let slope = |one: &SurfaceRow, j: usize| {
+            let terms =
+                (0..degrees).map(|i| one.row[i] * self.acceleration_slope[(i, degrees + j)]);
+            let (sum, size) =
+                terms.fold((0.0, 0.0), |(sum, size): (f64, f64), x| (sum - x, size + x.abs()));
+            if sum.abs() <= ROUNDING * size { 0.0 } else { sum }
+        };
+        let slopes = |one: &SurfaceRow| (0..degrees).map(|j| slope(one, j)).collect();
+        self.surface.iter().map(slopes).collect()
+    }
+
+    /// Whether some constraint prescribes a velocity that does not change with the place.
+    fn drives_everywhere(&self) -> bool {
+        let slopes = self.prescribed_slopes();
+        let mut all = self.surface.iter().zip(slopes);
+        all.any(|(one, slopes)| one.rate != 0.0 && slopes.iter().all(|x| *x == 0.0))
+    }
+}
+
 impl ConstrainedBalance {
     /// The balance of the motions that have the cyclic momenta of `start`, and what it has of each constraint on the
     /// velocities that is constant.
@@ -69,11 +92,6 @@ impl ConstrainedBalance {
             return Err(DynamicsError::Unsuited("no constraint holds the motion".to_owned()));
         };
         projector.take_levels(&native);
-        if projector.surface(&native).iter().any(|one| one.rate != 0.0) {
-            let why = "a constraint prescribes a velocity at the start: only where it prescribes none can anything \
-                       rest, and such places are not searched for";
-            return Err(DynamicsError::Unsuited(why.to_owned()));
-        }
         let displaced = system.with_tangents(2 * system.degrees());
         let mut rates = displaced.native_rates();
         rates.set_parameters(parameters);
@@ -86,7 +104,7 @@ impl ConstrainedBalance {
             like.values[displaced.tangent_place(i) + i] = 1.0;
         }
         let space = space.clone();
-        Ok(ConstrainedBalance {
+        let mut balance = ConstrainedBalance {
             space,
             displaced,
             rates,
@@ -95,7 +113,13 @@ impl ConstrainedBalance {
             resting,
             cyclic,
             momenta,
-        })
+        };
+        let start = balance.start();
+        if balance.evaluate(&start, false).is_some_and(|local| local.drives_everywhere()) {
+            let why = "a constraint prescribes a velocity, which does not depend on the place, and nothing rests under it";
+            return Err(DynamicsError::Unsuited(why.to_owned()));
+        }
+        Ok(balance)
     }
 
     /// The unknowns among (q, q̇), by index.
@@ -185,7 +209,13 @@ impl ConstrainedBalance {
             let slopes = unknowns.iter().map(|&j| local.momentum_slope[(i, j)] * units[j]);
             push(local.momentum[i] - momentum, slopes.collect());
         }
-        for one in &local.surface {
+        for (one, by_place) in local.surface.iter().zip(local.prescribed_slopes()) {
+            // the velocities that it prescribes vanish too
+            if one.rate != 0.0 || by_place.iter().any(|x| *x != 0.0) {
+                let slope = |&j: &usize| if j < degrees { by_place[j] * units[j] } else { 0.0 };
+                let slopes = unknowns.iter().map(slope);
+                push(one.rate, slopes.collect());
+            }
             let Some(distance) = one.distance else { continue };
             let slope = |&j: &usize| if j < degrees { one.row[j] * units[j] } else { 0.0 };
             let slopes = unknowns.iter().map(slope);
@@ -194,12 +224,6 @@ impl ConstrainedBalance {
         let values = DVector::from_iterator(rows.len(), rows.iter().map(|row| row.0));
         let slopes = DMatrix::from_fn(rows.len(), unknowns.len(), |i, j| rows[i].1[j]);
         values.iter().chain(slopes.iter()).all(|x| x.is_finite()).then_some((values, slopes))
-    }
-
-    /// Whether some constraint asks for velocities there, so that nothing rests.
-    pub(super) fn drives(&mut self, variables: &[f64]) -> bool {
-        let place = self.place(variables);
-        self.projector.surface(&place).iter().any(|one| one.rate != 0.0)
     }
 
     /// The motion around an equilibrium, in these units of the coordinates.
@@ -238,6 +262,13 @@ impl ConstrainedBalance {
         };
         let along = allowed(&|one| one.distance.is_some())?;
         let directions = allowed(&|_| true)?;
+        // the velocities that the constraints prescribe beside the place
+        let row = |i: usize, j: usize| local.surface[i].row[resting[j]] * unit(j);
+        let rows = DMatrix::from_fn(local.surface.len(), count, row);
+        let slopes = local.prescribed_slopes();
+        let slope = |i: usize, j: usize| -slopes[i][resting[j]] * unit(j);
+        let slope = DMatrix::from_fn(rows.nrows(), count, slope);
+        let prescribed = least_velocities(&rows, &slope)? * &along;
         let (places, speeds) = (along.ncols(), directions.ncols());
         let mut matrix = DMatrix::zeros(places + speeds, places + speeds);
         // what cancels but for rounding on the way to the surface is zero
@@ -245,10 +276,11 @@ impl ConstrainedBalance {
             let most = ROUNDING * m.amax();
             (directions.transpose() * m * right).map(|x| if x.abs() <= most { 0.0 } else { x })
         };
-        let stiffness = projected(&k, &along);
+        let stiffness = projected(&k, &along) + projected(&c, &prescribed);
         matrix
             .view_mut((0, places), (places, speeds))
             .copy_from(&(along.transpose() * &directions));
+        matrix.view_mut((0, 0), (places, places)).copy_from(&(along.transpose() * &prescribed));
         matrix.view_mut((places, 0), (speeds, places)).copy_from(&stiffness);
         let damping = projected(&c, &directions);
         matrix.view_mut((places, places), (speeds, speeds)).copy_from(&damping);
@@ -260,6 +292,15 @@ impl ConstrainedBalance {
         });
         Some(AroundPlace { matrix, displacements, potential })
     }
+}
+
+/// The smallest velocities that these rows, which are independent, take to these values.
+fn least_velocities(rows: &DMatrix<f64>, values: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+    if values.iter().all(|x| *x == 0.0) {
+        return Some(DMatrix::zeros(rows.ncols(), values.ncols()));
+    }
+    let square = (rows * rows.transpose()).try_inverse()?;
+    Some(rows.transpose() * square * values)
 }
 
 /// Orthonormal directions that all rows of a matrix, which are independent, take to zero.

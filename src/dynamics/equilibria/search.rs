@@ -365,7 +365,7 @@ impl<'a> EquilibriumSearch<'a> {
             return None;
         }
         match &mut self.law {
-            LawAtRest::Constrained(balance) => (!balance.drives(&variables)).then_some(variables),
+            LawAtRest::Constrained(_) => Some(variables),
             LawAtRest::Free(field) => {
                 // a force on a cyclic coordinate, as friction, lets nothing rest
                 resting_rates(field, (self.start.time, &variables), &self.unknowns)?;

@@ -481,6 +481,35 @@ fn a_constraint_that_drives_lets_nothing_rest() {
     assert!(why.contains("prescribes a velocity"), "{why}");
 }
 
+/// ẋ = (x − y)/2 is prescribed, and nothing acts on y but its spring: at the origin alone nothing moves. It is left with
+/// e^(t/2), while y oscillates with 1. Of ẋ = y/2 every place with y = 0 is one.
+#[test]
+fn what_rests_where_a_prescribed_velocity_vanishes() {
+    let under = |constraint: &str| {
+        held(
+            &format!(
+                "title = \"t\"\n[coordinates]\nx = {{ initial = 0.1 }}\ny = {{ initial = 0.2 }}\n\
+                 [lagrangian]\nL = \"1/2*(x'^2 + y'^2) - 1/2*x^2 - 1/2*y^2\"\n\
+                 [[constraints]]\nname = \"c\"\nexpression = \"{constraint}\"\n"
+            ),
+            &[],
+        )
+    };
+    let found = under("x' + 0.5*y - 0.5*x");
+    assert_eq!(found.len(), 1);
+    let origin = &found[0];
+    assert!(origin.variables.iter().all(|x| x.abs() < 1e-12), "{:?}", origin.variables);
+    assert_eq!(origin.stable, Some(false));
+    let mut values = origin.eigenvalues.clone();
+    values.sort_by(|a, b| (b[0], b[1]).partial_cmp(&(a[0], a[1])).unwrap());
+    for (value, wanted) in values.iter().zip([[0.5, 0.0], [0.0, 1.0], [0.0, -1.0]]) {
+        (0..2).for_each(|k| assert!((value[k] - wanted[k]).abs() < 1e-12, "{values:?}"));
+    }
+    let found = under("x' - 0.5*y");
+    assert!(!found.is_empty());
+    assert!(found.iter().all(|one| one.variables[1].abs() < 1e-12));
+}
+
 /// Two steep centres, a coupling and a spring: V is the same at (−x, −y), and so are its equilibria. The gradient's zeros were
 /// searched for in `SciPy` from 6000 random places: there are eleven but for the centre's pair.
 #[test]
