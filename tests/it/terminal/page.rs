@@ -187,7 +187,7 @@ fn a_storm_of_sizes_ends_in_a_whole_picture() {
         }
     }
     page.resize(64, 9);
-    page.until("the last size is drawn", |page| page.sent().contains("size 64x9"));
+    page.shows("size 64x9");
     page.quiet(Duration::from_millis(200));
     let sent = page.sent();
     let mut screen = vt100::Parser::new(9, 64, 0);
