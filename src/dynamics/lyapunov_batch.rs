@@ -49,7 +49,7 @@ pub fn lyapunov_of_all(
         lanes: std::array::from_fn(|_| None),
         found: orbits.iter().map(|_| None).collect(),
     };
-    // what a cancellation leaves is told to be cancelled alone
+    // what a cancellation leaves is reported as cancelled, each orbit alone
     side_by_side(&mut batch, orbits.len(), &mut together);
     let found = together.found.into_iter().zip(orbits);
     found.map(|(found, orbit)| found.unwrap_or_else(|| alone(orbit))).collect()

@@ -248,7 +248,7 @@ fn draw_layer(
         }
         Layer::Line(points, stroke) => {
             let pen = match stroke.ink {
-                // Without colour a curve is told from the trail below it by its dashes.
+                // Without colour a curve differs from the trail below it by its dashes.
                 Ink::Curve(index) if is_colourless(canvas) => {
                     Pen::shaded(canvas.look.theme.series(index), level)
                 }

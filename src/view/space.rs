@@ -12,6 +12,7 @@ mod ghost;
 mod line;
 mod mechanics;
 mod names;
+mod outline;
 mod reference_frame;
 mod rod;
 mod scene;
@@ -115,7 +116,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
     let forces = artist.apparent(seen.map_or(&[], Vec::as_slice));
     artist.raster.draw(canvas.buffer);
     let shading = &artist.shading;
-    // What is written comes before the surfaces, so that it has their backgrounds and is told from them.
+    // What is written comes before the surfaces, so that it has their backgrounds and stands out from them.
     let mut written = annotation::labels(canvas, area, &artist.frame, &artist.labels);
     let mut lines = annotation::forces(canvas, &forces);
     let mechanics = artist.mechanics.iter();
@@ -217,34 +218,11 @@ impl ScenePainter<'_> {
                     self.label(tip, Some(foot), label);
                 }
             }
-            Shape::Disc { centre, radius, normal } => {
-                let pen = self.own_pen(centre, solid);
-                let (centre, normal) = (self.point(centre), self.direction(normal));
-                let radius = self.q.number(*radius);
-                let rim = self.rim(centre, radius, normal);
-                self.edge(solid::disc(radius), |artist| artist.curve(&rim, &pen));
-            }
-            Shape::Cone { tip, base, radius } => {
-                let pen = self.own_pen(base, solid);
-                let (tip, base) = (self.point(tip), self.point(base));
-                let axis = [0, 1, 2].map(|k| base[k] - tip[k]);
-                let radius = self.q.number(*radius);
-                let rim = self.rim(base, radius, axis);
-                self.edge(solid::along(tip, base, radius), |artist| {
-                    artist.curve(&rim, &pen);
-                    artist.silhouette(&vec![tip; rim.len()], &rim, &pen);
-                });
-            }
-            Shape::Cylinder { from, to, radius } => {
-                let pen = self.own_pen(from, solid);
-                let ends = [self.point(from), self.point(to)];
-                let radius = self.q.number(*radius);
-                let [low, high] = solid::rims(ends, radius, self.spacing(radius));
-                self.edge(solid::along(ends[0], ends[1], radius), |artist| {
-                    artist.curve(&low, &pen);
-                    artist.curve(&high, &pen);
-                    artist.silhouette(&low, &high, &pen);
-                });
+            Shape::Disc { centre: own, .. }
+            | Shape::Cone { base: own, .. }
+            | Shape::Cylinder { from: own, .. } => {
+                let pen = self.own_pen(own, solid);
+                self.outline(shape, &pen);
             }
             Shape::Sphere { centre, radius } => {
                 self.limb(self.point(centre), self.q.number(*radius).abs(), &ground);

@@ -163,7 +163,7 @@ impl Theme {
         self.tones.iter().find(|(own, _)| Some(*own) == style.fg).map(|(_, tones)| tones)
     }
 
-    /// A style whose colour is told from this background: its own, one nearer to the foreground, or where neither is, whichever
+    /// A style whose colour stands out from this background: its own, one nearer to the foreground, or where neither is, whichever
     /// of the foreground and the palette's own background differs more.
     pub fn legible(&self, style: Style, background: Color) -> Style {
         let foreground = self.palette.foreground;

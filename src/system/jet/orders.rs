@@ -259,7 +259,7 @@ impl<R: Coefficient> Orders<'_, R> {
         }
     }
 
-    /// The same slices, to be given away for a while.
+    /// The same slices, to be given away: what is given to a function that is not inlined must lie in memory.
     #[inline(always)]
     fn again(&mut self) -> Orders<'_, R> {
         Orders {

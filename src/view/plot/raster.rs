@@ -232,7 +232,7 @@ impl Raster {
         self.draw_where(buffer, |_, _| true);
     }
 
-    /// Copies the dots of some cells, told by their index row by row and by their position, to the screen where it is blank.
+    /// Copies the dots of some cells, given by their index row by row and by their position, to the screen where it is blank.
     pub fn draw_on_blank(&self, buffer: &mut Buffer, shown: impl Fn(usize, Position) -> bool) {
         let wide = usize::from(self.area.width).max(1);
         let at = |index: usize| Position {

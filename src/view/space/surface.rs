@@ -12,7 +12,7 @@ use crate::view::plot::{DepthBuffer, Pen, Visibility};
 use crate::view::theme::Role;
 
 /// The share of a surface's dots that are drawn in the shade, and in full light: of spheres, on which curves are drawn,
-/// of other solids, and of masses. Without colour a curve is told from the dots of its sphere by their number alone.
+/// of other solids, and of masses. Without colour a curve differs from the dots of its sphere by their number alone.
 const SPHERE: [f64; 2] = [0.06, 0.55];
 const COLOURLESS_SPHERE: [f64; 2] = [0.02, 0.12];
 const OPAQUE: [f64; 2] = [0.2, 0.9];
