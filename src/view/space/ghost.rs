@@ -2,17 +2,19 @@
 //!
 //! In: the shapes of a scene, a motion. Out: dots. Never here: surfaces.
 
-use super::{SOLID, ScenePainter, TRACK, circle, companions, scene};
+use super::{SOLID, ScenePainter, TRACK, circle, companions};
 use crate::model::{Point, Shape};
 use crate::view::cache::FrameCache;
 use crate::view::plot::{Marker, Pen};
+use crate::view::quantity::QuantitySource;
 
 impl ScenePainter<'_> {
     /// Draws what moves of a motion beside the main one: its lines, rims, edges, masses and tracks, in its colour. Its surfaces
     /// would hide the main one.
     pub(super) fn ghost(&mut self, shape: &Shape, cache: &mut FrameCache) {
         let q = self.q;
-        let moves = |point: &Point| !scene::rests(q, point);
+        let moves =
+            |point: &Point| point.iter().any(|e| matches!(q.place(*e), QuantitySource::Channel(_)));
         let number = self.beside.unwrap_or(0);
         let pen = Pen::new(companions::ink(&self.q.look.theme, number), TRACK);
         match shape {
