@@ -16,6 +16,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 /// `high + low`, with `low` at most half a unit in the last place of `high`. It is accurate for
 /// magnitudes below 1e290.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
+#[repr(C)]
 pub struct DoubleDouble {
     /// The nearest `f64`.
     pub high: f64,

@@ -78,19 +78,19 @@ impl<R: Coefficient> SeriesBuilder<R> {
     }
 
     /// The registers, and the series of the state one after another.
-    #[cfg(feature = "jit")]
+    #[cfg(target_arch = "x86_64")]
     pub(super) fn parts(&mut self) -> (&mut Jet<R>, &mut [R]) {
         (&mut self.jet, &mut self.state)
     }
 
     /// Evaluates all registers at order 0.
-    #[cfg(feature = "jit")]
+    #[cfg(target_arch = "x86_64")]
     pub(super) fn evaluate(&mut self, clock: SeriesClock<R>) -> Result<(), Singular> {
         self.jet.take_in(&self.state, self.inputs, 0);
         self.jet.advance(0, clock.time, clock.scale)
     }
 
-    #[cfg(feature = "jit")]
+    #[cfg(target_arch = "x86_64")]
     pub(super) fn len(&self) -> usize {
         self.state.len() / (self.order + 1)
     }
@@ -168,6 +168,19 @@ impl<R: Real> SeriesBuilder<R> {
                 self.kept.push(switch);
             }
         }
+    }
+
+    /// Copies the origin and what was evaluated at it in another precision.
+    #[cfg(target_arch = "x86_64")]
+    pub(super) fn take_origin<S: Real>(
+        &mut self,
+        other: &SeriesBuilder<S>,
+    ) -> Result<(), Singular> {
+        for i in 0..self.len() {
+            self.set_origin(i, R::of(other.series(i)[0].double()));
+        }
+        self.kept.clone_from(&other.kept);
+        self.jet.take_over(&other.jet, 1)
     }
 
     /// Copies all orders known in another precision.

@@ -10,7 +10,7 @@
 mod batch;
 mod operands;
 mod orders;
-#[cfg(feature = "jit")]
+#[cfg(target_arch = "x86_64")]
 mod outline;
 mod series_index;
 mod side;
@@ -24,7 +24,7 @@ use super::schedule::Schedule;
 use crate::expr::FunctionId;
 use crate::num::{Analytic, Batch, DoubleDouble, Kernel, Real, vectorized};
 pub(super) use orders::Coefficient;
-#[cfg(feature = "jit")]
+#[cfg(target_arch = "x86_64")]
 pub(super) use outline::JetPlan;
 use series_index::{PoleDegree, SeriesIndex};
 pub use side::Side;

@@ -1,41 +1,55 @@
-//! The Taylor series of one orbit in `f64` by machine code, which is generated while the program runs.
+//! The Taylor series of one orbit by machine code, which is generated while the program runs.
 //!
 //! In: a program with its schedule, the orders that are wanted. Out: a function that computes them, with the bits of
 //! [`Jet`](super::Jet); nothing where there is none, and the jet computes them itself. Never here: numbers at order 0,
-//! wider precisions, several orbits, kinks and powers with a live exponent, events.
+//! the widest precision, several orbits, kinks and powers with a live exponent, events.
 //!
 //! ```text
-//!   Program, Schedule ──▶ layout: where every number lies      Jet: order 0, factored matrices
-//!                            │                                          │
-//!                         emitter: order by order, each unrolled        │ values
-//!                            │        inner_product, solution           ▼
-//!                         function: machine code ──▶ growth: series of the state and of what is read whole
+//!   Program, Schedule ──▶ layout: where every number lies          Jet: order 0, factored matrices
+//!                            │                                              │
+//!                         emitter: order by order, each unrolled            │ values
+//!                            │     arithmetic of each precision, solution   │
+//!                         basic_block: instructions in a straight line      │
+//!                            │                                              │
+//!                         allocation: their registers                       │
+//!                         encoding: their bytes                             ▼
+//!                            │                  function in memory ──▶ growth: series of the state and of what is
+//!                         compile ──────────────────▲                          read whole
 //!                            ▲
 //!                         cache: one function for a system and its orders
 //! ```
 //!
-//! Without the cargo feature `jit` nothing is generated (`absent`).
+//! The lowest orders are computed in double-double, those above in `f64`, by one function. On processors other than
+//! x86-64 with AVX2 nothing is generated (`absent`).
 
-#[cfg(not(feature = "jit"))]
+#[cfg(not(target_arch = "x86_64"))]
 mod absent;
-#[cfg(feature = "jit")]
+#[cfg(target_arch = "x86_64")]
+mod allocation;
+#[cfg(target_arch = "x86_64")]
+mod arithmetic;
+#[cfg(target_arch = "x86_64")]
+mod basic_block;
+#[cfg(target_arch = "x86_64")]
 mod cache;
-#[cfg(feature = "jit")]
+#[cfg(target_arch = "x86_64")]
+mod compile;
+#[cfg(target_arch = "x86_64")]
 mod emitter;
-#[cfg(feature = "jit")]
+#[cfg(target_arch = "x86_64")]
+mod encoding;
+#[cfg(target_arch = "x86_64")]
 mod function;
-#[cfg(feature = "jit")]
+#[cfg(target_arch = "x86_64")]
 mod growth;
-#[cfg(feature = "jit")]
-mod inner_product;
-#[cfg(feature = "jit")]
+#[cfg(target_arch = "x86_64")]
 mod layout;
-#[cfg(feature = "jit")]
+#[cfg(target_arch = "x86_64")]
 mod solution;
 
-#[cfg(not(feature = "jit"))]
+#[cfg(not(target_arch = "x86_64"))]
 pub(super) use absent::{CodeCache, CompiledGrowth};
-#[cfg(feature = "jit")]
+#[cfg(target_arch = "x86_64")]
 pub(super) use cache::CodeCache;
-#[cfg(feature = "jit")]
+#[cfg(target_arch = "x86_64")]
 pub(super) use growth::CompiledGrowth;

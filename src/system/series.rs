@@ -221,20 +221,27 @@ impl Series {
     }
 
     fn grow_in_range(&mut self) -> Result<(), Halt> {
-        let mut first = 0;
         let (time, scale) = (self.time, self.scale);
         let clock = SeriesClock::new(time, scale);
         let cancel = self.system.cancel();
+        let kept = match &mut self.low {
+            Some(low) => {
+                low.begin(&self.origin, &self.sides);
+                &low.kept
+            }
+            None => {
+                self.high.begin(&self.origin, &self.sides);
+                &self.high.kept
+            }
+        };
+        if kept.is_empty() && self.code.grow(&mut self.high, self.low.as_mut(), (time, scale))? {
+            return Ok(());
+        }
+        let mut first = 0;
         if let Some(low) = &mut self.low {
-            low.begin(&self.origin, &self.sides);
             low.grow(0, SeriesClock::new(time, scale), cancel)?;
             first = if low.kept.is_empty() { low.order } else { low.order + 1 - low.depth };
             self.high.take_over(low)?;
-        } else {
-            self.high.begin(&self.origin, &self.sides);
-        }
-        if self.high.kept.is_empty() && self.code.grow(&mut self.high, first, clock)? {
-            return Ok(());
         }
         self.high.grow(first, clock, cancel)?;
         if !self.sides.is_empty() {

@@ -94,13 +94,13 @@ impl<R: Real> Factored<R> {
     }
 
     /// The number of unknowns.
-    #[cfg(feature = "jit")]
+    #[cfg(target_arch = "x86_64")]
     pub(super) fn size(&self) -> usize {
         self.size
     }
 
     /// The factored rows in the order of the pivots, each with its place in the matrix.
-    #[cfg(feature = "jit")]
+    #[cfg(target_arch = "x86_64")]
     pub(super) fn rows(&self) -> impl Iterator<Item = (usize, &[R])> {
         self.rows.iter().map(|&row| (row, &self.entries[row * self.size..][..self.size]))
     }

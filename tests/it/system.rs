@@ -2,7 +2,6 @@
 
 mod channels;
 mod images;
-#[cfg(feature = "jit")]
 mod machine_code;
 mod program;
 mod rates;

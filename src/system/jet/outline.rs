@@ -2,7 +2,8 @@
 //!
 //! In: a jet. Out: what it would do, and its numbers at order 0. Never here: how orders are computed.
 
-use super::Jet;
+use super::{Coefficient, Jet};
+use crate::num::Real;
 use crate::system::program::{Program, Register};
 use crate::system::schedule::Schedule;
 use crate::system::solve::Factored;
@@ -14,36 +15,41 @@ pub(in crate::system) struct JetPlan<'a> {
     pub(in crate::system) schedule: &'a Schedule,
     /// The registers that are read as whole series, each with its place among these.
     pub(in crate::system) copies: &'a [(Register, u32)],
+    /// The number of registers and slopes.
+    pub(in crate::system) values: usize,
     /// The number of orders.
     pub(in crate::system) stride: usize,
     /// The length of all such series together.
     pub(in crate::system) series: usize,
 }
 
-impl Jet<f64> {
+impl<R: Coefficient> Jet<R> {
     pub(in crate::system) fn plan(&self) -> JetPlan<'_> {
         JetPlan {
             program: &self.program,
             schedule: &self.schedule,
             copies: &self.tables.index.copies,
+            values: self.tables.width,
             stride: self.tables.stride,
             series: self.tables.series.len(),
         }
     }
 
-    /// The registers and slopes at one order.
-    pub(in crate::system) fn row(&self, k: usize) -> &[f64] {
-        &self.tables.rows[k * self.tables.width..][..self.tables.width]
+    /// The registers and slopes at order 0.
+    pub(in crate::system) fn values(&self) -> &[R] {
+        &self.tables.rows[..self.tables.width]
     }
 
-    /// The matrices that were factored at order 0.
-    pub(in crate::system) fn factored(&self) -> &[Factored<f64>] {
-        &self.tables.blocks
-    }
-
-    /// The registers and slopes at order 0, and all series that are read whole.
-    pub(in crate::system) fn values_and_series(&mut self) -> (&[f64], &mut [f64]) {
+    /// The same, and all series that are read whole.
+    pub(in crate::system) fn values_and_series(&mut self) -> (&[R], &mut [R]) {
         let tables = &mut self.tables;
         (&tables.rows[..tables.width], &mut tables.series)
+    }
+}
+
+impl<R: Real> Jet<R> {
+    /// The matrices that were factored at order 0.
+    pub(in crate::system) fn factored(&self) -> &[Factored<R>] {
+        &self.tables.blocks
     }
 }

@@ -1,4 +1,4 @@
-//! What stands for machine code where the program was built without it: nothing is ever computed by it.
+//! What stands for machine code on processors for which none is generated: nothing is ever computed by it.
 
 #![expect(
     clippy::unused_self,
@@ -6,7 +6,8 @@
     reason = "has the form of what it stands for"
 )]
 
-use crate::system::growth::{SeriesBuilder, SeriesClock};
+use crate::num::DoubleDouble;
+use crate::system::growth::SeriesBuilder;
 use crate::system::program::Singular;
 
 /// No functions.
@@ -39,8 +40,8 @@ impl CompiledGrowth {
     pub(in crate::system) fn grow(
         &mut self,
         _: &mut SeriesBuilder<f64>,
-        _: usize,
-        _: SeriesClock<f64>,
+        _: Option<&mut SeriesBuilder<DoubleDouble>>,
+        _: (DoubleDouble, f64),
     ) -> Result<bool, Singular> {
         Ok(false)
     }

@@ -4,8 +4,7 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use super::emitter::{self, Extent};
-use super::function::CompiledFunction;
+use super::compile::{Compiled, Extent, compile};
 use crate::system::jet::JetPlan;
 
 /// The functions for one program; clones share them.
@@ -14,8 +13,8 @@ pub(in crate::system) struct CodeCache {
     known: Arc<Mutex<Vec<Entry>>>,
 }
 
-/// The number of orders, the extent, and the function, unless there can be none.
-type Entry = (usize, Extent, Option<Arc<CompiledFunction>>);
+/// The numbers of orders, exact ones second, the extent, and the function, unless there can be none.
+type Entry = ([usize; 2], Extent, Option<Arc<Compiled>>);
 
 impl CodeCache {
     /// An empty one.
@@ -23,19 +22,21 @@ impl CodeCache {
         CodeCache::default()
     }
 
-    /// The function for a jet of this program; `None` if there is none.
+    /// The function for a jet of this program, and for an exact one of its lowest orders; `None` if there is none.
     pub(super) fn function(
         &self,
         plan: &JetPlan<'_>,
+        exact: Option<&JetPlan<'_>>,
         extent: Extent,
-    ) -> Option<Arc<CompiledFunction>> {
+    ) -> Option<Arc<Compiled>> {
         let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
-        let same = |entry: &&Entry| (entry.0, entry.1) == (plan.stride, extent);
+        let orders = [plan.stride, exact.map_or(0, |exact| exact.stride)];
+        let same = |entry: &&Entry| (entry.0, entry.1) == (orders, extent);
         if let Some((.., function)) = known.iter().find(same) {
             return function.clone();
         }
-        let function = emitter::compile(plan, extent).ok().map(Arc::new);
-        known.push((plan.stride, extent, function.clone()));
+        let function = compile(plan, exact, extent).ok().map(Arc::new);
+        known.push((orders, extent, function.clone()));
         function
     }
 }

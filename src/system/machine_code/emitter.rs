@@ -1,126 +1,87 @@
 //! The code of all orders of a series: what [`Schedule`](crate::system::schedule::Schedule) says for one order, written out for
 //! each of them.
 //!
-//! In: a program and its schedule, the orders. Out: a function in Cranelift's intermediate form, and where its numbers
-//! lie. Never here: machine code, numbers.
+//! In: a program and its schedule, the orders in one precision. Out: instructions. Never here: arithmetic, bytes, numbers.
 //!
-//! Every sum has the order of [`Tables`](crate::system::jet), so the bits are the same. What is left out changes none: a term
+//! Every sum has the order of [`Orders`](crate::system::jet), so the bits are the same. What is left out changes none: a term
 //! that is zero, a factor 1, a first zero where what is added to it is never −0.
 
-use cranelift_codegen::ir::{Function, InstBuilder, MemFlags, Value, types};
-use cranelift_frontend::{FunctionBuilder, FunctionBuilderContext};
-
-use super::function::{self, CompiledFunction, NotCompiled};
-use super::layout::{Address, Area, Layout};
+use super::arithmetic::{Arithmetic, Code, Plain};
+use super::basic_block::Operand;
+use super::function::NotCompiled;
+use super::layout::{SIDE, SeriesPlaces};
+use crate::num::DoubleDouble;
 use crate::system::finishing_pass::{LinearSum, OperationRun, TermSign};
 use crate::system::jet::JetPlan;
-use crate::system::program::{Op, Register};
-use crate::system::schedule::{ConvolutionFactor, Denominator, Direct, Ends, Relation};
+use crate::system::program::Register;
+use crate::system::schedule::{ConvolutionFactor, Denominator, Direct, Ends, Pair, Relation};
 
-/// No more instructions are generated than about this many: more would be slower to read than the loops of a jet.
-const LARGEST: usize = 60_000;
-
-/// Which orders of how many numbers are computed.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) struct Extent {
-    /// The orders from this one on, of which the numbers of the state are known.
-    pub(super) first: usize,
-    /// The numbers of the state, and those of them that the rates depend on.
-    pub(super) numbers: usize,
-    pub(super) inputs: usize,
-}
-
-pub(super) struct Emitter<'a> {
+/// The orders of a series in one precision.
+pub(super) struct Emitter<'a, A: Arithmetic> {
     pub(super) plan: &'a JetPlan<'a>,
-    extent: Extent,
-    pub(super) layout: Layout,
-    pub(super) builder: FunctionBuilder<'a>,
-    pointers: [Value; 4],
-    scale: Value,
+    pub(super) code: &'a mut Code,
+    pub(super) places: &'a SeriesPlaces,
+    /// Where the orders are written as `f64` as well.
+    copies: Option<&'a SeriesPlaces>,
+    /// The numbers of the state, and those of them that the rates depend on.
+    numbers: usize,
+    inputs: usize,
     /// The order that is written, and the registers at it.
     pub(super) k: usize,
-    now: Vec<Option<Value>>,
-    /// The inner products of the order that were needed already.
-    products: Vec<Option<Value>>,
-    /// The place among the slopes of each register.
-    slopes: Vec<Option<usize>>,
+    now: Vec<Option<A::Number>>,
 }
 
-/// Compiles the orders of a series.
-pub(super) fn compile(plan: &JetPlan<'_>, extent: Extent) -> Result<CompiledFunction, NotCompiled> {
-    let program = plan.program;
-    let alone = |op: &Op| matches!(op, Op::Select { .. } | Op::ParametricPower(..));
-    if program.ops.iter().any(alone) || program.switches() > 0 || size(plan) > LARGEST {
-        return Err(NotCompiled);
-    }
-    let module = function::module()?;
-    let mut function = Function::new();
-    function.signature = function::signature(&module);
-    let mut context = FunctionBuilderContext::new();
-    let builder = FunctionBuilder::new(&mut function, &mut context);
-    let layout = Emitter::new(plan, extent, builder)?.write()?;
-    CompiledFunction::of(module, function, layout)
-}
-
-/// About how many instructions there will be.
-fn size(plan: &JetPlan<'_>) -> usize {
-    let (pairs, operations) = (plan.schedule.pairs.len(), plan.program.body.len());
-    (1..plan.stride).map(|k| pairs * (3 * k / 2 + 8) + operations * 6).sum()
-}
-
-impl<'a> Emitter<'a> {
-    fn new(
+impl<'a, A: Arithmetic> Emitter<'a, A> {
+    /// For the numbers of a state and those that the rates depend on. The orders are written into `copies` as `f64` as
+    /// well.
+    pub(super) fn new(
         plan: &'a JetPlan<'a>,
-        extent: Extent,
-        mut builder: FunctionBuilder<'a>,
-    ) -> Result<Emitter<'a>, NotCompiled> {
-        let registers = plan.program.ops.len();
-        let mut slopes = vec![None; registers];
-        for (i, &register) in plan.schedule.slopes.iter().enumerate() {
-            slopes[register as usize] = Some(i);
-        }
-        let block = builder.create_block();
-        builder.append_block_params_for_function_params(block);
-        builder.switch_to_block(block);
-        builder.seal_block(block);
-        let &[values, work, series, state, scale] = builder.block_params(block) else {
-            return Err(NotCompiled);
-        };
-        Ok(Emitter {
+        code: &'a mut Code,
+        (places, copies): (&'a SeriesPlaces, Option<&'a SeriesPlaces>),
+        (numbers, inputs): (usize, usize),
+    ) -> Emitter<'a, A> {
+        Emitter {
+            now: vec![None; plan.program.ops.len()],
             plan,
-            extent,
-            layout: Layout::of(plan, extent.numbers),
-            builder,
-            pointers: [values, work, series, state],
-            scale,
+            code,
+            places,
+            copies,
+            numbers,
+            inputs,
             k: 0,
-            now: vec![None; registers],
-            products: vec![None; plan.schedule.pairs.len()],
-            slopes,
-        })
+        }
     }
 
-    fn write(mut self) -> Result<Layout, NotCompiled> {
+    /// Writes the orders above `first` of the state, up to `last`.
+    pub(super) fn write(&mut self, first: usize, last: usize) -> Result<(), NotCompiled> {
         let program = self.plan.program;
-        if self.extent.first == 0 {
+        if first == 0 {
             self.give_out()?;
         } else {
-            self.k = self.extent.first;
-            for (i, &input) in program.inputs.iter().take(self.extent.inputs).enumerate() {
-                let offset = i * self.layout.stride + self.k;
-                let coefficient = self.load(Address { area: Area::State, offset });
-                self.set(input, self.k, coefficient);
+            for (i, &input) in program.inputs.iter().take(self.inputs).enumerate() {
+                let coefficient = A::held(self.code, A::at(self.places.of_state(i, first)));
+                self.now[input as usize] = Some(coefficient);
             }
         }
-        for k in self.extent.first.max(1)..self.layout.stride - 1 {
+        for k in first.max(1)..last {
             self.k = k;
-            self.products.fill(None);
+            self.multiply();
             self.finish()?;
+            self.hand_on(k + 1 < last)?;
+            self.keep()?;
             self.give_out()?;
         }
-        self.builder.ins().return_(&[]);
-        self.builder.finalize();
-        Ok(self.layout)
+        Ok(())
+    }
+
+    /// The inner products of one order.
+    fn multiply(&mut self) {
+        let places = self.places;
+        for group in 0..self.plan.schedule.pairs.len().div_ceil(SIDE) {
+            // b_{k−1} is met by a_1
+            let operands = (places.left(group, 1), places.right(group, self.k - 1));
+            A::inner_products(self.code, operands, self.k - 1, places.products(group));
+        }
     }
 
     /// The operations of one order.
@@ -129,50 +90,53 @@ impl<'a> Emitter<'a> {
         for run in &plan.schedule.runs {
             match run {
                 OperationRun::Time(register) => {
-                    let rate = if k == 1 { self.scale } else { self.zero() };
-                    self.set(*register, k, rate);
+                    let scale = Operand::At(self.code.layout.scale);
+                    let one = A::constant(self.code, DoubleDouble::ONE);
+                    let rate = if k == 1 { A::scaled(self.code, one, scale) } else { self.zero() };
+                    self.set(*register, rate);
                 }
                 OperationRun::Scales(run) => {
                     for step in run {
                         let varying = self.now(step.varying)?;
-                        let scaled = self.times_value(varying, step.fixed);
-                        self.set(step.register, k, scaled);
+                        let scaled = A::product(self.code, self.value(step.fixed), varying);
+                        self.set(step.register, scaled);
                     }
                 }
                 OperationRun::Products(run) => {
                     for step in run {
                         let ends = self.both_ends(step.left, step.right)?;
-                        let inner = self.product(step.inner)?;
-                        let coefficient = self.builder.ins().fadd(inner, ends);
-                        self.set(step.register, k, coefficient);
+                        let inner = self.product(step.inner);
+                        let coefficient = A::sum(self.code, inner, ends);
+                        self.set(step.register, coefficient);
                     }
                 }
                 OperationRun::Related(run) => {
                     for step in run {
                         let relation = &plan.schedule.relations[step.relation as usize];
                         let coefficient = self.related(relation)?;
-                        self.set(step.register, k, coefficient);
+                        self.set(step.register, coefficient);
                     }
                 }
                 OperationRun::Integrals(run) => {
                     for step in run {
-                        let slope = self.now(step.slope)?;
-                        let last = self.times_value(slope, step.factor);
+                        let last = self.last(step.slope, step.factor)?;
                         let last = self.multiple(last, k);
-                        let inner = self.product(step.inner)?;
-                        let mut sum = self.builder.ins().fadd(inner, last);
-                        if step.sign == TermSign::Minus {
-                            let zero = self.zero();
-                            sum = self.builder.ins().fsub(zero, sum);
-                        }
-                        let coefficient = self.over(sum, k);
-                        self.set(step.register, k, coefficient);
+                        let inner = self.product(step.inner);
+                        let sum = A::sum(self.code, inner, last);
+                        let zero = self.zero();
+                        let sum = if step.sign == TermSign::Minus {
+                            A::difference(self.code, zero, sum)
+                        } else {
+                            sum
+                        };
+                        let coefficient = A::over(self.code, sum, k);
+                        self.set(step.register, coefficient);
                     }
                 }
                 OperationRun::Sums(run) => {
                     for sum in run {
                         let coefficient = self.sum(sum)?;
-                        self.set(sum.register, k, coefficient);
+                        self.set(sum.register, coefficient);
                     }
                 }
                 OperationRun::Solution(solution) => self.solution(*solution)?,
@@ -182,28 +146,89 @@ impl<'a> Emitter<'a> {
         Ok(())
     }
 
+    /// Stores this order where inner products read it, those of this precision where some follow.
+    fn hand_on(&mut self, goes_on: bool) -> Result<(), NotCompiled> {
+        let k = self.k;
+        let registers = self.plan.program.ops.len() as u32;
+        let (mut slopes, mut nearest_slopes) = (Vec::new(), Vec::new());
+        for &register in &self.plan.schedule.slopes {
+            let number = self.now(register)?;
+            slopes.push(self.multiple(number, k));
+            if self.copies.is_some() {
+                // of the nearest `f64`, as a series in that precision has it
+                nearest_slopes.push(multiple::<Plain>(self.code, A::nearest(number), k));
+            }
+        }
+        for (group, pairs) in self.plan.schedule.pairs.chunks(SIDE).enumerate() {
+            // the last group is filled up
+            let pairs: [Pair; SIDE] = std::array::from_fn(|lane| pairs[lane.min(pairs.len() - 1)]);
+            let mut right = [self.zero(); SIDE];
+            let mut left = right;
+            for (lane, pair) in pairs.iter().enumerate() {
+                right[lane] = self.now(pair.right)?;
+                left[lane] = match pair.left.checked_sub(registers) {
+                    Some(slope) => slopes[slope as usize],
+                    None => self.now(pair.left)?,
+                };
+            }
+            if goes_on {
+                A::side_by_side(self.code, left, self.places.left(group, k));
+                A::side_by_side(self.code, right, self.places.right(group, k));
+            }
+            if let Some(copies) = self.copies {
+                let right = right.map(A::nearest);
+                let mut nearest = left.map(A::nearest);
+                for (left, pair) in nearest.iter_mut().zip(pairs) {
+                    if let Some(slope) = pair.left.checked_sub(registers) {
+                        *left = nearest_slopes[slope as usize];
+                    }
+                }
+                Plain::side_by_side(self.code, nearest, copies.left(group, k));
+                Plain::side_by_side(self.code, right, copies.right(group, k));
+            }
+        }
+        Ok(())
+    }
+
+    /// Stores this order where whole series are read.
+    fn keep(&mut self) -> Result<(), NotCompiled> {
+        for &(register, place) in self.plan.copies {
+            let coefficient = self.now(register)?;
+            let place = place as usize;
+            A::store(self.code, coefficient, self.places.of_series(place, self.k));
+            if let Some(copies) = self.copies {
+                let nearest = A::nearest(coefficient);
+                Plain::store(self.code, nearest, copies.of_series(place, self.k));
+            }
+        }
+        Ok(())
+    }
+
     /// The next coefficient of every number of the state.
     fn give_out(&mut self) -> Result<(), NotCompiled> {
         let (program, next) = (self.plan.program, self.k + 1);
-        let Extent { numbers, inputs, .. } = self.extent;
-        let mut coefficients = Vec::with_capacity(numbers);
-        for (i, &output) in program.outputs.iter().take(numbers).enumerate() {
+        let mut coefficients = Vec::with_capacity(self.numbers);
+        for (i, &output) in program.outputs.iter().take(self.numbers).enumerate() {
             let rate = if self.k == 0 { self.value(output) } else { self.now(output)? };
-            let made = self.builder.ins().fmul(rate, self.scale);
-            let made = self.over(made, next);
-            let offset = i * self.layout.stride + next;
-            self.store(made, Address { area: Area::State, offset });
+            let scale = Operand::At(self.code.layout.scale);
+            let made = A::scaled(self.code, rate, scale);
+            let made = A::over(self.code, made, next);
+            let made = A::held(self.code, made);
+            A::store(self.code, made, self.places.of_state(i, next));
+            if let Some(copies) = self.copies {
+                Plain::store(self.code, A::nearest(made), copies.of_state(i, next));
+            }
             coefficients.push(made);
         }
         self.now.fill(None);
-        for (&input, &coefficient) in program.inputs.iter().take(inputs).zip(&coefficients) {
-            self.set(input, next, coefficient);
+        for (&input, &coefficient) in program.inputs.iter().take(self.inputs).zip(&coefficients) {
+            self.set(input, coefficient);
         }
         Ok(())
     }
 
     /// The coefficient that follows from a relation.
-    fn related(&mut self, relation: &Relation) -> Result<Value, NotCompiled> {
+    fn related(&mut self, relation: &Relation) -> Result<A::Number, NotCompiled> {
         let (plan, k) = (self.plan, self.k);
         let mut sum = match relation.direct {
             Direct::None => None,
@@ -217,65 +242,56 @@ impl<'a> Emitter<'a> {
         let range = relation.first as usize..(relation.first + relation.count) as usize;
         for summand in &plan.schedule.summands[range] {
             let product = match summand.product {
-                Some(inner) => self.product(inner)?,
+                Some(inner) => self.product(inner),
                 None => self.zero(),
             };
             let ends = match summand.ends {
                 Ends::None => None,
-                Ends::Last(a, b) => {
-                    let last = self.now(a)?;
-                    Some(self.times_value(last, b))
-                }
+                Ends::Last(a, b) => Some(self.last(a, b)?),
                 Ends::LastSlope(a, b) => {
-                    let last = self.now(a)?;
-                    let last = self.times_value(last, b);
+                    let last = self.last(a, b)?;
                     Some(self.multiple(last, k))
                 }
                 Ends::Both(a, b) => Some(self.both_ends(a, b)?),
             };
-            let whole = ends.map_or(product, |ends| self.builder.ins().fadd(product, ends));
+            let whole = ends.map_or(product, |ends| A::sum(self.code, product, ends));
             sum = Some(match (summand.factor, sum) {
                 // neither an inner product nor what it is added to is −0
                 (ConvolutionFactor::Plus, None) => whole,
                 (ConvolutionFactor::Minus, _) => {
                     let sum = sum.unwrap_or_else(|| self.zero());
-                    self.builder.ins().fsub(sum, whole)
+                    A::difference(self.code, sum, whole)
                 }
                 (factor, _) => {
                     let sum = sum.unwrap_or_else(|| self.zero());
                     let whole = self.times_factor(whole, factor);
-                    self.builder.ins().fadd(sum, whole)
+                    A::sum(self.code, sum, whole)
                 }
             });
         }
         let sum = sum.unwrap_or_else(|| self.zero());
         Ok(match relation.denominator {
             Denominator::One => sum,
-            Denominator::Order => self.over(sum, k),
-            Denominator::Value(a) => {
-                let a = self.value(a);
-                self.builder.ins().fdiv(sum, a)
-            }
+            Denominator::Order => A::over(self.code, sum, k),
+            Denominator::Value(a) => A::quotient(self.code, sum, self.value(a)),
             Denominator::OrderTimes(a) => {
-                let a = self.value(a);
-                let quotient = self.builder.ins().fdiv(sum, a);
-                self.over(quotient, k)
+                let quotient = A::quotient(self.code, sum, self.value(a));
+                A::over(self.code, quotient, k)
             }
             Denominator::Twice(a) => {
-                let a = self.value(a);
-                let twice = self.builder.ins().fadd(a, a);
-                self.builder.ins().fdiv(sum, twice)
+                let twice = self.multiple(self.value(a), 2);
+                A::quotient(self.code, sum, twice)
             }
         })
     }
 
     /// A sum of multiples.
-    fn sum(&mut self, sum: &LinearSum) -> Result<Value, NotCompiled> {
+    fn sum(&mut self, sum: &LinearSum) -> Result<A::Number, NotCompiled> {
         let program = self.plan.program;
         let terms = &program.terms[sum.first as usize..][..sum.count as usize];
         let mut total = self.zero();
         for term in terms {
-            let factor = term.coefficient.high;
+            let factor = term.coefficient;
             if program.fixed[term.register as usize] {
                 // zero above order 0
                 if factor.is_finite() {
@@ -284,130 +300,84 @@ impl<'a> Emitter<'a> {
                 return Err(NotCompiled);
             }
             let number = self.now(term.register)?;
-            total = if factor == 1.0 {
-                self.builder.ins().fadd(total, number)
-            } else if factor == -1.0 {
-                self.builder.ins().fsub(total, number)
+            total = if factor == DoubleDouble::ONE {
+                A::sum(self.code, total, number)
+            } else if factor == -DoubleDouble::ONE {
+                A::difference(self.code, total, number)
             } else {
-                let address = self.layout.constant(factor);
-                let factor = self.load(address);
-                let multiple = self.builder.ins().fmul(number, factor);
-                self.builder.ins().fadd(total, multiple)
+                let factor = A::constant(self.code, factor);
+                let multiple = A::product(self.code, number, factor);
+                A::sum(self.code, total, multiple)
             };
         }
         Ok(total)
     }
 
     /// An inner product of this order.
-    pub(super) fn product(&mut self, inner: u32) -> Result<Value, NotCompiled> {
-        if let Some(known) = self.products[inner as usize] {
-            return Ok(known);
-        }
-        let pair = self.plan.schedule.pairs[inner as usize];
-        let left = self.layout.left[pair.left as usize].ok_or(NotCompiled)?;
-        let right = self.layout.right[pair.right as usize].ok_or(NotCompiled)?;
-        let product = self.inner_product(left, right, self.k);
-        self.products[inner as usize] = Some(product);
-        Ok(product)
+    pub(super) fn product(&mut self, inner: u32) -> A::Number {
+        let (group, lane) = (inner as usize / SIDE, inner as usize % SIDE);
+        A::inner_product(self.places.products(group), lane)
     }
 
     /// `a_0 b_k + a_k b_0`.
-    fn both_ends(&mut self, a: Register, b: Register) -> Result<Value, NotCompiled> {
-        let (a_now, b_now) = (self.now(a)?, self.now(b)?);
-        let first = self.times_value(b_now, a);
+    fn both_ends(&mut self, a: Register, b: Register) -> Result<A::Number, NotCompiled> {
+        let first = self.last(b, a)?;
         if a == b {
-            return Ok(self.builder.ins().fadd(first, first));
+            return Ok(A::sum(self.code, first, first));
         }
-        let last = self.times_value(a_now, b);
-        Ok(self.builder.ins().fadd(first, last))
+        let last = self.last(a, b)?;
+        Ok(A::sum(self.code, first, last))
     }
 
-    fn times_factor(&mut self, number: Value, factor: ConvolutionFactor) -> Value {
+    /// `a_k b_0`.
+    pub(super) fn last(&mut self, a: Register, b: Register) -> Result<A::Number, NotCompiled> {
+        let a = self.now(a)?;
+        Ok(A::product(self.code, a, self.value(b)))
+    }
+
+    fn times_factor(&mut self, number: A::Number, factor: ConvolutionFactor) -> A::Number {
         match factor {
             ConvolutionFactor::Plus => number,
-            ConvolutionFactor::Minus => self.builder.ins().fneg(number),
+            ConvolutionFactor::Minus => A::opposite(self.code, number),
             ConvolutionFactor::Times(factor) => {
-                let address = self.layout.constant(factor.high);
-                let factor = self.load(address);
-                self.builder.ins().fmul(number, factor)
+                let factor = A::constant(self.code, factor);
+                A::product(self.code, number, factor)
             }
         }
     }
 
-    pub(super) fn times_value(&mut self, number: Value, register: Register) -> Value {
-        let value = self.value(register);
-        self.builder.ins().fmul(number, value)
-    }
-
-    fn multiple(&mut self, number: Value, k: usize) -> Value {
-        if k == 1 {
-            return number;
-        }
-        let order = self.load(Layout::order(k));
-        self.builder.ins().fmul(number, order)
-    }
-
-    fn over(&mut self, number: Value, k: usize) -> Value {
-        if k == 1 {
-            return number;
-        }
-        let order = self.load(Layout::order(k));
-        self.builder.ins().fdiv(number, order)
+    fn multiple(&mut self, number: A::Number, n: usize) -> A::Number {
+        multiple::<A>(self.code, number, n)
     }
 
     /// A register at this order.
-    pub(super) fn now(&mut self, register: Register) -> Result<Value, NotCompiled> {
+    pub(super) fn now(&mut self, register: Register) -> Result<A::Number, NotCompiled> {
         if self.plan.program.fixed[register as usize] {
             return Ok(self.zero());
         }
         self.now[register as usize].ok_or(NotCompiled)
     }
 
-    /// Gives a register its coefficient of an order, also where it is read later.
-    pub(super) fn set(&mut self, register: Register, k: usize, coefficient: Value) {
+    /// Gives a register its coefficient of this order.
+    pub(super) fn set(&mut self, register: Register, coefficient: A::Number) {
         self.now[register as usize] = Some(coefficient);
-        if k + 1 >= self.layout.stride {
-            return;
-        }
-        let copies: Vec<Address> = self.layout.copies(register, k).collect();
-        for address in copies {
-            self.store(coefficient, address);
-        }
-        if let Some(i) = self.slopes[register as usize]
-            && let Some(left) = self.layout.left[self.plan.program.ops.len() + i]
-        {
-            let slope = self.multiple(coefficient, k);
-            self.store(slope, left.plus(k));
-        }
     }
 
-    pub(super) fn zero(&mut self) -> Value {
-        self.builder.ins().f64const(0.0)
+    pub(super) fn zero(&mut self) -> A::Number {
+        A::constant(self.code, DoubleDouble::ZERO)
     }
 
     /// A register at order 0.
-    fn value(&mut self, register: Register) -> Value {
-        self.load(Address { area: Area::Values, offset: register as usize })
+    fn value(&self, register: Register) -> A::Number {
+        A::at(self.places.value(register as usize))
     }
+}
 
-    pub(super) fn pointer(&self, area: Area) -> Value {
-        self.pointers[area as usize]
+/// An integer multiple.
+fn multiple<A: Arithmetic>(code: &mut Code, number: A::Number, n: usize) -> A::Number {
+    if n == 1 {
+        return number;
     }
-
-    pub(super) fn load(&mut self, address: Address) -> Value {
-        let (pointer, offset) = (self.pointer(address.area), 8 * address.offset as i32);
-        self.builder.ins().load(types::F64, MemFlags::trusted(), pointer, offset)
-    }
-
-    /// Two numbers side by side, which need not begin at an even place.
-    pub(super) fn load_pair(&mut self, address: Address) -> Value {
-        let (pointer, offset) = (self.pointer(address.area), 8 * address.offset as i32);
-        let flags = MemFlags::new().with_notrap();
-        self.builder.ins().load(types::F64X2, flags, pointer, offset)
-    }
-
-    pub(super) fn store(&mut self, number: Value, address: Address) {
-        let (pointer, offset) = (self.pointer(address.area), 8 * address.offset as i32);
-        self.builder.ins().store(MemFlags::trusted(), number, pointer, offset);
-    }
+    let factor = Plain::constant(code, DoubleDouble::from(n as f64));
+    A::multiple(code, number, factor)
 }

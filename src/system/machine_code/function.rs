@@ -1,139 +1,180 @@
 //! A compiled function and its call: the only place of the program with `unsafe` code.
 //!
-//! In: a function in Cranelift's intermediate form. Out: its call on slices. Never here: what it computes.
+//! In: the bytes of a function. Out: its call on slices. Never here: what it computes, how it is encoded.
 //!
-//! Three things cannot be checked by the compiler of this source, and hold for these reasons:
-//! - The code has the signature of [`Entry`]: [`signature`] writes it, in the calling convention of the platform, which
-//!   is that of `extern "C"`.
-//! - It reads and writes only inside the four stretches of memory that it is given. The emitter takes every address from
+//! What the compiler of this source cannot check holds for these reasons:
+//! - The bytes are a function with the signature of [`Entry`]: they read nothing but its six arguments, change no register
+//!   that belongs to the caller, and end with a return (`encoding`).
+//! - It reads and writes only inside the six stretches of memory that it is given. The emitter takes every address from
 //!   a layout, and each call compares the lengths of the slices with those of that layout. What is read is numbers, for
 //!   which every pattern of bits is valid; the only addresses that are read from memory are rows of a matrix, written
 //!   by [`CompiledGrowth`](super::CompiledGrowth) before each call as a permutation of its rows.
-//! - The code stays in memory as long as it may be called: it is freed when the function is dropped, which nobody can
-//!   call then, since a call borrows it.
-#![allow(unsafe_code, reason = "generated code is called and freed")]
+//! - Its instructions are those that [`CompiledFunction::of`] has asked the processor for.
+//! - The pages are writable until the bytes are in them, and executable from then on. They stay as long as the function may
+//!   be called, which borrows it; they are given back when it is dropped.
+#![allow(unsafe_code, reason = "generated code is put into memory, called and freed")]
 
-use std::sync::{Mutex, PoisonError};
+use std::ffi::c_void;
+use std::ptr::{NonNull, null_mut};
 
-use cranelift_codegen::Context;
-use cranelift_codegen::ir::{AbiParam, Function, Signature, UserFuncName, types};
-use cranelift_codegen::isa::OwnedTargetIsa;
-use cranelift_codegen::settings::{self, Configurable};
-use cranelift_jit::{JITBuilder, JITModule};
-use cranelift_module::{Linkage, Module};
+use pulp::x86::V3;
+use rustix::mm::{MapFlags, MprotectFlags, ProtFlags, mmap_anonymous, mprotect, munmap};
 
-use super::layout::{Area, Layout};
+use super::layout::Area;
+use crate::num::DoubleDouble;
 
-/// The values, the work, the series, the state, and the unit of time.
-type Entry = unsafe extern "C" fn(*const f64, *mut f64, *mut f64, *mut f64, f64);
+/// The values, the work, the series and the state, and the exact series and state.
+type Entry =
+    unsafe extern "sysv64" fn(*const f64, *mut f64, *mut f64, *mut f64, *mut f64, *mut f64);
 
-/// A function in memory.
-pub(super) struct CompiledFunction {
-    entry: Entry,
-    layout: Layout,
-    module: Mutex<Option<JITModule>>,
-}
+/// The areas in the order of the arguments.
+const AREAS: [Area; 6] =
+    [Area::Values, Area::Work, Area::Series, Area::State, Area::ExactSeries, Area::ExactState];
 
 /// Why no function was compiled.
 #[derive(Debug)]
 pub(super) struct NotCompiled;
 
-/// A module for this machine, if it is one for which code can be generated.
-pub(super) fn module() -> Result<JITModule, NotCompiled> {
-    let mut flags = settings::builder();
-    let wanted = [
-        ("use_colocated_libcalls", "false"),
-        ("is_pic", "false"),
-        ("opt_level", "none"),
-        ("enable_verifier", if cfg!(debug_assertions) { "true" } else { "false" }),
-    ];
-    for (name, value) in wanted {
-        flags.set(name, value).map_err(|_| NotCompiled)?;
-    }
-    let target = cranelift_native::builder().map_err(|_| NotCompiled)?;
-    let isa: OwnedTargetIsa =
-        target.finish(settings::Flags::new(flags)).map_err(|_| NotCompiled)?;
-    if isa.pointer_type() != types::I64 {
-        return Err(NotCompiled);
-    }
-    let libcalls = cranelift_module::default_libcall_names();
-    Ok(JITModule::new(JITBuilder::with_isa(isa, libcalls)))
+/// Pages of memory with code in them.
+#[derive(Debug)]
+struct Pages {
+    start: NonNull<c_void>,
+    length: usize,
 }
 
-/// The signature of [`Entry`].
-pub(super) fn signature(module: &JITModule) -> Signature {
-    let mut signature = module.make_signature();
-    signature.params.extend([AbiParam::new(types::I64); 4]);
-    signature.params.push(AbiParam::new(types::F64));
-    signature
+// SAFETY: nobody writes to the pages, and only their owner frees them
+unsafe impl Send for Pages {}
+// SAFETY: the same
+unsafe impl Sync for Pages {}
+
+impl Pages {
+    /// Pages with these bytes; `None` where memory may not be made executable.
+    fn of(bytes: &[u8]) -> Option<Pages> {
+        let (protection, flags) = (ProtFlags::READ | ProtFlags::WRITE, MapFlags::PRIVATE);
+        // SAFETY: a new mapping, wherever there is room
+        let start = unsafe { mmap_anonymous(null_mut(), bytes.len(), protection, flags) };
+        let pages = Pages { start: NonNull::new(start.ok()?)?, length: bytes.len() };
+        // SAFETY: so many bytes were mapped, and nobody else knows them
+        unsafe {
+            pages
+                .start
+                .cast::<u8>()
+                .copy_from_nonoverlapping(NonNull::from(bytes).cast(), bytes.len());
+        }
+        let executable = MprotectFlags::READ | MprotectFlags::EXEC;
+        // SAFETY: nobody writes to them any more
+        unsafe { mprotect(pages.start.as_ptr(), pages.length, executable) }.ok()?;
+        Some(pages)
+    }
+}
+
+impl Drop for Pages {
+    fn drop(&mut self) {
+        // SAFETY: they were mapped, and nobody calls what is in them. Where they stay, memory is lost and nothing else.
+        let _ = unsafe { munmap(self.start.as_ptr(), self.length) };
+    }
+}
+
+/// The values that a function begins with.
+#[derive(Clone, Copy)]
+pub(super) enum Values<'a> {
+    Plain(&'a [f64]),
+    Exact(&'a [DoubleDouble]),
+}
+
+/// The memory of one call.
+pub(super) struct Stretches<'a> {
+    pub(super) values: Values<'a>,
+    pub(super) work: &'a mut Work,
+    pub(super) series: &'a mut [f64],
+    pub(super) state: &'a mut [f64],
+    pub(super) exact_series: &'a mut [DoubleDouble],
+    pub(super) exact_state: &'a mut [DoubleDouble],
+}
+
+/// A cache line.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
+struct Line([f64; 8]);
+
+/// A stretch of memory that begins with a cache line.
+#[derive(Clone, Debug)]
+pub(super) struct Work {
+    lines: Vec<Line>,
+    length: usize,
+}
+
+impl Work {
+    /// One with these numbers.
+    pub(super) fn of(numbers: &[f64]) -> Work {
+        let mut work =
+            Work { lines: vec![Line([0.0; 8]); numbers.len().div_ceil(8)], length: numbers.len() };
+        work.copy(0, numbers);
+        work
+    }
+
+    /// Copies numbers to a place.
+    pub(super) fn copy(&mut self, first: usize, numbers: &[f64]) {
+        for (i, &number) in (first..).zip(numbers) {
+            self.set(i, number);
+        }
+    }
+
+    /// Sets a number.
+    pub(super) fn set(&mut self, i: usize, number: f64) {
+        self.lines[i / 8].0[i % 8] = number;
+    }
+}
+
+/// A function in memory.
+#[derive(Debug)]
+pub(super) struct CompiledFunction {
+    pages: Pages,
+    /// The lengths of the stretches.
+    lengths: [usize; 6],
 }
 
 impl CompiledFunction {
-    /// Compiles a function with that signature, whose addresses are those of a layout.
+    /// Puts a function into memory that stays within these lengths.
+    ///
+    /// # Errors
+    /// If the processor does not have AVX2 and fused multiply-adds, or memory may not be made executable.
     pub(super) fn of(
-        mut module: JITModule,
-        mut function: Function,
-        layout: Layout,
+        bytes: &[u8],
+        length: impl Fn(Area) -> usize,
     ) -> Result<CompiledFunction, NotCompiled> {
-        let failed = |_| NotCompiled;
-        let id = module
-            .declare_function("orders", Linkage::Local, &function.signature)
-            .map_err(failed)?;
-        function.name = UserFuncName::user(0, id.as_u32());
-        let mut context = Context::for_function(function);
-        module.define_function(id, &mut context).map_err(failed)?;
-        module.finalize_definitions().map_err(failed)?;
-        let code = module.get_finalized_function(id);
-        // SAFETY: the code has this signature
-        let entry = unsafe { std::mem::transmute::<*const u8, Entry>(code) };
-        Ok(CompiledFunction { entry, layout, module: Mutex::new(Some(module)) })
-    }
-
-    /// Where its numbers lie.
-    pub(super) fn layout(&self) -> &Layout {
-        &self.layout
+        if V3::try_new().is_none() {
+            return Err(NotCompiled);
+        }
+        let pages = Pages::of(bytes).ok_or(NotCompiled)?;
+        Ok(CompiledFunction { pages, lengths: AREAS.map(length) })
     }
 
     /// Calls it.
     ///
     /// # Panics
     /// If a stretch of memory has another length than that of the layout.
-    pub(super) fn call(
-        &self,
-        values: &[f64],
-        work: &mut [f64],
-        series: &mut [f64],
-        state: &mut [f64],
-        scale: f64,
-    ) {
-        let lengths = [values.len(), work.len(), series.len(), state.len()];
-        let areas = [Area::Values, Area::Work, Area::Series, Area::State];
-        assert_eq!(lengths, areas.map(|area| self.layout.length(area)));
-        // SAFETY: the code stays within these lengths
+    pub(super) fn call(&self, memory: Stretches<'_>) {
+        let Stretches { values, work, series, state, exact_series, exact_state } = memory;
+        let (start, count) = match values {
+            Values::Plain(values) => (values.as_ptr(), values.len()),
+            Values::Exact(values) => (values.as_ptr().cast(), 2 * values.len()),
+        };
+        let (exact_series_len, exact_state_len) = (2 * exact_series.len(), 2 * exact_state.len());
+        let lengths =
+            [count, work.length, series.len(), state.len(), exact_series_len, exact_state_len];
+        assert_eq!(lengths, self.lengths);
+        // SAFETY: the code has this signature and stays within these lengths; a `DoubleDouble` is two `f64`
         unsafe {
-            (self.entry)(
-                values.as_ptr(),
-                work.as_mut_ptr(),
+            let entry: Entry = std::mem::transmute(self.pages.start.as_ptr());
+            entry(
+                start,
+                work.lines.as_mut_ptr().cast(),
                 series.as_mut_ptr(),
                 state.as_mut_ptr(),
-                scale,
+                exact_series.as_mut_ptr().cast(),
+                exact_state.as_mut_ptr().cast(),
             );
         }
-    }
-}
-
-impl Drop for CompiledFunction {
-    fn drop(&mut self) {
-        let module = self.module.get_mut().unwrap_or_else(PoisonError::into_inner).take();
-        if let Some(module) = module {
-            // SAFETY: nobody else has the entry, and nobody calls it
-            unsafe { module.free_memory() };
-        }
-    }
-}
-
-impl std::fmt::Debug for CompiledFunction {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("CompiledFunction").field("layout", &self.layout).finish_non_exhaustive()
     }
 }

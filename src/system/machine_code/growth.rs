@@ -1,17 +1,18 @@
 //! Series that grow by machine code.
 //!
-//! In: a series whose lowest orders are known. Out: all its orders, or that it is to be grown without. Never here: why a
+//! In: a series whose origin is known. Out: all its orders, or that it is to be grown without. Never here: why a
 //! series has no code.
 
 use std::sync::Arc;
 
 use super::cache::CodeCache;
-use super::emitter::Extent;
-use super::function::CompiledFunction;
-use super::layout::Layout;
+use super::compile::{Compiled, Extent};
+use super::function::{Stretches, Values, Work};
+use super::layout::FactoredPlace;
+use crate::num::{DoubleDouble, Real};
 use crate::system::growth::{SeriesBuilder, SeriesClock};
-use crate::system::jet::Jet;
 use crate::system::program::Singular;
+use crate::system::solve::Factored;
 
 /// So many series are computed before a function is compiled: short motions end before it pays.
 const PATIENCE: u32 = 64;
@@ -30,8 +31,8 @@ pub(in crate::system) struct CompiledGrowth {
 /// A function and the numbers that it works with.
 #[derive(Clone, Debug)]
 struct Code {
-    function: Arc<CompiledFunction>,
-    work: Vec<f64>,
+    compiled: Arc<Compiled>,
+    work: Work,
 }
 
 impl CompiledGrowth {
@@ -45,12 +46,13 @@ impl CompiledGrowth {
         self.has_grown
     }
 
-    /// Computes the orders above `first` of the state. Returns false where that is to be done without machine code.
+    /// Computes all orders of a series from its origin, the lowest in double-double as well where there is a series for
+    /// them. Returns false where that is to be done without machine code.
     pub(in crate::system) fn grow(
         &mut self,
-        builder: &mut SeriesBuilder<f64>,
-        first: usize,
-        clock: SeriesClock<f64>,
+        high: &mut SeriesBuilder<f64>,
+        low: Option<&mut SeriesBuilder<DoubleDouble>>,
+        (time, scale): (DoubleDouble, f64),
     ) -> Result<bool, Singular> {
         self.has_grown = false;
         if self.asked < PATIENCE {
@@ -58,66 +60,98 @@ impl CompiledGrowth {
             if self.asked < PATIENCE {
                 return Ok(false);
             }
-            let (numbers, inputs) = (builder.len(), builder.inputs);
-            let extent = Extent { first, numbers, inputs };
-            let function =
-                self.cache.as_ref().and_then(|cache| cache.function(&builder.jet.plan(), extent));
-            self.code = function.map(Code::of);
+            let extent = Extent { numbers: high.len(), inputs: high.inputs };
+            let exact = low.as_ref().map(|low| low.jet.plan());
+            let compiled = |cache: &CodeCache| {
+                cache.function(&high.jet.plan(), exact.as_ref(), extent).map(Code::of)
+            };
+            self.code = self.cache.as_ref().and_then(compiled);
         }
         if let Some(code) = &mut self.code {
-            self.has_grown = code.grow(builder, first, clock)?;
+            code.work.set(code.compiled.scale.offset, scale);
+            self.has_grown = match low {
+                Some(low) => code.grow_exactly(high, low, (time, scale))?,
+                None => code.grow(high, SeriesClock::new(time, scale))?,
+            };
         }
         Ok(self.has_grown)
     }
 }
 
 impl Code {
-    fn of(function: Arc<CompiledFunction>) -> Code {
-        Code { work: function.layout().first_work(), function }
+    fn of(compiled: Arc<Compiled>) -> Code {
+        Code { work: compiled.work.clone(), compiled }
     }
 
     fn grow(
         &mut self,
-        builder: &mut SeriesBuilder<f64>,
-        first: usize,
+        high: &mut SeriesBuilder<f64>,
         clock: SeriesClock<f64>,
     ) -> Result<bool, Singular> {
-        if first == 0 {
-            builder.evaluate(clock)?;
-        }
-        let layout = self.function.layout();
-        let values = builder.jet.row(0);
-        if layout.vanishing.iter().any(|&r| values[r as usize] == 0.0) {
+        high.evaluate(clock)?;
+        if !self.fits(high.jet.values()) {
             return Ok(false);
         }
-        take_matrices(&builder.jet, layout, &mut self.work);
-        take_orders(&builder.jet, layout, &mut self.work, first);
-        let (jet, state) = builder.parts();
+        take_matrices(high.jet.factored(), &self.compiled.factored, &mut self.work);
+        let (jet, state) = high.parts();
         let (values, series) = jet.values_and_series();
-        self.function.call(values, &mut self.work, series, state, clock.scale);
+        let (values, work) = (Values::Plain(values), &mut self.work);
+        let (exact_series, exact_state) = (&mut [][..], &mut [][..]);
+        let memory = Stretches { values, work, series, state, exact_series, exact_state };
+        self.compiled.function.call(memory);
         Ok(true)
+    }
+
+    fn grow_exactly(
+        &mut self,
+        high: &mut SeriesBuilder<f64>,
+        low: &mut SeriesBuilder<DoubleDouble>,
+        (time, scale): (DoubleDouble, f64),
+    ) -> Result<bool, Singular> {
+        low.evaluate(SeriesClock::new(time, scale))?;
+        if !self.fits(low.jet.values()) {
+            return Ok(false);
+        }
+        high.take_origin(low)?;
+        self.work.copy(self.compiled.values.offset, high.jet.values());
+        take_matrices(high.jet.factored(), &self.compiled.factored, &mut self.work);
+        take_matrices(low.jet.factored(), &self.compiled.exactly_factored, &mut self.work);
+        let (jet, exact_state) = low.parts();
+        let (values, exact_series) = jet.values_and_series();
+        let (values, work) = (Values::Exact(values), &mut self.work);
+        let (jet, state) = high.parts();
+        let (_, series) = jet.values_and_series();
+        let memory = Stretches { values, work, series, state, exact_series, exact_state };
+        self.compiled.function.call(memory);
+        Ok(true)
+    }
+
+    /// Whether the code computes what the jet would.
+    fn fits<R: Real>(&self, values: &[R]) -> bool {
+        let value = |r: &u32| values[*r as usize].value();
+        let divides = |x: f64| x != 0.0 && x.is_finite();
+        self.compiled.vanishing.iter().all(|r| value(r) != 0.0)
+            && self.compiled.divisors.iter().all(|r| divides(value(r)))
     }
 }
 
 /// Takes the factored matrices of a jet.
-fn take_matrices(jet: &Jet<f64>, layout: &Layout, work: &mut [f64]) {
-    for (place, factored) in layout.factored.iter().zip(jet.factored()) {
-        let size = factored.size();
+fn take_matrices<R: Real>(matrices: &[Factored<R>], places: &[FactoredPlace], work: &mut Work) {
+    // the number of `f64` of a number
+    let size = size_of::<R>() / size_of::<f64>();
+    for (place, factored) in places.iter().zip(matrices) {
+        let n = factored.size();
         for (i, (row, entries)) in factored.rows().enumerate() {
-            work[place.entries + i * size..][..size].copy_from_slice(entries);
-            // its offset in bytes
-            work[place.rows + i] = f64::from_bits(8 * row as u64);
-        }
-    }
-}
-
-/// Takes the orders below `first` of all operands.
-fn take_orders(jet: &Jet<f64>, layout: &Layout, work: &mut [f64], first: usize) {
-    for k in 1..first {
-        for (i, &coefficient) in jet.row(k).iter().enumerate() {
-            for address in layout.operands(i, k) {
-                work[address.offset] = coefficient;
+            for (j, entry) in entries.iter().enumerate() {
+                let at = place.entries + (i * n + j) * size;
+                let double = entry.double();
+                work.set(at, double.high);
+                if size > 1 {
+                    work.set(at + 1, double.low);
+                }
             }
+            // its offset in bytes
+            work.set(place.rows + i, f64::from_bits((8 * size * row) as u64));
         }
     }
 }

@@ -4,16 +4,22 @@
 //! code.
 //!
 //! ```text
-//!   values   order 0 of all registers, from the jet
-//!   state    the series of the numbers of the state ┐ one after another, the orders of each side by side
-//!   series   those that are read whole              ┘
-//!   work     1, 2, …, constants, factored matrices, series of left operands, and of right operands from their ends:
+//!   values   order 0 of all registers, from a jet
+//!   state    the series of the numbers of the state ┐ one after another, the orders of each side by side;
+//!   series   those that are read whole              ┘ exact ones apart
+//!   work     the unit of time, values in `f64` beside exact ones, factored matrices, operands of inner products, four series side by side, right ones from
+//!            their ends; constants; what finds no register
 //!
-//!              left   a_0  a_1  …  a_{k−1}  …        right   …  b_{k−1}  …  b_1  b_0
+//!              left   a_0 c_0 e_0 g_0  a_1 c_1 …        right   …  b_1 d_1 f_1 h_1  b_0 d_0 f_0 h_0
 //! ```
 
 use crate::system::jet::JetPlan;
-use crate::system::program::Register;
+
+/// The number of inner products side by side.
+pub(super) const SIDE: usize = 4;
+
+/// The size of a cache line, which a group of operands must not cross.
+const LINE: usize = 8;
 
 /// A stretch of memory that the code is given.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -22,9 +28,11 @@ pub(super) enum Area {
     Work,
     Series,
     State,
+    ExactSeries,
+    ExactState,
 }
 
-/// The place of a number, counted in numbers.
+/// The place of a number, counted in `f64`.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct Address {
     pub(super) area: Area,
@@ -32,7 +40,7 @@ pub(super) struct Address {
 }
 
 impl Address {
-    /// The place so many numbers on.
+    /// The place so many `f64` on.
     pub(super) fn plus(self, count: usize) -> Address {
         Address { offset: self.offset + count, ..self }
     }
@@ -47,124 +55,141 @@ pub(super) struct FactoredPlace {
     pub(super) right: usize,
 }
 
-/// All places.
+/// The places of series in one precision.
 #[derive(Clone, Debug)]
-pub(super) struct Layout {
+pub(super) struct SeriesPlaces {
+    /// The number of `f64` of a number.
+    pub(super) size: usize,
     /// The number of orders.
     pub(super) stride: usize,
-    /// The number of registers and slopes.
-    pub(super) values: usize,
-    /// The lengths of the stretches.
-    pub(super) work: usize,
-    pub(super) series: usize,
-    pub(super) state: usize,
-    /// The numbers that stay as they are, after 0, 1, 2, ….
-    pub(super) constants: Vec<f64>,
+    /// Where order 0 of all registers begins.
+    pub(super) values: Address,
+    series: Area,
+    state: Area,
     pub(super) factored: Vec<FactoredPlace>,
-    /// Where the series of each register or slope begins as a left operand.
-    pub(super) left: Vec<Option<Address>>,
-    /// The same as a right operand, from its end.
-    pub(super) right: Vec<Option<Address>>,
-    /// Where that of each register begins that is read whole.
-    pub(super) whole: Vec<Option<Address>>,
-    /// The registers whose series would be compared with zero: the code takes it that their values are not zero.
-    pub(super) vanishing: Vec<Register>,
+    /// Where the groups of left and right operands begin in the stretch of work, and the products of an order.
+    left: usize,
+    right: usize,
+    products: usize,
+}
+
+impl SeriesPlaces {
+    /// The value of a register.
+    pub(super) fn value(&self, register: usize) -> Address {
+        self.values.plus(register * self.size)
+    }
+
+    /// A coefficient of a number of the state.
+    pub(super) fn of_state(&self, number: usize, k: usize) -> Address {
+        Address { area: self.state, offset: (number * self.stride + k) * self.size }
+    }
+
+    /// A coefficient of a series that is read whole.
+    pub(super) fn of_series(&self, place: usize, k: usize) -> Address {
+        Address { area: self.series, offset: (place * self.stride + k) * self.size }
+    }
+
+    /// Order `k` of the left operands of a group.
+    pub(super) fn left(&self, group: usize, k: usize) -> Address {
+        self.group(self.left, group, k)
+    }
+
+    /// Order `k` of the right operands of a group, which are followed by the orders below.
+    pub(super) fn right(&self, group: usize, k: usize) -> Address {
+        self.group(self.right, group, self.stride - 1 - k)
+    }
+
+    /// The inner products of a group at the current order.
+    pub(super) fn products(&self, group: usize) -> Address {
+        Address { area: Area::Work, offset: self.products + group * SIDE * self.size }
+    }
+
+    fn group(&self, start: usize, group: usize, place: usize) -> Address {
+        let offset = start + (group * self.stride + place) * SIDE * self.size;
+        Address { area: Area::Work, offset }
+    }
+}
+
+/// What series in one precision need of the stretch of work.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Precision {
+    pub(super) size: usize,
+    pub(super) stride: usize,
+    /// Whether order 0 of all registers is copied into the stretch of work.
+    pub(super) copies_values: bool,
+    pub(super) areas: (Area, Area),
+}
+
+/// All places, which grow while code is written.
+#[derive(Clone, Debug)]
+pub(super) struct Layout {
+    /// The unit of time.
+    pub(super) scale: Address,
+    /// The length of the stretch of work.
+    pub(super) work: usize,
+    /// Numbers that stay as they are, with their places.
+    constants: Vec<(usize, Vec<f64>)>,
 }
 
 impl Layout {
-    /// For a state of so many numbers. The series of the first of them are those of the inputs.
-    pub(super) fn of(plan: &JetPlan<'_>, numbers: usize) -> Layout {
-        let (program, stride) = (plan.program, plan.stride);
-        let operands = program.ops.len() + plan.schedule.slopes.len();
-        let mut whole = vec![None; program.ops.len()];
-        for &(register, place) in plan.copies {
-            let offset = place as usize * stride;
-            whole[register as usize] = Some(Address { area: Area::Series, offset });
-        }
-        let mut layout = Layout {
-            stride,
-            values: operands,
-            work: stride,
-            series: plan.series,
-            state: numbers * stride,
-            constants: Vec::new(),
-            factored: Vec::new(),
-            left: vec![None; operands],
-            right: vec![None; operands],
-            whole,
-            vanishing: plan.schedule.relations.iter().filter_map(|r| r.vanishing).collect(),
+    /// One with room for the unit of time alone.
+    pub(super) fn new() -> Layout {
+        let scale = Address { area: Area::Work, offset: 0 };
+        Layout { scale, work: LINE, constants: Vec::new() }
+    }
+
+    /// Makes room for the series of a program.
+    pub(super) fn series(&mut self, plan: &JetPlan<'_>, precision: Precision) -> SeriesPlaces {
+        let Precision { size, stride, copies_values, areas: (series, state) } = precision;
+        let values = if copies_values {
+            let offset = self.room(plan.values * size);
+            Address { area: Area::Work, offset }
+        } else {
+            Address { area: Area::Values, offset: 0 }
         };
-        for block in &program.blocks {
-            let size = block.size();
-            let entries = layout.room(size * size);
-            let (rows, right) = (layout.room(size), layout.room(size));
-            layout.factored.push(FactoredPlace { size, entries, rows, right });
-        }
-        for (i, &input) in program.inputs.iter().enumerate() {
-            layout.left[input as usize] = Some(Address { area: Area::State, offset: i * stride });
-        }
-        for pair in &plan.schedule.pairs {
-            if layout.left[pair.left as usize].is_none() {
-                let offset = layout.room(stride);
-                layout.left[pair.left as usize] = Some(Address { area: Area::Work, offset });
-            }
-            if layout.right[pair.right as usize].is_none() {
-                let offset = layout.room(stride);
-                layout.right[pair.right as usize] = Some(Address { area: Area::Work, offset });
-            }
-        }
-        layout
+        let factored = plan.program.blocks.iter().map(|block| {
+            let n = block.size();
+            let entries = self.room(n * n * size);
+            let (rows, right) = (self.room(n), self.room(n * size));
+            FactoredPlace { size: n, entries, rows, right }
+        });
+        let factored = factored.collect();
+        let groups = plan.schedule.pairs.len().div_ceil(SIDE);
+        let operands = groups * stride * SIDE * size;
+        let (left, right) = (self.room(operands), self.room(operands));
+        let products = self.room(groups * SIDE * size);
+        SeriesPlaces { size, stride, values, series, state, factored, left, right, products }
     }
 
-    /// The length of a stretch.
-    pub(super) fn length(&self, area: Area) -> usize {
-        match area {
-            Area::Values => self.values,
-            Area::Work => self.work + self.constants.len(),
-            Area::Series => self.series,
-            Area::State => self.state,
-        }
-    }
-
+    /// Room for so many numbers in the stretch of work, from the start of a cache line on.
     fn room(&mut self, count: usize) -> usize {
         let first = self.work;
-        self.work += count;
+        self.work += count.next_multiple_of(LINE);
         first
     }
 
-    /// Where a number lies that stays as it is.
-    pub(super) fn constant(&mut self, number: f64) -> Address {
-        let known = self.constants.iter().position(|x| x.to_bits() == number.to_bits());
-        let place = known.unwrap_or_else(|| {
-            self.constants.push(number);
-            self.constants.len() - 1
+    /// Where numbers lie that stay as they are.
+    pub(super) fn constant(&mut self, numbers: &[f64]) -> Address {
+        let same = |known: &[f64]| {
+            known.len() == numbers.len()
+                && known.iter().zip(numbers).all(|(x, y)| x.to_bits() == y.to_bits())
+        };
+        let known = self.constants.iter().find(|(_, known)| same(known)).map(|(place, _)| *place);
+        let offset = known.unwrap_or_else(|| {
+            let place = self.work;
+            self.work += numbers.len().next_multiple_of(2);
+            self.constants.push((place, numbers.to_vec()));
+            place
         });
-        // behind everything else
-        Address { area: Area::Work, offset: self.work + place }
-    }
-
-    /// Where the integer of an order lies.
-    pub(super) fn order(k: usize) -> Address {
-        Address { area: Area::Work, offset: k }
-    }
-
-    /// The places to which the coefficient of order `k` of a register is written.
-    pub(super) fn copies(&self, register: Register, k: usize) -> impl Iterator<Item = Address> {
-        let whole = self.whole[register as usize].map(|address| address.plus(k));
-        self.operands(register as usize, k).chain(whole)
-    }
-
-    /// Those of a register or a slope as an operand of inner products, which are in the stretch of work.
-    pub(super) fn operands(&self, place: usize, k: usize) -> impl Iterator<Item = Address> {
-        let left = self.left[place].filter(|address| address.area == Area::Work);
-        let right = self.right[place].map(|address| address.plus(self.stride - 1 - k));
-        left.map(|address| address.plus(k)).into_iter().chain(right)
+        Address { area: Area::Work, offset }
     }
 
     /// The stretch of work as it is at first.
     pub(super) fn first_work(&self) -> Vec<f64> {
-        let orders = (0..self.stride).map(|k| k as f64);
-        let room = std::iter::repeat_n(0.0, self.work - self.stride);
-        orders.chain(room).chain(self.constants.iter().copied()).collect()
+        let mut work = vec![0.0; self.work];
+        for (place, numbers) in &self.constants {
+            work[*place..][..numbers.len()].copy_from_slice(numbers);
+        }
+        work
     }
 }

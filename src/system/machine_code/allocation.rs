@@ -1,0 +1,204 @@
+//! The registers of a basic block.
+//!
+//! In: a basic block, room in memory for what finds no register. Out: its bytes, and how much of the room is used. Never
+//! here: how an instruction is encoded.
+//!
+//! Where all registers are taken, the number gives way that is read again last (L. A. Belady, IBM Syst. J. 5 (1966) 78).
+//! Every number is made once, so that it is written to memory at most once.
+
+use super::basic_block::{BasicBlock, Instruction, Operand, Value, Width};
+use super::encoding::{Bytes, Source, Vector};
+use super::layout::{Address, Area};
+
+/// The number of vector registers.
+const REGISTERS: usize = 16;
+
+/// What is not read again.
+const NEVER: u32 = u32::MAX;
+
+/// Where a number is.
+#[derive(Clone, Copy, Debug, Default)]
+struct Place {
+    register: Option<Vector>,
+    memory: Option<Address>,
+    width: Option<Width>,
+    /// The instruction that reads it next.
+    next: u32,
+}
+
+struct Allocator {
+    bytes: Bytes,
+    places: Vec<Place>,
+    registers: [Option<Value>; REGISTERS],
+    /// The registers that the current instruction reads.
+    pinned: u16,
+    room: usize,
+}
+
+/// Assembles a block. What finds no register lies in the stretch of work from `room` on; returns the bytes and where that
+/// ends.
+pub(super) fn assemble(block: &BasicBlock, room: usize) -> (Vec<u8>, usize) {
+    let (first, next) = uses(block);
+    let places = first.into_iter().map(|next| Place { next, ..Place::default() }).collect();
+    let mut allocator = Allocator {
+        bytes: Bytes::default(),
+        places,
+        registers: [None; REGISTERS],
+        pinned: 0,
+        room,
+    };
+    for (instruction, next) in block.instructions.iter().zip(&next) {
+        allocator.write(instruction, next);
+    }
+    allocator.bytes.end();
+    (allocator.bytes.0, allocator.room)
+}
+
+/// The first instruction that reads each number, and for each instruction those that read its operands next.
+fn uses(block: &BasicBlock) -> (Vec<u32>, Vec<[u32; 3]>) {
+    let mut coming = vec![NEVER; block.values as usize];
+    let mut next = vec![[NEVER; 3]; block.instructions.len()];
+    for (i, instruction) in block.instructions.iter().enumerate().rev() {
+        let reads = instruction.reads();
+        for (next, value) in next[i].iter_mut().zip(reads) {
+            *next = value.map_or(NEVER, |value| coming[value.0 as usize]);
+        }
+        for value in reads.into_iter().flatten() {
+            coming[value.0 as usize] = i as u32;
+        }
+    }
+    (coming, next)
+}
+
+impl Allocator {
+    fn write(&mut self, instruction: &Instruction, next: &[u32; 3]) {
+        self.pinned = 0;
+        let reads = instruction.reads();
+        match *instruction {
+            Instruction::Zero { made } => {
+                let to = self.make(made, Width::Four);
+                self.bytes.zero(to);
+            }
+            Instruction::Load { width, from, made } => {
+                let to = self.make(made, width);
+                self.bytes.load(width, to, from);
+            }
+            Instruction::LoadBehind { from, offset, made } => {
+                let to = self.make(made, Width::One);
+                self.bytes.load_behind(to, from, offset);
+            }
+            Instruction::Binary { operation, width, left, right, made } => {
+                let left = self.read(left);
+                let right = match right {
+                    Operand::At(address) => Source::Memory(address),
+                    Operand::Made(right) => self.source(right, next[1]),
+                };
+                self.advance(&reads, next);
+                let to = self.make(made, width);
+                self.bytes.binary(operation, width, to, left, right);
+            }
+            Instruction::ProductError { width, left, right, product, made } => {
+                let registers = [left, right, product].map(|value| self.read(value));
+                // it is written before the others are read
+                let to = self.make(made, width);
+                self.bytes.copy(to, registers[0]);
+                self.bytes.product_error(width, to, registers[1], registers[2]);
+                self.advance(&reads, next);
+            }
+            Instruction::Store { width, value, to, stays } => {
+                let from = self.read(value);
+                self.bytes.store(width, from, to);
+                if stays {
+                    self.places[value.0 as usize].memory = Some(to);
+                }
+                self.advance(&reads, next);
+            }
+        }
+    }
+
+    /// The register of a number, loaded again if it gave way.
+    fn read(&mut self, value: Value) -> Vector {
+        let place = self.places[value.0 as usize];
+        let register = place.register.unwrap_or_else(|| {
+            let register = self.free();
+            if let (Some(width), Some(memory)) = (place.width, place.memory) {
+                self.bytes.load(width, register, memory);
+            }
+            self.take(register, value);
+            register
+        });
+        self.pinned |= 1 << register.0;
+        register
+    }
+
+    /// The same where it may be read from memory, if it is not read again.
+    fn source(&mut self, value: Value, next: u32) -> Source {
+        let place = self.places[value.0 as usize];
+        match (place.register, place.memory) {
+            (None, Some(memory)) if next == NEVER => Source::Memory(memory),
+            _ => Source::Register(self.read(value)),
+        }
+    }
+
+    /// Takes note of when the operands of an instruction are read next. The registers of those that are not are free.
+    fn advance(&mut self, reads: &[Option<Value>; 3], next: &[u32; 3]) {
+        for (value, &next) in reads.iter().zip(next) {
+            let Some(value) = value else { continue };
+            let place = &mut self.places[value.0 as usize];
+            place.next = next;
+            if next == NEVER
+                && let Some(register) = place.register.take()
+            {
+                self.registers[register.0 as usize] = None;
+                self.pinned &= !(1 << register.0);
+            }
+        }
+    }
+
+    /// A register for a number that is made.
+    fn make(&mut self, value: Value, width: Width) -> Vector {
+        let register = self.free();
+        self.places[value.0 as usize].width = Some(width);
+        if self.places[value.0 as usize].next != NEVER {
+            self.take(register, value);
+        }
+        register
+    }
+
+    fn take(&mut self, register: Vector, value: Value) {
+        self.registers[register.0 as usize] = Some(value);
+        self.places[value.0 as usize].register = Some(register);
+    }
+
+    /// A register that holds nothing, or nothing any more.
+    fn free(&mut self) -> Vector {
+        if let Some(free) = self.registers.iter().position(Option::is_none) {
+            return Vector(free as u8);
+        }
+        let last = (0..REGISTERS).filter(|&r| self.pinned & 1 << r == 0).max_by_key(|&r| {
+            self.registers[r].map_or(NEVER, |value| self.places[value.0 as usize].next)
+        });
+        let last = last.unwrap_or(0);
+        if let Some(value) = self.registers[last].take() {
+            self.give_way(value, Vector(last as u8));
+        }
+        Vector(last as u8)
+    }
+
+    /// Writes a number to memory, unless it is there.
+    fn give_way(&mut self, value: Value, register: Vector) {
+        let place = &mut self.places[value.0 as usize];
+        place.register = None;
+        if place.memory.is_none() {
+            let width = place.width.unwrap_or(Width::One);
+            let to = Address { area: Area::Work, offset: self.room };
+            place.memory = Some(to);
+            self.room += match width {
+                Width::One => 1,
+                Width::Two => 2,
+                Width::Four => 4,
+            };
+            self.bytes.store(width, register, to);
+        }
+    }
+}

@@ -1,0 +1,185 @@
+//! A basic block: arithmetic in a straight line, before its numbers have registers.
+//!
+//! In: operations on numbers that were made before or lie in memory. Out: the instructions in their order, each of which
+//! makes at most one number. Never here: registers, bytes, what is computed.
+//!
+//! An [`Operand`] in memory is read where it is used: nothing else may have been written there before.
+
+use super::layout::Address;
+
+/// A number that an instruction makes, or several side by side.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) struct Value(pub(super) u32);
+
+/// What an instruction reads.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Operand {
+    Made(Value),
+    At(Address),
+}
+
+impl From<Value> for Operand {
+    fn from(value: Value) -> Operand {
+        Operand::Made(value)
+    }
+}
+
+/// How many numbers lie side by side.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Width {
+    One,
+    Two,
+    Four,
+}
+
+/// An operation on each lane.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Operation {
+    Add,
+    Subtract,
+    Multiply,
+    Divide,
+    /// Exclusive or of the bits.
+    Xor,
+    /// The first number of each operand, side by side.
+    Pair,
+    /// Two and two side by side.
+    Join,
+}
+
+/// One instruction.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Instruction {
+    Zero {
+        made: Value,
+    },
+    Load {
+        width: Width,
+        from: Address,
+        made: Value,
+    },
+    /// Loads the number at `from` and as many bytes on as the integer at `offset` says.
+    LoadBehind {
+        from: Address,
+        offset: Address,
+        made: Value,
+    },
+    Binary {
+        operation: Operation,
+        width: Width,
+        left: Value,
+        right: Operand,
+        made: Value,
+    },
+    /// `left · right − product` with one rounding.
+    ProductError {
+        width: Width,
+        left: Value,
+        right: Value,
+        product: Value,
+        made: Value,
+    },
+    /// `stays` says that nothing else is written there.
+    Store {
+        width: Width,
+        value: Value,
+        to: Address,
+        stays: bool,
+    },
+}
+
+impl Instruction {
+    /// The made numbers that it reads.
+    pub(super) fn reads(&self) -> [Option<Value>; 3] {
+        match *self {
+            Instruction::Zero { .. }
+            | Instruction::Load { .. }
+            | Instruction::LoadBehind { .. } => [None; 3],
+            Instruction::Binary { left, right, .. } => match right {
+                Operand::Made(right) => [Some(left), Some(right), None],
+                Operand::At(_) => [Some(left), None, None],
+            },
+            Instruction::ProductError { left, right, product, .. } => {
+                [Some(left), Some(right), Some(product)]
+            }
+            Instruction::Store { value, .. } => [Some(value), None, None],
+        }
+    }
+}
+
+/// The instructions so far.
+#[derive(Debug, Default)]
+pub(super) struct BasicBlock {
+    pub(super) instructions: Vec<Instruction>,
+    /// The number of values that were made.
+    pub(super) values: u32,
+}
+
+impl BasicBlock {
+    fn next(&mut self) -> Value {
+        self.values += 1;
+        Value(self.values - 1)
+    }
+
+    fn push(&mut self, instruction: impl FnOnce(Value) -> Instruction) -> Value {
+        let made = self.next();
+        self.instructions.push(instruction(made));
+        made
+    }
+
+    /// Zero.
+    pub(super) fn zero(&mut self) -> Value {
+        self.push(|made| Instruction::Zero { made })
+    }
+
+    /// What lies in memory.
+    pub(super) fn load(&mut self, width: Width, from: Address) -> Value {
+        self.push(|made| Instruction::Load { width, from, made })
+    }
+
+    /// The number so many bytes behind an address.
+    pub(super) fn load_behind(&mut self, from: Address, offset: Address) -> Value {
+        self.push(|made| Instruction::LoadBehind { from, offset, made })
+    }
+
+    /// An operand, loaded where it lies in memory.
+    pub(super) fn made(&mut self, width: Width, operand: Operand) -> Value {
+        match operand {
+            Operand::Made(value) => value,
+            Operand::At(from) => self.load(width, from),
+        }
+    }
+
+    /// An operation on two operands.
+    pub(super) fn binary(
+        &mut self,
+        operation: Operation,
+        width: Width,
+        left: Operand,
+        right: Operand,
+    ) -> Value {
+        let commutes = matches!(operation, Operation::Add | Operation::Multiply);
+        let (left, right) = match (left, right) {
+            (Operand::At(_), Operand::Made(_)) if commutes => (right, left),
+            _ => (left, right),
+        };
+        let left = self.made(width, left);
+        self.push(|made| Instruction::Binary { operation, width, left, right, made })
+    }
+
+    /// The rounding error of a product.
+    pub(super) fn product_error(
+        &mut self,
+        width: Width,
+        (left, right): (Value, Value),
+        product: Value,
+    ) -> Value {
+        self.push(|made| Instruction::ProductError { width, left, right, product, made })
+    }
+
+    /// Stores an operand where nothing else is written, or where it is overwritten later.
+    pub(super) fn store(&mut self, width: Width, operand: Operand, to: Address, stays: bool) {
+        let value = self.made(width, operand);
+        self.instructions.push(Instruction::Store { width, value, to, stays });
+    }
+}

@@ -1,0 +1,116 @@
+//! The function of all orders of a series.
+//!
+//! In: a program with its schedule, the orders in both precisions. Out: its function, and what must hold where it is called.
+//! Never here: one order, one instruction.
+
+use super::allocation::assemble;
+use super::arithmetic::{Arithmetic, Code, Double, Plain};
+use super::basic_block::BasicBlock;
+use super::emitter::Emitter;
+use super::function::{CompiledFunction, NotCompiled, Work};
+use super::layout::{Address, Area, FactoredPlace, Layout, Precision};
+use crate::system::jet::JetPlan;
+use crate::system::program::{Op, Register};
+use crate::system::schedule::Denominator;
+
+/// No more instructions are generated than about this many: more would be slower to read than the loops of a jet.
+const LARGEST: usize = 60_000;
+
+/// How many numbers are computed.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) struct Extent {
+    /// The numbers of the state, and those of them that the rates depend on.
+    pub(super) numbers: usize,
+    pub(super) inputs: usize,
+}
+
+/// A function and what it is called with.
+#[derive(Debug)]
+pub(super) struct Compiled {
+    pub(super) function: CompiledFunction,
+    /// The stretch of work as it is at first.
+    pub(super) work: Work,
+    pub(super) scale: Address,
+    /// Where order 0 of all registers in `f64` begins.
+    pub(super) values: Address,
+    /// The matrices in `f64`, and the exact ones.
+    pub(super) factored: Vec<FactoredPlace>,
+    pub(super) exactly_factored: Vec<FactoredPlace>,
+    /// The registers whose series would be compared with zero: the code takes it that their values are not zero.
+    pub(super) vanishing: Vec<Register>,
+    /// The registers that are divided by: the code takes it that their values are finite and not zero.
+    pub(super) divisors: Vec<Register>,
+}
+
+/// Compiles the orders of a series, of which an exact jet computes the lowest.
+pub(super) fn compile(
+    plan: &JetPlan<'_>,
+    exact: Option<&JetPlan<'_>>,
+    extent: Extent,
+) -> Result<Compiled, NotCompiled> {
+    let program = plan.program;
+    let alone = |op: &Op| matches!(op, Op::Select { .. } | Op::ParametricPower(..));
+    if program.ops.iter().any(alone) || program.switches() > 0 || size(plan) > LARGEST {
+        return Err(NotCompiled);
+    }
+    let mut layout = Layout::new();
+    let exact_places = exact.map(|exact| {
+        let size = Double::SIZE;
+        let areas = (Area::ExactSeries, Area::ExactState);
+        let stride = exact.stride;
+        layout.series(exact, Precision { size, stride, copies_values: false, areas })
+    });
+    let places = layout.series(
+        plan,
+        Precision {
+            size: Plain::SIZE,
+            stride: plan.stride,
+            copies_values: exact.is_some(),
+            areas: (Area::Series, Area::State),
+        },
+    );
+    let mut code = Code { block: BasicBlock::default(), layout };
+    let numbers = (extent.numbers, extent.inputs);
+    let mut first = 0;
+    if let (Some(exact), Some(own)) = (exact, &exact_places) {
+        first = exact.stride - 1;
+        let places = (own, Some(&places));
+        Emitter::<Double>::new(exact, &mut code, places, numbers).write(0, first)?;
+    }
+    Emitter::<Plain>::new(plan, &mut code, (&places, None), numbers)
+        .write(first, plan.stride - 1)?;
+    let constants = code.layout.first_work();
+    let (bytes, work) = assemble(&code.block, constants.len());
+    let exact_stride = exact.map_or(0, |exact| exact.stride);
+    let length = |area| match area {
+        Area::Values => plan.values * exact.map_or(Plain::SIZE, |_| Double::SIZE),
+        Area::Work => work,
+        Area::Series => plan.series,
+        Area::State => extent.numbers * plan.stride,
+        Area::ExactSeries => exact.map_or(0, |exact| exact.series * Double::SIZE),
+        Area::ExactState => extent.numbers * exact_stride * Double::SIZE,
+    };
+    let mut first_work = constants;
+    first_work.resize(work, 0.0);
+    let relations = &plan.schedule.relations;
+    let divisor = |denominator| match denominator {
+        Denominator::One | Denominator::Order => None,
+        Denominator::Value(a) | Denominator::OrderTimes(a) | Denominator::Twice(a) => Some(a),
+    };
+    Ok(Compiled {
+        function: CompiledFunction::of(&bytes, length)?,
+        work: Work::of(&first_work),
+        scale: code.layout.scale,
+        values: places.values,
+        factored: places.factored,
+        exactly_factored: exact_places.map_or_else(Vec::new, |places| places.factored),
+        vanishing: relations.iter().filter_map(|r| r.vanishing).collect(),
+        divisors: relations.iter().filter_map(|r| divisor(r.denominator)).collect(),
+    })
+}
+
+/// About how many instructions there will be.
+fn size(plan: &JetPlan<'_>) -> usize {
+    let (pairs, operations) = (plan.schedule.pairs.len(), plan.program.body.len());
+    (1..plan.stride).map(|k| pairs * (3 * k / 4 + 8) + operations * 6).sum()
+}

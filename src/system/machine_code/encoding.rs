@@ -1,0 +1,212 @@
+//! Instructions of x86-64 as bytes.
+//!
+//! In: operations on vector registers and memory. Out: their bytes. Never here: which number lies in which register.
+//!
+//! Source: Intel 64 and IA-32 Architectures Software Developer's Manual, volume 2, 2.3 (the VEX prefix) and the pages of
+//! the instructions.
+
+use super::basic_block::{Operation, Width};
+use super::layout::{Address, Area};
+
+/// A vector register.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) struct Vector(pub(super) u8);
+
+/// What an instruction reads last.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Source {
+    Register(Vector),
+    Memory(Address),
+}
+
+/// The opcode maps.
+const MAP_0F: u8 = 1;
+const MAP_0F38: u8 = 2;
+const MAP_0F3A: u8 = 3;
+
+/// The prefixes that choose between packed and scalar forms.
+const PACKED_SINGLE: u8 = 0;
+const PACKED: u8 = 1;
+const SCALAR: u8 = 3;
+
+/// The general register in which an offset is loaded.
+const RAX: u8 = 0;
+
+/// The operand of an instruction with one source.
+const NONE: Vector = Vector(0);
+
+/// What comes before the bytes of the operands.
+#[derive(Clone, Copy)]
+struct Opcode {
+    map: u8,
+    prefix: u8,
+    /// The bit W.
+    wide: bool,
+    /// Whether four numbers are computed with.
+    four: bool,
+    code: u8,
+}
+
+/// The bytes so far.
+#[derive(Debug, Default)]
+pub(super) struct Bytes(pub(super) Vec<u8>);
+
+impl Bytes {
+    /// `to = left ∘ right`.
+    pub(super) fn binary(
+        &mut self,
+        operation: Operation,
+        width: Width,
+        to: Vector,
+        left: Vector,
+        right: Source,
+    ) {
+        let arithmetic = |code| match width {
+            Width::One => (MAP_0F, SCALAR, code),
+            Width::Two | Width::Four => (MAP_0F, PACKED, code),
+        };
+        let (map, prefix, code) = match operation {
+            Operation::Add => arithmetic(0x58),
+            Operation::Multiply => arithmetic(0x59),
+            Operation::Subtract => arithmetic(0x5C),
+            Operation::Divide => arithmetic(0x5E),
+            Operation::Xor => (MAP_0F, PACKED, 0x57),
+            Operation::Pair => match right {
+                // vunpcklpd
+                Source::Register(_) => (MAP_0F, PACKED, 0x14),
+                // vmovhpd
+                Source::Memory(_) => (MAP_0F, PACKED, 0x16),
+            },
+            // vinsertf128
+            Operation::Join => (MAP_0F3A, PACKED, 0x18),
+        };
+        let four = operation == Operation::Join || width == Width::Four;
+        self.vex(Opcode { map, prefix, wide: false, four, code }, to, left, right);
+        if operation == Operation::Join {
+            self.0.push(1);
+        }
+    }
+
+    /// `to = to · right − product` with one rounding.
+    pub(super) fn product_error(
+        &mut self,
+        width: Width,
+        to: Vector,
+        right: Vector,
+        product: Vector,
+    ) {
+        // vfmsub213sd, vfmsub213pd
+        let code = if width == Width::One { 0xAB } else { 0xAA };
+        let four = width == Width::Four;
+        let opcode = Opcode { map: MAP_0F38, prefix: PACKED, wide: true, four, code };
+        self.vex(opcode, to, right, Source::Register(product));
+    }
+
+    /// Copies a register.
+    pub(super) fn copy(&mut self, to: Vector, from: Vector) {
+        // vmovapd
+        let opcode = Opcode { map: MAP_0F, prefix: PACKED, wide: false, four: true, code: 0x28 };
+        self.vex(opcode, to, NONE, Source::Register(from));
+    }
+
+    /// Zero.
+    pub(super) fn zero(&mut self, to: Vector) {
+        // vxorps
+        let opcode =
+            Opcode { map: MAP_0F, prefix: PACKED_SINGLE, wide: false, four: false, code: 0x57 };
+        self.vex(opcode, to, to, Source::Register(to));
+    }
+
+    /// Loads what lies in memory.
+    pub(super) fn load(&mut self, width: Width, to: Vector, from: Address) {
+        self.vex(moves(width, 0x10), to, NONE, Source::Memory(from));
+    }
+
+    /// Stores a register.
+    pub(super) fn store(&mut self, width: Width, from: Vector, to: Address) {
+        self.vex(moves(width, 0x11), from, NONE, Source::Memory(to));
+    }
+
+    /// Loads the number so many bytes behind an address, both in the stretch of work.
+    pub(super) fn load_behind(&mut self, to: Vector, from: Address, offset: Address) {
+        // mov rax, [offset]
+        self.0.extend([0x48, 0x8B]);
+        self.memory(RAX, offset);
+        // vmovsd to, [from + rax]
+        let opcode = moves(Width::One, 0x10);
+        self.prefixes(opcode, to, NONE, false);
+        let index = 4;
+        self.0.push(0x80 | (to.0 & 7) << 3 | index);
+        self.0.push(RAX << 3 | base(from.area));
+        self.0.extend(displacement(from).to_le_bytes());
+    }
+
+    /// Returns to the caller.
+    pub(super) fn end(&mut self) {
+        // vzeroupper, ret
+        self.0.extend([0xC5, 0xF8, 0x77, 0xC3]);
+    }
+
+    fn vex(&mut self, opcode: Opcode, register: Vector, left: Vector, last: Source) {
+        match last {
+            Source::Register(last) => {
+                self.prefixes(opcode, register, left, last.0 >= 8);
+                self.0.push(0xC0 | (register.0 & 7) << 3 | last.0 & 7);
+            }
+            Source::Memory(address) => {
+                self.prefixes(opcode, register, left, base(address.area) >= 8);
+                self.memory(register.0, address);
+            }
+        }
+    }
+
+    /// The VEX prefix and the opcode; `extended` says whether the last operand is one of the upper eight registers.
+    fn prefixes(&mut self, opcode: Opcode, register: Vector, left: Vector, extended: bool) {
+        let Opcode { map, prefix, wide, four, code } = opcode;
+        let inverted_extension = if register.0 < 8 { 0x80 } else { 0 };
+        let rest = (!left.0 & 15) << 3 | u8::from(four) << 2 | prefix;
+        if map == MAP_0F && !wide && !extended {
+            self.0.extend([0xC5, inverted_extension | rest, code]);
+        } else {
+            let inverted_base = if extended { 0 } else { 0x20 };
+            let second = inverted_extension | 0x40 | inverted_base | map;
+            self.0.extend([0xC4, second, u8::from(wide) << 7 | rest, code]);
+        }
+    }
+
+    /// The operand in memory beside a register.
+    fn memory(&mut self, register: u8, address: Address) {
+        let (low, base) = ((register & 7) << 3, base(address.area) & 7);
+        let displacement = displacement(address);
+        if let Ok(short) = i8::try_from(displacement) {
+            self.0.extend([0x40 | low | base, short as u8]);
+        } else {
+            self.0.push(0x80 | low | base);
+            self.0.extend(displacement.to_le_bytes());
+        }
+    }
+}
+
+fn moves(width: Width, code: u8) -> Opcode {
+    // vmovsd, vmovupd
+    let prefix = if width == Width::One { SCALAR } else { PACKED };
+    Opcode { map: MAP_0F, prefix, wide: false, four: width == Width::Four, code }
+}
+
+/// The general register that holds the address of a stretch of memory: those in which the System V convention passes the
+/// arguments: rdi, rsi, rdx, rcx, r8, r9.
+fn base(area: Area) -> u8 {
+    match area {
+        Area::Values => 7,
+        Area::Work => 6,
+        Area::Series => 2,
+        Area::State => 1,
+        Area::ExactSeries => 8,
+        Area::ExactState => 9,
+    }
+}
+
+/// The bytes between the start of a stretch and a number.
+fn displacement(address: Address) -> i32 {
+    8 * address.offset as i32
+}
