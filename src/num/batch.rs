@@ -87,6 +87,16 @@ impl<const N: usize> Batch<N> {
         lanes!(i => if self.0[i] > other.0[i] { 1.0 } else { 0.0 })
     }
 
+    /// The least number.
+    #[inline(always)]
+    pub fn least(self) -> f64 {
+        let mut least = self.0[0];
+        for lane in 1..N {
+            least = if self.0[lane] < least { self.0[lane] } else { least };
+        }
+        least
+    }
+
     /// Whether no number is below that of another batch in its lane; NaN is.
     #[inline(always)]
     pub fn all_reach(self, other: Batch<N>) -> bool {
@@ -205,7 +215,7 @@ impl<const N: usize> Analytic for Batch<N> {
         right: &[[f64; N]],
         out: &mut [Batch<N>],
     ) {
-        out[0] = Batch(InnerProducts { left, right }.run::<FUSED>());
+        out[0] = Batch(InnerProducts::of(left, right).run::<FUSED>());
     }
 
     #[inline(always)]

@@ -70,6 +70,11 @@ impl<R: Coefficient> SeriesBuilder<R> {
         &self.state[i * (self.order + 1)..][..=self.order]
     }
 
+    /// All coefficients of the state.
+    pub(super) fn coefficients(&self) -> &[R] {
+        &self.state
+    }
+
     /// The coefficients of a number that are final: a weight that acts two orders later is not known
     /// at the last order.
     pub(super) fn known_series(&self, i: usize) -> &[R] {
@@ -87,7 +92,7 @@ impl<R: Coefficient> SeriesBuilder<R> {
     #[cfg(target_arch = "x86_64")]
     pub(super) fn evaluate(&mut self, clock: SeriesClock<R>) -> Result<(), Singular> {
         self.jet.take_in(&self.state, self.inputs, 0);
-        self.jet.advance(0, clock.time, clock.scale)
+        self.jet.begin(clock.time)
     }
 
     #[cfg(target_arch = "x86_64")]

@@ -152,7 +152,7 @@ impl<R: Coefficient> Jet<R> {
 
     /// Evaluates all registers at order 0.
     #[inline(always)]
-    fn begin(&mut self, time: R) -> Result<(), Singular> {
+    pub(super) fn begin(&mut self, time: R) -> Result<(), Singular> {
         self.tables.begin(&self.program, time)?;
         self.tables.orders().keep(0);
         Ok(())

@@ -167,7 +167,7 @@ impl Series {
         let small = self.origin.iter().any(|x| underflow::is_small(x.high));
         self.has_left_range = false;
         match self.grow_in_range() {
-            Ok(()) if self.is_finite() && !self.underflows(small) => Ok(()),
+            Ok(()) if self.sees_finite() && !self.underflows(small) => Ok(()),
             Err(Halt::Cancelled) => Err(Halt::Cancelled),
             _ => {
                 self.has_left_range = true;
@@ -176,8 +176,15 @@ impl Series {
         }
     }
 
-    fn is_finite(&self) -> bool {
+    /// Whether all coefficients of the state and of the switches are finite.
+    fn sees_finite(&self) -> bool {
         vectorized(Finite(self))
+    }
+
+    /// Whether all coefficients of the state and of the switches are finite. Those that were copied from a wider range may not
+    /// be.
+    pub fn is_finite(&self) -> bool {
+        !self.has_left_range || self.sees_finite()
     }
 
     /// Whether digits were lost to underflow, where some numbers of the state may be small.
@@ -304,6 +311,12 @@ impl Series {
         Some(&self.high.jet.series(register)[..self.high.order])
     }
 
+    /// The coefficients of what is positive on its branch: the argument of its root or power.
+    pub fn guard_base(&self, i: usize) -> Option<&[f64]> {
+        let register = self.system.motion().native.guards[i].base?;
+        Some(&self.high.jet.series(register)[..self.high.order])
+    }
+
     /// Its value at a time after the origin, in the unit of the series, as exact as the lowest
     /// orders are.
     pub fn guard_after(&self, i: usize, x: DoubleDouble) -> DoubleDouble {
@@ -398,7 +411,7 @@ fn largest(numbers: impl Iterator<Item = f64>) -> f64 {
     numbers.fold(0.0, |size, x| size.max(x.abs()))
 }
 
-/// Whether all coefficients of the state and of the switches are finite.
+/// The kernel of [`Series::sees_finite`].
 struct Finite<'a>(&'a Series);
 
 impl Kernel for Finite<'_> {
@@ -407,7 +420,7 @@ impl Kernel for Finite<'_> {
     #[inline(always)]
     fn run<const FUSED: bool>(self) -> bool {
         let Finite(series) = self;
-        (0..series.len()).all(|i| all_finite(series.coefficients(i)))
+        all_finite(series.high.coefficients())
             && (0..series.switches()).all(|i| all_finite(series.switch(i)))
     }
 }

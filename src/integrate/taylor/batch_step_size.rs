@@ -174,10 +174,10 @@ fn passes(
     for (lane, (c, power)) in last.enumerate() {
         let (mut by_tolerance, mut by_radius) = (Batch::ZERO, Batch::ZERO);
         for j in 0..FIRST {
-            by_tolerance = by_tolerance.larger(low[j] * screen.by_tolerance[j][lane]);
-            by_radius = by_radius.larger(low[j + 2] * screen.by_radius[j][lane]);
+            by_tolerance = by_tolerance.larger(low[j] * screen.by_tolerance[j].0[lane]);
+            by_radius = by_radius.larger(low[j + 2] * screen.by_radius[j].0[lane]);
         }
-        let size = c.abs() * screen.entering[lane];
+        let size = c.abs() * screen.entering.0[lane];
         let passed = by_tolerance.smaller(by_radius).is_above(size * *power);
         // a coefficient that vanishes allows anything
         all = all * size.where_below(FAINT, Batch::ONE, passed);

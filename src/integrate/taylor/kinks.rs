@@ -100,8 +100,11 @@ impl Kinks {
 
     /// The choices of sides on a surface, the likeliest first.
     pub(super) fn undecided(&self, series: &Series) -> Option<Vec<Vec<Side>>> {
+        if self.on_surface.is_empty() {
+            return None;
+        }
         let before: Vec<Side> = self.on_surface.iter().map(|&i| series.sides()[i]).collect();
-        (!before.is_empty()).then(|| candidates(&before))
+        Some(candidates(&before))
     }
 
     /// Takes a choice of sides on the surface.

@@ -34,12 +34,6 @@ pub(super) fn indulgence_of(log_indulgence: f64, k: usize, p: usize) -> f64 {
     if k + LAST <= p { log_indulgence } else { 0.0 }
 }
 
-/// The larger of two numbers, the first if the second is NaN.
-#[inline(always)]
-pub(super) fn larger(a: f64, b: f64) -> f64 {
-    if b > a { b } else { a }
-}
-
 /// The orders up to p that enter.
 #[inline(always)]
 pub(super) fn last_orders(p: usize) -> RangeInclusive<usize> {

@@ -10,20 +10,21 @@
 //!   …                                         the largest of each column
 //! ```
 
-use super::last_orders::{ROOM, WIDTH, lanes_of_last_orders, larger};
+use super::last_orders::{ROOM, WIDTH, lanes_of_last_orders};
+use crate::num::Batch;
 
 /// Less than anything that a coefficient allows.
-const LEAST: [f64; WIDTH] = [f64::NEG_INFINITY; WIDTH];
+const LEAST: Batch<WIDTH> = Batch([f64::NEG_INFINITY; WIDTH]);
 
 /// What a coefficient of an order enters with.
 #[derive(Clone, Copy, Debug)]
 struct Bound {
     /// The reciprocals of the differences of the orders.
-    reciprocals: [f64; WIDTH],
+    reciprocals: Batch<WIDTH>,
     /// What is added for the tolerance; −∞ where the order is none of those below.
-    by_tolerance: [f64; WIDTH],
+    by_tolerance: Batch<WIDTH>,
     /// What is added for the radius of convergence; −∞ where the order gives none.
-    by_radius: [f64; WIDTH],
+    by_radius: Batch<WIDTH>,
 }
 
 /// The bounds at one tolerance and order.
@@ -32,7 +33,7 @@ pub(super) struct OrderBounds {
     bounds: Vec<Bound>,
     /// By how much the logarithm of the step may be longer; infinite for an order that is not among the last, which therefore
     /// allows anything.
-    indulgence: [f64; WIDTH],
+    indulgence: Batch<WIDTH>,
 }
 
 impl OrderBounds {
@@ -45,48 +46,39 @@ impl OrderBounds {
         indulgence: impl Fn(usize) -> f64,
     ) -> OrderBounds {
         let only = |known: bool, x: f64| if known { x } else { f64::NEG_INFINITY };
+        let of_last = |of: &dyn Fn(usize) -> f64| Batch(lanes_of_last_orders(order, 0.0, of));
         let bound = |j: usize| Bound {
-            reciprocals: lanes_of_last_orders(order, 0.0, |k| {
+            reciprocals: of_last(&|k| {
                 if j < k { 1.0 / (k - j) as f64 } else { 0.0 }
             }),
-            by_tolerance: lanes_of_last_orders(order, 0.0, |k| only(j < k, table[j])),
-            by_radius: lanes_of_last_orders(order, 0.0, |k| {
-                only((2..k - 1).contains(&j), log_part)
-            }),
+            by_tolerance: of_last(&|k| only(j < k, table[j])),
+            by_radius: of_last(&|k| only((2..k - 1).contains(&j), log_part)),
         };
         OrderBounds {
             bounds: (0..order).map(bound).collect(),
-            indulgence: lanes_of_last_orders(order, f64::INFINITY, indulgence),
+            indulgence: Batch(lanes_of_last_orders(order, f64::INFINITY, indulgence)),
         }
     }
 
     /// The logarithm of the step, or `shortest` if that is less. A coefficient that vanishes has the logarithm −∞.
     #[inline(always)]
-    pub(super) fn shortest(&self, logs: &[f64; ROOM], mut shortest: f64) -> f64 {
+    pub(super) fn shortest(&self, logs: &[f64; ROOM], shortest: f64) -> f64 {
         let order = self.bounds.len();
         let (Some(own), logs) = (logs[..=order].last_chunk::<WIDTH>(), &logs[..order]) else {
             return shortest;
         };
+        let own = Batch(*own);
         let (mut by_tolerance, mut by_radius) = (LEAST, LEAST);
         for j in 0..order {
             let (bound, log) = (&self.bounds[j], logs[j]);
-            for lane in 0..WIDTH {
-                let root = (log - own[lane]) * bound.reciprocals[lane];
-                by_tolerance[lane] = larger(by_tolerance[lane], root + bound.by_tolerance[lane]);
-                by_radius[lane] = larger(by_radius[lane], root + bound.by_radius[lane]);
-            }
+            let root = (Batch::splat(log) - own) * bound.reciprocals;
+            by_tolerance = by_tolerance.larger(root + bound.by_tolerance);
+            by_radius = by_radius.larger(root + bound.by_radius);
         }
-        for lane in 0..WIDTH {
-            if own[lane] == f64::NEG_INFINITY {
-                // a coefficient that vanishes allows anything
-                continue;
-            }
-            let mut log = by_tolerance[lane];
-            if by_radius[lane] > f64::NEG_INFINITY {
-                log = log.min(by_radius[lane]);
-            }
-            shortest = shortest.min(log + self.indulgence[lane]);
-        }
-        shortest
+        let within = by_tolerance.smaller(by_radius);
+        let log = by_radius.where_equal(f64::NEG_INFINITY, by_tolerance, within) + self.indulgence;
+        // a coefficient that vanishes allows anything
+        let anything = Batch::splat(f64::INFINITY);
+        own.where_equal(f64::NEG_INFINITY, anything, log).least().min(shortest)
     }
 }

@@ -4,10 +4,8 @@
 //! In: a series, the powers of a step. Out: whether the rule of [`step_size`](super::step_size) surely
 //! finds no shorter one; "no" decides nothing. Never here: the rule, its constants.
 
-use super::last_orders::{
-    FAINT, FIRST, LANES, ROOM, WIDTH, indulgence_of, lanes_of_last_orders, larger,
-};
-use crate::num::math;
+use super::last_orders::{FAINT, FIRST, LANES, ROOM, WIDTH, indulgence_of, lanes_of_last_orders};
+use crate::num::{Batch, math};
 
 /// With the terms a_j = |c_j| h^j at a step h, the bound of the j-th order on the k-th is no shorter
 /// than h where a_j times a constant is no less than a_k. The lowest orders mostly suffice.
@@ -16,11 +14,11 @@ pub(super) struct StepScreen {
     /// The order in the first lane.
     pub(super) first: usize,
     /// The constants of the tolerance, for the j-th order.
-    pub(super) by_tolerance: [[f64; WIDTH]; FIRST],
+    pub(super) by_tolerance: [Batch<WIDTH>; FIRST],
     /// Those of the radius of convergence, for the order j + 2; zero where that gives none.
-    pub(super) by_radius: [[f64; WIDTH]; FIRST],
+    pub(super) by_radius: [Batch<WIDTH>; FIRST],
     /// Zero for an order that does not enter, else one.
-    pub(super) entering: [f64; WIDTH],
+    pub(super) entering: Batch<WIDTH>,
 }
 
 /// The ratio by which terms must differ to do so beyond the errors of rough logarithms.
@@ -43,12 +41,12 @@ impl StepScreen {
         StepScreen {
             first: order + 1 - WIDTH,
             by_tolerance: std::array::from_fn(|j| {
-                lanes_of_last_orders(order, 0.0, |k| constant(j, k, table[j]))
+                Batch(lanes_of_last_orders(order, 0.0, |k| constant(j, k, table[j])))
             }),
             by_radius: std::array::from_fn(|j| {
-                lanes_of_last_orders(order, 0.0, |k| by_radius(j + 2, k))
+                Batch(lanes_of_last_orders(order, 0.0, |k| by_radius(j + 2, k)))
             }),
-            entering: lanes_of_last_orders(order, 0.0, |_| 1.0),
+            entering: Batch(lanes_of_last_orders(order, 0.0, |_| 1.0)),
         }
     }
 
@@ -56,44 +54,35 @@ impl StepScreen {
     #[inline(always)]
     pub(super) fn passes(&self, coefficients: &[f64], powers: &[f64; ROOM]) -> bool {
         let last = powers[self.first..].first_chunk::<WIDTH>();
-        let (Some(own), Some(powers_of_last)) = (coefficients.last_chunk::<WIDTH>(), last) else {
+        let (Some(&own), Some(&powers_of_last)) = (coefficients.last_chunk::<WIDTH>(), last) else {
             return false;
         };
         let low = |j: usize| {
             let c = coefficients[j].abs();
-            if c < FAINT { 0.0 } else { c * powers[j] }
+            Batch::splat(if c < FAINT { 0.0 } else { c * powers[j] })
         };
-        let (mut by_tolerance, mut by_radius) = ([0.0; WIDTH], [0.0; WIDTH]);
+        let (mut by_tolerance, mut by_radius) = (Batch([0.0; WIDTH]), Batch([0.0; WIDTH]));
         for j in 0..FIRST {
-            let (a, b) = (low(j), low(j + 2));
-            for lane in 0..WIDTH {
-                by_tolerance[lane] = larger(by_tolerance[lane], a * self.by_tolerance[j][lane]);
-                by_radius[lane] = larger(by_radius[lane], b * self.by_radius[j][lane]);
-            }
+            by_tolerance = by_tolerance.larger(low(j) * self.by_tolerance[j]);
+            by_radius = by_radius.larger(low(j + 2) * self.by_radius[j]);
         }
-        let mut passed = [false; WIDTH];
-        for lane in 0..WIDTH {
-            let own = own[lane].abs() * self.entering[lane];
-            let (a, b) = (by_tolerance[lane], by_radius[lane]);
-            let bound = if b < a { b } else { a };
-            // a coefficient that vanishes allows anything
-            passed[lane] = if own < FAINT { true } else { bound > own * powers_of_last[lane] };
-        }
-        passed == [true; WIDTH]
+        let own = Batch(own).abs() * self.entering;
+        let bound = by_tolerance.smaller(by_radius);
+        // a coefficient that vanishes allows anything
+        let (passes, terms) = (Batch([1.0; WIDTH]), own * Batch(powers_of_last));
+        own.where_below(FAINT, passes, bound.is_above(terms)).least() > 0.0
     }
 }
 
-/// The powers of a step, several at once.
+/// The powers of a step up to one of this order, several at once; the others stay as they are.
 #[inline(always)]
-pub(super) fn powers_of(h: f64) -> [f64; ROOM] {
+pub(super) fn set_powers(powers: &mut [f64; ROOM], h: f64, order: usize) {
     let square = h * h;
     let mut next = [1.0, h, square, square * h];
-    let mut powers = [1.0; ROOM];
-    for chunk in powers.as_chunks_mut::<LANES>().0 {
+    for chunk in &mut powers.as_chunks_mut::<LANES>().0[..=order / LANES] {
         *chunk = next;
         for power in &mut next {
             *power *= square * square;
         }
     }
-    powers
 }

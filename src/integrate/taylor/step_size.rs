@@ -12,8 +12,8 @@ use super::argument_step::{
 use super::last_orders::{INDULGENCE, ROOM, WIDTH, indulgence_of};
 use super::order_bounds::OrderBounds;
 use super::rough_logarithms::Logarithms;
-use super::step_screen::{StepScreen, powers_of};
-use crate::num::{Kernel, all_finite, math, vectorized};
+use super::step_screen::{StepScreen, set_powers};
+use crate::num::{Kernel, math, vectorized};
 use crate::system::Series;
 
 /// Below this tolerance the lowest orders are built in double-double.
@@ -76,6 +76,9 @@ impl StepSize {
     /// The longest step that the tolerance allows, in the unit of the series; infinite for a
     /// polynomial. Returns `None` if a coefficient is not finite.
     pub(super) fn longest(&mut self, series: &Series) -> Option<f64> {
+        if !series.is_finite() {
+            return None;
+        }
         let mut shortest = vectorized(ByCoefficients { rule: self, series })?;
         for (function, u, log_size) in series.arguments() {
             if may_pass_pole(function) {
@@ -94,7 +97,7 @@ impl StepSize {
         Some(shortest)
     }
 
-    /// The step that the coefficients allow.
+    /// The step that the coefficients allow, which are finite.
     #[inline(always)]
     fn by_coefficients<const FUSED: bool>(&mut self, series: &Series) -> Option<f64> {
         let StepSize { motion, integrals: spared, least } = self;
@@ -131,20 +134,19 @@ impl Shortest {
         Shortest { log: f64::INFINITY, step: f64::INFINITY, powers: [f64::NAN; ROOM] }
     }
 
-    /// Takes another series into account. Returns whether it allows less than those before; `None`
+    /// Takes another series into account, which is finite if another one was. Returns whether it allows less than those before; `None`
     /// if a coefficient is not finite.
     #[inline(always)]
     fn take<const FUSED: bool>(&mut self, coefficients: &[f64], shares: &Shares) -> Option<bool> {
         let is_known = self.log < f64::INFINITY;
-        if is_known && all_finite(coefficients) && shares.screen.passes(coefficients, &self.powers)
-        {
+        if is_known && shares.screen.passes(coefficients, &self.powers) {
             return Some(false);
         }
         let log = of_one::<FUSED>(coefficients, shares, self.log)?;
         let shorter = log < self.log;
         if shorter {
             (self.log, self.step) = (log, math::exp(log));
-            self.powers = powers_of(self.step);
+            set_powers(&mut self.powers, self.step, coefficients.len() - 1);
         }
         Some(shorter)
     }

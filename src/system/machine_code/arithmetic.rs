@@ -163,29 +163,41 @@ impl Arithmetic for Plain {
         to: Address,
     ) {
         const APART: usize = 4;
-        let whole = terms / APART * APART;
-        let mut sums: [Option<Operand>; APART] = [None; APART];
-        // is never −0, so that the whole is not
-        let mut rest: Operand = code.block.zero().into();
-        for j in 0..terms {
+        let product = |code: &mut Code, j: usize| {
             let a = code.four(left.plus(j * SIDE));
             let b = Operand::At(right.plus(j * SIDE));
-            let product = code.binary(Operation::Multiply, Width::Four, a.into(), b);
-            let mut add = |sum| code.binary(Operation::Add, Width::Four, sum, product);
-            if j < whole {
-                let sum = &mut sums[j % APART];
-                *sum = Some(sum.map_or(product, add));
+            code.binary(Operation::Multiply, Width::Four, a.into(), b)
+        };
+        let add = |code: &mut Code, a, b| code.binary(Operation::Add, Width::Four, a, b);
+        // the first and the last term come at the end
+        let inner = 1..terms.max(2) - 1;
+        let whole = inner.len() / APART * APART;
+        let mut sums: [Option<Operand>; APART] = [None; APART];
+        // is never −0, so that the whole is not
+        let mut sum: Operand = code.block.zero().into();
+        for (i, j) in inner.enumerate() {
+            let product = product(code, j);
+            if i < whole {
+                let sum = &mut sums[i % APART];
+                *sum = Some(sum.map_or(product, |sum| add(code, sum, product)));
             } else {
-                rest = add(rest);
+                sum = add(code, sum, product);
             }
         }
         if let [Some(a), Some(b), Some(c), Some(d)] = sums {
-            let mut add = |x, y| code.binary(Operation::Add, Width::Four, x, y);
-            let (even, odd) = (add(a, c), add(b, d));
-            let sum = add(even, odd);
-            rest = add(sum, rest);
+            let (even, odd) = (add(code, a, c), add(code, b, d));
+            let apart = add(code, even, odd);
+            sum = add(code, apart, sum);
         }
-        code.block.store(Width::Four, rest, to, false);
+        if terms > 0 {
+            let mut ends = product(code, 0);
+            if terms > 1 {
+                let last = product(code, terms - 1);
+                ends = add(code, ends, last);
+            }
+            sum = add(code, sum, ends);
+        }
+        code.block.store(Width::Four, sum, to, false);
     }
 
     fn inner_product(stored: Address, lane: usize) -> Operand {
@@ -351,7 +363,8 @@ impl Arithmetic for Double {
         let four = Width::Four;
         let mut sum: Operand = code.block.zero().into();
         let mut errors = sum;
-        for j in 0..terms {
+        let ends = (0..terms.min(1)).chain(terms.max(2) - 1..terms);
+        for j in (1..terms.max(2) - 1).chain(ends) {
             let [a_high, a_low, b_high, b_low] = [(left, 0), (left, 1), (right, 0), (right, 1)]
                 .map(|(series, part)| code.four(series.plus((2 * j + part) * SIDE)).into());
             let (product, error) = code.exact_product(four, a_high, b_high);
