@@ -136,6 +136,10 @@ pub trait Real: Analytic<Unit = f64> {
     fn value(self) -> f64;
     /// The number as a [`DoubleDouble`].
     fn double(self) -> DoubleDouble;
+    /// Whether it is a finite [`DoubleDouble`].
+    fn is_finite(self) -> bool {
+        self.double().is_finite()
+    }
 }
 
 impl Real for f64 {
@@ -144,8 +148,13 @@ impl Real for f64 {
     fn value(self) -> f64 {
         self
     }
+    #[inline(always)]
     fn double(self) -> DoubleDouble {
         DoubleDouble::from(self)
+    }
+    #[inline(always)]
+    fn is_finite(self) -> bool {
+        f64::is_finite(self)
     }
 }
 

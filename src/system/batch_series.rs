@@ -10,6 +10,7 @@ use std::sync::Arc;
 use super::compiled::System;
 use super::growth::{Halt, SeriesBuilder, SeriesClock};
 use super::jet::Jet;
+use super::machine_code::CompiledGrowth;
 use super::program::Op;
 use super::series::unit_below;
 use super::state::State;
@@ -22,6 +23,8 @@ use crate::num::{Analytic, BATCH, Batch, DoubleDouble, Kernel, Polynomial, vecto
 pub struct BatchSeries {
     system: System,
     builder: SeriesBuilder<Batch>,
+    /// The machine code that computes its orders, if there is any.
+    code: CompiledGrowth,
     /// What depends on the parameters of one lane alone is computed here.
     single: Jet<f64>,
     origins: Vec<[DoubleDouble; BATCH]>,
@@ -51,6 +54,7 @@ impl System {
             system: self.clone(),
             single: Jet::like(&jet, 0),
             builder: SeriesBuilder::new(jet, inputs, len),
+            code: CompiledGrowth::new((!self.interpreted).then_some(&self.motion().code)),
             origins: vec![[DoubleDouble::ZERO; BATCH]; len],
             times: [DoubleDouble::ZERO; BATCH],
             scale: Batch::ONE,
@@ -123,10 +127,18 @@ impl BatchSeries {
     #[must_use]
     pub fn build(&mut self) -> bool {
         let clock = SeriesClock { time: self.start(), scale: self.scale };
+        if matches!(self.code.grow_all(&mut self.builder, clock), Ok(true)) {
+            return true;
+        }
         match self.builder.grow_plainly(0, clock, self.system.cancel()) {
             Ok(()) | Err(Halt::Singular(_) | Halt::Sticks) => true,
             Err(Halt::Cancelled) => false,
         }
+    }
+
+    /// Whether the last series were computed by machine code.
+    pub fn is_compiled(&self) -> bool {
+        self.code.has_grown()
     }
 
     /// The number of numbers of a state.

@@ -1,14 +1,14 @@
-//! The Taylor series of one orbit by machine code, which is generated while the program runs.
+//! The Taylor series of one orbit or of several by machine code, which is generated while the program runs.
 //!
 //! In: a program with its schedule, the orders that are wanted. Out: a function that computes them, with the bits of
 //! [`Jet`](super::Jet); nothing where there is none, and the jet computes them itself. Never here: numbers at order 0,
-//! the widest precision, several orbits, kinks and powers with a live exponent, events.
+//! the widest precision, kinks and powers with a live exponent, events.
 //!
 //! ```text
 //!   Program, Schedule ──▶ layout: where every number lies          Jet: order 0, factored matrices
 //!                            │                                              │
 //!                         emitter: order by order, each unrolled            │ values
-//!                            │     arithmetic of each precision, solution   │
+//!                            │     plain, double, lanes; solution            │
 //!                         basic_block: instructions in a straight line      │
 //!                            │                                              │
 //!                         allocation: their registers                       │
@@ -35,6 +35,8 @@ mod cache;
 #[cfg(target_arch = "x86_64")]
 mod compile;
 #[cfg(target_arch = "x86_64")]
+mod double;
+#[cfg(target_arch = "x86_64")]
 mod emitter;
 #[cfg(target_arch = "x86_64")]
 mod encoding;
@@ -43,7 +45,11 @@ mod function;
 #[cfg(target_arch = "x86_64")]
 mod growth;
 #[cfg(target_arch = "x86_64")]
+mod lanes;
+#[cfg(target_arch = "x86_64")]
 mod layout;
+#[cfg(target_arch = "x86_64")]
+mod plain;
 #[cfg(target_arch = "x86_64")]
 mod solution;
 

@@ -77,7 +77,7 @@ impl<R: Real> Evaluator<R> {
 
     fn is_finite(&self) -> bool {
         let mut outputs = self.program.outputs.iter();
-        outputs.all(|&r| self.registers[r as usize].double().is_finite())
+        outputs.all(|&r| self.registers[r as usize].is_finite())
     }
 
     /// Whether the first number that is not finite results from overflow, or from a division by
@@ -85,7 +85,7 @@ impl<R: Real> Evaluator<R> {
     /// overflow of a product may leave NaN in a number of two parts.
     fn left_the_range(&self) -> bool {
         let value = |r: &Register| self.registers[*r as usize].value();
-        let is_finite = |r: &Register| self.registers[*r as usize].double().is_finite();
+        let is_finite = |r: &Register| self.registers[*r as usize].is_finite();
         let first = self.program.body.iter().find(|r| !is_finite(r));
         first.is_some_and(|r| match self.program.ops[*r as usize] {
             Op::Divide(..)

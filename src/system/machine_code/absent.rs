@@ -6,8 +6,8 @@
     reason = "has the form of what it stands for"
 )]
 
-use crate::num::DoubleDouble;
-use crate::system::growth::SeriesBuilder;
+use crate::num::{Batch, DoubleDouble};
+use crate::system::growth::{SeriesBuilder, SeriesClock};
 use crate::system::program::Singular;
 
 /// No functions.
@@ -42,6 +42,15 @@ impl CompiledGrowth {
         _: &mut SeriesBuilder<f64>,
         _: Option<&mut SeriesBuilder<DoubleDouble>>,
         _: (DoubleDouble, f64),
+    ) -> Result<bool, Singular> {
+        Ok(false)
+    }
+
+    /// False: no order is computed.
+    pub(in crate::system) fn grow_all(
+        &mut self,
+        _: &mut SeriesBuilder<Batch>,
+        _: SeriesClock<Batch>,
     ) -> Result<bool, Singular> {
         Ok(false)
     }

@@ -193,11 +193,7 @@ impl Allocator {
             let width = place.width.unwrap_or(Width::One);
             let to = Address { area: Area::Work, offset: self.room };
             place.memory = Some(to);
-            self.room += match width {
-                Width::One => 1,
-                Width::Two => 2,
-                Width::Four => 4,
-            };
+            self.room += width.numbers();
             self.bytes.store(width, register, to);
         }
     }

@@ -30,6 +30,19 @@ pub(super) enum Width {
     One,
     Two,
     Four,
+    Eight,
+}
+
+impl Width {
+    /// How many these are.
+    pub(super) fn numbers(self) -> usize {
+        match self {
+            Width::One => 1,
+            Width::Two => 2,
+            Width::Four => 4,
+            Width::Eight => 8,
+        }
+    }
 }
 
 /// An operation on each lane.

@@ -4,11 +4,14 @@
 //! Never here: one order, one instruction.
 
 use super::allocation::assemble;
-use super::arithmetic::{Arithmetic, Code, Double, Plain};
+use super::arithmetic::{Arithmetic, Code};
 use super::basic_block::BasicBlock;
+use super::double::Double;
 use super::emitter::Emitter;
-use super::function::{CompiledFunction, NotCompiled, Work};
-use super::layout::{Address, Area, FactoredPlace, Layout, Precision};
+use super::function::{CompiledFunction, NotCompiled, Work, widest};
+use super::lanes::Lanes;
+use super::layout::{Address, Area, FactoredPlace, Layout, Precision, SeriesPlaces};
+use super::plain::Plain;
 use crate::system::jet::JetPlan;
 use crate::system::program::{Op, Register};
 use crate::system::schedule::Denominator;
@@ -16,9 +19,10 @@ use crate::system::schedule::Denominator;
 /// No more instructions are generated than about this many: more would be slower to read than the loops of a jet.
 const LARGEST: usize = 60_000;
 
-/// How many numbers are computed.
+/// How many numbers of how many orbits are computed.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct Extent {
+    pub(super) orbits: usize,
     /// The numbers of the state, and those of them that the rates depend on.
     pub(super) numbers: usize,
     pub(super) inputs: usize,
@@ -53,60 +57,76 @@ pub(super) fn compile(
     if program.ops.iter().any(alone) || program.switches() > 0 || size(plan) > LARGEST {
         return Err(NotCompiled);
     }
-    let mut layout = Layout::new();
-    let exact_places = exact.map(|exact| {
-        let size = Double::SIZE;
-        let areas = (Area::ExactSeries, Area::ExactState);
-        let stride = exact.stride;
-        layout.series(exact, Precision { size, stride, copies_values: false, areas })
-    });
-    let places = layout.series(
-        plan,
-        Precision {
-            size: Plain::SIZE,
-            stride: plan.stride,
-            copies_values: exact.is_some(),
-            areas: (Area::Series, Area::State),
-        },
-    );
-    let mut code = Code { block: BasicBlock::default(), layout };
-    let numbers = (extent.numbers, extent.inputs);
-    let mut first = 0;
-    if let (Some(exact), Some(own)) = (exact, &exact_places) {
-        first = exact.stride - 1;
-        let places = (own, Some(&places));
-        Emitter::<Double>::new(exact, &mut code, places, numbers).write(0, first)?;
-    }
-    Emitter::<Plain>::new(plan, &mut code, (&places, None), numbers)
-        .write(first, plan.stride - 1)?;
-    let constants = code.layout.first_work();
-    let (bytes, work) = assemble(&code.block, constants.len());
-    let exact_stride = exact.map_or(0, |exact| exact.stride);
+    let mut code = Code { block: BasicBlock::default(), layout: Layout::new(), lanes: widest() };
+    let (places, exactly_factored) = if extent.orbits > 1 {
+        (write_lanes(plan, &mut code, extent)?, Vec::new())
+    } else {
+        write_one(plan, exact, &mut code, extent)?
+    };
+    let mut first_work = code.layout.first_work();
+    let (bytes, work) = assemble(&code.block, first_work.len());
+    first_work.resize(work, 0.0);
+    let (size, exact_stride) = (places.size, exact.map_or(0, |exact| exact.stride));
     let length = |area| match area {
-        Area::Values => plan.values * exact.map_or(Plain::SIZE, |_| Double::SIZE),
+        Area::Values => plan.values * exact.map_or(size, |_| Double::SIZE),
         Area::Work => work,
-        Area::Series => plan.series,
-        Area::State => extent.numbers * plan.stride,
+        Area::Series => plan.series * size,
+        Area::State => extent.numbers * plan.stride * size,
         Area::ExactSeries => exact.map_or(0, |exact| exact.series * Double::SIZE),
         Area::ExactState => extent.numbers * exact_stride * Double::SIZE,
     };
-    let mut first_work = constants;
-    first_work.resize(work, 0.0);
     let relations = &plan.schedule.relations;
     let divisor = |denominator| match denominator {
         Denominator::One | Denominator::Order => None,
         Denominator::Value(a) | Denominator::OrderTimes(a) | Denominator::Twice(a) => Some(a),
     };
     Ok(Compiled {
-        function: CompiledFunction::of(&bytes, length)?,
+        function: CompiledFunction::of(&bytes, code.lanes, length)?,
         work: Work::of(&first_work),
         scale: code.layout.scale,
         values: places.values,
         factored: places.factored,
-        exactly_factored: exact_places.map_or_else(Vec::new, |places| places.factored),
+        exactly_factored,
         vanishing: relations.iter().filter_map(|r| r.vanishing).collect(),
         divisors: relations.iter().filter_map(|r| divisor(r.denominator)).collect(),
     })
+}
+
+/// Writes the orders of one orbit. Returns their places, and those of exact matrices.
+fn write_one(
+    plan: &JetPlan<'_>,
+    exact: Option<&JetPlan<'_>>,
+    code: &mut Code,
+    extent: Extent,
+) -> Result<(SeriesPlaces, Vec<FactoredPlace>), NotCompiled> {
+    let numbers = (extent.numbers, extent.inputs);
+    let exact_places = exact.map(|exact| {
+        let (stride, areas) = (exact.stride, (Area::ExactSeries, Area::ExactState));
+        code.layout.series(exact, Precision::of::<Double>(stride, areas))
+    });
+    let precision = Precision::of::<Plain>(plan.stride, (Area::Series, Area::State));
+    let precision = Precision { copies_values: exact.is_some(), ..precision };
+    let places = code.layout.series(plan, precision);
+    let mut first = 0;
+    if let (Some(exact), Some(own)) = (exact, &exact_places) {
+        first = exact.stride - 1;
+        Emitter::<Double>::new(exact, code, (own, Some(&places)), numbers).write(0, first)?;
+    }
+    Emitter::<Plain>::new(plan, code, (&places, None), numbers).write(first, plan.stride - 1)?;
+    Ok((places, exact_places.map_or_else(Vec::new, |places| places.factored)))
+}
+
+/// Writes the orders of several orbits.
+fn write_lanes(
+    plan: &JetPlan<'_>,
+    code: &mut Code,
+    extent: Extent,
+) -> Result<SeriesPlaces, NotCompiled> {
+    let precision = Precision::of::<Lanes>(plan.stride, (Area::Series, Area::State));
+    let places = code.layout.series(plan, precision);
+    let numbers = (extent.numbers, extent.inputs);
+    Emitter::<Lanes>::new(plan, code, (&places, None), numbers).write(0, plan.stride - 1)?;
+    Ok(places)
 }
 
 /// About how many instructions there will be.

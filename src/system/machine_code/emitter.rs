@@ -6,10 +6,11 @@
 //! Every sum has the order of [`Orders`](crate::system::jet), so the bits are the same. What is left out changes none: a term
 //! that is zero, a factor 1, a first zero where what is added to it is never −0.
 
-use super::arithmetic::{Arithmetic, Code, Plain};
+use super::arithmetic::{Arithmetic, Code};
 use super::basic_block::Operand;
 use super::function::NotCompiled;
-use super::layout::{SIDE, SeriesPlaces};
+use super::layout::SeriesPlaces;
+use super::plain::Plain;
 use crate::num::DoubleDouble;
 use crate::system::finishing_pass::{LinearSum, OperationRun, TermSign};
 use crate::system::jet::JetPlan;
@@ -77,7 +78,7 @@ impl<'a, A: Arithmetic> Emitter<'a, A> {
     /// The inner products of one order.
     fn multiply(&mut self) {
         let places = self.places;
-        for group in 0..self.plan.schedule.pairs.len().div_ceil(SIDE) {
+        for group in 0..self.plan.schedule.pairs.len().div_ceil(A::SIDE) {
             // b_{k−1} is met by a_1
             let operands = (places.left(group, 1), places.right(group, self.k - 1));
             A::inner_products(self.code, operands, self.k - 1, places.products(group));
@@ -159,32 +160,33 @@ impl<'a, A: Arithmetic> Emitter<'a, A> {
                 nearest_slopes.push(multiple::<Plain>(self.code, A::nearest(number), k));
             }
         }
-        for (group, pairs) in self.plan.schedule.pairs.chunks(SIDE).enumerate() {
+        for (group, pairs) in self.plan.schedule.pairs.chunks(A::SIDE).enumerate() {
             // the last group is filled up
-            let pairs: [Pair; SIDE] = std::array::from_fn(|lane| pairs[lane.min(pairs.len() - 1)]);
-            let mut right = [self.zero(); SIDE];
-            let mut left = right;
-            for (lane, pair) in pairs.iter().enumerate() {
-                right[lane] = self.now(pair.right)?;
-                left[lane] = match pair.left.checked_sub(registers) {
-                    Some(slope) => slopes[slope as usize],
+            let pairs: Vec<Pair> =
+                (0..A::SIDE).map(|lane| pairs[lane.min(pairs.len() - 1)]).collect();
+            let slope_of = |pair: &Pair| pair.left.checked_sub(registers).map(|i| i as usize);
+            let (mut left, mut right) = (Vec::new(), Vec::new());
+            for pair in &pairs {
+                right.push(self.now(pair.right)?);
+                left.push(match slope_of(pair) {
+                    Some(slope) => slopes[slope],
                     None => self.now(pair.left)?,
-                };
+                });
             }
             if goes_on {
-                A::side_by_side(self.code, left, self.places.left(group, k));
-                A::side_by_side(self.code, right, self.places.right(group, k));
+                A::side_by_side(self.code, &left, self.places.left(group, k));
+                A::side_by_side(self.code, &right, self.places.right(group, k));
             }
             if let Some(copies) = self.copies {
-                let right = right.map(A::nearest);
-                let mut nearest = left.map(A::nearest);
-                for (left, pair) in nearest.iter_mut().zip(pairs) {
-                    if let Some(slope) = pair.left.checked_sub(registers) {
-                        *left = nearest_slopes[slope as usize];
-                    }
-                }
-                Plain::side_by_side(self.code, nearest, copies.left(group, k));
-                Plain::side_by_side(self.code, right, copies.right(group, k));
+                let right: Vec<_> = right.into_iter().map(A::nearest).collect();
+                let nearest =
+                    left.into_iter().zip(&pairs).map(|(left, pair)| match slope_of(pair) {
+                        Some(slope) => nearest_slopes[slope],
+                        None => A::nearest(left),
+                    });
+                let nearest: Vec<_> = nearest.collect();
+                Plain::side_by_side(self.code, &nearest, copies.left(group, k));
+                Plain::side_by_side(self.code, &right, copies.right(group, k));
             }
         }
         Ok(())
@@ -315,7 +317,7 @@ impl<'a, A: Arithmetic> Emitter<'a, A> {
 
     /// An inner product of this order.
     pub(super) fn product(&mut self, inner: u32) -> A::Number {
-        let (group, lane) = (inner as usize / SIDE, inner as usize % SIDE);
+        let (group, lane) = (inner as usize / A::SIDE, inner as usize % A::SIDE);
         A::inner_product(self.places.products(group), lane)
     }
 
@@ -378,6 +380,5 @@ fn multiple<A: Arithmetic>(code: &mut Code, number: A::Number, n: usize) -> A::N
     if n == 1 {
         return number;
     }
-    let factor = Plain::constant(code, DoubleDouble::from(n as f64));
-    A::multiple(code, number, factor)
+    A::multiple(code, number, n)
 }

@@ -2,8 +2,8 @@
 //!
 //! In: operations on vector registers and memory. Out: their bytes. Never here: which number lies in which register.
 //!
-//! Source: Intel 64 and IA-32 Architectures Software Developer's Manual, volume 2, 2.3 (the VEX prefix) and the pages of
-//! the instructions.
+//! Source: Intel 64 and IA-32 Architectures Software Developer's Manual, volume 2, 2.3 (the VEX prefix), 2.7 (the EVEX
+//! prefix, which instructions on eight numbers have) and the pages of the instructions.
 
 use super::basic_block::{Operation, Width};
 use super::layout::{Address, Area};
@@ -42,8 +42,7 @@ struct Opcode {
     prefix: u8,
     /// The bit W.
     wide: bool,
-    /// Whether four numbers are computed with.
-    four: bool,
+    width: Width,
     code: u8,
 }
 
@@ -63,7 +62,7 @@ impl Bytes {
     ) {
         let arithmetic = |code| match width {
             Width::One => (MAP_0F, SCALAR, code),
-            Width::Two | Width::Four => (MAP_0F, PACKED, code),
+            Width::Two | Width::Four | Width::Eight => (MAP_0F, PACKED, code),
         };
         let (map, prefix, code) = match operation {
             Operation::Add => arithmetic(0x58),
@@ -80,8 +79,8 @@ impl Bytes {
             // vinsertf128
             Operation::Join => (MAP_0F3A, PACKED, 0x18),
         };
-        let four = operation == Operation::Join || width == Width::Four;
-        self.vex(Opcode { map, prefix, wide: false, four, code }, to, left, right);
+        let width = if operation == Operation::Join { Width::Four } else { width };
+        self.vex(Opcode { map, prefix, wide: false, width, code }, to, left, right);
         if operation == Operation::Join {
             self.0.push(1);
         }
@@ -97,23 +96,23 @@ impl Bytes {
     ) {
         // vfmsub213sd, vfmsub213pd
         let code = if width == Width::One { 0xAB } else { 0xAA };
-        let four = width == Width::Four;
-        let opcode = Opcode { map: MAP_0F38, prefix: PACKED, wide: true, four, code };
+        let opcode = Opcode { map: MAP_0F38, prefix: PACKED, wide: true, width, code };
         self.vex(opcode, to, right, Source::Register(product));
     }
 
     /// Copies a register.
     pub(super) fn copy(&mut self, to: Vector, from: Vector) {
         // vmovapd
-        let opcode = Opcode { map: MAP_0F, prefix: PACKED, wide: false, four: true, code: 0x28 };
+        let width = Width::Four;
+        let opcode = Opcode { map: MAP_0F, prefix: PACKED, wide: false, width, code: 0x28 };
         self.vex(opcode, to, NONE, Source::Register(from));
     }
 
     /// Zero.
     pub(super) fn zero(&mut self, to: Vector) {
-        // vxorps
-        let opcode =
-            Opcode { map: MAP_0F, prefix: PACKED_SINGLE, wide: false, four: false, code: 0x57 };
+        // vxorps, which clears what lies beyond as well
+        let (prefix, width) = (PACKED_SINGLE, Width::Two);
+        let opcode = Opcode { map: MAP_0F, prefix, wide: false, width, code: 0x57 };
         self.vex(opcode, to, to, Source::Register(to));
     }
 
@@ -131,7 +130,7 @@ impl Bytes {
     pub(super) fn load_behind(&mut self, to: Vector, from: Address, offset: Address) {
         // mov rax, [offset]
         self.0.extend([0x48, 0x8B]);
-        self.memory(RAX, offset);
+        self.memory(RAX, offset, true);
         // vmovsd to, [from + rax]
         let opcode = moves(Width::One, 0x10);
         self.prefixes(opcode, to, NONE, false);
@@ -155,16 +154,23 @@ impl Bytes {
             }
             Source::Memory(address) => {
                 self.prefixes(opcode, register, left, base(address.area) >= 8);
-                self.memory(register.0, address);
+                // the short displacements of the EVEX prefix are counted in vectors
+                self.memory(register.0, address, opcode.width != Width::Eight);
             }
         }
     }
 
-    /// The VEX prefix and the opcode; `extended` says whether the last operand is one of the upper eight registers.
+    /// The VEX prefix, or the EVEX prefix, and the opcode; `extended` says whether the last operand is one of the upper eight registers.
     fn prefixes(&mut self, opcode: Opcode, register: Vector, left: Vector, extended: bool) {
-        let Opcode { map, prefix, wide, four, code } = opcode;
+        let Opcode { map, prefix, wide, width, code } = opcode;
         let inverted_extension = if register.0 < 8 { 0x80 } else { 0 };
-        let rest = (!left.0 & 15) << 3 | u8::from(four) << 2 | prefix;
+        if width == Width::Eight {
+            let inverted_base = if extended { 0 } else { 0x20 };
+            let second = inverted_extension | 0x50 | inverted_base | map;
+            self.0.extend([0x62, second, 0x84 | (!left.0 & 15) << 3 | prefix, 0x48, code]);
+            return;
+        }
+        let rest = (!left.0 & 15) << 3 | u8::from(width == Width::Four) << 2 | prefix;
         if map == MAP_0F && !wide && !extended {
             self.0.extend([0xC5, inverted_extension | rest, code]);
         } else {
@@ -175,10 +181,10 @@ impl Bytes {
     }
 
     /// The operand in memory beside a register.
-    fn memory(&mut self, register: u8, address: Address) {
+    fn memory(&mut self, register: u8, address: Address, may_be_short: bool) {
         let (low, base) = ((register & 7) << 3, base(address.area) & 7);
         let displacement = displacement(address);
-        if let Ok(short) = i8::try_from(displacement) {
+        if may_be_short && let Ok(short) = i8::try_from(displacement) {
             self.0.extend([0x40 | low | base, short as u8]);
         } else {
             self.0.push(0x80 | low | base);
@@ -190,7 +196,7 @@ impl Bytes {
 fn moves(width: Width, code: u8) -> Opcode {
     // vmovsd, vmovupd
     let prefix = if width == Width::One { SCALAR } else { PACKED };
-    Opcode { map: MAP_0F, prefix, wide: false, four: width == Width::Four, code }
+    Opcode { map: MAP_0F, prefix, wide: false, width, code }
 }
 
 /// The general register that holds the address of a stretch of memory: those in which the System V convention passes the

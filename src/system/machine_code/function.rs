@@ -9,7 +9,9 @@
 //!   a layout, and each call compares the lengths of the slices with those of that layout. What is read is numbers, for
 //!   which every pattern of bits is valid; the only addresses that are read from memory are rows of a matrix, written
 //!   by [`CompiledGrowth`](super::CompiledGrowth) before each call as a permutation of its rows.
-//! - Its instructions are those that [`CompiledFunction::of`] has asked the processor for.
+//! - Its instructions are those that [`CompiledFunction::of`] and [`widest`] have asked the processor for.
+//! - Where one call serves a part of the orbits, it reads and writes the same part of every [`Batch`]: the addresses of the
+//!   second part are half a batch behind.
 //! - The pages are writable until the bytes are in them, and executable from then on. They stay as long as the function may
 //!   be called, which borrows it; they are given back when it is dropped.
 #![allow(unsafe_code, reason = "generated code is put into memory, called and freed")]
@@ -17,11 +19,12 @@
 use std::ffi::c_void;
 use std::ptr::{NonNull, null_mut};
 
-use pulp::x86::V3;
+use pulp::x86::{V3, V4};
 use rustix::mm::{MapFlags, MprotectFlags, ProtFlags, mmap_anonymous, mprotect, munmap};
 
+use super::basic_block::Width;
 use super::layout::Area;
-use crate::num::DoubleDouble;
+use crate::num::{BATCH, Batch, DoubleDouble};
 
 /// The values, the work, the series and the state, and the exact series and state.
 type Entry =
@@ -126,10 +129,25 @@ impl Work {
     }
 }
 
+/// The memory of one call for several orbits.
+pub(super) struct BatchStretches<'a> {
+    pub(super) values: &'a [Batch],
+    pub(super) work: &'a mut Work,
+    pub(super) series: &'a mut [Batch],
+    pub(super) state: &'a mut [Batch],
+}
+
+/// How many numbers the widest instructions of this processor compute with.
+pub(super) fn widest() -> Width {
+    if V4::try_new().is_some() { Width::Eight } else { Width::Four }
+}
+
 /// A function in memory.
 #[derive(Debug)]
 pub(super) struct CompiledFunction {
     pages: Pages,
+    /// How many orbits one call serves.
+    lanes: usize,
     /// The lengths of the stretches.
     lengths: [usize; 6],
 }
@@ -141,13 +159,14 @@ impl CompiledFunction {
     /// If the processor does not have AVX2 and fused multiply-adds, or memory may not be made executable.
     pub(super) fn of(
         bytes: &[u8],
+        lanes: Width,
         length: impl Fn(Area) -> usize,
     ) -> Result<CompiledFunction, NotCompiled> {
         if V3::try_new().is_none() {
             return Err(NotCompiled);
         }
         let pages = Pages::of(bytes).ok_or(NotCompiled)?;
-        Ok(CompiledFunction { pages, lengths: AREAS.map(length) })
+        Ok(CompiledFunction { pages, lanes: lanes.numbers(), lengths: AREAS.map(length) })
     }
 
     /// Calls it.
@@ -164,17 +183,59 @@ impl CompiledFunction {
         let lengths =
             [count, work.length, series.len(), state.len(), exact_series_len, exact_state_len];
         assert_eq!(lengths, self.lengths);
-        // SAFETY: the code has this signature and stays within these lengths; a `DoubleDouble` is two `f64`
+        // SAFETY: the code stays within these lengths; a `DoubleDouble` is two `f64`
+        unsafe {
+            self.enter(
+                start,
+                [
+                    work.lines.as_mut_ptr().cast(),
+                    series.as_mut_ptr(),
+                    state.as_mut_ptr(),
+                    exact_series.as_mut_ptr().cast(),
+                    exact_state.as_mut_ptr().cast(),
+                ],
+            );
+        }
+    }
+
+    /// Calls it for several orbits.
+    ///
+    /// # Panics
+    /// If a stretch of memory has another length than that of the layout.
+    pub(super) fn call_for_all(&self, memory: BatchStretches<'_>) {
+        let BatchStretches { values, work, series, state } = memory;
+        let lengths = [values.len(), series.len(), state.len()].map(|length| BATCH * length);
+        let [values_len, series_len, state_len] = lengths;
+        assert_eq!([values_len, work.length, series_len, state_len, 0, 0], self.lengths);
+        for first in (0..BATCH).step_by(self.lanes) {
+            // SAFETY: the code stays within these lengths where it begins with the first orbit, and is as far from their
+            // ends as from these beginnings where it begins with another
+            unsafe {
+                let behind = |stretch: *mut f64| stretch.add(first);
+                self.enter(
+                    values.as_ptr().cast::<f64>().add(first),
+                    [
+                        behind(work.lines.as_mut_ptr().cast()),
+                        behind(series.as_mut_ptr().cast()),
+                        behind(state.as_mut_ptr().cast()),
+                        null_mut(),
+                        null_mut(),
+                    ],
+                );
+            }
+        }
+    }
+
+    /// Calls the code.
+    ///
+    /// # Safety
+    /// The code stays within what these pointers point to.
+    unsafe fn enter(&self, values: *const f64, stretches: [*mut f64; 5]) {
+        let [work, series, state, exact_series, exact_state] = stretches;
+        // SAFETY: the code has this signature, and its caller vouches for the pointers
         unsafe {
             let entry: Entry = std::mem::transmute(self.pages.start.as_ptr());
-            entry(
-                start,
-                work.lines.as_mut_ptr().cast(),
-                series.as_mut_ptr(),
-                state.as_mut_ptr(),
-                exact_series.as_mut_ptr().cast(),
-                exact_state.as_mut_ptr().cast(),
-            );
+            entry(values, work, series, state, exact_series, exact_state);
         }
     }
 }

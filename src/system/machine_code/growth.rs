@@ -7,9 +7,9 @@ use std::sync::Arc;
 
 use super::cache::CodeCache;
 use super::compile::{Compiled, Extent};
-use super::function::{Stretches, Values, Work};
+use super::function::{BatchStretches, Stretches, Values, Work};
 use super::layout::FactoredPlace;
-use crate::num::{DoubleDouble, Real};
+use crate::num::{BATCH, Batch, DoubleDouble, Real};
 use crate::system::growth::{SeriesBuilder, SeriesClock};
 use crate::system::program::Singular;
 use crate::system::solve::Factored;
@@ -55,18 +55,9 @@ impl CompiledGrowth {
         (time, scale): (DoubleDouble, f64),
     ) -> Result<bool, Singular> {
         self.has_grown = false;
-        if self.asked < PATIENCE {
-            self.asked += 1;
-            if self.asked < PATIENCE {
-                return Ok(false);
-            }
-            let extent = Extent { numbers: high.len(), inputs: high.inputs };
-            let exact = low.as_ref().map(|low| low.jet.plan());
-            let compiled = |cache: &CodeCache| {
-                cache.function(&high.jet.plan(), exact.as_ref(), extent).map(Code::of)
-            };
-            self.code = self.cache.as_ref().and_then(compiled);
-        }
+        let extent = Extent { orbits: 1, numbers: high.len(), inputs: high.inputs };
+        let exact = low.as_ref().map(|low| low.jet.plan());
+        self.ask(|cache| cache.function(&high.jet.plan(), exact.as_ref(), extent));
         if let Some(code) = &mut self.code {
             code.work.set(code.compiled.scale.offset, scale);
             self.has_grown = match low {
@@ -75,6 +66,31 @@ impl CompiledGrowth {
             };
         }
         Ok(self.has_grown)
+    }
+
+    /// Computes all orders of the series of several orbits. Returns false where that is to be done without machine code.
+    pub(in crate::system) fn grow_all(
+        &mut self,
+        builder: &mut SeriesBuilder<Batch>,
+        clock: SeriesClock<Batch>,
+    ) -> Result<bool, Singular> {
+        let extent = Extent { orbits: BATCH, numbers: builder.len(), inputs: builder.inputs };
+        self.ask(|cache| cache.function(&builder.jet.plan(), None, extent));
+        self.has_grown = false;
+        if let Some(code) = &mut self.code {
+            self.has_grown = code.grow_all(builder, clock)?;
+        }
+        Ok(self.has_grown)
+    }
+
+    /// Takes the function once it pays.
+    fn ask(&mut self, function: impl FnOnce(&CodeCache) -> Option<Arc<Compiled>>) {
+        if self.asked < PATIENCE {
+            self.asked += 1;
+            if self.asked == PATIENCE {
+                self.code = self.cache.as_ref().and_then(function).map(Code::of);
+            }
+        }
     }
 }
 
@@ -89,7 +105,7 @@ impl Code {
         clock: SeriesClock<f64>,
     ) -> Result<bool, Singular> {
         high.evaluate(clock)?;
-        if !self.fits(high.jet.values()) {
+        if self.vanishes(high.jet.values()) {
             return Ok(false);
         }
         take_matrices(high.jet.factored(), &self.compiled.factored, &mut self.work);
@@ -109,7 +125,8 @@ impl Code {
         (time, scale): (DoubleDouble, f64),
     ) -> Result<bool, Singular> {
         low.evaluate(SeriesClock::new(time, scale))?;
-        if !self.fits(low.jet.values()) {
+        let values = low.jet.values();
+        if self.vanishes(values) || self.divides_badly(values) {
             return Ok(false);
         }
         high.take_origin(low)?;
@@ -126,12 +143,34 @@ impl Code {
         Ok(true)
     }
 
-    /// Whether the code computes what the jet would.
-    fn fits<R: Real>(&self, values: &[R]) -> bool {
-        let value = |r: &u32| values[*r as usize].value();
-        let divides = |x: f64| x != 0.0 && x.is_finite();
-        self.compiled.vanishing.iter().all(|r| value(r) != 0.0)
-            && self.compiled.divisors.iter().all(|r| divides(value(r)))
+    fn grow_all(
+        &mut self,
+        builder: &mut SeriesBuilder<Batch>,
+        clock: SeriesClock<Batch>,
+    ) -> Result<bool, Singular> {
+        builder.evaluate(clock)?;
+        let values = builder.jet.values();
+        let vanishes = |r: &u32| values[*r as usize].0.contains(&0.0);
+        if self.compiled.vanishing.iter().any(vanishes) {
+            return Ok(false);
+        }
+        self.work.copy(self.compiled.scale.offset, &clock.scale.0);
+        let (jet, state) = builder.parts();
+        let (values, series) = jet.values_and_series();
+        let work = &mut self.work;
+        self.compiled.function.call_for_all(BatchStretches { values, work, series, state });
+        Ok(true)
+    }
+
+    /// Whether a series that would be compared with zero begins with it.
+    fn vanishes<R: Real>(&self, values: &[R]) -> bool {
+        self.compiled.vanishing.iter().any(|&r| values[r as usize].value() == 0.0)
+    }
+
+    /// Whether something is divided by what is zero or not finite.
+    fn divides_badly(&self, values: &[DoubleDouble]) -> bool {
+        let is_bad = |x: f64| x == 0.0 || !x.is_finite();
+        self.compiled.divisors.iter().any(|&r| is_bad(values[r as usize].high))
     }
 }
 

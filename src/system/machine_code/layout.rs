@@ -7,16 +7,14 @@
 //!   values   order 0 of all registers, from a jet
 //!   state    the series of the numbers of the state ┐ one after another, the orders of each side by side;
 //!   series   those that are read whole              ┘ exact ones apart
-//!   work     the unit of time, values in `f64` beside exact ones, factored matrices, operands of inner products, four series side by side, right ones from
+//!   work     the units of time, values in `f64` beside exact ones, factored matrices, operands of inner products, four series side by side, right ones from
 //!            their ends; constants; what finds no register
 //!
 //!              left   a_0 c_0 e_0 g_0  a_1 c_1 …        right   …  b_1 d_1 f_1 h_1  b_0 d_0 f_0 h_0
 //! ```
 
+use super::arithmetic::Arithmetic;
 use crate::system::jet::JetPlan;
-
-/// The number of inner products side by side.
-pub(super) const SIDE: usize = 4;
 
 /// The size of a cache line, which a group of operands must not cross.
 const LINE: usize = 8;
@@ -60,6 +58,8 @@ pub(super) struct FactoredPlace {
 pub(super) struct SeriesPlaces {
     /// The number of `f64` of a number.
     pub(super) size: usize,
+    /// The number of inner products side by side.
+    side: usize,
     /// The number of orders.
     pub(super) stride: usize,
     /// Where order 0 of all registers begins.
@@ -101,11 +101,11 @@ impl SeriesPlaces {
 
     /// The inner products of a group at the current order.
     pub(super) fn products(&self, group: usize) -> Address {
-        Address { area: Area::Work, offset: self.products + group * SIDE * self.size }
+        Address { area: Area::Work, offset: self.products + group * self.side * self.size }
     }
 
     fn group(&self, start: usize, group: usize, place: usize) -> Address {
-        let offset = start + (group * self.stride + place) * SIDE * self.size;
+        let offset = start + (group * self.stride + place) * self.side * self.size;
         Address { area: Area::Work, offset }
     }
 }
@@ -114,16 +114,24 @@ impl SeriesPlaces {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Precision {
     pub(super) size: usize,
+    pub(super) side: usize,
     pub(super) stride: usize,
     /// Whether order 0 of all registers is copied into the stretch of work.
     pub(super) copies_values: bool,
     pub(super) areas: (Area, Area),
 }
 
+impl Precision {
+    /// That of an arithmetic, for so many orders of the series and the state in these areas.
+    pub(super) fn of<A: Arithmetic>(stride: usize, areas: (Area, Area)) -> Precision {
+        Precision { size: A::SIZE, side: A::SIDE, stride, copies_values: false, areas }
+    }
+}
+
 /// All places, which grow while code is written.
 #[derive(Clone, Debug)]
 pub(super) struct Layout {
-    /// The unit of time.
+    /// The unit of time, or those of several orbits.
     pub(super) scale: Address,
     /// The length of the stretch of work.
     pub(super) work: usize,
@@ -132,7 +140,7 @@ pub(super) struct Layout {
 }
 
 impl Layout {
-    /// One with room for the unit of time alone.
+    /// One with room for units of time alone.
     pub(super) fn new() -> Layout {
         let scale = Address { area: Area::Work, offset: 0 };
         Layout { scale, work: LINE, constants: Vec::new() }
@@ -140,7 +148,7 @@ impl Layout {
 
     /// Makes room for the series of a program.
     pub(super) fn series(&mut self, plan: &JetPlan<'_>, precision: Precision) -> SeriesPlaces {
-        let Precision { size, stride, copies_values, areas: (series, state) } = precision;
+        let Precision { size, side, stride, copies_values, areas: (series, state) } = precision;
         let values = if copies_values {
             let offset = self.room(plan.values * size);
             Address { area: Area::Work, offset }
@@ -154,11 +162,11 @@ impl Layout {
             FactoredPlace { size: n, entries, rows, right }
         });
         let factored = factored.collect();
-        let groups = plan.schedule.pairs.len().div_ceil(SIDE);
-        let operands = groups * stride * SIDE * size;
+        let groups = plan.schedule.pairs.len().div_ceil(side);
+        let operands = groups * stride * side * size;
         let (left, right) = (self.room(operands), self.room(operands));
-        let products = self.room(groups * SIDE * size);
-        SeriesPlaces { size, stride, values, series, state, factored, left, right, products }
+        let products = self.room(groups * side * size);
+        SeriesPlaces { size, side, stride, values, series, state, factored, left, right, products }
     }
 
     /// Room for so many numbers in the stretch of work, from the start of a cache line on.

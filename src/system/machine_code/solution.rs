@@ -33,7 +33,8 @@ impl<A: Arithmetic> Emitter<'_, A> {
         }
         let mut partial = Vec::with_capacity(n);
         for i in 0..n {
-            let mut sum = A::behind(self.code, work(place.right), work(place.rows + i));
+            let row = A::behind(self.code, work(place.right), work(place.rows + i));
+            let mut sum = row.ok_or(NotCompiled)?;
             for (j, &known) in partial.iter().enumerate() {
                 sum = self.less_product(sum, entry(i, j), known);
             }

@@ -1,8 +1,8 @@
 //! Series by machine code compared with those of the jet, bit by bit: of every operation, and of whole orbits.
 
 use phaselab::integrate::{METHODS, Settings};
-use phaselab::num::DoubleDouble;
-use phaselab::system::{Series, State, System};
+use phaselab::num::{BATCH, DoubleDouble};
+use phaselab::system::{BatchSeries, Series, State, System};
 
 use super::compile;
 
@@ -82,6 +82,48 @@ fn every_operation_has_the_bits_of_the_jet_at_all_orders() {
         }
         compare(&system, &parameters, (28, 8));
     }
+}
+
+/// The bits of all coefficients of several orbits.
+fn bits_of_all(series: &BatchSeries) -> Vec<u64> {
+    let numbers = (0..series.len()).flat_map(|i| series.coefficients(i));
+    let arguments = series.arguments().flat_map(|(_, u)| &u[..series.order()]);
+    numbers.chain(arguments).flat_map(|c| c.0.map(f64::to_bits)).collect()
+}
+
+#[test]
+fn every_operation_has_the_bits_of_the_jet_in_all_lanes() {
+    let mut compiled_laws = 0;
+    for (i, (kinetic, potential)) in LAWS.iter().enumerate() {
+        let (model, system) = compile(&file(kinetic, potential));
+        let parameters = system.inputs(&model.parameter_values());
+        let order = 8 + 2 * i;
+        let interpreted = system.interpreted();
+        let series = [&system, &interpreted].map(|system| system.batch_series(order));
+        let [Some(mut compiled), Some(mut interpreted)] = series else { continue };
+        let mut numbers = noise(order as u64);
+        let mut by_code = 0;
+        for step in 0..70 {
+            for lane in 0..BATCH {
+                let values = numbers.by_ref().take(system.state_len()).collect();
+                let state = State::new(0.3 * lane as f64, system.form(), values);
+                for series in [&mut compiled, &mut interpreted] {
+                    assert!(series.set_parameters(lane, &parameters));
+                    series.set_scale(lane, if (step + lane) % 2 == 0 { 0.25 } else { -0.5 });
+                    series.set_state(lane, &state);
+                }
+            }
+            for series in [&mut compiled, &mut interpreted] {
+                assert!(series.build());
+            }
+            by_code += u32::from(compiled.is_compiled());
+            assert!(!interpreted.is_compiled());
+            assert!(bits_of_all(&compiled) == bits_of_all(&interpreted), "{potential}");
+        }
+        compiled_laws += u32::from(by_code > 5);
+    }
+    // not where linear equations are solved, or a root is compared with zero
+    assert!(compiled_laws > 5, "{compiled_laws}");
 }
 
 #[test]

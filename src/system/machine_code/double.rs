@@ -1,0 +1,200 @@
+//! The arithmetic of double-double as instructions.
+//!
+//! In: numbers of two parts. Out: instructions whose results have the bits of [`DoubleDouble`]. Never here: which numbers.
+
+use super::arithmetic::{Arithmetic, Code, SIDE, four_of};
+use super::basic_block::{Operand, Operation, Width};
+use super::layout::Address;
+use super::plain::Plain;
+use crate::num::{Analytic, DoubleDouble};
+
+/// Double-double: its high and its low part.
+#[derive(Debug)]
+pub(super) struct Double;
+
+/// The two parts of a number, or of four side by side.
+type Parts = (Operand, Operand);
+
+impl Code {
+    /// [`DoubleDouble::sum`].
+    fn exact_sum(&mut self, width: Width, a: Operand, b: Operand) -> Parts {
+        let high = self.binary(Operation::Add, width, a, b);
+        let part = self.binary(Operation::Subtract, width, high, a);
+        let a_part = self.binary(Operation::Subtract, width, high, part);
+        let a_error = self.binary(Operation::Subtract, width, a, a_part);
+        let b_error = self.binary(Operation::Subtract, width, b, part);
+        (high, self.binary(Operation::Add, width, a_error, b_error))
+    }
+
+    /// The same for a difference.
+    fn exact_difference(&mut self, a: Operand, b: Operand) -> Parts {
+        let width = Width::One;
+        let high = self.binary(Operation::Subtract, width, a, b);
+        let part = self.binary(Operation::Subtract, width, high, a);
+        let a_part = self.binary(Operation::Subtract, width, high, part);
+        let a_error = self.binary(Operation::Subtract, width, a, a_part);
+        let b_error = self.binary(Operation::Add, width, b, part);
+        (high, self.binary(Operation::Subtract, width, a_error, b_error))
+    }
+
+    /// The same where the first is not smaller.
+    fn ordered_sum(&mut self, a: Operand, b: Operand) -> Parts {
+        let high = self.binary(Operation::Add, Width::One, a, b);
+        let part = self.binary(Operation::Subtract, Width::One, high, a);
+        (high, self.binary(Operation::Subtract, Width::One, b, part))
+    }
+
+    /// The product and its rounding error.
+    fn exact_product(&mut self, width: Width, a: Operand, b: Operand) -> Parts {
+        let (a, b) = (self.block.made(width, a), self.block.made(width, b));
+        let high = self.block.binary(Operation::Multiply, width, a.into(), b.into());
+        let low = self.block.product_error(width, (a, b), high);
+        (high.into(), low.into())
+    }
+
+    /// The product with an `f64`.
+    fn exact_multiple(&mut self, a: Parts, factor: Operand) -> Parts {
+        let (high, low) = self.exact_product(Width::One, a.0, factor);
+        let mixed = Plain::product(self, a.1, factor);
+        let low = Plain::sum(self, low, mixed);
+        self.ordered_sum(high, low)
+    }
+
+    /// The sum of two numbers from the sums of their parts.
+    fn renormalized(&mut self, highs: Parts, lows: Parts) -> Parts {
+        let low = Plain::sum(self, highs.1, lows.0);
+        let (high, low) = self.ordered_sum(highs.0, low);
+        let low = Plain::sum(self, lows.1, low);
+        self.ordered_sum(high, low)
+    }
+}
+
+impl Arithmetic for Double {
+    type Number = Parts;
+    const SIZE: usize = 2;
+    const SIDE: usize = SIDE;
+
+    fn at(address: Address) -> Parts {
+        (Operand::At(address), Operand::At(address.plus(1)))
+    }
+
+    fn constant(code: &mut Code, number: DoubleDouble) -> Parts {
+        Double::at(code.layout.constant(&[number.high, number.low]))
+    }
+
+    fn sum(code: &mut Code, a: Parts, b: Parts) -> Parts {
+        let (a, b) = (Double::held(code, a), Double::held(code, b));
+        let highs = code.exact_sum(Width::One, a.0, b.0);
+        let lows = code.exact_sum(Width::One, a.1, b.1);
+        code.renormalized(highs, lows)
+    }
+
+    fn difference(code: &mut Code, a: Parts, b: Parts) -> Parts {
+        let (a, b) = (Double::held(code, a), Double::held(code, b));
+        let highs = code.exact_difference(a.0, b.0);
+        let lows = code.exact_difference(a.1, b.1);
+        code.renormalized(highs, lows)
+    }
+
+    fn product(code: &mut Code, a: Parts, b: Parts) -> Parts {
+        let (a, b) = (Double::held(code, a), Double::held(code, b));
+        let (high, low) = code.exact_product(Width::One, a.0, b.0);
+        let (first, second) = (Plain::product(code, a.0, b.1), Plain::product(code, a.1, b.0));
+        let mixed = Plain::sum(code, first, second);
+        let low = Plain::sum(code, low, mixed);
+        code.ordered_sum(high, low)
+    }
+
+    fn multiple(code: &mut Code, a: Parts, n: usize) -> Parts {
+        let n = code.constant(n as f64);
+        code.exact_multiple(a, n)
+    }
+
+    fn scaled(code: &mut Code, a: Parts, power_of_two: Operand) -> Parts {
+        (Plain::product(code, a.0, power_of_two), Plain::product(code, a.1, power_of_two))
+    }
+
+    fn quotient(code: &mut Code, a: Parts, b: Parts) -> Parts {
+        let (a, b) = (Double::held(code, a), Double::held(code, b));
+        let first = Plain::quotient(code, a.0, b.0);
+        let part = code.exact_multiple(b, first);
+        let rest = Double::difference(code, a, part);
+        let second = Plain::quotient(code, rest.0, b.0);
+        let part = code.exact_multiple(b, second);
+        let rest = Double::difference(code, rest, part);
+        let third = Plain::quotient(code, rest.0, b.0);
+        let (high, low) = code.ordered_sum(first, second);
+        let low = Plain::sum(code, low, third);
+        code.ordered_sum(high, low)
+    }
+
+    fn over(code: &mut Code, a: Parts, n: usize) -> Parts {
+        let inverse = Double::constant(code, DoubleDouble::ONE.over::<false>(n));
+        Double::product(code, a, inverse)
+    }
+
+    fn opposite(code: &mut Code, a: Parts) -> Parts {
+        (Plain::opposite(code, a.0), Plain::opposite(code, a.1))
+    }
+
+    fn held(code: &mut Code, a: Parts) -> Parts {
+        (Plain::held(code, a.0), Plain::held(code, a.1))
+    }
+
+    fn store(code: &mut Code, a: Parts, to: Address) {
+        Plain::store(code, a.0, to);
+        Plain::store(code, a.1, to.plus(1));
+    }
+
+    fn store_for_now(code: &mut Code, a: Parts, to: Address) {
+        Plain::store_for_now(code, a.0, to);
+        Plain::store_for_now(code, a.1, to.plus(1));
+    }
+
+    fn side_by_side(code: &mut Code, numbers: &[Parts], to: Address) {
+        let numbers = four_of(numbers);
+        code.side_by_side(numbers.map(|parts| parts.0), to);
+        code.side_by_side(numbers.map(|parts| parts.1), to.plus(SIDE));
+    }
+
+    fn nearest(a: Parts) -> Operand {
+        a.0
+    }
+
+    fn inner_products(
+        code: &mut Code,
+        (left, right): (Address, Address),
+        terms: usize,
+        to: Address,
+    ) {
+        let four = Width::Four;
+        let mut sum: Operand = code.block.zero().into();
+        let mut errors = sum;
+        let ends = (0..terms.min(1)).chain(terms.max(2) - 1..terms);
+        for j in (1..terms.max(2) - 1).chain(ends) {
+            let [a_high, a_low, b_high, b_low] = [(left, 0), (left, 1), (right, 0), (right, 1)]
+                .map(|(series, part)| code.four(series.plus((2 * j + part) * SIDE)).into());
+            let (product, error) = code.exact_product(four, a_high, b_high);
+            let (next, lost) = code.exact_sum(four, sum, product);
+            let first = code.binary(Operation::Multiply, four, a_high, b_low);
+            let second = code.binary(Operation::Multiply, four, a_low, b_high);
+            let mixed = code.binary(Operation::Add, four, first, second);
+            let low = code.binary(Operation::Add, four, error, mixed);
+            let low = code.binary(Operation::Add, four, lost, low);
+            errors = code.binary(Operation::Add, four, errors, low);
+            sum = next;
+        }
+        let (high, low) = code.exact_sum(four, sum, errors);
+        code.block.store(four, high, to, false);
+        code.block.store(four, low, to.plus(SIDE), false);
+    }
+
+    fn inner_product(stored: Address, lane: usize) -> Parts {
+        (Operand::At(stored.plus(lane)), Operand::At(stored.plus(SIDE + lane)))
+    }
+
+    fn behind(code: &mut Code, from: Address, offset: Address) -> Option<Parts> {
+        let mut part = |from| code.block.load_behind(from, offset).into();
+        Some((part(from), part(from.plus(1))))
+    }
+}
