@@ -6,9 +6,8 @@
 use super::argument_step::{
     FARTHEST_ARGUMENT, before_pole, may_pass_pole, of_argument, of_steep_pole,
 };
-use super::last_orders::{FAINT, FIRST, ROOM, last_orders};
+use super::last_orders::{FIRST, ROOM, last_orders};
 use super::rough_logarithms::rough_logarithms;
-use super::step_screen::StepScreen;
 use super::step_size::{Shares, reciprocals};
 use crate::num::{Analytic, BATCH, Batch, Kernel, math, vectorized};
 use crate::system::BatchSeries;
@@ -18,13 +17,7 @@ use crate::system::BatchSeries;
 pub(super) struct BatchStepSize {
     motion: Shares,
     integrals: Shares,
-    /// The number whose series allowed the least last time, in each lane.
-    least: [usize; BATCH],
-    /// Its series in each lane.
-    gathered: Box<[Batch; ROOM]>,
     logs: Box<[Batch; ROOM]>,
-    /// The powers of the shortest step so far.
-    powers: Box<[Batch; ROOM]>,
 }
 
 impl BatchStepSize {
@@ -32,10 +25,7 @@ impl BatchStepSize {
         BatchStepSize {
             motion: Shares::of_motion(tolerance, order),
             integrals: Shares::of_integrals(tolerance, order),
-            least: [0; BATCH],
-            gathered: Box::new([Batch::ZERO; ROOM]),
             logs: Box::new([Batch::ZERO; ROOM]),
-            powers: Box::new([Batch::ONE; ROOM]),
         }
     }
 
@@ -73,116 +63,20 @@ impl BatchStepSize {
 
     #[inline(always)]
     fn by_coefficients(&mut self, series: &BatchSeries) -> Batch {
-        let mut shortest = BatchShortest::new();
-        let BatchStepSize { motion, integrals, least, gathered, logs, powers } = self;
-        let count = series.inputs();
-        if count > 0 {
-            // mostly this shows that all numbers allow more
-            let length = series.coefficients(0).len();
-            for (lane, &number) in least.iter().enumerate() {
-                let coefficients = series.coefficients(number.min(count - 1));
-                for (place, c) in gathered.iter_mut().zip(coefficients) {
-                    place.0[lane] = c.0[lane];
-                }
+        let BatchStepSize { motion, integrals, logs } = self;
+        let mut shortest = Batch::splat(f64::INFINITY);
+        // zero, or NaN where a coefficient is not finite
+        let mut finite = Batch::ZERO;
+        for i in 0..series.len() {
+            let coefficients = series.coefficients(i);
+            for c in coefficients {
+                finite = finite + *c * 0.0;
             }
-            shortest.take(&gathered[..length], Batch::ZERO, motion, (logs, powers));
+            let shares = if i < series.inputs() { &*motion } else { &*integrals };
+            shortest = of_one(coefficients, shares, shortest, logs);
         }
-        for i in 0..count {
-            let mut known = Batch::ZERO;
-            for lane in 0..BATCH {
-                known.0[lane] = f64::from(least[lane] == i);
-            }
-            let shorter = shortest.take(series.coefficients(i), known, motion, (logs, powers));
-            for (least, _) in least.iter_mut().zip(shorter).filter(|(_, shorter)| *shorter) {
-                *least = i;
-            }
-        }
-        for i in count..series.len() {
-            shortest.take(series.coefficients(i), Batch::ZERO, integrals, (logs, powers));
-        }
-        // zero times anything that is not finite is NaN
-        shortest.step + shortest.finite
+        Batch(shortest.0.map(math::exp)) + finite
     }
-}
-
-/// The shortest steps that some series allow.
-struct BatchShortest {
-    log: Batch,
-    step: Batch,
-    is_known: bool,
-    /// Zero, or NaN where a coefficient is not finite.
-    finite: Batch,
-}
-
-impl BatchShortest {
-    fn new() -> BatchShortest {
-        let step = Batch::splat(f64::INFINITY);
-        BatchShortest { log: step, step, is_known: false, finite: Batch::ZERO }
-    }
-
-    /// Takes another series into account, which is not `known` already in some lanes (1, else 0).
-    /// Returns in which lanes it allows less than those before.
-    #[inline(always)]
-    fn take(
-        &mut self,
-        coefficients: &[Batch],
-        known: Batch,
-        shares: &Shares,
-        (logs, powers): (&mut [Batch; ROOM], &mut [Batch; ROOM]),
-    ) -> [bool; BATCH] {
-        for c in coefficients {
-            self.finite = self.finite + *c * 0.0;
-        }
-        let mut shorter = [false; BATCH];
-        if self.is_known && passes(&shares.screen, (coefficients, known), powers) {
-            return shorter;
-        }
-        let found = of_one(coefficients, shares, self.log, logs);
-        for lane in 0..BATCH {
-            shorter[lane] = found.0[lane] < self.log.0[lane];
-            if shorter[lane] {
-                self.step.0[lane] = math::exp(found.0[lane]);
-            }
-        }
-        if !self.is_known || shorter != [false; BATCH] {
-            (self.log, self.is_known) = (found, true);
-            let mut power = Batch::ONE;
-            for place in &mut powers[..coefficients.len()] {
-                *place = power;
-                power = power * self.step;
-            }
-        }
-        shorter
-    }
-}
-
-/// Whether a series allows a step in all lanes where that is not known (1, else 0); the powers are
-/// those of the step. May be false where it does.
-#[inline(always)]
-fn passes(
-    screen: &StepScreen,
-    (coefficients, known): (&[Batch], Batch),
-    powers: &[Batch; ROOM],
-) -> bool {
-    let mut low = [Batch::ZERO; 2 + FIRST];
-    for ((low, c), power) in low.iter_mut().zip(coefficients).zip(powers) {
-        let size = c.abs();
-        *low = size.where_below(FAINT, Batch::ZERO, size * *power);
-    }
-    let mut all = Batch::ONE;
-    let last = coefficients[screen.first..].iter().zip(&powers[screen.first..]);
-    for (lane, (c, power)) in last.enumerate() {
-        let (mut by_tolerance, mut by_radius) = (Batch::ZERO, Batch::ZERO);
-        for j in 0..FIRST {
-            by_tolerance = by_tolerance.larger(low[j] * screen.by_tolerance[j].0[lane]);
-            by_radius = by_radius.larger(low[j + 2] * screen.by_radius[j].0[lane]);
-        }
-        let size = c.abs() * screen.entering.0[lane];
-        let passed = by_tolerance.smaller(by_radius).is_above(size * *power);
-        // a coefficient that vanishes allows anything
-        all = all * size.where_below(FAINT, Batch::ONE, passed);
-    }
-    all.larger(known).all_reach(Batch::ONE)
 }
 
 /// The kernel of the rule.

@@ -12,13 +12,13 @@ use crate::num::{Batch, math};
 #[derive(Clone, Debug)]
 pub(super) struct StepScreen {
     /// The order in the first lane.
-    pub(super) first: usize,
+    first: usize,
     /// The constants of the tolerance, for the j-th order.
-    pub(super) by_tolerance: [Batch<WIDTH>; FIRST],
+    by_tolerance: [Batch<WIDTH>; FIRST],
     /// Those of the radius of convergence, for the order j + 2; zero where that gives none.
-    pub(super) by_radius: [Batch<WIDTH>; FIRST],
+    by_radius: [Batch<WIDTH>; FIRST],
     /// Zero for an order that does not enter, else one.
-    pub(super) entering: Batch<WIDTH>,
+    entering: Batch<WIDTH>,
 }
 
 /// The ratio by which terms must differ to do so beyond the errors of rough logarithms.

@@ -196,7 +196,7 @@ pub(super) struct Shares {
     pub(super) log_part: f64,
     log_indulgence: f64,
     bounds: OrderBounds,
-    pub(super) screen: StepScreen,
+    screen: StepScreen,
 }
 
 impl Shares {

@@ -1,15 +1,21 @@
 //! The functions that were compiled for one program.
 //!
-//! In: what is wanted. Out: its function, compiled when it is wanted first, for all threads. Never here: when it pays.
+//! In: what is wanted. Out: its function once it pays, for all threads. Never here: what it computes.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use super::compile::{Compiled, Extent, compile};
 use crate::system::jet::JetPlan;
 
+/// The series of so many orbits are computed before a function is compiled: short motions end before it pays.
+const PATIENCE: usize = 64;
+
 /// The functions for one program; clones share them.
 #[derive(Clone, Debug, Default)]
 pub(in crate::system) struct CodeCache {
+    /// The number of series that were asked for.
+    asked: Arc<AtomicUsize>,
     known: Arc<Mutex<Vec<Entry>>>,
 }
 
@@ -20,6 +26,11 @@ impl CodeCache {
     /// An empty one.
     pub(in crate::system) fn new() -> CodeCache {
         CodeCache::default()
+    }
+
+    /// Whether functions pay, now that one more series is asked for, of so many orbits.
+    pub(super) fn pays(&self, orbits: usize) -> bool {
+        self.asked.fetch_add(orbits, Ordering::Relaxed) + orbits >= PATIENCE
     }
 
     /// The function for a jet of this program, and for an exact one of its lowest orders; `None` if there is none.

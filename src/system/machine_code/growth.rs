@@ -14,15 +14,11 @@ use crate::system::growth::{SeriesBuilder, SeriesClock};
 use crate::system::program::Singular;
 use crate::system::solve::Factored;
 
-/// So many series are computed before a function is compiled: short motions end before it pays.
-const PATIENCE: u32 = 64;
-
 /// The growth of one series by machine code.
 #[derive(Clone, Debug)]
 pub(in crate::system) struct CompiledGrowth {
+    /// The functions, until one was asked for.
     cache: Option<CodeCache>,
-    /// The number of series that were asked for.
-    asked: u32,
     code: Option<Code>,
     /// Whether the last one was computed.
     has_grown: bool,
@@ -38,7 +34,7 @@ struct Code {
 impl CompiledGrowth {
     /// That of a series of the program that a cache belongs to; without one, nothing is ever computed.
     pub(in crate::system) fn new(cache: Option<&CodeCache>) -> CompiledGrowth {
-        CompiledGrowth { cache: cache.cloned(), asked: 0, code: None, has_grown: false }
+        CompiledGrowth { cache: cache.cloned(), code: None, has_grown: false }
     }
 
     /// Whether the last series was computed by machine code.
@@ -57,7 +53,7 @@ impl CompiledGrowth {
         self.has_grown = false;
         let extent = Extent { orbits: 1, numbers: high.len(), inputs: high.inputs };
         let exact = low.as_ref().map(|low| low.jet.plan());
-        self.ask(|cache| cache.function(&high.jet.plan(), exact.as_ref(), extent));
+        self.ask(1, |cache| cache.function(&high.jet.plan(), exact.as_ref(), extent));
         if let Some(code) = &mut self.code {
             code.work.set(code.compiled.scale.offset, scale);
             self.has_grown = match low {
@@ -75,7 +71,7 @@ impl CompiledGrowth {
         clock: SeriesClock<Batch>,
     ) -> Result<bool, Singular> {
         let extent = Extent { orbits: BATCH, numbers: builder.len(), inputs: builder.inputs };
-        self.ask(|cache| cache.function(&builder.jet.plan(), None, extent));
+        self.ask(BATCH, |cache| cache.function(&builder.jet.plan(), None, extent));
         self.has_grown = false;
         if let Some(code) = &mut self.code {
             self.has_grown = code.grow_all(builder, clock)?;
@@ -83,13 +79,10 @@ impl CompiledGrowth {
         Ok(self.has_grown)
     }
 
-    /// Takes the function once it pays.
-    fn ask(&mut self, function: impl FnOnce(&CodeCache) -> Option<Arc<Compiled>>) {
-        if self.asked < PATIENCE {
-            self.asked += 1;
-            if self.asked == PATIENCE {
-                self.code = self.cache.as_ref().and_then(function).map(Code::of);
-            }
+    /// Takes a function for so many orbits once it pays.
+    fn ask(&mut self, orbits: usize, function: impl FnOnce(&CodeCache) -> Option<Arc<Compiled>>) {
+        if let Some(cache) = self.cache.take_if(|cache| cache.pays(orbits)) {
+            self.code = function(&cache).map(Code::of);
         }
     }
 }
