@@ -5,8 +5,8 @@
 
 mod attitude;
 mod bracket;
-mod break_down;
 mod canonical;
+mod canonical_condition;
 mod canonical_verdict;
 mod chain;
 mod chart;
@@ -37,6 +37,7 @@ mod lagrange;
 mod latex;
 mod legendre;
 mod linear;
+mod missing_functions;
 mod modulo;
 mod momenta_at_rest;
 mod named_ramps;

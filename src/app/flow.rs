@@ -196,7 +196,7 @@ impl FlowEnd {
             return format!("{begins}, on another orbit.");
         };
         let same = (after - before).abs() <= SAME * before.abs().max(after.abs());
-        let [from, to] = [before, after].map(|x| significant(x, 6, 1e-4..1e7));
+        let [from, to] = [before, after].map(|x| significant(x, 6, 1e-4..1e7).replace('-', "−"));
         match (self.keeps_energy, same) {
             (true, _) => format!("{begins}: H = {to} as before, since [H, G] = 0."),
             (false, true) => format!("{begins}: H = {to} as before, though [H, G] is not 0."),

@@ -395,7 +395,6 @@ fn sentences(present: &Present<'_>, answer: Option<&Answer>) -> Vec<String> {
                     None => "its returns take different times".to_owned(),
                 },
             ];
-            // below a verdict J is what a low plot has room for
             lines.extend(if changes.is_some() {
                 [number, format!("{}: {slope}", row.kind.word())]
             } else {
@@ -422,9 +421,10 @@ fn sentences(present: &Present<'_>, answer: Option<&Answer>) -> Vec<String> {
         // what is behind a fast motion is of its own time
         let late = Some(computed.course.state.time).filter(|_| computed.is_behind(present.time));
         let at = late.map_or_else(String::new, |time| format!(" at t = {}", short(time)));
-        // a low plot has room for the first lines only
-        lines.insert(0, format!("ΔJ/J = {}: {}{at}", signed(action), verdict([action, height])));
-        lines.push(format!("since t = {}: ΔE/(E − V₀) = {}", short(since), signed(height)));
+        // a low plot has room for the first lines only, which are J beside E
+        let change = format!("ΔJ/J = {}: {}{at}", signed(action), verdict([action, height]));
+        let height = format!("since t = {}: ΔE/(E − V₀) = {}", short(since), signed(height));
+        lines.splice(0..0, [change, height]);
     }
     if let Some(last) = computed.replaced.last()
         && let Some(changes) = computed.changes_since(last)

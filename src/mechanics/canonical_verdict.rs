@@ -200,6 +200,11 @@ impl PhaseMap {
         self.valence(pool, &all)
     }
 
+    /// Whether all brackets of an explicit map are proved to be those of canonical variables.
+    pub(super) fn has_canonical_brackets(&self, pool: &mut Pool) -> bool {
+        self.compared_brackets(pool).iter().all(|(_, zero)| *zero == Zero::Proved)
+    }
+
     /// The brackets of an explicit map, and whether they are what they should be.
     fn compared_brackets(&self, pool: &mut Pool) -> Vec<(FailingBracket, Zero)> {
         let mut all = Vec::new();

@@ -7,13 +7,14 @@
 
 use nalgebra::{DVector, DVectorView};
 
-use super::bracket::in_phase_space;
+use super::bracket::{bracket, in_phase_space};
 use super::canonical::{PhaseMap, free_of};
 use super::equations::{Equations, NoClosedForm};
 use super::group;
+use super::isolate::Solution;
 use super::slope::zero_if_proved;
 use super::valuation::Valuation;
-use crate::expr::{Expr, Symbol};
+use crate::expr::{Expr, Symbol, Zero};
 use crate::model::Model;
 use crate::num::Number;
 
@@ -119,11 +120,13 @@ fn written(
     equations.supplements.new_variables = kept;
     let [f, g] = opened;
     let (mut f, mut g) = (f?, g?);
+    let mut shorter = None;
     if [f, g].iter().any(|&e| equations.pool.depends_on_any(e, &map.old)) {
         let Some(backwards) = map.backwards(model, equations) else {
             let why = "no expression of the old variables in terms of the new ones was found";
             return Err(NoClosedForm(why.to_owned()));
         };
+        shorter = from_old(model, equations, (map, &backwards), sides);
         let pool = &mut equations.pool;
         let mut eliminated = |e| {
             free_of(pool, e, &backwards, &map.old)
@@ -150,5 +153,31 @@ fn written(
     }
     let sum = pool.linear(Number::ZERO, &terms);
     let sum = zero_if_proved(pool, sum);
-    Ok(pool.simplify(sum))
+    let sum = pool.simplify(sum);
+    let mut best = sum;
+    for e in shorter.into_iter().flatten() {
+        let difference = pool.sub(e, sum);
+        if pool.weight(e) < pool.weight(best) && pool.is_zero(difference) == Zero::Proved {
+            best = e;
+        }
+    }
+    Ok(best)
+}
+
+/// What the bracket in the new variables is where the map is canonical up to a valence c: that in the old ones over c, with
+/// the new variables put in, and the same simplified. Both may be far shorter than what derivatives in the new variables give.
+fn from_old(
+    model: &Model,
+    equations: &mut Equations,
+    (map, backwards): (&PhaseMap, &Solution),
+    [f, g]: [Expr; 2],
+) -> Option<[Expr; 2]> {
+    let old = bracket(model, equations, f, g).ok()?;
+    let pool = &mut equations.pool;
+    let valence = map.proved_valence(pool)?;
+    let old = pool.div(old, valence);
+    let values = backwards.iter().copied().collect();
+    let plain = pool.substitute(old, &values);
+    let found = [plain, pool.simplify(plain)];
+    found.iter().all(|&e| !pool.depends_on_any(e, &map.old)).then_some(found)
 }

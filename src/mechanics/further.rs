@@ -3,6 +3,8 @@
 //!
 //! In: a model and its equations, whose pool grows. Out: [`Further`]. Never here: how any of it is written.
 
+use std::collections::HashMap;
+
 use super::bracket::{bracket, in_phase_space};
 use super::canonical::{ALLOWANCE, PhaseMap};
 use super::canonical_verdict::CanonicalVerdict;
@@ -13,8 +15,8 @@ use super::generating::GeneratingFunction;
 use super::group::written_maps;
 use super::hamilton_jacobi::HamiltonJacobi;
 use super::invariants::casimir_rate;
-use super::isolate::Solution;
-use crate::expr::Expr;
+use super::isolate::{Solution, tidy};
+use crate::expr::{Expr, Symbol};
 use crate::model::{Mechanics, Model, Transformation};
 
 /// Results that take longer to find and appear only in the full report.
@@ -41,6 +43,9 @@ pub struct TransformationReport {
     pub map: PhaseMap,
     /// Whether it is canonical.
     pub verdict: CanonicalVerdict,
+    /// Of a map that is canonical at some values of the parameters alone: those of which K and the generating functions are, as
+    /// functions of the others.
+    pub canonical_where: Solution,
     /// The old variables in terms of the new, if that can be written down.
     pub backwards: Option<Solution>,
     /// K(Q, P, t), or why there is none.
@@ -69,7 +74,8 @@ fn transformations(model: &Model, equations: &mut Equations) -> Vec<Transformati
     let report = |(given, map): (Transformation, PhaseMap)| {
         let mut report = TransformationReport::of(model, equations, map);
         if report.verdict.canonical {
-            report.functions = report.map.generating_functions(model, equations, &given);
+            let map = report.map.at_parameters(&mut equations.pool, &report.canonical_where);
+            report.functions = map.generating_functions(model, equations, &given);
         }
         report
     };
@@ -99,19 +105,56 @@ impl TransformationReport {
         let _ = equations.hamiltonian();
         let verdict = map.verdict(model, equations);
         let backwards = map.backwards(model, equations);
-        let hamiltonian = equations.attempt(ALLOWANCE, |equations| {
-            Some(map.new_hamiltonian(model, equations, &verdict, backwards.as_ref()))
-        });
-        let too_long = || Err(NoClosedForm("what follows on the way to it is too long".to_owned()));
-        let hamiltonian = hamiltonian.unwrap_or_else(too_long);
-        let hamiltonian_in_old = match &hamiltonian {
-            Ok(_) => None,
-            Err(_) => equations
-                .attempt(ALLOWANCE, |equations| map.hamiltonian_in_old(model, equations, &verdict)),
-        };
+        let canonical_where = map.canonical_where(model, equations, &verdict);
+        let (hamiltonian, hamiltonian_in_old) = new_hamiltonians(
+            model,
+            equations,
+            (&map, &verdict),
+            backwards.as_ref(),
+            &canonical_where,
+        );
         let functions = Vec::new();
-        TransformationReport { map, verdict, backwards, hamiltonian, hamiltonian_in_old, functions }
+        TransformationReport {
+            map,
+            verdict,
+            canonical_where,
+            backwards,
+            hamiltonian,
+            hamiltonian_in_old,
+            functions,
+        }
     }
+}
+
+/// K(Q, P, t), and without it K(q, p, t), of a map with some parameters as functions of the others.
+fn new_hamiltonians(
+    model: &Model,
+    equations: &mut Equations,
+    (map, verdict): (&PhaseMap, &CanonicalVerdict),
+    backwards: Option<&Solution>,
+    parameters: &Solution,
+) -> (Result<Expr, NoClosedForm>, Option<Expr>) {
+    let (mut verdict, mut backwards) = (verdict.clone(), backwards.cloned());
+    let map = map.at_parameters(&mut equations.pool, parameters);
+    let values: HashMap<Symbol, Expr> = parameters.iter().copied().collect();
+    if !values.is_empty() {
+        verdict.valence = None;
+        for (_, e) in backwards.iter_mut().flatten() {
+            *e = tidy(&mut equations.pool, *e, &values);
+        }
+    }
+    let found = equations.attempt(ALLOWANCE, |equations| {
+        let e = map.new_hamiltonian(model, equations, &verdict, backwards.as_ref());
+        Some(e.map(|e| tidy(&mut equations.pool, e, &values)))
+    });
+    let too_long = || Err(NoClosedForm("what follows on the way to it is too long".to_owned()));
+    let found = found.unwrap_or_else(too_long);
+    let in_old = match &found {
+        Ok(_) => None,
+        Err(_) => equations
+            .attempt(ALLOWANCE, |equations| map.hamiltonian_in_old(model, equations, &verdict)),
+    };
+    (found, in_old)
 }
 
 fn generators(model: &Model, equations: &mut Equations) -> Vec<GeneratorReport> {

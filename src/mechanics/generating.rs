@@ -11,6 +11,7 @@ use std::collections::HashMap;
 use nalgebra::DMatrix;
 
 use super::canonical::{ALLOWANCE, PhaseMap};
+use super::collected::collected;
 use super::equations::Equations;
 use super::isolate::{self, Solution};
 use super::potential::potential;
@@ -287,6 +288,7 @@ impl PhaseMap {
                 .implicit
                 .relations
         };
+        let variables = [&self.old[..], self.new_variables()].concat();
         let map: HashMap<Symbol, Expr> = forwards.iter().copied().collect();
         let mut best: Option<(Expr, bool)> = None;
         for (relations, unknowns, value) in ways {
@@ -299,6 +301,7 @@ impl PhaseMap {
                 let plain = pool.substitute(value, &put);
                 let shorter = pool.weight(plain) < pool.weight(simplified);
                 let function = if shorter { plain } else { simplified };
+                let function = collected(pool, function, &variables);
                 if pool.depends_on_any(function, &unknowns) {
                     return false;
                 }

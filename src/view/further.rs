@@ -88,6 +88,9 @@ impl FurtherRows<'_> {
             if let Some(valence) = verdict.valence {
                 self.put("valence", valence, "a scale transformation");
             }
+            for &(parameter, e) in &known.canonical_where {
+                self.put(&self.symbol(parameter), e, "in what follows");
+            }
             for one in &known.functions {
                 match &one.function {
                     Ok(e) => {

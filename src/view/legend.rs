@@ -206,7 +206,7 @@ mod tests {
             rows(Rect::new(0, 0, 38, 12), (&lines, most), &look)
         };
         let k = "K = ½ k X² + ½ k Y² + (PX² + PY²)/(2 m) − Ω X PY + Ω Y PX";
-        let down = "F₁, F₄ break down: det ∂Q/∂p = det ∂P/∂q = 0";
+        let down = "no F₁, F₄: det ∂Q/∂p = det ∂P/∂q = 0";
         let lines = ["canonical, proved", k, down];
         assert_eq!(written(&lines, true), ["canonical, proved", "z shows K and more"]);
         assert_eq!(written(&lines[..2], true), ["canonical, proved", "z shows K"]);

@@ -1,6 +1,7 @@
 //! The orbit in the new variables of a transformation: the grid of the old ones, and what is said of the map.
 
 mod branches;
+mod caustics;
 mod listed;
 
 use phaselab::app::{App, Event, Pane};
@@ -359,14 +360,14 @@ fn the_trail_in_new_variables_is_that_of_the_present_map() {
 
 /// Q = q cos a + p sin a, P = p cos a − q sin a: F2 and F3 divide by cos a, F1 and F4 by sin a, which is never both zero.
 #[test]
-fn generating_functions_that_break_down_are_named_with_the_determinant() {
+fn generating_functions_that_do_not_exist_are_named_with_the_determinant() {
     let text = crate::hand::catalog().find("four-generators").unwrap().text.clone();
     for (angle, said) in [
         ("0.7", None),
         ("1.57", None),
-        ("1.5707963267948966", Some("F₂, F₃ break down: ∂P/∂p = ∂Q/∂q = 0")),
+        ("1.5707963267948966", Some("no F₂, F₃: ∂P/∂p = ∂Q/∂q = 0")),
         // the plane is that of the map by F1, which is not there: what was solved for still is
-        ("0", Some("F₁, F₄ break down: ∂Q/∂p = ∂P/∂q = 0")),
+        ("0", Some("no F₁, F₄: ∂Q/∂p = ∂P/∂q = 0")),
     ] {
         let text = match angle {
             "0" => text.clone(),
@@ -379,14 +380,14 @@ fn generating_functions_that_break_down_are_named_with_the_determinant() {
         }
         course.go(1.0);
         let (_, words) = shown(&course.app, &plots(&course.app)[0]);
-        let broken = words.iter().find(|line| line.contains("down"));
-        assert_eq!(broken.map(String::as_str), said, "at {angle}: {words:?}");
+        let missing = words.iter().find(|line| line.starts_with("no F"));
+        assert_eq!(missing.map(String::as_str), said, "at {angle}: {words:?}");
     }
 }
 
-/// Units break nothing down: Q = q/λ, P = λp has F2 = qP/λ and F3 = −λpQ however large λ is, and neither F1 nor F4.
+/// Units take no function away: Q = q/λ, P = λp has F2 = qP/λ and F3 = −λpQ however large λ is, and neither F1 nor F4.
 #[test]
-fn units_break_no_generating_function_down() {
+fn units_take_no_generating_function_away() {
     for scale in ["1.0", "1e7", "1e-7"] {
         let text = format!(
             "title = \"scaled\"\n[coordinates]\nq = {{ initial = 1.0, momentum = 0.5 }}\n[parameters]\nl = {scale}\n\
@@ -396,15 +397,15 @@ fn units_break_no_generating_function_down() {
         let mut course = Course::with(&text);
         course.go(1.0);
         let (_, words) = shown(&course.app, &plots(&course.app)[0]);
-        let broken = words.iter().find(|line| line.contains("down"));
-        let said = "F₁, F₄ break down: ∂Q/∂p = ∂P/∂q = 0";
-        assert_eq!(broken.map(String::as_str), Some(said), "at {scale}: {words:?}");
+        let missing = words.iter().find(|line| line.starts_with("no F"));
+        let said = "no F₁, F₄: ∂Q/∂p = ∂P/∂q = 0";
+        assert_eq!(missing.map(String::as_str), Some(said), "at {scale}: {words:?}");
     }
 }
 
-/// Q = q², P = p has no generating function at all, and none breaks down.
+/// Q = q², P = p is not canonical, so that none of its generating functions is said to be missing.
 #[test]
-fn a_map_that_is_not_canonical_has_no_functions_that_break_down() {
+fn of_a_map_that_is_not_canonical_no_function_is_missing() {
     let text = "title = \"bad\"\n[coordinates]\nq = { initial = 1.0, momentum = 0.5 }\n[hamiltonian]\n\
                 H = \"p_q^2/2 + q^2/2\"\n[[transformations]]\nname = \"bad\"\nkind = \"explicit\"\n\
                 Q = { Q = \"q^2\" }\nP = { P = \"p_q\" }\n[[views]]\nkind = \"transformation\"\nx = \"Q\"\ny = \"P\"\n";
@@ -412,7 +413,7 @@ fn a_map_that_is_not_canonical_has_no_functions_that_break_down() {
     course.go(1.0);
     let (_, words) = shown(&course.app, &plots(&course.app)[0]);
     assert!(words.iter().any(|line| line.contains("not canonical")), "{words:?}");
-    assert!(!words.iter().any(|line| line.contains("break")), "{words:?}");
+    assert!(!words.iter().any(|line| line.contains("no F")), "{words:?}");
 }
 
 /// F2 = q P²/2: p = P²/2 and Q = q P, so that P = ±√(2p): both roots are drawn, and where P alone solves there is but one.

@@ -221,6 +221,9 @@ impl JsonReport<'_> {
                 json!({ "f": a, "g": b, "is": is, "expected": expected })
             });
             let valence = known.verdict.valence.map(|e| self.text(e));
+            let parameters = known.canonical_where.iter();
+            let parameters: Map<String, Value> =
+                parameters.map(|&(s, e)| (name(s), self.text(e))).collect();
             let mut why = known.verdict.why.clone();
             if let (None, Err(reason)) = (&why, &known.hamiltonian) {
                 why = Some(format!("K: {reason}"));
@@ -235,6 +238,7 @@ impl JsonReport<'_> {
                 "new": map(&known.map.forwards, &known.map.implicit.new),
                 "old": map(&known.backwards, &known.map.old),
                 "valence": valence,
+                "canonical_where": (!parameters.is_empty()).then_some(parameters),
                 "generating_functions": self.generating_functions(&known.functions),
                 "failing_brackets": failing.collect::<Vec<_>>(),
                 "why": why,

@@ -37,12 +37,12 @@ impl MapVerdict {
             let mut lines = lines(&equations.pool, report);
             // a map that is not canonical has no generating functions
             let may_have = report.verdict.canonical || is_unknown(&report.verdict);
-            let broken = may_have.then(|| break_down(&report.map.broken_down(model, equations)));
-            let broken = broken.flatten();
-            match (lines.first_mut(), broken) {
-                // where the function of the file breaks down itself, that is why no map is known
-                (Some(first), Some(broken)) if is_unknown(&report.verdict) => *first = broken,
-                (_, broken) => lines.extend(broken),
+            let missing = may_have.then(|| report.map.missing_functions(model, equations));
+            let missing = missing.and_then(|missing| none_of(&missing));
+            match (lines.first_mut(), missing) {
+                // where the function of the file is one of them, that is why no map is known
+                (Some(first), Some(missing)) if is_unknown(&report.verdict) => *first = missing,
+                (_, missing) => lines.extend(missing),
             }
             lines
         };
@@ -107,13 +107,11 @@ fn step_lines(found: &MethodStep, method: &str, within: f64) -> Vec<String> {
     lines
 }
 
-/// What is said of the generating functions that a map has not at these values of the parameters.
-fn break_down(broken: &[(GeneratingType, String)]) -> Option<String> {
-    let types: Vec<&str> = broken.iter().map(|(of, _)| of.shown()).collect();
-    let zeros: Vec<&str> = broken.iter().map(|(_, determinant)| determinant.as_str()).collect();
-    let verb = if types.len() == 1 { "breaks" } else { "break" };
-    (!types.is_empty())
-        .then(|| format!("{} {verb} down: {} = 0", types.join(", "), zeros.join(" = ")))
+/// What is said of the generating functions that a map does not have at these values of the parameters.
+fn none_of(missing: &[(GeneratingType, String)]) -> Option<String> {
+    let types: Vec<&str> = missing.iter().map(|(of, _)| of.shown()).collect();
+    let zeros: Vec<&str> = missing.iter().map(|(_, determinant)| determinant.as_str()).collect();
+    (!types.is_empty()).then(|| format!("no {}: {} = 0", types.join(", "), zeros.join(" = ")))
 }
 
 /// Whether nothing was found of a map, neither that it is canonical nor that it is not.
@@ -151,8 +149,18 @@ fn lines(pool: &Pool, report: &TransformationReport) -> Vec<String> {
     lines.extend(failing);
     lines.extend(brackets(&verdict.only_here, "="));
     lines.extend(verdict.valence.map(|c| format!("of valence {}", pool.unicode(c))));
-    lines.extend(report.hamiltonian.as_ref().ok().map(|k| format!("K = {}", pool.unicode(*k))));
+    let parameters = report.canonical_where.iter();
+    let parameters: Vec<String> = parameters
+        .map(|&(s, e)| format!("{} = {}", pool.symbol_info(s).unicode, pool.unicode(e)))
+        .collect();
+    let with = if parameters.is_empty() {
+        String::new()
+    } else {
+        format!(", with {}", parameters.join(", "))
+    };
+    let hamiltonian = report.hamiltonian.as_ref().ok();
+    lines.extend(hamiltonian.map(|k| format!("K = {}{with}", pool.unicode(*k))));
     let in_old = report.hamiltonian_in_old;
-    lines.extend(in_old.map(|k| format!("K = {} at (q, p)", pool.unicode(k))));
+    lines.extend(in_old.map(|k| format!("K = {} at (q, p){with}", pool.unicode(k))));
     lines
 }

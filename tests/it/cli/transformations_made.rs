@@ -450,3 +450,116 @@ fn a_step_of_symplectic_euler_is_the_map_of_its_generating_function() {
     check_step(entangled, "symplectic-euler", 0.05, [["X", "x"], ["U", "p_x"]]);
     check_step(entangled, "symplectic-euler", 0.05, [["Y", "y"], ["V", "p_y"]]);
 }
+
+/// Q = λ q, P = μ p with λ μ = 1: F2 = λ q P, F3 = −p Q/λ, K = Q²/(2 λ²) + ½ λ² P² for H = ½ p² + ½ q², with μ written by λ.
+/// Where λ μ is not 1 there is no function, and K = λ μ H.
+#[test]
+fn a_scale_transformation_with_reciprocal_scales_has_its_functions() {
+    let text = |scales: &str, [q, p]: [&str; 2]| {
+        format!(
+            "title = \"T\"\n[coordinates]\nq = {{ initial = 1.0, momentum = 0.3 }}\n[parameters]\n{scales}\n\
+             [hamiltonian]\nH = \"p_q^2/2 + q^2/2\"\n[[transformations]]\nname = \"scaled\"\nkind = \"explicit\"\n\
+             Q = {{ Q = \"{q}\" }}\nP = {{ P = \"{p}\" }}\n"
+        )
+    };
+    let derived = |text: &str| {
+        let found = with_file(text, &["derive", "system.toml", "--format", "json"]).json();
+        found["transformations"][0].clone()
+    };
+    let value = |text: &str, values: &[(&str, f64)]| {
+        let mut model = names(&["z"], &["q", "pq", "Q", "P", "lambda", "mu", "a", "b"]);
+        let e = read(&mut model, &text.replace("p_q", "pq"));
+        let other = sample(5);
+        model.pool.evaluate(e, &|s| {
+            let name = model.pool.symbol_info(s).name.as_str();
+            let given = values.iter().find(|(given, _)| *given == name);
+            given.map_or_else(|| other(s), |&(_, value)| value)
+        })
+    };
+    let same = |found: &Value, expected: &str, values: &[(&str, f64)]| {
+        let found = found.as_str().unwrap_or_else(|| panic!("no {expected}: {found}"));
+        let [is, expected] = [found, expected].map(|text| value(text, values));
+        assert!(
+            (is - expected).abs() < 1e-12 * (1.0 + expected.abs()),
+            "{found}: {is}, {expected}"
+        );
+    };
+    let by_names = ["lambda*q", "mu*p_q"];
+    for (scales, written, values) in [
+        ("", ["2*q", "p_q/2"], [("lambda", 2.0), ("mu", 0.5)]),
+        ("", ["10*q", "0.1*p_q"], [("lambda", 10.0), ("mu", 0.1)]),
+        ("lambda = 2.0\nmu = 0.5", by_names, [("lambda", 2.0), ("mu", 0.5)]),
+        ("lambda = 3.0\nmu = 0.3333333333333333", by_names, [("lambda", 3.0), ("mu", 1.0 / 3.0)]),
+        ("lambda = -4.0\nmu = -0.25", by_names, [("lambda", -4.0), ("mu", -0.25)]),
+    ] {
+        let found = derived(&text(scales, written));
+        assert_eq!(found["canonical"], json!(true), "{scales}: {found}");
+        let functions = &found["generating_functions"];
+        same(&functions["F2"]["F"], "lambda*q*P", &values);
+        same(&functions["F3"]["F"], "-p_q*Q/lambda", &values);
+        for name in ["F1", "F4"] {
+            assert_eq!(functions[name]["exists"], json!(false), "{name}: {functions}");
+        }
+        same(&found["K"], "Q^2/(2*lambda^2) + lambda^2*P^2/2", &values);
+        if !scales.is_empty() {
+            assert_eq!(found["canonical_where"], json!({ "mu": "1/lambda" }));
+            // no product that is known to be 1 is left
+            let words = [&found["K"], &functions["F2"]["F"], &functions["F3"]["F"]];
+            assert!(words.iter().all(|e| !e.as_str().unwrap().contains("mu")), "{words:?}");
+            for one in [&functions["F2"], &functions["F3"]] {
+                assert_eq!(one["proved"], json!(true));
+            }
+        }
+    }
+    // one of three parameters: 5 λ a b = 3 (a + λ)
+    let three = "lambda = 2.0\na = 3.0\nb = 0.5";
+    let found = derived(&text(three, ["lambda*a*b*q", "p_q/(a + lambda)*5/3"]));
+    let solved = found["canonical_where"].as_object().unwrap_or_else(|| panic!("{found}"));
+    assert_eq!(solved.len(), 1);
+    for (name, solved) in solved {
+        let solved = value(solved.as_str().expect("an expression"), &[]);
+        same(&json!("5*lambda*a*b/(3*(a + lambda))"), "1", &[(name.as_str(), solved)]);
+    }
+    let pairs = "title = \"T\"\n[coordinates]\nx = { initial = 1.0, momentum = 0.3 }\ny = { initial = 1.0, momentum = 0.3 }\n\
+                 [parameters]\na = 2.0\nb = 0.5\nc = 4.0\nd = 0.25\n[hamiltonian]\nH = \"p_x^2/2 + p_y^2/2\"\n\
+                 [[transformations]]\nname = \"both\"\nkind = \"explicit\"\n\
+                 Q = { X = \"a*x\", Y = \"c*y\" }\nP = { PX = \"b*p_x\", PY = \"d*p_y\" }\n";
+    assert_eq!(derived(pairs)["canonical_where"], json!({ "b": "1/a", "d": "1/c" }));
+    let wrong = derived(&text("lambda = 2.0\nmu = 0.75", by_names));
+    assert_eq!((&wrong["canonical"], &wrong["valence"]), (&json!(false), &json!("lambda*mu")));
+    assert_eq!(
+        (&wrong["canonical_where"], &wrong["generating_functions"]),
+        (&Value::Null, &json!({}))
+    );
+    same(&wrong["K"], "lambda*mu*(Q^2/(2*lambda^2) + P^2/(2*mu^2))", &[]);
+    let shown = with_file(&text("lambda = 2.0\nmu = 0.5", by_names), &["derive", "system.toml"]);
+    let shown = shown.success();
+    for line in ["with μ = 1/λ:", "F2 = λ q P", "K = Q²/(2 λ²) + ½ λ² P²"] {
+        assert!(shown.contains(line), "{line}: {shown}");
+    }
+}
+
+/// P = (r/c)^(1/s) with r² = p² + m² ω² q² has [Q, P] = m ω/(f f′), f = c P^s: one for s = ½ and c = √(2 m ω) alone. There K = ω P
+/// and F1 = ½ m ω q² cot Q.
+#[test]
+fn the_f_of_p_that_is_searched_for_has_its_hamiltonian() {
+    let preset =
+        phaselab::preset::Catalog::with_folder(None).find("finding-f").expect("a preset").text;
+    let text = preset.replace("c     = { value = 1.0", "c     = { value = 2.0");
+    let text = text.replace("s     = { value = 1.0", "s     = { value = 0.5");
+    let text = &text[..text.find("[expect]").expect("claims")];
+    let found = with_file(text, &["derive", "system.toml", "--format", "json"]).json();
+    let found = &found["transformations"][0];
+    assert_eq!(found["canonical"], json!(true), "{found}");
+    assert_eq!(found["canonical_where"]["s"], json!("1/2"), "{found}");
+    assert_eq!(found["K"], json!("omega*P"), "{found}");
+    let text =
+        found["generating_functions"]["F1"]["F"].as_str().unwrap_or_else(|| panic!("{found}"));
+    let mut model = names(&["z"], &["q", "Q", "m", "omega"]);
+    let [f, expected] = [text, "m*omega*q^2/(2*tan(Q))"].map(|text| read(&mut model, text));
+    for seed in 0..5 {
+        let at = sample(seed);
+        let [f, expected] = [f, expected].map(|e| model.pool.evaluate(e, &at));
+        assert!((f - expected).abs() < 1e-12 * expected.abs(), "{text}");
+    }
+}

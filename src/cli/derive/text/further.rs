@@ -105,6 +105,13 @@ impl TextReport<'_> {
             if let Some(valence) = verdict.valence {
                 self.line(&format!("  a scale transformation of valence {}", self.math(valence)));
             }
+            let parameters = known.canonical_where.iter();
+            let parameters: Vec<String> = parameters
+                .map(|&(parameter, e)| format!("{} = {}", self.symbol(parameter), self.math(e)))
+                .collect();
+            if !parameters.is_empty() {
+                self.line(&format!("  with {}:", parameters.join(", ")));
+            }
             for one in &known.functions {
                 let name = one.name();
                 let words = match &one.function {

@@ -1,4 +1,4 @@
-//! Where generating functions break down: F1(q, Q) exists where det ∂Q/∂p is not zero, F2(q, P) where det ∂P/∂p is not, F3(p, Q)
+//! The generating functions that a map does not have: F1(q, Q) exists where det ∂Q/∂p is not zero, F2(q, P) where det ∂P/∂p is not, F3(p, Q)
 //! where det ∂Q/∂q is not, F4(p, P) where det ∂P/∂q is not.
 //!
 //! In: a map at values of the parameters. Out: the types, one for all pairs, that it has at no point near the start. Never
@@ -23,7 +23,7 @@ const VANISHES: f64 = 1e-12;
 
 impl PhaseMap {
     /// The types of which the determinant vanishes, each with what that is the determinant of.
-    pub fn broken_down(
+    pub fn missing_functions(
         &self,
         model: &Model,
         equations: &Equations,
@@ -63,7 +63,7 @@ impl PhaseMap {
         GeneratingType::ALL.into_iter().filter(vanishes).map(named).collect()
     }
 
-    /// M at points near the start. Where the generating function that the map was given by breaks down itself, its relations
+    /// M at points near the start. Where the map does not have the function either that it was given by, the relations of that
     /// hold at no point; what they were solved for is then the map that the other functions have.
     fn tangents(&self, model: &Model, equations: &Equations) -> Vec<(Valuation, DMatrix<f64>)> {
         let images = self.images(model, equations, POINTS).into_iter();
