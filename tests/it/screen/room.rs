@@ -5,7 +5,6 @@ use std::sync::Arc;
 use phaselab::app::Event;
 use phaselab::experiment::{Command, Gauge, Growth, Verdict};
 use phaselab::system::InitialOverride::Position;
-use ratatui::style::Color;
 
 use super::{find, rich, rows, screen};
 use crate::app::real::Real;
@@ -108,12 +107,10 @@ fn vectors_have_the_colours_of_their_traces() {
     let mut real = Real::of("kovalevskaya");
     real.run(120);
     let buffer = screen(&real.app, &rich(), (120, 40));
-    let colours: Vec<Color> = ["M", "g"]
-        .map(|name| {
-            let cells = (2..22).flat_map(|y| (41..79).map(move |x| (x, y)));
-            let at = cells.into_iter().find(|at| buffer[*at].symbol() == name);
-            buffer[at.unwrap_or_else(|| panic!("{name}: {:#?}", rows(&buffer)))].fg
-        })
-        .to_vec();
+    let colours = ["M", "g"].map(|name| {
+        let mut cells = (2..22).flat_map(|y| (41..79).map(move |x| (x, y)));
+        let at = cells.find(|at| buffer[*at].symbol() == name);
+        buffer[at.unwrap_or_else(|| panic!("{name}: {:#?}", rows(&buffer)))].fg
+    });
     assert_ne!(colours[0], colours[1]);
 }
