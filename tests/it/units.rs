@@ -35,8 +35,8 @@ fn a_file_says_that_an_observable_is_a_torque() {
 fn a_multiplier_without_a_unit_has_the_one_that_follows() {
     let text = |constraint: &str| {
         format!(
-            "title = 'a test'\n[coordinates]\nx = {{ initial = 1.0, unit = 'm' }}\ny = {{ initial = 0.0, unit = 'm' }}\n\
-             phi = {{ initial = 0.0, unit = 'rad' }}\n\
+            "title = 'a test'\n[coordinates]\nx = {{ initial = 1.0, velocity = 0.0, unit = 'm' }}\ny = {{ initial = 0.0, velocity = 0.0, unit = 'm' }}\n\
+             phi = {{ initial = 0.0, velocity = 0.0, unit = 'rad' }}\n\
              [parameters]\nm = {{ value = 1.0, unit = 'kg' }}\nI = {{ value = 1.0, unit = 'kg m²' }}\n\
              r = {{ value = 1.0, unit = 'm' }}\ng = {{ value = 1.0, unit = 'm/s²' }}\n\
              [lagrangian]\nL = \"1/2*m*(x'^2 + y'^2) + 1/2*I*phi'^2 - m*g*y\"\n\
