@@ -200,8 +200,13 @@ fn bracket(model: &Model, equations: &mut Equations, sides: [Expr; 2]) -> Inquir
 fn conservation(model: &Model, equations: &mut Equations, of: Expr) -> InquiryAnswer {
     // treated as if the file declared it
     let name = "what is asked".to_owned();
-    let observable =
-        Observable { name, expression: of, conserved: None, place: SourceRange::default() };
+    let observable = Observable {
+        name,
+        expression: of,
+        conserved: None,
+        unit: String::new(),
+        place: SourceRange::default(),
+    };
     let mut asked = model.clone();
     asked.observables = vec![observable];
     let classed = mechanics::classes(&asked, equations).pop();

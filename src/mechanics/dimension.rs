@@ -10,7 +10,7 @@
 
 use std::collections::BTreeMap;
 
-use super::Equations;
+use super::{ConstraintRow, Equations};
 use crate::expr::{Expr, Node, Symbol};
 use crate::model::Model;
 use crate::num::Number;
@@ -18,6 +18,10 @@ use crate::num::Number;
 /// Exponents of base units, in halves, because Gaussian units need them.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 struct Dimension(BTreeMap<String, i64>);
+
+/// The units of forces and of energies that have names. What has the dimension of an energy and is a force is a torque.
+const FORCES: [&str; 3] = ["N", "N m", "N/m"];
+const ENERGIES: [&str; 3] = ["N", "J", "W"];
 
 /// Derived units in terms of base units, in halves: g^½ cm^(3/2)/s is the Gaussian unit of charge.
 const DERIVED: [(&str, &[(&str, i64)]); 9] = [
@@ -105,8 +109,13 @@ impl Dimension {
 
     /// The dimension as text, with a force in newtons, an energy in joules and a power in watts given by that name.
     fn named(&self) -> String {
-        let name = ["N", "J", "W"].into_iter().find(|name| Self::read(name).as_ref() == Some(self));
-        name.map_or_else(|| self.written(), str::to_owned)
+        self.named_as(&ENERGIES).unwrap_or_else(|| self.written())
+    }
+
+    /// The one of these units that has this dimension.
+    fn named_as(&self, names: &[&str]) -> Option<String> {
+        let is_own = |name: &&&str| Self::read(name).as_ref() == Some(self);
+        names.iter().find(is_own).map(|name| (*name).to_owned())
     }
 
     /// The dimension as text, `kg m²/s`; empty if an exponent is not an integer.
@@ -185,6 +194,38 @@ impl Equations {
             .map_or_else(String::new, |dimension| dimension.named())
     }
 
+    /// The unit of the multiplier of a constraint: the one that the file gives, or the one that follows.
+    pub fn multiplier_unit(&self, model: &Model, index: usize) -> String {
+        let (row, constraint) = (&self.constraints[index], &model.constraints[index]);
+        if !constraint.unit.is_empty() {
+            return constraint.unit.clone();
+        }
+        let dimension = self.dimension_of_multiplier(model, row);
+        let dimension = dimension.filter(|d| *d != Dimension::default());
+        dimension.map_or_else(String::new, |dimension| {
+            dimension.named_as(&FORCES).unwrap_or_else(|| dimension.written())
+        })
+    }
+
+    /// The dimension of a multiplier: λ times a constraint on places is an energy, and λ times one on velocities a power.
+    fn dimension_of_multiplier(&self, model: &Model, row: &ConstraintRow) -> Option<Dimension> {
+        let read: Reader = Dimension::read;
+        let plain = |e| self.dimension(e, &|symbol| self.dimension_of_symbol(model, symbol, read));
+        let energy = plain(self.energy)?;
+        let of_place = match row.position {
+            Some(f) => plain(f)?,
+            // A constraint Σ A_α q̇_α + A has the dimension of A_α q_α by the time; so has the energy of the power.
+            None => {
+                let terms = row.row.iter().zip(&model.coordinates);
+                agreed(terms.filter(|(e, _)| **e != Expr::ZERO).map(|(e, c)| {
+                    let place = read(&c.unit).filter(|_| !c.unit.is_empty())?;
+                    plain(*e)?.product(&place, (1, 1))
+                }))?
+            }
+        };
+        energy.product(&of_place, (-1, 1))
+    }
+
     /// Whether a quantity measures a place as the coordinates do, whatever their unit: it depends on the configuration
     /// alone, and is of the first degree in the coordinates that are no angles.
     pub fn is_place(&self, model: &Model, e: Expr) -> bool {
@@ -208,17 +249,29 @@ impl Equations {
     /// The dimension of an expression, if it follows from the units of the symbols.
     fn dimension_read(&self, model: &Model, e: Expr, read: Reader) -> Option<Dimension> {
         self.dimension(e, &|symbol| {
-            of_symbol(model, symbol, read)
-                .or_else(|| self.of_body(model, symbol, read))
+            self.dimension_of_symbol(model, symbol, read)
                 .or_else(|| self.of_multiplier(model, symbol, read))
         })
     }
 
-    /// The dimension of a multiplier: the unit that the file gives its constraint.
+    /// The dimension of a symbol that is no multiplier.
+    fn dimension_of_symbol(
+        &self,
+        model: &Model,
+        symbol: Symbol,
+        read: Reader,
+    ) -> Option<Dimension> {
+        of_symbol(model, symbol, read).or_else(|| self.of_body(model, symbol, read))
+    }
+
+    /// The dimension of a multiplier: of the unit that the file gives its constraint, or the one that follows.
     fn of_multiplier(&self, model: &Model, symbol: Symbol, read: Reader) -> Option<Dimension> {
         let mut rows = self.constraints.iter().zip(&model.constraints);
-        let (_, constraint) = rows.find(|(row, _)| row.multiplier == symbol)?;
-        read(&constraint.unit).filter(|_| !constraint.unit.is_empty())
+        let (row, constraint) = rows.find(|(row, _)| row.multiplier == symbol)?;
+        if constraint.unit.is_empty() {
+            return self.dimension_of_multiplier(model, row);
+        }
+        read(&constraint.unit)
     }
 
     /// The dimension of a name that a body defines.

@@ -14,6 +14,8 @@ pub struct Observable {
     pub expression: Expr,
     /// The file's claim that it is conserved (`true`) or not conserved (`false`), if there is one.
     pub conserved: Option<bool>,
+    /// Its unit; empty if it is the one that follows from those of coordinates and parameters.
+    pub unit: String,
     /// The place of the claim in the file.
     pub place: SourceRange,
 }

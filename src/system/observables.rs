@@ -52,6 +52,9 @@ impl ObservableList {
         list.add_state(model, equations);
         for (i, o) in model.observables.iter().enumerate() {
             list.add(ChannelKind::Observable(i), &o.name, &o.name, o.expression);
+            if let Some(channel) = list.channels.last_mut() {
+                channel.unit.clone_from(&o.unit);
+            }
         }
         for (i, c) in extra.iter().enumerate() {
             let shown = model.pool.with_shown_names(&c.written);
@@ -169,7 +172,7 @@ impl ObservableList {
         for (i, row) in equations.constraints.clone().iter().enumerate() {
             self.add_symbol(ChannelKind::Multiplier(i), equations, row.multiplier);
             if let Some(channel) = self.channels.last_mut() {
-                channel.unit.clone_from(&model.constraints[i].unit);
+                channel.unit = equations.multiplier_unit(model, i);
             }
         }
         let energy = equations.pool.variable(equations.symbols.energy);

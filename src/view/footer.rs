@@ -261,7 +261,7 @@ fn open_field(canvas: &mut Canvas<'_>, area: Rect, app: &App, field: &InputField
             (Role::Dim, "a function of q, p and t; p_x*y - p_y*x; 0.1".to_owned())
         }
         (None, _) if matches!(field.purpose, Purpose::Ramp(_)) => {
-            (Role::Dim, "2 in 60; then smooth, cubic or linear".to_owned())
+            (Role::Dim, "2 in 60; smooth, cubic, linear".to_owned())
         }
         (None, _) if is_surface => {
             (Role::Dim, "x = 0, rising (falling, either); every 2*pi/w; event NAME".to_owned())

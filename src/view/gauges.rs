@@ -2,6 +2,8 @@
 //!
 //! In: the snapshot's gauges. Out: cells. Never here: how a verdict is reached.
 
+mod single_row;
+
 use ratatui::layout::Rect;
 use ratatui::widgets::Widget;
 
@@ -17,19 +19,19 @@ use super::wrap::{shortened, shortened_within, words};
 use crate::analysis::{Growth, Unseen, Verdict};
 use crate::app::{HitTarget, Lab};
 use crate::experiment::{Gauge, Snapshot};
+use single_row::SingleRow;
 
 /// The widths, in columns, of a verdict in a word and in full, of a drift and of a value.
-const VERDICT: u16 = 8;
+const VERDICT: u16 = single_row::VERDICT;
 const IN_FULL: u16 = 17;
 const DRIFT: u16 = 9;
 const VALUE: u16 = 9;
 
+/// The width of the heading of the verdicts.
+const VERDICT_HEAD: u16 = 7;
+
 /// The verdict on what impulses change and the motion between them does not; their sign comes after it.
 const BETWEEN: &str = "conserved between";
-
-/// The widths of a drift and of a value in a single row.
-const SHORT_DRIFT: u16 = 8;
-const SHORT_VALUE: u16 = 8;
 
 /// The greatest width of a history.
 const HISTORY: u16 = 24;
@@ -41,33 +43,16 @@ const HEADED: u16 = 34;
 const FLOOR: f64 = 1e-17;
 const LEAST_RATIO: f64 = 100.0;
 
-/// Where the columns of a single row begin: a name, a value, a drift and a verdict. A name says more than a drift, which the
-/// page of numbers has too and which gives way to names that are long.
-#[derive(Clone, Copy)]
-struct SingleRow {
-    value: u16,
-    drift: Option<u16>,
-    verdict: u16,
-    /// Whether it is the row of a residual.
-    residual: bool,
-}
-
-impl SingleRow {
-    fn of(canvas: &Canvas<'_>, width: u16, gauges: &[Gauge]) -> SingleRow {
-        let glyphs = canvas.look.glyphs;
-        let name = |gauge: &Gauge| glyphs.pick(&*gauge.shown, &*gauge.name).width();
-        let longest = gauges.iter().map(name).max().unwrap_or(0);
-        let words = |gauge: &Gauge| word(&gauge.verdict).0.width() as u16;
-        let verdict = gauges.iter().map(words).max().unwrap_or(0).max(VERDICT);
-        let verdict = width.saturating_sub(verdict);
-        let drift = verdict.saturating_sub(SHORT_DRIFT + 1);
-        let value = drift.saturating_sub(SHORT_VALUE + 1);
-        if longest < usize::from(value) {
-            return SingleRow { value, drift: Some(drift), verdict, residual: false };
-        }
-        let value = verdict.saturating_sub(SHORT_VALUE + 1);
-        SingleRow { value, drift: None, verdict, residual: false }
-    }
+/// The columns of single rows of this width.
+fn single_row(canvas: &Canvas<'_>, width: u16, gauges: &[Gauge]) -> SingleRow {
+    let glyphs = canvas.look.glyphs;
+    let name = |gauge: &Gauge| glyphs.pick(&*gauge.shown, &*gauge.name).width();
+    let verdict = |gauge: &Gauge| {
+        let sign = if given_by_impulses(gauge).is_some() { 2 } else { 0 };
+        word(&gauge.verdict).0.width() as u16 + sign
+    };
+    let longest = gauges.iter().map(name).max().unwrap_or(0);
+    SingleRow::of(width, longest, gauges.iter().map(verdict).max().unwrap_or(0))
 }
 
 /// Whether a gauge shows the residual of a constraint: a value that is its own distance from zero.
@@ -92,7 +77,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, selected: Opt
     }
     let height = if usize::from(area.height) >= 2 * gauges.len() { 2 } else { 1 };
     let headed = usize::from(area.height) > height * gauges.len() && area.width >= HEADED;
-    let single = (height == 1).then(|| SingleRow::of(canvas, area.width.saturating_sub(3), gauges));
+    let single = (height == 1).then(|| single_row(canvas, area.width.saturating_sub(3), gauges));
     if headed {
         heads(canvas, columns(area, 2, area.width.saturating_sub(3)), single);
     }
@@ -150,12 +135,15 @@ const MOST_ABOVE: usize = 3;
 /// Writes the headings of the columns, those of a single row for each gauge or of two rows.
 fn heads(canvas: &mut Canvas<'_>, area: Rect, single: Option<SingleRow>) {
     let verdict = area.width.saturating_sub(VERDICT);
-    canvas.right(columns(area, verdict, VERDICT), Role::Dim, "verdict");
+    let has_room = single.is_none_or(|row| row.verdicts(area.width) >= VERDICT_HEAD);
+    if has_room {
+        canvas.right(columns(area, verdict, VERDICT), Role::Dim, "verdict");
+    }
     if let Some(row) = single {
         if let Some(drift) = row.drift {
-            canvas.right(columns(area, drift, SHORT_DRIFT), Role::Dim, "change");
+            canvas.right(columns(area, drift, single_row::DRIFT), Role::Dim, "change");
         }
-        canvas.right(columns(area, row.value, SHORT_VALUE), Role::Dim, "value");
+        canvas.right(columns(area, row.value, single_row::VALUE), Role::Dim, "value");
     } else {
         canvas.right(columns(area, 0, VALUE + 2), Role::Dim, "value");
         canvas.right(columns(area, VALUE + 3, DRIFT), Role::Dim, "change");
@@ -315,12 +303,12 @@ fn in_one_row(
 ) {
     verdict(canvas, columns(area, row.verdict, area.width), gauge, word(&gauge.verdict));
     if let Some(at) = row.drift {
-        drift(canvas, columns(area, at, SHORT_DRIFT), gauge);
+        drift(canvas, columns(area, at, single_row::DRIFT), gauge);
     }
     let shown = shown_value(gauge, row.residual);
-    let used = value(canvas, columns(area, row.value, SHORT_VALUE), shown, 4);
+    let used = value(canvas, columns(area, row.value, single_row::VALUE), shown, 4);
     // The name has the columns that the value leaves blank, too.
-    let room = (row.value + SHORT_VALUE).saturating_sub(used + 1);
+    let room = (row.value + single_row::VALUE).saturating_sub(used + 1);
     name(canvas, columns(area, 0, room), (gauge, all), here);
 }
 
@@ -389,7 +377,10 @@ fn value(canvas: &mut Canvas<'_>, area: Rect, value: f64, digits: usize) -> u16 
 fn drift(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge) {
     let (width, glyphs) = (usize::from(area.width), canvas.look.glyphs);
     let text = change(gauge, width, glyphs);
-    let text = text.unwrap_or_else(|| shown_drift(gauge.drift, width, glyphs));
+    let text = text.unwrap_or_else(|| match gauge.drift {
+        drift if drift.is_nan() => glyphs.pick("–", "-").to_owned(),
+        drift => shown_drift(drift, width, glyphs),
+    });
     canvas.right(area, drift_role(gauge), &text);
 }
 

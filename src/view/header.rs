@@ -14,8 +14,11 @@ use super::timeline;
 use crate::app::{App, HitTarget, Lab, Page};
 use crate::experiment::{Snapshot, Status};
 
+/// The key of a page and its name.
+type Tab = (&'static str, &'static str, Page);
+
 /// The pages of a loaded system and their keys.
-const PAGES: [(&str, &str, Page); 5] = [
+const PAGES: [Tab; 5] = [
     ("1", "Lab", Page::Lab),
     ("2", "Equations", Page::Equations),
     ("3", "Notes", Page::Notes),
@@ -32,16 +35,21 @@ pub(super) fn header(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
         (_, Page::Picker) | (None, _) => "a laboratory for analytical mechanics",
         (Some(lab), _) => &lab.loaded.model.info.title,
     };
-    let tabs = |gap: &str| {
+    let tabs = |gap: &str, pages: &[Tab]| {
         let none = app.page == Page::Picker || app.lab.is_none();
-        if none { Vec::new() } else { tabs(canvas, app, gap) }
+        if none { Vec::new() } else { tabs(canvas, app, gap, pages) }
     };
     let width = |tabs: &[Span]| tabs.iter().map(|(text, _)| text.width()).sum::<usize>();
     let fits = |tabs: &[Span], others: usize| others + 2 + width(tabs) <= usize::from(area.width);
-    // The title has priority over the gaps between the pages and over the program's name.
+    // The title has priority over the gaps between the pages, over the program's name and over the last page, which the help
+    // names too.
     let both = NAME.len() + 2 + title.width();
-    let wide_tabs = tabs("   ");
-    let tabs = if fits(&wide_tabs, both) { wide_tabs } else { tabs("  ") };
+    let (all, last) = (PAGES.len(), PAGES.len() - usize::from(app.page != Page::Plain));
+    let own = title.width();
+    let layouts = [("   ", all, both), ("  ", all, own), ("  ", last, own), (" ", last, own)];
+    let layouts = layouts.map(|(gap, count, others)| (tabs(gap, &PAGES[..count]), others));
+    let fitting = layouts.into_iter().find(|(tabs, others)| fits(tabs, *others));
+    let tabs = fitting.map_or_else(|| tabs("  ", &PAGES), |(tabs, _)| tabs);
     let wide = width(&tabs);
     let paged = usize::from(area.width) > wide;
     let room = if paged { area.width.saturating_sub(wide as u16 + 2) } else { area.width };
@@ -66,9 +74,9 @@ pub(super) fn header(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
     }
 }
 
-fn tabs(canvas: &Canvas<'_>, app: &App, gap: &str) -> Vec<Span> {
+fn tabs(canvas: &Canvas<'_>, app: &App, gap: &str, pages: &[Tab]) -> Vec<Span> {
     let mut spans = Vec::new();
-    for (index, (key, name, page)) in PAGES.iter().enumerate() {
+    for (index, (key, name, page)) in pages.iter().enumerate() {
         let here = *page == app.page;
         let gap = if index == 0 { "" } else { gap };
         spans.push(canvas.span(Role::Accent, format!("{gap}{key} ")));

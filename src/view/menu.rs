@@ -177,13 +177,13 @@ fn line(
     let beside = if used > grid.label { 0 } else { area.width };
     let room = beside.saturating_sub(from + keys);
     let note = if item.unavailable.is_some() { refused(item) } else { &item.about };
-    if room >= LEAST_NOTE {
+    if room >= LEAST_NOTE || canvas.text(note).width() <= usize::from(room) {
         canvas.left(columns(area, from, room), Role::Dim, note);
     }
 }
 
-/// The least width of a note.
-const LEAST_NOTE: u16 = 8;
+/// The least width of a note that is cut.
+const LEAST_NOTE: u16 = 16;
 
 /// A short reason why an item cannot be selected.
 fn refused(item: &Item) -> &'static str {

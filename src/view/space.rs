@@ -33,7 +33,7 @@ use super::theme::Role;
 use crate::instrument::CameraPose;
 use crate::model::{Point, Shape};
 use crate::num::math;
-use annotation::{Label, compass, legend};
+use annotation::{Label, compass, legend, legend_above};
 use body::Outline;
 use colours::colours;
 use filling::Filling;
@@ -68,12 +68,20 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
     let reference_frame = ReferenceFrame::of(q, eye.frame);
     let outline = Outline::of(q, *eye);
     let scene = Scene::of((q, outline.as_ref()), *eye, reference_frame.as_ref());
+    let colours = colours(q, *eye);
+    let mechanics = Mechanics::of(q, *eye, &colours);
+    let seen = eye.frame.and_then(|frame| q.lab.loaded.equations.supplements.frames.get(frame));
+    let seen = seen.map_or(&[][..], Vec::as_slice);
+    let mut lines = annotation::forces(canvas, &arrow::apparent_forces(q, seen));
+    let named = mechanics.iter().flat_map(|both| annotation::mechanics(canvas, both.colours));
+    lines.extend(named);
+    let (above, area) = legend_above(area, &lines);
+    legend(canvas, above, &lines);
     let frame = scene.frame(&camera, area);
     let raster = Raster::new(area, canvas.look.glyphs);
     let depth = DepthBuffer::new(&frame, raster.size());
-    let colours = colours(q, *eye);
     let mut artist = ScenePainter {
-        mechanics: Mechanics::of(q, *eye, &colours),
+        mechanics,
         range: scene.depths(&camera),
         outline: outline.as_ref(),
         receding: Vec::new(),
@@ -100,7 +108,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
     for (one, there) in q.snapshot.companions.iter().zip(&beside) {
         artist.take(there, Some(one.number));
         for (shape, _) in q.lab.shapes(*eye) {
-            artist.ghost(shape, &mut cache);
+            artist.ghost(shape, q, &mut cache);
         }
     }
     artist.take(q, None);
@@ -112,16 +120,11 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
     }
     artist.halos();
     canvas.cache = cache;
-    let seen = eye.frame.and_then(|frame| q.lab.loaded.equations.supplements.frames.get(frame));
-    let forces = artist.apparent(seen.map_or(&[], Vec::as_slice));
+    artist.apparent(seen);
     artist.raster.draw(canvas.buffer);
     let shading = &artist.shading;
     // What is written comes before the surfaces, so that it has their backgrounds and stands out from them.
-    let mut written = annotation::labels(canvas, area, &artist.frame, &artist.labels);
-    let mut lines = annotation::forces(canvas, &forces);
-    let mechanics = artist.mechanics.iter();
-    lines.extend(mechanics.flat_map(|both| annotation::mechanics(canvas, both.colours)));
-    written.extend(legend(canvas, area, &lines));
+    let written = annotation::labels(canvas, area, &artist.frame, &artist.labels);
     if eye.pitch < std::f64::consts::FRAC_PI_2 {
         compass(canvas, area, &camera);
     }
@@ -205,17 +208,17 @@ impl ScenePainter<'_> {
             Shape::Caption { at, text } => {
                 let at = self.point(at);
                 if self.sight(at) == Visibility::Clear {
-                    self.label(at, None, text);
+                    self.label(at, None, text, theme[Role::Text]);
                 }
             }
             Shape::Vector { at, components, label } => {
                 let (foot, along) = (self.point(at), self.direction(components));
-                let pen = Pen::new(theme[Role::Accent], SOLID);
-                self.arrow(foot, along, &pen);
+                let style = self.vector_style(at, components);
+                self.arrow(foot, along, &Pen::new(style, SOLID));
                 let tip = [0, 1, 2].map(|k| foot[k] + along[k]);
                 let some = !label.is_empty() && along != [0.0; 3];
                 if some && self.sight(tip) != Visibility::Hidden {
-                    self.label(tip, Some(foot), label);
+                    self.label(tip, Some(foot), label, style);
                 }
             }
             Shape::Disc { centre: own, .. }

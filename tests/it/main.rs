@@ -61,6 +61,7 @@ mod taylor;
 mod terminal;
 mod thresholds;
 mod transformation;
+mod units;
 mod worker;
 
 use proptest::test_runner::Config;

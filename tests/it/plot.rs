@@ -1,6 +1,7 @@
 //! Plots on ratatui buffers: raster, axes, ticks, themes, level curves and the camera.
 
 mod axes;
+mod ball;
 mod camera;
 mod environment;
 mod number;

@@ -437,14 +437,26 @@ fn a_free_body_keeps_its_angular_momentum_in_space() {
     for j in 1..=3 {
         let expression = l(&mut model, j);
         let (name, place) = (format!("l{j}"), 0..0);
-        model.observables.push(Observable { name, expression, conserved: None, place });
+        model.observables.push(Observable {
+            name,
+            expression,
+            conserved: None,
+            unit: String::new(),
+            place,
+        });
     }
     let norm = [1, 2, 3].map(|j| format!("A1{j}^2 + A2{j}^2 + A3{j}^2")).join(" + ");
     let norm = read(&mut model, &norm);
     let place = 0..0;
     let name = "alone".to_owned();
     let expression = read(&mut model, "A11");
-    model.observables.push(Observable { name, expression, conserved: None, place });
+    model.observables.push(Observable {
+        name,
+        expression,
+        conserved: None,
+        unit: String::new(),
+        place,
+    });
     let mut equations = mechanics::derive(&model).expect("derivable");
     let classes = mechanics::classes(&model, &mut equations);
     let told: Vec<Class> = classes.iter().map(|c| c.class).collect();

@@ -12,6 +12,7 @@ mod names;
 mod panes;
 mod plain;
 mod purity;
+mod room;
 mod shading;
 mod tabs;
 mod workbench;

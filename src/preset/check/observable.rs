@@ -30,7 +30,8 @@ impl Check<'_> {
             let place = observable.conserved.as_ref().map(Spanned::span);
             let place = place.or(observable.name.as_ref().map(Spanned::span)).unwrap_or(0..0);
             let conserved = observable.conserved.as_ref().map(|c| *c.get_ref());
-            self.model.observables.push(Observable { name, expression: e, conserved, place });
+            let unit = observable.unit.clone();
+            self.model.observables.push(Observable { name, expression: e, conserved, unit, place });
         }
     }
 

@@ -11,6 +11,7 @@ pub(in crate::preset) struct DraftObservable {
     pub(in crate::preset) name: Option<Spanned<String>>,
     pub(in crate::preset) expression: Option<Formula>,
     pub(in crate::preset) conserved: Option<Spanned<bool>>,
+    pub(in crate::preset) unit: String,
 }
 
 /// The claims as written.
@@ -90,6 +91,7 @@ pub(super) fn observables(
             name: table.text("name", diagnostics),
             expression: table.formula("expression", diagnostics),
             conserved: table.flag("conserved", diagnostics),
+            unit: table.line("unit", diagnostics),
         });
         table.finish(diagnostics);
     }

@@ -8,7 +8,16 @@ use super::key::{AT, EXPRESSION, NAME, SOURCE, SchemaTable, WITHIN, key};
 pub(super) const OBSERVABLE: SchemaTable = SchemaTable {
     head: "[[observables]]",
     about: "Each may use those above it.",
-    keys: &[NAME, EXPRESSION, key("conserved", Flag, "a claim that it is; checked")],
+    keys: &[
+        NAME,
+        EXPRESSION,
+        key("conserved", Flag, "a claim that it is; checked"),
+        key(
+            "unit",
+            Text,
+            "its unit, for show; by default the one that follows from those of the file",
+        ),
+    ],
 };
 
 pub(super) const EXPECT: SchemaTable = SchemaTable {

@@ -4,11 +4,13 @@
 //! things are seen dimly. Out: covered dots, and what of a line is in front of them, behind a veil, or hidden. Never here:
 //! colours, or the shapes that the surfaces belong to.
 
+mod blocks;
+mod light;
+
 use super::scale::PlotFrame;
 use crate::num::math;
-
-/// The direction of the light, from above, a little left in front: right, up, towards the eye.
-const LIGHT: [f64; 3] = [-0.40, 0.75, 0.53];
+use blocks::Blocks;
+use light::lit;
 
 /// How far behind a surface a point still counts as lying on it, relative to the picture.
 const TOLERANCE: f64 = 0.03;
@@ -46,6 +48,8 @@ pub enum Visibility {
 pub struct DepthBuffer {
     frame: PlotFrame,
     size: [i32; 2],
+    /// The blocks in which surfaces are drawn; `None` where they are dots.
+    blocks: Option<Blocks>,
     opaque: Nearest,
     veil: Nearest,
 }
@@ -78,7 +82,13 @@ impl DepthBuffer {
     /// Creates a buffer without surfaces over a raster of this many dots.
     pub fn new(frame: &PlotFrame, size: [i32; 2]) -> Self {
         let [opaque, veil] = [Nearest::default(), Nearest::default()];
-        Self { frame: *frame, size: size.map(|n| n.max(0)), opaque, veil }
+        Self { frame: *frame, size: size.map(|n| n.max(0)), blocks: None, opaque, veil }
+    }
+
+    /// The same buffer for surfaces that are drawn in blocks of this many dots: balls end where blocks do.
+    #[must_use]
+    pub fn with_blocks(self, block: [f64; 2]) -> Self {
+        Self { blocks: Some(Blocks(block)), ..self }
     }
 
     /// Whether there is no surface.
@@ -179,6 +189,7 @@ impl DepthBuffer {
     fn round(&self, [x, y, near]: [f64; 3], radius: f64, surface: usize, nearest: &mut Nearest) {
         let low = self.frame.dot([x - radius, y + radius], self.size);
         let high = self.frame.dot([x + radius, y - radius], self.size);
+        let [low, high] = self.blocks.map_or([low, high], |blocks| blocks.around(low, high));
         let Some([columns, rows]) = self.box_of(&[low, high]) else { return };
         let off = |dot: i32, k: usize| {
             (f64::from(dot) + 0.5 - f64::midpoint(low[k], high[k])) * 2.0 / (high[k] - low[k])
@@ -314,15 +325,6 @@ fn side([p, q, r]: [[f64; 2]; 3]) -> f64 {
 
 fn difference(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [0, 1, 2].map(|k| a[k] - b[k])
-}
-
-/// How brightly a surface with this normal is lit, seen from its front.
-fn lit(normal: [f64; 3]) -> f64 {
-    let size = |v: [f64; 3]| v.iter().map(|v| v * v).sum::<f64>().sqrt();
-    let front = if normal[2] < 0.0 { -1.0 } else { 1.0 };
-    let along: f64 = (0..3).map(|k| front * normal[k] * LIGHT[k]).sum();
-    let light = along / (size(normal) * size(LIGHT));
-    if light.is_finite() { light.clamp(0.0, 1.0) } else { 0.0 }
 }
 
 #[cfg(test)]

@@ -4,9 +4,11 @@
 //! In: the camera, the forces present, names beside points. Out: cells. Never here: the shapes.
 
 use ratatui::layout::{Position, Rect};
+use ratatui::style::Style;
 use unicode_width::UnicodeWidthStr;
 
-use crate::view::canvas::{Canvas, row};
+use crate::view::canvas::Canvas;
+use crate::view::layout::split_rows;
 use crate::view::plot::{Camera, Pen, PlotFrame, Raster, Scale};
 use crate::view::theme::Role;
 
@@ -68,7 +70,7 @@ pub(super) struct Label {
     /// Whether the name ends at the point: it stands away from the arrow that it belongs to.
     pub(super) leftwards: bool,
     pub(super) text: String,
-    pub(super) role: Role,
+    pub(super) style: Style,
 }
 
 /// Writes names beside their points. Where there is no room on one side the name is above the point, and ends at the edge.
@@ -89,7 +91,7 @@ pub(super) fn labels(
             written.iter().all(|other| !other.intersects(apart))
         };
         let Some(place) = places(at, label, area).into_iter().find(free) else { continue };
-        canvas.write(place.as_position(), place.width, &label.text, canvas.style(label.role));
+        canvas.write(place.as_position(), place.width, &label.text, label.style);
         written.push(place);
     }
     written
@@ -130,16 +132,38 @@ pub(super) fn mechanics(canvas: &Canvas<'_>, [right, wrong]: [usize; 2]) -> Vec<
     vec![(format!("{sign} right mechanics"), right), (format!("{sign} wrong mechanics"), wrong)]
 }
 
-/// Draws a legend in the upper left corner. Returns the cells of its lines.
-pub(super) fn legend(canvas: &mut Canvas<'_>, area: Rect, lines: &[LegendLine]) -> Vec<Rect> {
-    if area.width < 24 || usize::from(area.height) < 8 {
-        return Vec::new();
+/// Parts an area into one for the lines of a legend, side by side as far as they have room, and one for the picture below, of which
+/// they cover nothing. A small picture has no legend.
+pub(super) fn legend_above(area: Rect, lines: &[LegendLine]) -> (Rect, Rect) {
+    if lines.is_empty() || area.width < 24 || area.height < 8 {
+        return split_rows(area, 0);
     }
-    let write = |(index, (text, curve)): (usize, &LegendLine)| {
-        let at = row(area, index);
-        let style = canvas.look.theme.curve(*curve);
-        let width = canvas.write(at.as_position(), at.width, text, style);
-        Rect { width, ..at }
-    };
-    lines.iter().enumerate().map(write).collect()
+    let rows = legend_places(area, lines).map(|place| place.bottom()).max().unwrap_or(area.y);
+    split_rows(area, rows - area.y)
+}
+
+/// Draws a legend in the rows that are left for it.
+pub(super) fn legend(canvas: &mut Canvas<'_>, area: Rect, lines: &[LegendLine]) {
+    for (place, (text, curve)) in legend_places(area, lines).zip(lines) {
+        if area.contains(place.as_position()) {
+            let style = canvas.look.theme.curve(*curve);
+            canvas.write(place.as_position(), place.width, text, style);
+        }
+    }
+}
+
+/// The blanks between two lines of a legend in one row.
+const APART: u16 = 2;
+
+/// Where each line of a legend stands: beside the one before it, or where it has no room there below it.
+fn legend_places(area: Rect, lines: &[LegendLine]) -> impl Iterator<Item = Rect> {
+    lines.iter().scan((area.x, area.y), move |(x, y), (text, _)| {
+        let width = (text.width() as u16).min(area.width);
+        if *x > area.x && *x + width > area.right() {
+            (*x, *y) = (area.x, *y + 1);
+        }
+        let place = Rect { x: *x, y: *y, width, height: 1 };
+        *x += width + APART;
+        Some(place)
+    })
 }

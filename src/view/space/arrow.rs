@@ -6,48 +6,55 @@ use super::{SOLID, ScenePainter};
 use crate::mechanics::Apparent;
 use crate::model::Point;
 use crate::view::plot::Pen;
-use crate::view::quantity::QuantitySource;
+use crate::view::quantity::{Quantities, QuantitySource};
 
 /// The length of the longest apparent force so far, as a fraction of the picture.
 const LONGEST: f64 = 0.25;
 
+/// The apparent forces on a particle, in the order of their names.
+fn forces(particle: &Apparent) -> [Point; 4] {
+    [particle.centrifugal, particle.coriolis, particle.euler, particle.dragging]
+}
+
+/// The greatest size of a force so far.
+fn greatest(q: &Quantities<'_>, vector: &Point) -> f64 {
+    let most = vector.map(|e| match q.place(e) {
+        QuantitySource::Number(number) => number.abs(),
+        QuantitySource::Channel(channel) => {
+            let (lo, hi) = q.bounds(channel);
+            lo.abs().max(hi.abs())
+        }
+    });
+    most.iter().map(|v| v * v).sum::<f64>().sqrt()
+}
+
+/// Which apparent forces there are on a frame's particles, by their number.
+pub(super) fn apparent_forces(q: &Quantities<'_>, seen: &[Apparent]) -> Vec<usize> {
+    let acts =
+        |index: usize| seen.iter().any(|particle| greatest(q, &forces(particle)[index]) > 0.0);
+    (0..4).filter(|&index| acts(index)).collect()
+}
+
 impl ScenePainter<'_> {
-    /// Draws the apparent forces on the frame's particles, and returns which of them are present.
-    pub(super) fn apparent(&mut self, seen: &[Apparent]) -> Vec<usize> {
-        let forces = |a: &Apparent| [a.centrifugal, a.coriolis, a.euler, a.dragging];
-        let greatest = |vector: &Point| {
-            let most = vector.map(|e| match self.q.place(e) {
-                QuantitySource::Number(number) => number.abs(),
-                QuantitySource::Channel(channel) => {
-                    let (lo, hi) = self.q.bounds(channel);
-                    lo.abs().max(hi.abs())
-                }
-            });
-            most.iter().map(|v| v * v).sum::<f64>().sqrt()
-        };
-        let all = seen.iter().flat_map(|a| forces(a).map(|vector| greatest(&vector)));
+    /// Draws the apparent forces on the frame's particles.
+    pub(super) fn apparent(&mut self, seen: &[Apparent]) {
+        let all = seen.iter().flat_map(forces).map(|vector| greatest(self.q, &vector));
         let largest = all.filter(|v| v.is_finite()).fold(0.0, f64::max);
+        if largest == 0.0 {
+            return;
+        }
         let (x, y) = (self.frame.x, self.frame.y);
         let scale = LONGEST * (x.hi - x.lo).abs().min((y.hi - y.lo).abs()) / largest;
-        let mut named = Vec::new();
-        if largest == 0.0 {
-            return named;
-        }
         for particle in seen {
             let at = particle.at.map(|e| self.q.number(e));
             for (index, vector) in forces(particle).iter().enumerate() {
-                if greatest(vector) > 0.0 {
+                if greatest(self.q, vector) > 0.0 {
                     let along = vector.map(|e| scale * self.q.number(e));
                     let pen = Pen::new(self.q.look.theme.curve(index + 1), SOLID);
                     self.arrow(at, along, &pen);
-                    if !named.contains(&index) {
-                        named.push(index);
-                    }
                 }
             }
         }
-        named.sort_unstable();
-        named
     }
 
     /// Draws a shaft with a head of two strokes, an eighth of its length.

@@ -2,19 +2,20 @@
 //!
 //! In: the shapes of a scene, a motion. Out: dots. Never here: surfaces.
 
-use super::{SOLID, ScenePainter, TRACK, circle, companions};
+use super::body::Outline;
+use super::{SOLID, ScenePainter, TRACK, circle, companions, scene};
 use crate::model::{Point, Shape};
 use crate::view::cache::FrameCache;
 use crate::view::plot::{Marker, Pen};
-use crate::view::quantity::QuantitySource;
+use crate::view::quantity::Quantities;
 
 impl ScenePainter<'_> {
     /// Draws what moves of a motion beside the main one: its lines, rims, edges, masses and tracks, in its colour. Its surfaces
     /// would hide the main one.
-    pub(super) fn ghost(&mut self, shape: &Shape, cache: &mut FrameCache) {
+    pub(super) fn ghost(&mut self, shape: &Shape, main: &Quantities<'_>, cache: &mut FrameCache) {
         let q = self.q;
-        let moves =
-            |point: &Point| point.iter().any(|e| matches!(q.place(*e), QuantitySource::Channel(_)));
+        // what rests is where that of the main motion is, unless the parameters differ
+        let moves = |point: &Point| !scene::rests(q, point) || q.point(point) != main.point(point);
         let number = self.beside.unwrap_or(0);
         let pen = Pen::new(companions::ink(&self.q.look.theme, number), TRACK);
         match shape {
@@ -47,6 +48,14 @@ impl ScenePainter<'_> {
                 if moves(one) || moves(other) =>
             {
                 self.outline(shape, &pen);
+            }
+            Shape::Body { at } => {
+                let Some(body) = Outline::of(q, self.eye) else { return };
+                let at = self.q.point(at);
+                for edge in body.pieces.iter().flat_map(|piece| &piece.edges) {
+                    let edge: Vec<_> = edge.iter().map(|own| self.place(at, *own)).collect();
+                    self.curve(&edge, &pen);
+                }
             }
             _ => {}
         }

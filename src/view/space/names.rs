@@ -2,24 +2,35 @@
 //!
 //! In: points of shapes, words. Out: labels, colours. Never here: where a name has room.
 
+use ratatui::style::Style;
+
 use super::annotation::Label;
 use super::{ScenePainter, scene};
-use crate::model::Point;
+use crate::model::{Point, Shape};
 use crate::view::plot::{Pen, Visibility};
 use crate::view::theme::Role;
 
 impl ScenePainter<'_> {
-    /// Writes words beside a point, away from another one.
-    pub(super) fn label(&mut self, at: [f64; 3], foot: Option<[f64; 3]>, text: &str) {
+    /// Writes words in a style beside a point, away from another one.
+    pub(super) fn label(&mut self, at: [f64; 3], foot: Option<[f64; 3]>, text: &str, style: Style) {
         let veiled = self.sight(at) == Visibility::Veiled;
         let [tip, foot] = [at, foot.unwrap_or(at)].map(|point| self.flat(point));
-        let role = match () {
-            () if veiled => Role::Dim,
-            () if foot == tip => Role::Text,
-            () => Role::Accent,
-        };
+        let style = if veiled { self.q.look.theme[Role::Dim] } else { style };
         let text = self.q.look.glyphs.text(text).into_owned();
-        self.labels.push(Label { tip, leftwards: tip[0] < foot[0], text, role });
+        self.labels.push(Label { tip, leftwards: tip[0] < foot[0], text, style });
+    }
+
+    /// The style of a vector: that of the trace at its foot or, of a vector from the origin, at its tip.
+    pub(super) fn vector_style(&self, at: &Point, components: &Point) -> Style {
+        let pool = &self.q.lab.loaded.equations.pool;
+        let from_origin = at.iter().all(|e| pool.as_number(*e).is_some_and(|n| n.value() == 0.0));
+        let theme = &self.q.look.theme;
+        let mut traces = self.q.lab.shapes(self.eye).filter_map(|(shape, _)| match shape {
+            Shape::Trace { at } => Some(at),
+            _ => None,
+        });
+        let own = traces.find(|trace| *trace == at || from_origin && *trace == components);
+        own.map_or(theme[Role::Accent], |trace| theme.curve(self.colour(trace)))
     }
 
     /// The colour of a body about this point: that of the motion it stands for, where two are compared, or of the mass at its

@@ -53,6 +53,11 @@ impl Shading {
         Self { area, dots, room, cells: Vec::new(), tones: Vec::new() }
     }
 
+    /// The number of dots in a block: columns, rows.
+    pub(super) fn block(&self) -> [f64; 2] {
+        self.dots.map(|dots| (dots as f64 / 2.0).max(1.0))
+    }
+
     /// Adds the tones of a surface, and whether lines are its edges; returns their number.
     pub(super) fn add(&mut self, tones: Tones, lined: bool) -> usize {
         self.tones.push((tones, lined));
@@ -86,10 +91,20 @@ impl Shading {
         !self.cells.is_empty()
     }
 
-    /// Whether the edges of solids are drawn as lines in a cell: not where they are blocks.
+    /// Whether the edges of solids are drawn as lines in a cell: not where they are blocks, nor in a blank cell beside these.
     pub(super) fn has_edges(&self, index: usize) -> bool {
         let Some(quarters) = self.cells.get(index) else { return true };
-        self.is_whole(quarters) || quarters.iter().all(|quarter| quarter.count == 0)
+        self.is_whole(quarters) || is_blank(quarters) && !self.is_beside_surface(index)
+    }
+
+    /// Whether a surface covers some of a cell next to this one.
+    fn is_beside_surface(&self, index: usize) -> bool {
+        let (wide, high) = (usize::from(self.area.width), usize::from(self.area.height));
+        let (column, row) = (index % wide, index / wide);
+        let around = |at: usize, end: usize| at.saturating_sub(1)..(at + 2).min(end);
+        let mut cells =
+            around(row, high).flat_map(|y| around(column, wide).map(move |x| y * wide + x));
+        cells.any(|index| !is_blank(&self.cells[index]))
     }
 
     fn is_whole(&self, quarters: &[Quarter; 4]) -> bool {
@@ -105,7 +120,7 @@ impl Shading {
         is_written: impl Fn(Position) -> bool,
     ) {
         for (index, quarters) in self.cells.iter().enumerate() {
-            if quarters.iter().all(|quarter| quarter.count == 0) {
+            if is_blank(quarters) {
                 continue;
             }
             let (column, row) =
@@ -170,6 +185,11 @@ impl Shading {
         let (last, light) = (tones.len() - 1, quarter.light / f32::from(quarter.count.max(1)));
         ((light * last as f32).round() as usize).min(last)
     }
+}
+
+/// Whether nothing of a cell is covered.
+fn is_blank(quarters: &[Quarter; 4]) -> bool {
+    quarters.iter().all(|quarter| quarter.count == 0)
 }
 
 /// Whether at least half of a quarter is covered.

@@ -117,11 +117,12 @@ impl ScenePainter<'_> {
             .collect();
         // What is thin leaves its dots, and the tones behind it, on the screen.
         let all = |_: usize| true;
-        self.depth = self.depth_of(&surfaces, all);
+        let blocks = tones.iter().any(Option::is_some);
+        self.depth = self.depth_of(&surfaces, blocks, all);
         let has_tones = |number: usize| tones[number].is_some();
-        if tones.iter().any(Option::is_some) {
+        if blocks {
             let some_lines = tones.iter().any(Option::is_none);
-            let toned = some_lines.then(|| self.depth_of(&surfaces, has_tones));
+            let toned = some_lines.then(|| self.depth_of(&surfaces, blocks, has_tones));
             for (dot, covered) in toned.as_ref().unwrap_or(&self.depth).dots() {
                 if let Some(tones) = tones[covered.surface] {
                     let light = if covered.veiled { BEHIND * covered.light } else { covered.light };
@@ -139,8 +140,16 @@ impl ScenePainter<'_> {
     }
 
     /// What hides what among some of the surfaces.
-    fn depth_of(&self, surfaces: &[Filling], counts: impl Fn(usize) -> bool) -> DepthBuffer {
+    fn depth_of(
+        &self,
+        surfaces: &[Filling],
+        blocks: bool,
+        counts: impl Fn(usize) -> bool,
+    ) -> DepthBuffer {
         let mut depth = DepthBuffer::new(&self.frame, self.raster.size());
+        if blocks {
+            depth = depth.with_blocks(self.shading.block());
+        }
         for (number, surface) in surfaces.iter().enumerate().filter(|(number, _)| counts(*number)) {
             for solid in &surface.solids {
                 match solid {

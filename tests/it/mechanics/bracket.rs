@@ -14,7 +14,13 @@ use crate::build::{hamiltonian, lagrangian, names, read, sample};
 fn observe(model: &mut Model, name: &str, text: &str) {
     let expression = read(model, text);
     let name = name.to_owned();
-    model.observables.push(Observable { name, expression, conserved: None, place: 0..0 });
+    model.observables.push(Observable {
+        name,
+        expression,
+        conserved: None,
+        unit: String::new(),
+        place: 0..0,
+    });
 }
 
 /// Kepler's problem in space, with its angular momentum and Runge–Lenz vector, by L or by H.

@@ -1,0 +1,46 @@
+//! The columns of a gauge in a single row: a name, a value, a drift and a verdict.
+//!
+//! In: the width of the row, of the longest name and of the longest verdict. Out: where each column begins. Never here: gauges.
+
+/// The width of a verdict, and the least of one beside a long name.
+pub(super) const VERDICT: u16 = 8;
+const LEAST_VERDICT: u16 = 5;
+
+/// The widths of a drift and of a value.
+pub(super) const DRIFT: u16 = 8;
+pub(super) const VALUE: u16 = 8;
+
+/// Where the columns begin. A name says more than a drift, which the page of numbers has too and which gives way to names that are
+/// long, as what room the verdicts leave does.
+#[derive(Clone, Copy)]
+pub(super) struct SingleRow {
+    pub(super) value: u16,
+    pub(super) drift: Option<u16>,
+    pub(super) verdict: u16,
+    /// Whether it is the row of a residual.
+    pub(super) residual: bool,
+}
+
+impl SingleRow {
+    /// The columns of a row of this width, for names and verdicts of these widths.
+    pub(super) fn of(width: u16, longest: usize, widest: u16) -> SingleRow {
+        let verdict = width.saturating_sub(widest.max(VERDICT));
+        let drift = verdict.saturating_sub(DRIFT + 1);
+        let value = drift.saturating_sub(VALUE + 1);
+        if longest < usize::from(value) {
+            return SingleRow { value, drift: Some(drift), verdict, residual: false };
+        }
+        let value = verdict.saturating_sub(VALUE + 1);
+        if longest < usize::from(value) {
+            return SingleRow { value, drift: None, verdict, residual: false };
+        }
+        let verdict = width.saturating_sub(widest.max(LEAST_VERDICT));
+        let value = verdict.saturating_sub(VALUE + 1);
+        SingleRow { value, drift: None, verdict, residual: false }
+    }
+
+    /// The width of the verdicts in a row of this width.
+    pub(super) fn verdicts(self, width: u16) -> u16 {
+        width.saturating_sub(self.verdict)
+    }
+}
