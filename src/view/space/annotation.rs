@@ -138,7 +138,7 @@ pub(super) fn legend_above(area: Rect, lines: &[LegendLine]) -> (Rect, Rect) {
     if lines.is_empty() || area.width < 24 || area.height < 8 {
         return split_rows(area, 0);
     }
-    let rows = legend_places(area, lines).map(|place| place.bottom()).max().unwrap_or(area.y);
+    let rows = legend_places(area, lines).map(Rect::bottom).max().unwrap_or(area.y);
     split_rows(area, rows - area.y)
 }
 
