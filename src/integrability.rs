@@ -7,6 +7,7 @@
 mod ansatz;
 mod atoms;
 mod coefficients;
+mod determining_equations;
 mod echelon;
 mod evaluator;
 mod explicit_motion;

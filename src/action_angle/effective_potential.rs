@@ -97,7 +97,7 @@ impl<'a> EffectivePotential<'a> {
         // a velocity without a value is no reason to refuse anything
         let greatest = potential.greatest_at_rest(at).ok().flatten();
         potential.greatest = greatest.map(|rest| [at, rest]);
-        potential.look_around(at);
+        potential.sample_around(at);
         Ok(potential)
     }
 
@@ -212,7 +212,7 @@ impl<'a> EffectivePotential<'a> {
         }
     }
 
-    fn look_around(&mut self, at: f64) {
+    fn sample_around(&mut self, at: f64) {
         let places: Vec<f64> = match self.period {
             Some(period) => {
                 let even = |i: usize| at + period * (i as f64 / (PLACES - 1) as f64 - 0.5);

@@ -115,7 +115,7 @@ impl FrozenSystem {
         model.expect = Expect::default();
         model.run.start = 0.0;
         model.pool.set_cancel(cancel.clone());
-        let depends_on_time = hold_time(&mut model);
+        let depends_on_time = freeze_time(&mut model);
         let action = model.pool.variable(model.symbols.action);
         let columns = [WrittenExpr { written: "action".to_owned(), expression: action }];
         let compile = |model: &Model| -> Result<System, NotFrozen> {
@@ -276,7 +276,7 @@ fn way(velocity: f64) -> Root {
 }
 
 /// Puts a parameter in the place of the time, the last of all, and returns whether the law depends on it.
-fn hold_time(model: &mut Model) -> bool {
+fn freeze_time(model: &mut Model) -> bool {
     const NAME: &str = "the instant at which it is frozen";
     let symbol = model.pool.symbol(NAME);
     let frozen = model.pool.variable(symbol);

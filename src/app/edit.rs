@@ -384,7 +384,7 @@ impl App {
     /// Handles the result of a check; if the text is correct, its system is already running.
     pub(super) fn checked(&mut self, checked: CheckedText) -> Vec<Effect> {
         let CheckedText { ticket, outcome, took } = checked;
-        let mends = self.mending.take().is_some();
+        let mends = self.awaited.wrong_file.take().is_some();
         let Some(buffer) = self.buffer().filter(|buffer| buffer.awaits(ticket)) else {
             return Vec::new();
         };
@@ -398,7 +398,7 @@ impl App {
                 let waits = |lab: &Lab| lab.restoration.checkpoint().is_some();
                 let resumes = self.lab.as_ref().is_some_and(waits);
                 // a quantity typed for an axis or a section is no change of the text
-                let is_quantity = self.awaited_plots.any();
+                let is_quantity = self.awaited.plots.any();
                 let is_open = matches!(self.overlay, Some(Overlay::Workbench));
                 if !resumes && !is_open && !is_quantity {
                     let title = &loaded.document.path;
@@ -412,7 +412,7 @@ impl App {
             // Errors of a text that has changed since are out of date.
             (Err(_), CheckedRevision::Older) => Vec::new(),
             (Err(diagnostics), CheckedRevision::Newest) => {
-                self.awaited_plots = AwaitedPlots::default();
+                self.awaited.plots = AwaitedPlots::default();
                 let Some(buffer) = self.buffer() else { return Vec::new() };
                 buffer.is_wrong(&diagnostics);
                 if mends {

@@ -110,6 +110,9 @@ struct Entry {
     motions: [Option<Box<Checkpoint>>; 2],
 }
 
+/// A change to be made or undone, and the motion to return to.
+type ChangeAtMotion = (Change, Option<Box<Checkpoint>>);
+
 /// The changes made, and the changes undone.
 #[derive(Clone, Debug, Default)]
 pub(super) struct UndoHistory {
@@ -203,31 +206,26 @@ impl UndoHistory {
     }
 
     /// Returns the change to be undone and the motion before it. The motion now is kept for when it is redone.
-    pub(super) fn undo(
-        &mut self,
-        now: Option<Checkpoint>,
-    ) -> Option<(Change, Option<Box<Checkpoint>>)> {
-        let mut entry = self.done.pop()?;
-        (self.since, self.stepped) = (None, None);
-        let motion = entry.motions[0].clone();
-        entry.motions[1] = now.map(Box::new).filter(|_| motion.is_some());
-        let change = entry.change.clone();
-        self.undone.push(entry);
-        self.forget_old_pasts();
-        Some((change, motion))
+    pub(super) fn undo(&mut self, now: Option<Checkpoint>) -> Option<ChangeAtMotion> {
+        self.moved(0, now)
     }
 
     /// Returns the change to be redone and the motion at which it was undone. The motion now is kept for when it is undone.
-    pub(super) fn redo(
-        &mut self,
-        now: Option<Checkpoint>,
-    ) -> Option<(Change, Option<Box<Checkpoint>>)> {
-        let mut entry = self.undone.pop()?;
-        (self.since, self.stepped) = (None, None);
-        let motion = entry.motions[1].clone();
-        entry.motions[0] = now.map(Box::new).filter(|_| motion.is_some());
+    pub(super) fn redo(&mut self, now: Option<Checkpoint>) -> Option<ChangeAtMotion> {
+        self.moved(1, now)
+    }
+
+    fn moved(&mut self, side: usize, now: Option<Checkpoint>) -> Option<ChangeAtMotion> {
+        let [from, to] = match side {
+            0 => [&mut self.done, &mut self.undone],
+            _ => [&mut self.undone, &mut self.done],
+        };
+        let mut entry = from.pop()?;
+        let motion = entry.motions[side].clone();
+        entry.motions[1 - side] = now.map(Box::new).filter(|_| motion.is_some());
         let change = entry.change.clone();
-        self.done.push(entry);
+        to.push(entry);
+        (self.since, self.stepped) = (None, None);
         self.forget_old_pasts();
         Some((change, motion))
     }

@@ -18,7 +18,7 @@ impl App {
         let Some(place) = self.place_of(&name) else {
             return self.notify("This system has no file to edit.");
         };
-        self.mending = Some(name);
+        self.awaited.wrong_file = Some(name);
         vec![Effect::Reread(place)]
     }
 
@@ -65,7 +65,7 @@ impl App {
             self.go(Page::Picker);
         }
         self.end_group();
-        self.request = None;
+        self.awaited.system = None;
         self.workbench.clear();
         self.workbench.lay_text(text);
         (self.lab, self.picker.failure) = (None, None);

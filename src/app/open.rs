@@ -30,12 +30,12 @@ impl App {
             return Vec::new();
         }
         let here = self.lab.as_ref().is_some_and(|lab| lab.loaded.name == name);
-        let later = self.request.as_ref().is_some_and(|request| request.name != name);
+        let later = self.awaited.system.as_ref().is_some_and(|request| request.name != name);
         if here && !later {
             self.go(Page::Lab);
             return vec![Effect::Tell(Command::Reset), Effect::Tell(Command::Play)];
         }
-        if let Some(request) = self.request.as_mut().filter(|request| request.name == name) {
+        if let Some(request) = self.awaited.system.as_mut().filter(|request| request.name == name) {
             request.opens = true;
             return Vec::new();
         }

@@ -2,7 +2,7 @@
 //!
 //! In: changes, snapshots. Out: what was requested last. Never here: how a change is made.
 
-use super::ValueId;
+use super::{Saved, ValueId};
 use crate::experiment::Snapshot;
 use crate::instrument::Plot;
 use crate::integrate::Settings;
@@ -14,6 +14,18 @@ pub(super) struct LoadRequest {
     pub(super) name: String,
     /// Whether the lab is to open once it is loaded; otherwise it is only previewed.
     pub(super) opens: bool,
+}
+
+/// What was asked for and has not come yet.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Awaited {
+    /// The system requested last, until it is loaded.
+    pub(super) system: Option<LoadRequest>,
+    /// The session to resume once its system is loaded.
+    pub(super) session: Option<Saved>,
+    /// The wrong file whose text was asked for, until its first error is shown.
+    pub(super) wrong_file: Option<String>,
+    pub(super) plots: AwaitedPlots,
 }
 
 /// The plots that wait for the text with what they show.

@@ -330,8 +330,8 @@ impl App {
             }
             Some(Overlay::Workbench) | None => {}
         }
-        if let Some(request) = self.request.take_if(|_| self.page == Page::Picker) {
-            self.resuming = None;
+        if let Some(request) = self.awaited.system.take_if(|_| self.page == Page::Picker) {
+            self.awaited.session = None;
             self.notifications
                 .show(Notification::info(format!("Loading {} was cancelled.", request.name)));
             return vec![Effect::StopLoading];

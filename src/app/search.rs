@@ -108,7 +108,7 @@ impl Lab {
 
 impl App {
     /// The search that the page shown needs, and the gauges that no longer hold.
-    pub(super) fn look_after_search(&mut self, effects: &mut Vec<Effect>) {
+    pub(super) fn request_search(&mut self, effects: &mut Vec<Effect>) {
         let shown = self.page == Page::Equations;
         let Some(lab) = &mut self.lab else { return };
         if let Some(kept) = lab.forget_search() {

@@ -81,7 +81,7 @@ impl App {
 
     /// Resumes a session as soon as its system is loaded.
     pub fn resume(&mut self, saved: Saved) {
-        self.resuming = Some(saved);
+        self.awaited.session = Some(saved);
     }
 
     /// Offers a session in the list of systems, as its first row.
@@ -100,7 +100,7 @@ impl App {
     /// from its initial values.
     pub(super) fn begin(&mut self, opened: bool) -> Vec<Effect> {
         let Some(lab) = &mut self.lab else { return Vec::new() };
-        let saved = self.resuming.take();
+        let saved = self.awaited.session.take();
         let saved = saved.filter(|saved| opened && saved.open == lab.loaded.name);
         let Some(saved) = saved else {
             if opened {

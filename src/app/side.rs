@@ -106,7 +106,7 @@ impl Lab {
 
 impl App {
     /// Requests the jobs that the pictures need now, or runs them at once if there is no background.
-    pub(super) fn look_after_jobs(&mut self, effects: &mut Vec<Effect>) {
+    pub(super) fn request_jobs(&mut self, effects: &mut Vec<Effect>) {
         let Some(lab) = &mut self.lab else { return };
         // Keys that change no picture cost nothing here.
         let stale = std::mem::take(&mut lab.answers.stale);
@@ -116,7 +116,7 @@ impl App {
         if self.page == Page::Equations {
             effects.extend(lab.ask_for_further(&mut self.jobs).map(Effect::Compute));
         }
-        self.look_after_search(effects);
+        self.request_search(effects);
         if self.jobs.in_background {
             return;
         }

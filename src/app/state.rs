@@ -17,7 +17,7 @@ use super::menu::{Choice, Menu};
 use super::notification::Notifications;
 use super::page::{EquationsSection, Page};
 use super::pane::Pane;
-use super::pending::{AwaitedPlots, LoadRequest};
+use super::pending::Awaited;
 use super::picker::Picker;
 use super::prompt::Prompt;
 use super::rate::RateMeter;
@@ -65,14 +65,7 @@ pub struct App {
     /// The background jobs requested.
     pub jobs: Jobs,
     pub(super) drawn: Drawn,
-    /// The system requested last, until it is loaded.
-    pub(super) request: Option<LoadRequest>,
-    /// The session to resume once its system is loaded.
-    pub(super) resuming: Option<Saved>,
-    /// The wrong file whose text was asked for, until its first error is shown.
-    pub(super) mending: Option<String>,
-    /// The plots that wait for the text with what they show.
-    pub(super) awaited_plots: AwaitedPlots,
+    pub(super) awaited: Awaited,
     /// The session as it was when the user left the lab for the list of systems.
     pub(super) left: Option<Saved>,
 }
@@ -161,10 +154,7 @@ impl App {
             drag: None,
             jobs: Jobs::default(),
             drawn: Drawn::default(),
-            request: None,
-            resuming: None,
-            mending: None,
-            awaited_plots: AwaitedPlots::default(),
+            awaited: Awaited::default(),
             left: None,
         };
         let first = match open {
@@ -185,7 +175,7 @@ impl App {
 
     /// Returns the name of the system being loaded.
     pub fn loading(&self) -> Option<&str> {
-        self.request.as_ref().map(|request| request.name.as_str())
+        self.awaited.system.as_ref().map(|request| request.name.as_str())
     }
 
     /// Whether an action has an effect on the loaded system; most actions always do.

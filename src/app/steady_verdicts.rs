@@ -17,7 +17,7 @@ const HELD: Duration = Duration::from_millis(2500);
 #[derive(Clone, Debug, Default)]
 pub(super) struct SteadyVerdicts {
     shown: Vec<SteadyVerdict>,
-    /// The motion's time at the last look.
+    /// The motion's time at the last observation.
     time: f64,
     /// The time that has passed since then.
     elapsed: Duration,
@@ -53,7 +53,7 @@ impl SteadyVerdicts {
                 self.shown.push(SteadyVerdict::of(gauge));
                 return gauge.clone();
             };
-            shown.look(gauge, elapsed);
+            shown.observe(gauge, elapsed);
             differs |= !is_alike(&shown.verdict, &gauge.verdict);
             Gauge { verdict: shown.verdict.clone(), ..gauge.clone() }
         });
@@ -76,8 +76,8 @@ impl SteadyVerdict {
         self.name == gauge.name && self.since == gauge.reference_time
     }
 
-    /// Looks at the gauge after this time of motion, or without any.
-    fn look(&mut self, gauge: &Gauge, elapsed: Option<Duration>) {
+    /// Observes the gauge after this time of motion, or without any.
+    fn observe(&mut self, gauge: &Gauge, elapsed: Option<Duration>) {
         let new = &gauge.verdict;
         let (last, differed) = match &self.other {
             Some((other, differed)) => (other, *differed),
@@ -130,10 +130,10 @@ mod tests {
     const EXACT: Verdict = Verdict::Exact(Growth::Root);
     const GROWS: Verdict = Verdict::Exact(Growth::Faster);
 
-    /// The verdict shown after each of these looks, 40 in a second, at a gauge of this drift whose reference is as old as the motion.
-    fn shown(looks: impl IntoIterator<Item = Verdict>, max_drift: f64) -> Vec<Verdict> {
+    /// The verdict shown after each of these, 40 in a second, at a gauge of this drift whose reference is as old as the motion.
+    fn shown(verdicts: impl IntoIterator<Item = Verdict>, max_drift: f64) -> Vec<Verdict> {
         let mut steady = SteadyVerdicts::default();
-        let look = |(k, verdict): (usize, Verdict)| {
+        let observe = |(k, verdict): (usize, Verdict)| {
             let mut snapshot = Snapshot::empty(0);
             snapshot.time = 1.0 + k as f64;
             snapshot.gauges = Arc::new([gauge(verdict, max_drift)]);
@@ -141,7 +141,7 @@ mod tests {
             let shown = steady.see(&snapshot);
             shown.unwrap_or(snapshot.gauges)[0].verdict.clone()
         };
-        looks.into_iter().enumerate().map(look).collect()
+        verdicts.into_iter().enumerate().map(observe).collect()
     }
 
     fn gauge(verdict: Verdict, max_drift: f64) -> Gauge {
@@ -166,14 +166,14 @@ mod tests {
 
     #[test]
     fn a_verdict_that_comes_and_goes_is_not_shown() {
-        let looks = (0..600).map(|k| if k / 20 % 2 == 0 { EXACT } else { GROWS });
-        assert!(shown(looks, 1e-14).iter().all(|verdict| *verdict == EXACT));
+        let verdicts = (0..600).map(|k| if k / 20 % 2 == 0 { EXACT } else { GROWS });
+        assert!(shown(verdicts, 1e-14).iter().all(|verdict| *verdict == EXACT));
     }
 
     #[test]
     fn a_verdict_that_holds_is_shown_once_and_for_good() {
-        let looks = (0..300).map(|k| if k < 100 { EXACT } else { GROWS });
-        let shown = shown(looks, 1e-14);
+        let verdicts = (0..300).map(|k| if k < 100 { EXACT } else { GROWS });
+        let shown = shown(verdicts, 1e-14);
         let changes = shown.windows(2).filter(|pair| pair[0] != pair[1]).count();
         assert_eq!((changes, &shown[0], &shown[299]), (1, &EXACT, &GROWS));
     }
@@ -184,12 +184,12 @@ mod tests {
         let secular = Verdict::Secular(1e-9);
         let turns =
             |k: usize| if (k / 4).is_multiple_of(2) { Verdict::Bounded } else { secular.clone() };
-        let looks = (0..200).map(|k| if k < 20 { EXACT } else { turns(k) });
-        let all = shown(looks, 1e-9);
+        let verdicts = (0..200).map(|k| if k < 20 { EXACT } else { turns(k) });
+        let all = shown(verdicts, 1e-9);
         assert!(all[..110].iter().all(|verdict| *verdict == EXACT));
         assert!(all[130..].iter().all(|verdict| *verdict != EXACT));
-        let looks = (0..200).map(|k| if k < 20 { Verdict::Bounded } else { turns(k) });
-        assert!(shown(looks, 1e-3).iter().all(|verdict| *verdict == Verdict::Bounded));
+        let verdicts = (0..200).map(|k| if k < 20 { Verdict::Bounded } else { turns(k) });
+        assert!(shown(verdicts, 1e-3).iter().all(|verdict| *verdict == Verdict::Bounded));
     }
 
     #[test]
@@ -203,7 +203,7 @@ mod tests {
         assert_eq!(after(EXACT, Verdict::Lost, 0.5), Some(Verdict::Lost));
         assert_eq!(after(EXACT, Verdict::OtherBranch, f64::NAN), Some(Verdict::OtherBranch));
         assert_eq!(after(Verdict::OtherBranch, EXACT, 1e-15), Some(EXACT));
-        // the numbers of a verdict are those of the last look
+        // the numbers of a verdict are those of the last observation
         assert_eq!(after(secular(1e-4), secular(2e-4), 1e-3), Some(secular(2e-4)));
     }
 }

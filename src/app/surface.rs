@@ -104,7 +104,7 @@ impl App {
             return effects;
         }
         if matches!(view, SurfaceView::New(_)) {
-            self.awaited_plots.section = Some(plot);
+            self.awaited.plots.section = Some(plot);
         } else if let Some(lab) = &mut self.lab
             && let Some(shown) = lab.plots.get_mut(plot)
         {
@@ -124,7 +124,7 @@ impl App {
 
     /// Shows the section of a text that runs now where it was asked for.
     pub(super) fn take_new_section(&mut self) {
-        let Some(plot) = self.awaited_plots.section.take() else { return };
+        let Some(plot) = self.awaited.plots.section.take() else { return };
         let Some(lab) = &mut self.lab else { return };
         let last = lab.loaded.model.views.len().saturating_sub(1);
         let Some(section) = Plot::of_view(lab.loaded.physics(), last) else { return };

@@ -48,7 +48,7 @@ impl App {
         if let Err(effects) = self.change_text(|text| observable.added_to(text)) {
             return Some(effects);
         }
-        self.awaited_plots.axis = Some(axis);
+        self.awaited.plots.axis = Some(axis);
         let sentence = format!("{name} is now an observable of the text; E shows it.");
         self.notifications.show(Notification::info(sentence));
         Some(Vec::new())
@@ -56,7 +56,7 @@ impl App {
 
     /// Puts the quantity of a text that runs now on the axis that waits for it.
     pub(super) fn take_typed_axis(&mut self) -> Vec<Effect> {
-        self.awaited_plots.axis.take().map_or(Vec::new(), |axis| self.set_typed_axis(axis))
+        self.awaited.plots.axis.take().map_or(Vec::new(), |axis| self.set_typed_axis(axis))
     }
 
     fn set_typed_axis(&mut self, axis: TypedAxis) -> Vec<Effect> {

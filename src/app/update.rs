@@ -28,7 +28,7 @@ impl App {
         let shown = self.notifications.shown.clone();
         let mut effects = self.handle(event);
         self.forget_past_motion(shown.as_ref(), &effects);
-        self.look_after_jobs(&mut effects);
+        self.request_jobs(&mut effects);
         if self.page == Page::Picker {
             self.list_unsaved();
         }
@@ -93,7 +93,12 @@ impl App {
                 Vec::new()
             }
             Event::FileRead { text, asked } => {
-                match self.mending.clone().filter(|_| asked && self.open_buffer().is_none()) {
+                match self
+                    .awaited
+                    .wrong_file
+                    .clone()
+                    .filter(|_| asked && self.open_buffer().is_none())
+                {
                     Some(name) => self.edit_wrong(name, &text),
                     None => self.changed_on_disk(&text, asked),
                 }
@@ -123,13 +128,13 @@ impl App {
 
     /// Requests a system, to be opened in the lab or only previewed.
     pub(super) fn ask(&mut self, name: String, open: bool) -> Effect {
-        self.request = Some(LoadRequest { name: name.clone(), opens: open });
+        self.awaited.system = Some(LoadRequest { name: name.clone(), opens: open });
         Effect::Load(name)
     }
 
     fn press(&mut self, key: KeyEvent) -> Vec<Effect> {
         self.end_group();
-        self.mending = None;
+        self.awaited.wrong_file = None;
         if let Some(lab) = self.lab.as_mut().filter(|_| self.page != Page::Picker) {
             lab.focus.untouched = false;
         }
@@ -236,7 +241,7 @@ impl App {
         let stale = self.workbench.put_off().then_some(Effect::StopCheck);
         self.workbench.clear();
         self.overlay.take_if(|overlay| matches!(overlay, Overlay::Workbench));
-        self.awaited_plots = AwaitedPlots::default();
+        self.awaited.plots = AwaitedPlots::default();
         self.lab = Some(Lab::new(loaded));
         // An error message stays valid when something else is loaded.
         self.notifications.shown.take_if(|notice| !notice.is_error());
@@ -276,7 +281,7 @@ impl App {
 
     /// Handles the answer to a request. Returns whether it is to be opened, if it is the latest request.
     fn answered(&mut self, name: &str) -> Option<bool> {
-        self.request.take_if(|request| request.name == name).map(|request| request.opens)
+        self.awaited.system.take_if(|request| request.name == name).map(|request| request.opens)
     }
 
     /// Shows a page, scrolled to its start.

@@ -4,7 +4,6 @@ mod json;
 mod text;
 
 use std::ffi::OsString;
-use std::io::Write;
 use std::path::PathBuf;
 use std::str::FromStr;
 use std::time::Instant;
@@ -122,7 +121,7 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     let document = open::find(&arguments.name)?;
     let mut model = open::read(&document)?;
     let parameters = assignment::parameters(&model, &arguments.set)?;
-    model.parameters.iter_mut().zip(&parameters).for_each(|(p, &value)| p.value = value);
+    model.set_parameters(&parameters);
     let scanned = match &arguments.scan {
         None => None,
         Some(scan) => Some((scan, parameter(&model, &scan.name)?)),
@@ -154,9 +153,7 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
         Format::Latex => text::latex(&answer),
         Format::Json => json::write(&answer),
     };
-    let mut out = Output::open(arguments.output.as_deref(), arguments.format.form())?;
-    out.write_all(text.as_bytes()).map_err(|error| out.failed(&error))?;
-    out.finish()
+    Output::open(arguments.output.as_deref(), arguments.format.form())?.write_text(&text)
 }
 
 /// The index of the parameter that is scanned.

@@ -68,7 +68,7 @@ impl MotionOptions {
         let surface = surface(&model);
         model.leave_views_out();
         let parameters = assignment::parameters(&model, &self.set)?;
-        model.parameters.iter_mut().zip(&parameters).for_each(|(p, &value)| p.value = value);
+        model.set_parameters(&parameters);
         let overrides = assignment::initial(&model, &parameters, &self.init)?;
         model.run.start = assignment::start(&model, &parameters, &self.init)?;
         assignment::begin_at(&mut model, &overrides);

@@ -112,9 +112,13 @@ impl Output {
 
     /// Writes all of a text to standard output.
     pub(super) fn print(form: OutputForm, text: &str) -> Result<(), CommandError> {
-        let mut out = Output::standard(form);
-        out.write_all(text.as_bytes()).map_err(|error| out.failed(&error))?;
-        out.finish()
+        Output::standard(form).write_text(text)
+    }
+
+    /// Writes all of a text, and finishes.
+    pub(super) fn write_text(mut self, text: &str) -> Result<(), CommandError> {
+        self.write_all(text.as_bytes()).map_err(|error| self.failed(&error))?;
+        self.finish()
     }
 
     /// Whether it is a file that is to be moved into place.

@@ -76,9 +76,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let glyphs = if arguments.ascii { Glyphs::Ascii } else { Glyphs::from_environment(&variable) };
     let text = drawn(&plot, arguments.size, glyphs);
     interrupt.ends_by_itself(|| ());
-    let mut out = Output::open(None, OutputForm::Text)?;
-    std::io::Write::write_all(&mut out, text.as_bytes()).map_err(|error| out.failed(&error))?;
-    out.finish()
+    Output::print(OutputForm::Text, &text)
 }
 
 /// What a column without a number is worth to be drawn.

@@ -129,9 +129,7 @@ fn take_still(recording: &Recording, path: &Path, at: Option<&str>) -> Result<()
     let palette = recording.look.theme.palette();
     let text = screenshot::write(screen, palette, form, &recording.title);
     let written = if form == ImageFormat::Ansi { OutputForm::Coloured } else { OutputForm::Text };
-    let mut out = Output::open(Some(path), written)?;
-    out.write_all(text.as_bytes()).map_err(|error| out.failed(&error))?;
-    out.finish()
+    Output::open(Some(path), written)?.write_text(&text)
 }
 
 /// The shipped demo of a preset; if there is none, an error with an alternative.

@@ -44,7 +44,7 @@ pub(super) struct Arguments {
 const STEPS: u64 = 256;
 
 /// The number of times that the gauges are sampled on the way.
-const LOOKS: f64 = 1000.0;
+const OBSERVATIONS: f64 = 1000.0;
 
 pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
     let motion = &arguments.study.motion;
@@ -100,7 +100,7 @@ fn returned(laid: &Laid, until: f64, interrupt: &Interrupt) -> Result<(Return, u
         overrides: laid.start.overrides.clone(),
         method: laid.method.name.to_owned(),
         settings: laid.settings,
-        spacing: (until - start) / LOOKS,
+        spacing: (until - start) / OBSERVATIONS,
         ..Setup::of(&laid.model)
     };
     let mut experiment = Experiment::new(&laid.model, &laid.equations, &laid.system, setup)

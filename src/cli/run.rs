@@ -33,7 +33,7 @@ use crate::model::{Model, replace_by_ramps};
 use crate::system::System;
 
 use adiabatic::Adiabatic;
-use execution::{Run, STEPS_PER_LOOK};
+use execution::{Run, STEPS_PER_CHECK};
 use times::Times;
 
 /// Integrate without a screen.
@@ -95,7 +95,7 @@ pub(super) struct Arguments {
 }
 
 /// The number of times that the gauges are sampled, whatever the rows.
-const LOOKS: f64 = 1000.0;
+const OBSERVATIONS: f64 = 1000.0;
 
 pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
     let document = open::find(&arguments.name)?;
@@ -108,7 +108,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         parameters[ramp.parameter] = ramp.at(start);
     }
     // redundant constraints are determined at the start of this run
-    model.parameters.iter_mut().zip(&parameters).for_each(|(p, &value)| p.value = value);
+    model.set_parameters(&parameters);
     let given = assignment::initial(&model, &parameters, &arguments.init)?;
     model.run.start = start;
     assignment::begin_at(&mut model, &given);
@@ -155,7 +155,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         method: method.name.to_owned(),
         settings,
         end: Some(times.end()),
-        spacing: times.length() / LOOKS,
+        spacing: times.length() / OBSERVATIONS,
         ..Setup::of(&model)
     };
     let (model, equations) = (Arc::new(model), Arc::new(equations));
@@ -176,7 +176,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let first = experiment.snapshot().state.clone();
     let begun = Arc::clone(&first);
     let adiabatic = adiabatic.map(|known| (known, first, system.clone()));
-    let steps = STEPS_PER_LOOK;
+    let steps = STEPS_PER_CHECK;
     let cannot_start = || claims::undefined_start(&model, &equations, &system, &begun);
     let cannot_start = &cannot_start;
     let asked = experiment.snapshot().setup.clone();

@@ -4,7 +4,6 @@
 mod similar;
 
 use std::ffi::OsString;
-use std::io::Write;
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -59,7 +58,7 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     let document = open::find(&arguments.name)?;
     let mut model = open::read(&document)?;
     let parameters = assignment::parameters(&model, &arguments.set)?;
-    model.parameters.iter_mut().zip(&parameters).for_each(|(p, &value)| p.value = value);
+    model.set_parameters(&parameters);
     model.name_literals();
     let Derived { model, mut equations } = open::derive(&document, model)?;
     let most = arguments.budget.unwrap_or(BUDGET);
@@ -95,9 +94,7 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
             format!("{object:#}\n")
         }
     };
-    let mut out = Output::open(arguments.output.as_deref(), arguments.format.form())?;
-    out.write_all(text.as_bytes()).map_err(|error| out.failed(&error))?;
-    out.finish()
+    Output::open(arguments.output.as_deref(), arguments.format.form())?.write_text(&text)
 }
 
 fn text(model: &Model, equations: &Equations, found: &Symmetries, script: MathScript) -> String {

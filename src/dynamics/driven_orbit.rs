@@ -1,6 +1,6 @@
 //! The periodic orbit near a start of a driven system: its period is that of the drive, or a small multiple of it.
 //!
-//! In: a start, the period of the drive. Out: the orbit, or what was looked for. Never here: how an orbit is closed.
+//! In: a start, the period of the drive. Out: the orbit, or what was searched for. Never here: how an orbit is closed.
 
 use super::end_state::end_state;
 use super::error::DynamicsError;
@@ -13,7 +13,7 @@ use super::unclosed_motion::explained;
 use crate::integrate::{Method, Settings};
 use crate::system::State;
 
-/// The most periods of the drive in which an orbit is looked for.
+/// The most periods of the drive in which an orbit is searched for.
 const MULTIPLES: u32 = 6;
 
 /// A return this near, relative to the farthest, is tried first.

@@ -237,7 +237,7 @@ impl EquilibriumSearch<'_> {
         if count == 0 {
             return 0;
         }
-        let Some((_, slopes)) = self.look_in_units(variables) else { return 0 };
+        let Some((_, slopes)) = self.equations_in_units(variables) else { return 0 };
         let gradients = slopes.rows(slopes.nrows() - count, count).into_owned();
         let sizes = gradients.singular_values();
         sizes.iter().filter(|size| **size > DEPENDENT * sizes.max()).count()

@@ -1,6 +1,6 @@
 //! The returns of a motion near its start, from which the search for a periodic orbit begins.
 //!
-//! In: a state. Out: a time, or why there is none: what was looked for, for how long. Never here: whether an orbit closes.
+//! In: a state. Out: a time, or why there is none: what was searched for, for how long. Never here: whether an orbit closes.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -11,7 +11,7 @@ use crate::integrate::{Method, Settings, Stepping};
 use crate::num::{DoubleDouble, short};
 use crate::system::State;
 
-/// The steps in which a return to the start is looked for, of a series and of a fixed size.
+/// The steps in which a return to the start is searched for, of a series and of a fixed size.
 const LOOKED: u64 = 600;
 const LOOKED_FIXED: u64 = 20_000;
 
@@ -128,7 +128,7 @@ pub(super) fn return_near(
     }
 }
 
-/// Why no return was found: what was looked for, for how long, and what would help.
+/// Why no return was found: what was searched for, for how long, and what would help.
 fn no_return(
     space: &PhaseSpace,
     best: Option<(f64, f64)>,

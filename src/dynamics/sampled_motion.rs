@@ -26,7 +26,7 @@ const SETTLED: f64 = 1e-13;
 const SIZE_SETTLED: f64 = 1e-3;
 
 /// Kinks of the law by the time are searched for between so many times.
-const LOOKS: usize = 128;
+const SAMPLES: usize = 128;
 
 /// The number of values of ε on either side of 0.
 const SIDE: i32 = 12;
@@ -257,7 +257,7 @@ pub(super) fn breaks(lagrangian: &mut Lagrangian, motion: Motion<'_>, duration: 
     if !lagrangian.has_switches() {
         return found;
     }
-    let times: Vec<f64> = (0..=LOOKS).map(|k| duration * (k as f64 / LOOKS as f64)).collect();
+    let times: Vec<f64> = (0..=SAMPLES).map(|k| duration * (k as f64 / SAMPLES as f64)).collect();
     let states = motion(&times).unwrap_or_default();
     for (pair, state) in times.windows(2).zip(&states) {
         let mut sides = |time: f64| lagrangian.switches(time, state);

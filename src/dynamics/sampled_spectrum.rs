@@ -268,3 +268,50 @@ fn given(spectrum: &Spectrum, index: usize, time: f64) -> f64 {
     });
     spectrum.mean + trend + lines.sum::<f64>()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn line(frequency: f64, error: f64) -> SpectralLine {
+        let combination = None;
+        SpectralLine { frequency, error, amplitude: 1.0, phase: 0.0, combination, drive: 0 }
+    }
+
+    /// Whether the image of the multiple next to 2π k of a frequency of 1 is seen, at intervals of 1. The frequency has this error;
+    /// the image is off by a part of what that makes, and leaves this multiple of what it should.
+    fn is_seen(order: u32, error: f64, off: f64, leaves: f64) -> bool {
+        let shift = std::f64::consts::TAU * f64::from(order);
+        let times = shift.round();
+        let place = (shift - times).abs() + off * SURE * times * error;
+        let left = 2.0 * math::sin(std::f64::consts::PI * f64::from(order) * BETWEEN).abs();
+        is_faint_image(&line(place, 0.0), &line(1.0, error), left * leaves, 1.0)
+    }
+
+    /// 89 and 144 are numbers of Fibonacci's, whose images leave three and two hundredths of themselves.
+    #[test]
+    fn a_faint_image_has_an_order_up_to_a_hundred() {
+        assert!(is_seen(89, 1e-6, 0.0, 1.0));
+        assert!(!is_seen(144, 1e-6, 0.0, 1.0));
+    }
+
+    #[test]
+    fn a_faint_image_leaves_what_it_should_to_one_half() {
+        for leaves in [0.55, 1.0, 1.45] {
+            assert!(is_seen(89, 1e-6, 0.0, leaves), "{leaves}");
+        }
+        for leaves in [0.45, 1.55] {
+            assert!(!is_seen(89, 1e-6, 0.0, leaves), "{leaves}");
+        }
+    }
+
+    /// 2π · 89 is nearest to 559: three errors of that multiple may be a hundredth of the frequency.
+    #[test]
+    fn a_faint_image_is_not_met_by_chance() {
+        let error = 1e-2 / (3.0 * 559.0);
+        assert!(is_seen(89, 0.9 * error, 0.0, 1.0));
+        assert!(!is_seen(89, 1.1 * error, 0.0, 1.0));
+        assert!(is_seen(89, 0.5 * error, 0.9, 1.0));
+        assert!(!is_seen(89, 0.5 * error, 1.1, 1.0));
+    }
+}

@@ -17,7 +17,7 @@ use crate::system::{MotionError, Observer, State, System};
 const GROUP: usize = 64;
 
 /// The steps between two looks at the token.
-const STEPS_PER_LOOK: u64 = 64;
+const STEPS_PER_CHECK: u64 = 64;
 
 /// The flow of a system at fixed parameters, by a method.
 #[derive(Clone)]
@@ -189,7 +189,7 @@ impl SystemFlow {
         for &time in times {
             loop {
                 let left = self.effort.map_or(u64::MAX, |most| most.saturating_sub(motion.steps()));
-                match motion.reach_unexplained(time, last, &mut STEPS_PER_LOOK.min(left))? {
+                match motion.reach_unexplained(time, last, &mut STEPS_PER_CHECK.min(left))? {
                     Reached::There => break,
                     Reached::Ended => return Ok(None),
                     Reached::Underway | Reached::Happened(_) => {}

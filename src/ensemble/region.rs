@@ -21,7 +21,7 @@ pub struct Region {
     nodes: Vec<bool>,
 }
 
-/// The cells, along each axis, of the grid on which the boundary is looked for, and of the one by which a window grows.
+/// The cells, along each axis, of the grid on which the boundary is searched for, and of the one by which a window grows.
 const CELLS: usize = 56;
 const COARSE: usize = 28;
 
@@ -37,7 +37,7 @@ const OPEN: f64 = 2.0;
 /// The margin about the region, as a part of its width.
 const MARGIN: f64 = 0.04;
 
-/// Looks from one point of the plane to the next.
+/// Evaluates points of the plane one after the other.
 struct RegionScan<'a> {
     plane: &'a SectionPlane,
     system: &'a System,
@@ -53,16 +53,16 @@ struct EnergyGrid {
 }
 
 impl EnergyGrid {
-    fn of(look: &mut RegionScan<'_>, window: [[f64; 2]; 2], cells: usize) -> EnergyGrid {
+    fn of(scan: &mut RegionScan<'_>, window: [[f64; 2]; 2], cells: usize) -> EnergyGrid {
         let mut grid =
             EnergyGrid { window, cells, allowed: vec![false; (cells + 1) * (cells + 1)] };
         for i in 0..=cells {
             for j in 0..=cells {
-                if look.cancel.is_cancelled() {
+                if scan.cancel.is_cancelled() {
                     return grid;
                 }
                 let place = grid.place([i, j]);
-                grid.allowed[place] = look.at(grid.node([i, j]));
+                grid.allowed[place] = scan.at(grid.node([i, j]));
             }
         }
         grid
@@ -156,7 +156,7 @@ impl RegionScan<'_> {
             if !whole {
                 continue;
             }
-            // a small part of a large window is looked at more closely
+            // a small part of a large window is sampled more closely
             let mut small = false;
             for axis in [0, 1].into_iter().filter(|axis| given[*axis].is_none()) {
                 let [least, greatest] = extent[axis];
@@ -184,17 +184,17 @@ impl Region {
         cancel: &Cancel,
     ) -> Region {
         let observer = system.observer(plane.parameters());
-        let mut look = RegionScan { plane, system, observer, cancel };
+        let mut scan = RegionScan { plane, system, observer, cancel };
         let near = around.map(|[lo, hi]| f64::midpoint(lo, hi));
         let window = [0, 1].map(|axis| given[axis].unwrap_or_else(|| wide(around[axis], 1.0)));
         if !plane.is_bounded() {
             return Region { window, boundary: Vec::new(), nodes: Vec::new() };
         }
         let open = [0, 1].map(|axis| given[axis].unwrap_or_else(|| wide(around[axis], OPEN)));
-        let window = look.grown(window, given, near).unwrap_or(open);
-        let grid = EnergyGrid::of(&mut look, window, CELLS);
+        let window = scan.grown(window, given, near).unwrap_or(open);
+        let grid = EnergyGrid::of(&mut scan, window, CELLS);
         let nodes = grid.component(near);
-        let boundary = boundary(&mut look, &grid);
+        let boundary = boundary(&mut scan, &grid);
         Region { window, boundary, nodes }
     }
 
@@ -222,12 +222,12 @@ fn wide([lo, hi]: [f64; 2], factor: f64) -> [f64; 2] {
 }
 
 /// The boundary of what is allowed: the lines that part the nodes of a grid, exact on its edges.
-fn boundary(look: &mut RegionScan<'_>, grid: &EnergyGrid) -> Vec<[[f64; 2]; 2]> {
+fn boundary(scan: &mut RegionScan<'_>, grid: &EnergyGrid) -> Vec<[[f64; 2]; 2]> {
     let at = |node: [usize; 2]| grid.allowed[grid.place(node)];
     let mut known: HashMap<[[usize; 2]; 2], [f64; 2]> = HashMap::new();
     let mut segments = Vec::new();
     for j in 0..grid.cells {
-        if look.cancel.is_cancelled() {
+        if scan.cancel.is_cancelled() {
             return Vec::new();
         }
         for i in 0..grid.cells {
@@ -246,7 +246,7 @@ fn boundary(look: &mut RegionScan<'_>, grid: &EnergyGrid) -> Vec<[[f64; 2]; 2]> 
                     let (mut near, mut far) = (grid.node(a), grid.node(b));
                     for _ in 0..HALVINGS {
                         let middle = [0, 1].map(|k| f64::midpoint(near[k], far[k]));
-                        if look.at(middle) == inside {
+                        if scan.at(middle) == inside {
                             near = middle;
                         } else {
                             far = middle;

@@ -159,7 +159,7 @@ pub fn section_name(model: &Model) -> String {
 }
 
 /// The steps between two looks at the token.
-const STEPS_PER_LOOK: u64 = 64;
+const STEPS_PER_CHECK: u64 = 64;
 
 /// Where no end is given, the time is first looked ahead so far, and then by so many of the steps taken: the greatest
 /// ratio of a step to the one before.
@@ -249,7 +249,7 @@ impl SectionOrbit<'_> {
             if self.plan.count.is_some_and(|count| self.rows.len() as u64 >= count) {
                 return (OrbitStatus::Completed, None);
             }
-            let reached = self.motion.reach(target, limit, &mut STEPS_PER_LOOK.clone());
+            let reached = self.motion.reach(target, limit, &mut STEPS_PER_CHECK.clone());
             let step = self.motion.step_size();
             // an impulse begins the motion anew, without a step
             if is_first && self.motion.steps() > begun && step != 0.0 {

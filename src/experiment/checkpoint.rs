@@ -161,6 +161,17 @@ impl Checkpoint {
     }
 }
 
+/// The numbers of a state, each with its carried rounding error.
+pub(super) fn exact_numbers(state: &State) -> Vec<[f64; 2]> {
+    state.values.iter().zip(&state.carry).map(|(&value, &carry)| [value, carry]).collect()
+}
+
+/// The state of these numbers at this time.
+pub(super) fn exact_state([time, time_carry]: [f64; 2], form: Form, numbers: &[[f64; 2]]) -> State {
+    let (values, carry) = numbers.iter().map(|&[value, carry]| (value, carry)).unzip();
+    State { time, time_carry, form, values, carry }
+}
+
 impl MotionState {
     fn of(model: &Model, system: &System, snapshot: &Snapshot) -> Option<MotionState> {
         let state = &snapshot.state;
@@ -187,7 +198,7 @@ impl MotionState {
             form: state.form,
             action: system.action_place().map(|i| [state.values[i], state.carry[i]]),
             coordinates: names.collect(),
-            state: state.values.iter().zip(&state.carry).map(|(&v, &c)| [v, c]).collect(),
+            state: exact_numbers(state),
             seen: seen(system, snapshot),
             released: released.map(|c| c.name.clone()).collect(),
             ended: match &snapshot.status {
@@ -201,13 +212,7 @@ impl MotionState {
     }
 
     pub(super) fn exact(&self) -> State {
-        State {
-            time: self.time,
-            time_carry: self.time_carry,
-            form: self.form,
-            values: self.state.iter().map(|[value, _]| *value).collect(),
-            carry: self.state.iter().map(|[_, carry]| *carry).collect(),
-        }
+        exact_state([self.time, self.time_carry], self.form, &self.state)
     }
 
     /// Whether the stored state has the shape of this system's state.

@@ -222,7 +222,7 @@ impl Gauges {
             self.measure(now);
         }
         if dense {
-            self.look_on_the_way(now.time, now.steps, now.values, now.terms);
+            self.observe_on_the_way(now.time, now.steps, now.values, now.terms);
         } else {
             self.observe(now);
         }
@@ -252,7 +252,7 @@ impl Gauges {
     }
 
     /// Records the values at an intermediate time.
-    pub(super) fn look_on_the_way(
+    pub(super) fn observe_on_the_way(
         &mut self,
         time: f64,
         steps: u64,

@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use super::checkpoint::{exact_numbers, exact_state};
 use crate::system::{Form, State, System};
 
 /// Where a motion continued under another law.
@@ -32,12 +33,11 @@ impl SavedChange {
     /// A change, if its state is finite.
     pub(super) fn of(change: &LastChange) -> Option<SavedChange> {
         let LastChange { what, state } = change;
-        let numbers = state.values.iter().zip(&state.carry).map(|(&x, &carry)| [x, carry]);
         state.is_finite().then(|| SavedChange {
             what: what.clone(),
             time: [state.time, state.time_carry],
             form: state.form,
-            state: numbers.collect(),
+            state: exact_numbers(state),
         })
     }
 
@@ -46,13 +46,7 @@ impl SavedChange {
         let poisson = self.form == Form::Variables;
         let fits =
             self.state.len() == system.state_len() && poisson == (system.form() == Form::Variables);
-        let state = || State {
-            time: self.time[0],
-            time_carry: self.time[1],
-            form: self.form,
-            values: self.state.iter().map(|[value, _]| *value).collect(),
-            carry: self.state.iter().map(|[_, carry]| *carry).collect(),
-        };
+        let state = || exact_state(self.time, self.form, &self.state);
         fits.then(|| LastChange { what: self.what.clone(), state: Arc::new(state()) })
     }
 }

@@ -5,6 +5,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::checkpoint::{exact_numbers, exact_state};
 use super::companion::CompanionMotion;
 use super::companions::MOST_COMPANIONS;
 use super::named::{Named, given, named};
@@ -75,7 +76,6 @@ impl SavedCompanion {
         let parameters = model.parameters.iter().zip(one.parameters.iter());
         let parameters =
             parameters.map(|(p, &value)| Named { name: p.name.clone(), value }).collect();
-        let state = one.state.values.iter().zip(&one.state.carry);
         let goes_on = one.message.is_none() && one.state.is_finite();
         Some(SavedCompanion {
             number: one.number,
@@ -88,18 +88,12 @@ impl SavedCompanion {
             tolerance: one.settings.tolerance.filter(|_| pinned),
             time: [one.state.time, one.state.time_carry],
             form: one.state.form,
-            state: if goes_on { state.map(|(&v, &c)| [v, c]).collect() } else { Vec::new() },
+            state: if goes_on { exact_numbers(&one.state) } else { Vec::new() },
         })
     }
 
     fn state(&self) -> State {
-        State {
-            time: self.time[0],
-            time_carry: self.time[1],
-            form: self.form,
-            values: self.state.iter().map(|[value, _]| *value).collect(),
-            carry: self.state.iter().map(|[_, carry]| *carry).collect(),
-        }
+        exact_state(self.time, self.form, &self.state)
     }
 }
 

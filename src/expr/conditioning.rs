@@ -112,6 +112,41 @@ fn product(c: f64, factors: &[(Expr, Number)], known: &FxHashMap<Expr, (f64, f64
 mod tests {
     use super::*;
 
+    /// The slope of max(x − y, edge) by x − y that is found.
+    fn slope_below_an_edge([x, y]: [f64; 2], edge: f64) -> f64 {
+        let mut pool = Pool::new();
+        let [a, b] = ["a", "b"].map(|name| pool.symbol(name));
+        let (u, v) = (pool.variable(a), pool.variable(b));
+        let difference = pool.sub(u, v);
+        let constant = pool.number(Number::Real(edge));
+        let larger = pool.call(crate::expr::FunctionId::Max, &[difference, constant]);
+        let at = |s: Symbol| if s == a { x } else { y };
+        let (_, own) = pool.evaluate_with_error(difference, &at);
+        let (value, error) = pool.evaluate_with_error(larger, &at);
+        // by the edge, which is as large as the value, it is 1
+        (error - HALF * value.abs() - HALF * edge) / own
+    }
+
+    /// The wide step of 1e-7 is nearly all beyond the edge: a jump if that is more than a thousandth of the value.
+    #[test]
+    fn a_jump_is_a_thousandth_of_the_value() {
+        for (edge, slope) in [(1.25e-4, 1.0), (0.8e-4, 0.0)] {
+            let found = slope_below_an_edge([1.0 + edge * (1.0 - 1e-6), 1.0], edge);
+            assert!((found - slope).abs() < 0.01, "{edge}: {found}");
+        }
+    }
+
+    /// The edge is within the narrow step, by so many ε of the value: a slope where they are more than rounding.
+    #[test]
+    fn a_difference_of_sixty_four_units_is_rounding() {
+        let (x, y) = (1.5, 1.0);
+        let nudge = NUDGE * (x - y);
+        for (units, slope) in [(50.0, 0.5), (80.0, 0.0)] {
+            let found = slope_below_an_edge([x, y], 0.5 + nudge - units * f64::EPSILON * 0.5);
+            assert!((found - slope).abs() < 0.01, "{units}: {found}");
+        }
+    }
+
     /// Of exp(x − y) at places of size 1e9 the difference is off by their rounding, half a unit of each, and that is all.
     #[test]
     fn rounding_is_carried_to_first_order() {

@@ -23,13 +23,22 @@ impl Pool {
     }
 
     fn divided_once(&mut self, e: Expr) -> Option<Expr> {
+        self.with_quotient(e, Pool::quotient)
+    }
+
+    /// A fraction with the first sum above that has a quotient by a sum below in its place.
+    pub(super) fn with_quotient(
+        &mut self,
+        e: Expr,
+        quotient: fn(&mut Pool, Expr, Expr) -> Option<Expr>,
+    ) -> Option<Expr> {
         let Node::Product(c, factors) = &*self.shared(e) else { return None };
         let is_sum = |(base, _): &&Factor| matches!(self.node(*base), Node::Sum(..));
         let (above, below): (Vec<Factor>, Vec<Factor>) =
             factors.iter().filter(is_sum).partition(|(_, n)| !n.is_negative());
         for &(whole, _) in above.iter().filter(|(_, n)| n.is_one()) {
             for &(divisor, n) in below.iter().filter(|(_, n)| n.as_integer().is_some()) {
-                let Some(quotient) = self.quotient(whole, divisor) else { continue };
+                let Some(quotient) = quotient(self, whole, divisor) else { continue };
                 let untouched = factors.iter().filter(|(base, _)| ![whole, divisor].contains(base));
                 let mut left: Vec<Factor> = untouched.copied().collect();
                 left.extend([(quotient, Number::ONE), (divisor, n + Number::ONE)]);

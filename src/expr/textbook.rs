@@ -165,23 +165,7 @@ impl Pool {
 
     /// `(M a + m a)/(M + m)` as `a`.
     fn cancel_sums(&mut self, e: Expr) -> Expr {
-        let Node::Product(c, factors) = &*self.shared(e) else { return e };
-        let is_sum = |(base, _): &&Factor| matches!(self.node(*base), Node::Sum(..));
-        let (above, below): (Vec<Factor>, Vec<Factor>) =
-            factors.iter().filter(is_sum).partition(|(_, n)| !n.is_negative());
-        for &(whole, _) in above.iter().filter(|(_, n)| n.is_one()) {
-            for &(divisor, n) in below.iter().filter(|(_, n)| n.as_integer().is_some()) {
-                let Some(quotient) = self.quotient_of_sums(whole, divisor) else { continue };
-                let mut left: Vec<Factor> = factors
-                    .iter()
-                    .filter(|(base, _)| ![whole, divisor].contains(base))
-                    .copied()
-                    .collect();
-                left.extend([(quotient, Number::ONE), (divisor, n + Number::ONE)]);
-                return self.monomial(*c, &left);
-            }
-        }
-        e
+        self.with_quotient(e, Pool::quotient_of_sums).unwrap_or(e)
     }
 
     /// The quotient of two sums if it is a sum itself, and the divisor has a term that is a symbol.

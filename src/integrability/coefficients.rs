@@ -64,11 +64,7 @@ pub(super) fn rationals(
 ) -> Option<Vec<Number>> {
     let p = u128::from(ground.field.prime());
     let simple = |spare| {
-        let fraction = |&(_, x): &(usize, Residue)| {
-            let (n, d) = rational(u128::from(ground.field.value(x)), p, spare)?;
-            exact(n, d)
-        };
-        vector.iter().map(fraction).collect::<Option<Vec<_>>>()
+        vector.iter().map(|&(_, x)| ground.field.fraction(x, spare)).collect::<Option<Vec<_>>>()
     };
     if let Some(all) = simple(SPARE_BITS) {
         return Some(all);
@@ -95,20 +91,11 @@ pub(super) fn rationals(
             let a = u128::from(ground.field.value(x));
             let step = field.sub(y, field.integer(i128::try_from(a).ok()?));
             let k = u128::from(field.value(field.mul(step, inverse)));
-            let (n, d) = rational(a + p * k, p * q, 2 * SPARE_BITS)?;
-            exact(n, d)
+            rational(a + p * k, p * q, 2 * SPARE_BITS)
         });
         return joined.collect();
     }
     None
-}
-
-/// A fraction, if it is short.
-pub(super) fn exact(n: i128, d: i128) -> Option<Number> {
-    match Number::ratio(n, d) {
-        exact @ Number::Rational(..) => Some(exact),
-        Number::Real(_) => None,
-    }
 }
 
 /// The same constant of the motion for parameters that are symbols.
@@ -280,8 +267,7 @@ fn monomial_of(
             rest = field.mul(rest, field.integer_power(root, -twice)?);
         }
     }
-    let (n, d) = rational(field.value(rest).into(), field.prime().into(), SPARE_BITS)?;
-    Some((exact(n, d)?, powers))
+    Some((field.fraction(rest, SPARE_BITS)?, powers))
 }
 
 fn value_of(
@@ -376,8 +362,7 @@ impl Dense {
             let mut polynomial = |half: &[Residue]| -> Option<Expr> {
                 let mut parts = Vec::new();
                 for (powers, &x) in terms.iter().zip(half).filter(|(_, x)| !x.is_zero()) {
-                    let value = field.value(field.mul(x, scale));
-                    let (a, b) = rational(value.into(), field.prime().into(), SPARE_BITS)?;
+                    let coefficient = field.fraction(field.mul(x, scale), SPARE_BITS)?;
                     let factors: Vec<(Expr, Number)> = self
                         .constants
                         .iter()
@@ -385,7 +370,7 @@ impl Dense {
                         .map(|(&(e, _), &k)| (e, Number::integer(k.into())))
                         .collect();
                     let monomial = pool.monomial(Number::ONE, &factors);
-                    parts.push((exact(a, b)?, monomial));
+                    parts.push((coefficient, monomial));
                 }
                 Some(pool.linear(Number::ZERO, &parts))
             };

@@ -22,7 +22,7 @@ use super::vanishing::vanishes;
 use crate::expr::{Expr, Pool, Symbol};
 use crate::mechanics::Equations;
 use crate::model::Model;
-use crate::num::{Number, PRIMES, PrimeField, Residue, rational};
+use crate::num::{Number, PRIMES, PrimeField, Residue};
 
 /// The largest number of monomials of constants.
 const MOST_MONOMIALS: usize = 150;
@@ -194,13 +194,8 @@ impl InvolutionSearch {
         for order in orders(monomials.len(), ORDERS) {
             for row in reduced(self.field, &null, &order) {
                 let terms = row.iter().zip(&monomials).filter(|(x, _)| !x.is_zero());
-                let p = u128::from(self.field.prime());
                 let exact = terms.map(|(&x, monomial)| {
-                    let (n, d) = rational(u128::from(self.field.value(x)), p, SPARE_BITS)?;
-                    match Number::ratio(n, d) {
-                        c @ Number::Rational(..) => Some((c, monomial.clone())),
-                        Number::Real(_) => None,
-                    }
+                    Some((self.field.fraction(x, SPARE_BITS)?, monomial.clone()))
                 });
                 let Some(candidate) = exact.collect::<Option<ConstantPolynomial>>() else {
                     continue;

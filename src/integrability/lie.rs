@@ -11,13 +11,12 @@ use std::collections::HashMap;
 
 use rustc_hash::FxHashMap;
 
-use super::ansatz::orders;
-use super::echelon::{Echelon, reduced};
+use super::determining_equations::{DeterminingEquations, MOST, SampledConditions};
+use super::echelon::Echelon;
 use super::evaluator::ResidueEvaluator;
 use super::explicit_motion::{ExplicitMotion, accelerations};
-use super::formula::{cleared, content};
 use super::naming::name_of;
-use super::noether::{DEGREE, MOST, RAN_OUT, SPARE, Symmetries, words};
+use super::noether::{DEGREE, Symmetries, words};
 use super::ramps;
 use super::random::Random;
 use super::stand_in;
@@ -27,7 +26,7 @@ use super::varied_lagrangian::{Symmetry, VariedLagrangian};
 use crate::expr::{Expr, Pool, Symbol};
 use crate::mechanics::{Equations, is_changed_by_impulse};
 use crate::model::Model;
-use crate::num::{Number, PRIMES, PrimeField, Residue, rational};
+use crate::num::{Number, PrimeField, Residue};
 
 /// The points at which symmetries are compared as functions.
 const COMPARED: usize = 40;
@@ -112,9 +111,8 @@ pub fn point_symmetries(
         .map(|s| (s.time, s.coordinates.clone()))
         .collect();
     let mut problem = LieProblem {
+        conditions: DeterminingEquations::of(monomials, positions.len() + 1),
         motion: ExplicitMotion::of(pool, time, positions, velocities, here.clone()),
-        monomials,
-        field: PrimeField::nth(0),
         overgeneral: false,
     };
     let solved = problem.solve(pool, &first, is_over)?;
@@ -222,8 +220,7 @@ fn charge(
 /// The condition on the coefficients of ξ and η.
 struct LieProblem {
     motion: ExplicitMotion,
-    monomials: Vec<Expr>,
-    field: PrimeField,
+    conditions: DeterminingEquations,
     overgeneral: bool,
 }
 
@@ -236,10 +233,11 @@ impl LieProblem {
         is_over: &dyn Fn() -> bool,
     ) -> Result<Vec<Vec<Residue>>, Unsupported> {
         let motion = self.motion.clone();
-        let (n, m) = (motion.positions.len(), self.monomials.len());
+        let (n, m) = (motion.positions.len(), self.conditions.monomials.len());
         let seeds = motion.first(pool);
-        let moved: Vec<Expr> = self.monomials.iter().map(|&e| pool.derivation(e, &seeds)).collect();
-        let mut roots = [self.monomials.clone(), moved.clone()].concat();
+        let moved: Vec<Expr> =
+            self.conditions.monomials.iter().map(|&e| pool.derivation(e, &seeds)).collect();
+        let mut roots = [self.conditions.monomials.clone(), moved.clone()].concat();
         roots.extend(&motion.accelerations);
         for (by_time, by_position, by_velocity) in &motion.slopes {
             roots.push(*by_time);
@@ -255,87 +253,41 @@ impl LieProblem {
             .collect();
         let evaluator = ResidueEvaluator::new(pool, &roots, &moving)?;
         self.overgeneral = evaluator.overgeneral;
-        let mut random = Random::new(3);
-        let works = |k: &usize| {
-            let mut random = Random::new(5);
-            (0..40).any(|_| {
-                self.rows(&evaluator, &moved, first, PrimeField::nth(*k), &mut random).is_some()
-            })
+        let why = "no point was found at which the accelerations have values modulo a prime";
+        let has_values = |field, random: &mut Random| {
+            self.rows(&evaluator, &moved, first, field, random).is_some()
         };
-        let Some(k) = (0..PRIMES.len()).find(works) else {
-            let why = "no point was found at which the accelerations have values modulo a prime";
-            return Err(Unsupported(why.to_owned()));
-        };
-        self.field = PrimeField::nth(k);
-        let width = m * (n + 1);
-        let mut functions = Echelon::new(self.field, m);
-        let mut echelon = Echelon::new(self.field, width);
+        let field = DeterminingEquations::field_where(has_values, why)?;
+        self.conditions.field = field;
         let mut points: Vec<(Vec<Residue>, Vec<Residue>)> = Vec::new();
-        let (mut idle, mut tries) = (0, 0);
-        while idle < SPARE || points.len() < COMPARED {
-            tries += 1;
-            if is_over() || tries > 100 * MOST {
-                return Err(Unsupported(RAN_OUT.to_owned()));
-            }
-            let Some((values, rows, known)) =
-                self.rows(&evaluator, &moved, first, self.field, &mut random)
-            else {
-                continue;
-            };
+        let mut draw = |random: &mut Random| {
+            let (sampled, known) = self.rows(&evaluator, &moved, first, field, random)?;
             if points.len() < COMPARED {
-                points.push((values.clone(), known));
+                points.push((sampled.values.clone(), known));
             }
-            let new = functions.add(values);
-            let mut more = false;
-            for row in rows {
-                more |= echelon.add(row);
-            }
-            idle = if new || more { 0 } else { idle + 1 };
-        }
-        for block in 0..=n {
-            for k in (0..m).filter(|&k| !functions.leads(k)) {
-                let mut row = vec![Residue::ZERO; width];
-                row[block * m + k] = self.field.one();
-                echelon.add(row);
-            }
-        }
-        let basis = echelon.null_space();
-        let mut all: Vec<Vec<Residue>> = Vec::new();
-        for order in orders(width, 6) {
-            if is_over() {
-                return Err(Unsupported(RAN_OUT.to_owned()));
-            }
-            all.extend(reduced(self.field, &basis, &order));
-        }
-        all.sort_by_key(|v| v.iter().filter(|x| !x.is_zero()).count());
+            Some(sampled)
+        };
+        let mut solutions = self.conditions.solutions(&mut draw, COMPARED, &[], is_over)?;
         // as functions at the points: those known first
-        let mut chosen = Echelon::new(self.field, COMPARED * (n + 1));
+        let mut chosen = Echelon::new(field, COMPARED * (n + 1));
         for (s, _) in first.iter().enumerate() {
             let row = points.iter().flat_map(|(_, known)| &known[s * (n + 1)..][..=n]);
             chosen.add(row.copied().collect());
         }
-        let mut best = Vec::new();
-        for vector in all {
-            let mut row = Vec::new();
-            for (values, _) in &points {
-                for block in 0..=n {
-                    let mut sum = Residue::ZERO;
-                    for (&c, &x) in vector[block * m..][..m].iter().zip(values) {
-                        sum = self.field.add(sum, self.field.mul(c, x));
-                    }
-                    row.push(sum);
-                }
-            }
-            if chosen.add(row) {
-                best.push(vector);
-            }
-        }
-        Ok(best)
+        solutions.retain(|vector| {
+            let row = points.iter().flat_map(|(values, _)| {
+                vector.chunks_exact(m).map(move |coefficients| {
+                    let terms = coefficients.iter().zip(values);
+                    terms.fold(Residue::ZERO, |sum, (&c, &x)| field.add(sum, field.mul(c, x)))
+                })
+            });
+            chosen.add(row.collect())
+        });
+        Ok(solutions)
     }
 
     /// The monomials' values at a random point, the conditions there on the coefficients of ξ and of each η, and the values
     /// of the `first` symmetries.
-    #[expect(clippy::type_complexity, reason = "three rows of one point")]
     fn rows(
         &self,
         evaluator: &ResidueEvaluator,
@@ -343,7 +295,7 @@ impl LieProblem {
         first: &[(Expr, Vec<Expr>)],
         field: PrimeField,
         random: &mut Random,
-    ) -> Option<(Vec<Residue>, Vec<Vec<Residue>>, Vec<Residue>)> {
+    ) -> Option<(SampledConditions, Vec<Residue>)> {
         let motion = &self.motion;
         let mut state: FxHashMap<Symbol, Residue> = FxHashMap::default();
         let moving = motion.positions.iter().chain(&motion.velocities).chain([&motion.time]);
@@ -362,7 +314,7 @@ impl LieProblem {
             }
         };
         let rates = evaluator.rates(&point, &seed)?;
-        let values: Vec<Residue> = self.monomials.iter().map(|&e| value(e)).collect();
+        let values: Vec<Residue> = self.conditions.monomials.iter().map(|&e| value(e)).collect();
         let slopes: Vec<Residue> = moved.iter().map(|&e| value(e)).collect();
         let bends: Vec<Residue> = moved.iter().map(|&e| evaluator.rate(&rates, e)).collect();
         let combined = |a: Residue, b: Residue, c: Residue| {
@@ -399,32 +351,13 @@ impl LieProblem {
         }
         let known = first.iter().flat_map(|(xi, eta)| [xi].into_iter().chain(eta));
         let known = known.map(|&e| value(e)).collect();
-        Some((values, rows, known))
+        Some((SampledConditions { values, rows }, known))
     }
 
     /// ξ and η with rational coefficients.
     fn exact(&self, pool: &mut Pool, vector: &[Residue]) -> Option<(Expr, Vec<Expr>)> {
-        let (n, m) = (self.motion.positions.len(), self.monomials.len());
-        let lead = vector.iter().find(|x| !x.is_zero())?;
-        let scale = self.field.inverse(*lead)?;
-        let mut places = Vec::new();
-        let mut coefficients = Vec::new();
-        for (k, &x) in vector.iter().enumerate().filter(|(_, x)| !x.is_zero()) {
-            let x = self.field.value(self.field.mul(x, scale));
-            let (a, b) = rational(x.into(), self.field.prime().into(), 16)?;
-            let c @ Number::Rational(..) = Number::ratio(a, b) else { return None };
-            places.push(k);
-            coefficients.push(pool.number(c));
-        }
-        let coefficients = cleared(pool, &coefficients);
-        let mut blocks = vec![Vec::new(); n + 1];
-        for (k, c) in places.into_iter().zip(coefficients) {
-            blocks[k / m].push(pool.mul(c, self.monomials[k % m]));
-        }
-        let sums: Vec<Expr> = blocks.iter().map(|terms| pool.sum(terms)).collect();
-        let common = content(pool, &sums).recip();
-        let mut sums = sums.into_iter().map(|e| pool.linear(Number::ZERO, &[(common, e)]));
-        let xi = sums.next()?;
-        Some((xi, sums.collect()))
+        let mut all = self.conditions.functions_of(pool, vector, self.conditions.functions)?;
+        let eta = all.split_off(1);
+        Some((all[0], eta))
     }
 }

@@ -11,10 +11,9 @@ use std::collections::HashMap;
 
 use rustc_hash::FxHashMap;
 
-use super::ansatz::orders;
-use super::echelon::{Echelon, reduced};
+use super::determining_equations::{DeterminingEquations, MOST, SampledConditions};
+use super::echelon::Echelon;
 use super::evaluator::ResidueEvaluator;
-use super::formula::{cleared, content};
 use super::ramps;
 use super::random::Random;
 use super::stand_in;
@@ -24,19 +23,10 @@ use super::varied_lagrangian::{Symmetry, VariedLagrangian};
 use crate::expr::{Expr, Pool, Symbol};
 use crate::mechanics::{Equations, is_changed_by_impulse};
 use crate::model::Model;
-use crate::num::{Number, PRIMES, PrimeField, Residue, rational};
+use crate::num::{PrimeField, Residue};
 
 /// The greatest degree of ξ, η and f in t, q and the other functions.
 pub(super) const DEGREE: u32 = 3;
-
-/// The largest number of unknown coefficients.
-pub(super) const MOST: usize = 1_500;
-
-/// The reason where the budget of time is spent.
-pub(super) const RAN_OUT: &str = "the time allowed ran out";
-
-/// Rows beyond the rank that have to add nothing.
-pub(super) const SPARE: usize = 12;
 
 /// The symmetries that were found, and where.
 #[derive(Clone, Debug)]
@@ -154,10 +144,9 @@ struct NoetherProblem {
     law: VariedLagrangian,
     /// What ξ, η and f are polynomials in.
     generators: Vec<Expr>,
-    monomials: Vec<Expr>,
-    /// The degree of the highest.
+    /// The degree of the highest monomial.
     degree: u32,
-    field: PrimeField,
+    conditions: DeterminingEquations,
     /// Whether points are more general than the motion, so that a symmetry may have been missed.
     overgeneral: bool,
 }
@@ -167,8 +156,8 @@ impl NoetherProblem {
         let VariedLagrangian { time, positions, velocities, lagrangian, .. } = &law;
         let generators = generators_of(pool, *lagrangian, *time, positions, velocities);
         let (degree, monomials) = products(pool, &generators, DEGREE, MOST / (positions.len() + 2));
-        let field = PrimeField::nth(0);
-        NoetherProblem { law, generators, monomials, degree, field, overgeneral: false }
+        let conditions = DeterminingEquations::of(monomials, positions.len() + 2);
+        NoetherProblem { law, generators, degree, conditions, overgeneral: false }
     }
 
     /// The solutions modulo a prime, without those that are gauge alone, as sparse as they come.
@@ -177,7 +166,7 @@ impl NoetherProblem {
         pool: &mut Pool,
         is_over: &dyn Fn() -> bool,
     ) -> Result<Vec<Vec<Residue>>, Unsupported> {
-        let mut roots = self.monomials.clone();
+        let mut roots = self.conditions.monomials.clone();
         roots.extend([self.law.lagrangian, self.law.slopes.0]);
         roots.extend(self.law.slopes.1.iter().chain(&self.law.slopes.2));
         let moving: Vec<Symbol> = self
@@ -190,62 +179,16 @@ impl NoetherProblem {
             .collect();
         let evaluator = ResidueEvaluator::new(pool, &roots, &moving)?;
         self.overgeneral = evaluator.overgeneral;
-        let (n, m) = (self.law.positions.len(), self.monomials.len());
-        let mut random = Random::new(3);
-        let works = |k: &usize| {
-            let mut random = Random::new(5);
-            (0..40).any(|_| self.row(&evaluator, PrimeField::nth(*k), &mut random).is_some())
-        };
-        let Some(k) = (0..PRIMES.len()).find(works) else {
-            let why = "no search was made: at none of the points that were tried has the Lagrangian an exact value";
-            return Err(Unsupported(why.to_owned()));
-        };
-        self.field = PrimeField::nth(k);
-        // monomials that depend on others as functions, such as cos² on sin², are left out
-        let mut functions = Echelon::new(self.field, m);
-        let mut echelon = Echelon::new(self.field, m * (n + 2));
-        let (mut idle, mut tries) = (0, 0);
-        while idle < SPARE {
-            tries += 1;
-            if is_over() || tries > 100 * MOST {
-                return Err(Unsupported(RAN_OUT.to_owned()));
-            }
-            let Some((values, row)) = self.row(&evaluator, self.field, &mut random) else {
-                continue;
-            };
-            let new = functions.add(values);
-            let more = echelon.add(row);
-            idle = if new || more { 0 } else { idle + 1 };
-        }
-        // ξ, η and f are sums over independent monomials only
-        for block in 0..n + 2 {
-            for k in (0..m).filter(|&k| !functions.leads(k)) {
-                let mut row = vec![Residue::ZERO; m * (n + 2)];
-                row[block * m + k] = self.field.one();
-                echelon.add(row);
-            }
-        }
+        let why = "no search was made: at none of the points that were tried has the Lagrangian an exact value";
+        let has_values = |field, random: &mut Random| self.row(&evaluator, field, random).is_some();
+        self.conditions.field = DeterminingEquations::field_where(has_values, why)?;
         // f = 1 is no symmetry
-        let mut constant = vec![Residue::ZERO; m * (n + 2)];
-        constant[(n + 1) * m] = self.field.one();
-        echelon.add(constant);
-        let basis = echelon.null_space();
-        let mut best: Vec<Vec<Residue>> = Vec::new();
-        let mut all: Vec<Vec<Residue>> = Vec::new();
-        for order in orders(m * (n + 2), 6) {
-            if is_over() {
-                return Err(Unsupported(RAN_OUT.to_owned()));
-            }
-            all.extend(reduced(self.field, &basis, &order));
-        }
-        all.sort_by_key(|v| v.iter().filter(|x| !x.is_zero()).count());
-        let mut chosen = Echelon::new(self.field, m * (n + 2));
-        for vector in all {
-            if chosen.add(vector.clone()) {
-                best.push(vector);
-            }
-        }
-        Ok(best)
+        let constant = self.conditions.width() - self.conditions.monomials.len();
+        let mut draw = |random: &mut Random| self.row(&evaluator, self.conditions.field, random);
+        let mut solutions = self.conditions.solutions(&mut draw, 0, &[constant], is_over)?;
+        let mut chosen = Echelon::new(self.conditions.field, self.conditions.width());
+        solutions.retain(|vector| chosen.add(vector.clone()));
+        Ok(solutions)
     }
 
     /// The monomials' values at a random point, and the condition there for each unknown coefficient: of ξ, of each η,
@@ -255,7 +198,7 @@ impl NoetherProblem {
         evaluator: &ResidueEvaluator,
         field: PrimeField,
         random: &mut Random,
-    ) -> Option<(Vec<Residue>, Vec<Residue>)> {
+    ) -> Option<SampledConditions> {
         let mut state: FxHashMap<Symbol, Residue> = FxHashMap::default();
         let moving = self.law.positions.iter().chain(&self.law.velocities).chain([&self.law.time]);
         evaluator.draw(field, random, moving.copied(), &mut state);
@@ -276,9 +219,9 @@ impl NoetherProblem {
         }
         // L − Σ q̇ p
         let rest = field.sub(value(self.law.lagrangian), momentum);
-        let values: Vec<Residue> = self.monomials.iter().map(|&e| value(e)).collect();
+        let values: Vec<Residue> = self.conditions.monomials.iter().map(|&e| value(e)).collect();
         let moved: Vec<Residue> =
-            self.monomials.iter().map(|&e| evaluator.rate(&rates, e)).collect();
+            self.conditions.monomials.iter().map(|&e| evaluator.rate(&rates, e)).collect();
         let mut row = Vec::new();
         let term = |a: Residue, b: Residue| {
             values
@@ -291,33 +234,15 @@ impl NoetherProblem {
             row.extend(term(value(q), value(p)));
         }
         row.extend(moved.iter().map(|&d| field.neg(d)));
-        Some((values, row))
+        Some(SampledConditions { values, rows: vec![row] })
     }
 
     /// ξ, η and f of a solution with rational coefficients.
     fn exact(&self, pool: &mut Pool, vector: &[Residue]) -> Option<(Expr, Vec<Expr>, Expr)> {
-        let (n, m) = (self.law.positions.len(), self.monomials.len());
-        let lead = vector.iter().find(|x| !x.is_zero())?;
-        let scale = self.field.inverse(*lead)?;
-        let mut entries = Vec::new();
-        for (k, &x) in vector.iter().enumerate().filter(|(_, x)| !x.is_zero()) {
-            let x = self.field.value(self.field.mul(x, scale));
-            let (a, b) = rational(x.into(), self.field.prime().into(), 16)?;
-            let c @ Number::Rational(..) = Number::ratio(a, b) else { return None };
-            entries.push((k, pool.number(c)));
-        }
-        let coefficients: Vec<Expr> = entries.iter().map(|(_, e)| *e).collect();
-        let coefficients = cleared(pool, &coefficients);
-        let mut blocks = vec![Vec::new(); n + 2];
-        for ((k, _), c) in entries.iter().zip(coefficients) {
-            blocks[k / m].push(pool.mul(c, self.monomials[k % m]));
-        }
-        let sums: Vec<Expr> = blocks.iter().map(|terms| pool.sum(terms)).collect();
+        let n = self.law.positions.len();
         // f may need a denominator that the changes do not have
-        let common = content(pool, &sums[..=n]).recip();
-        let sums: Vec<Expr> =
-            sums.into_iter().map(|e| pool.linear(Number::ZERO, &[(common, e)])).collect();
-        Some((sums[0], sums[1..=n].to_vec(), sums[n + 1]))
+        let all = self.conditions.functions_of(pool, vector, n + 1)?;
+        Some((all[0], all[1..=n].to_vec(), all[n + 1]))
     }
 }
 

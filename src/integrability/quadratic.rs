@@ -10,11 +10,11 @@ use rustc_hash::FxHashMap;
 
 use super::ansatz::Ansatz;
 use super::atoms::Atoms;
-use super::coefficients::{SPARE_BITS, exact, only};
+use super::coefficients::{SPARE_BITS, only};
 use super::level::Ground;
 use super::random::Random;
 use crate::expr::{Expr, Pool};
-use crate::num::{Number, Residue, rational};
+use crate::num::{Number, Residue};
 
 /// The coefficients of a combination known modulo a prime, whose first is 1.
 pub(super) fn with_root(
@@ -45,7 +45,6 @@ pub(super) fn with_root(
         conjugates.push(only(&other, atoms, ansatz, &columns, random)?);
     }
     let mean = field.inverse(field.residue(signs.into()))?;
-    let p = u128::from(field.prime());
     let mut parts: Vec<Vec<(Number, Expr)>> = vec![Vec::new(); columns.len()];
     for product in 0..signs {
         let chosen = (0..numbers.len()).filter(|k| product >> k & 1 == 1);
@@ -60,8 +59,7 @@ pub(super) fn with_root(
                 if odd { field.sub(sum, x) } else { field.add(sum, x) }
             });
             let x = field.mul(field.mul(sum, mean), over_root);
-            let (n, d) = rational(u128::from(field.value(x)), p, SPARE_BITS)?;
-            parts.push((exact(n, d)?, root));
+            parts.push((field.fraction(x, SPARE_BITS)?, root));
         }
     }
     Some(parts.iter().map(|parts| pool.linear(Number::ZERO, parts)).collect())

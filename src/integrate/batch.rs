@@ -133,13 +133,13 @@ impl BatchPropagator {
     /// does not go beyond the limit. Returns false if it was cancelled.
     #[must_use]
     pub fn step(&mut self, limits: &[f64; BATCH]) -> bool {
-        self.steps_unseen(limits, &[f64::NEG_INFINITY; BATCH])
+        self.steps_unobserved(limits, &[f64::NEG_INFINITY; BATCH])
     }
 
-    /// The same for as many steps as nobody looks between: at least one, and none more where one has
-    /// led to or beyond the time of a lane in `looks`. A method may take them one by one.
+    /// The same for as many steps as nobody observes the states between: at least one, and none more where one has
+    /// led to or beyond the time of a lane in `observations`. A method may take them one by one.
     #[must_use]
-    pub fn steps_unseen(&mut self, limits: &[f64; BATCH], looks: &[f64; BATCH]) -> bool {
+    pub fn steps_unobserved(&mut self, limits: &[f64; BATCH], observations: &[f64; BATCH]) -> bool {
         match (&mut self.stepper, &mut self.events) {
             (BatchStepper::Taylor(series), None) => series.step(limits),
             (BatchStepper::Taylor(series), Some(events)) => {
@@ -147,8 +147,8 @@ impl BatchPropagator {
                 events.pass(series);
                 stepped
             }
-            (BatchStepper::Splitting(steps), _) => steps.step(limits, looks),
-            (BatchStepper::RungeKutta(steps), _) => steps.step(limits, looks),
+            (BatchStepper::Splitting(steps), _) => steps.step(limits, observations),
+            (BatchStepper::RungeKutta(steps), _) => steps.step(limits, observations),
         }
     }
 

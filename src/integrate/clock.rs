@@ -2,7 +2,7 @@
 //!
 //! In: a time. Out: the distance to the next representable one, and how many of these an interval needs. Never here: steps.
 
-/// The minimal length of an interval on which events are looked for, in spacings of time.
+/// The minimal length of an interval on which events are searched for, in spacings of time.
 pub(super) const DIGITS: f64 = 16.0;
 
 /// Returns the distance from a time to the next representable one.

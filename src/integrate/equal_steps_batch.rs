@@ -11,7 +11,7 @@ use super::method::Settings;
 use crate::num::{BATCH, Batch, DoubleDouble};
 use crate::system::{BatchSteps, Form, State, System};
 
-/// The most steps between two looks at the token.
+/// The most steps between two checks of the token.
 const MOST: u64 = 256;
 
 /// One orbit.
@@ -108,9 +108,9 @@ impl<B: BatchSteps, S: Scheme> EqualStepsBatch<B, S> {
     }
 
     /// Takes steps in every lane that is under way and before its limit, until one of them reaches or
-    /// passes its time in `looks`, and at least one. Returns false if it was cancelled.
+    /// passes its time in `observations`, and at least one. Returns false if it was cancelled.
     #[must_use]
-    pub(super) fn step(&mut self, limits: &[f64; BATCH], looks: &[f64; BATCH]) -> bool {
+    pub(super) fn step(&mut self, limits: &[f64; BATCH], observations: &[f64; BATCH]) -> bool {
         if self.system.cancel().is_cancelled() {
             return false;
         }
@@ -119,8 +119,8 @@ impl<B: BatchSteps, S: Scheme> EqualStepsBatch<B, S> {
         for (i, lane) in self.lanes.iter_mut().enumerate() {
             going[i] = lane.status == LaneStatus::Underway && lane.state.time < limits[i];
             if going[i] {
-                count = if looks[i] > lane.state.time {
-                    lane.steps.to(looks[i].min(limits[i]), count)
+                count = if observations[i] > lane.state.time {
+                    lane.steps.to(observations[i].min(limits[i]), count)
                 } else {
                     1
                 };

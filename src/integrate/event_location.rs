@@ -420,7 +420,7 @@ impl EventLocator {
         let leaves = soonest.is_some();
         let probe = &mut self.probe;
         let mut sampling = Sampling { probe, motion, whole: (from, to), is_last };
-        let samples = sampling.looks(self.sides.len(), soonest)?;
+        let samples = sampling.samples(self.sides.len(), soonest)?;
         let mut passed: Vec<Vec<Crossing>> = Vec::new();
         for (event, samples) in samples.iter().enumerate() {
             if !self.may_cross[event] {

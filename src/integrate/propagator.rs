@@ -12,6 +12,7 @@ mod passed_event;
 mod passed_event_watch;
 mod singular_mass;
 mod singularity_record;
+mod trial;
 
 use super::event_location::EventLocator;
 use super::impulse_schedule::ImpulseSchedule;

@@ -73,7 +73,7 @@ pub(super) struct Sampling<'a> {
 impl Sampling<'_> {
     /// Samples all functions over the whole interval. `soonest` is the part of the time after which
     /// the first sample is taken, if an impulse has just been applied.
-    pub(super) fn looks(
+    pub(super) fn samples(
         &mut self,
         functions: usize,
         soonest: Option<f64>,
@@ -341,7 +341,7 @@ impl Sampling<'_> {
 
     /// Whether a function that changes its sign between two neighbouring times is smaller farther
     /// from them: beside a zero its size grows with distance, beside a pole it falls, and beside the cut of an angle. How
-    /// far it must be looked at depends on how slowly an angle turns.
+    /// far it must be sampled depends on how slowly an angle turns.
     fn is_pole(
         &mut self,
         event: usize,

@@ -26,7 +26,7 @@ pub trait Follower {
     }
 
     /// Looks at all lanes after a step, before each orbit is looked at by itself.
-    fn look_at_all(&mut self, _batch: &BatchPropagator) {}
+    fn observe_all(&mut self, _batch: &BatchPropagator) {}
 
     /// Looks at an orbit after a step.
     fn observe(&mut self, orbit: usize, lane: usize, batch: &mut BatchPropagator) -> OrbitCourse;
@@ -61,10 +61,10 @@ pub fn side_by_side(
         }
         let look =
             |place: Option<usize>| place.map_or(f64::INFINITY, |i| follower.next_observation(i));
-        if !batch.steps_unseen(&limits, &places.map(look)) {
+        if !batch.steps_unobserved(&limits, &places.map(look)) {
             return false;
         }
-        follower.look_at_all(batch);
+        follower.observe_all(batch);
         for (lane, place) in places.iter_mut().enumerate() {
             let Some(orbit) = *place else { continue };
             if batch.status(lane) == LaneStatus::Irregular {

@@ -51,7 +51,7 @@ pub(super) struct Modes<'a> {
     pub(super) harmless: f64,
 }
 
-/// The distance between two values of |z| at which amplification is looked for.
+/// The distance between two values of |z| at which amplification is searched for.
 const APART: f64 = 1.0 / 32.0;
 
 /// A mode is harmless up to this part of the least |z| that is amplified, and up to this |z|: an

@@ -49,7 +49,7 @@ impl NamedRamps {
         let why = "H depends on the time".to_owned();
         equations.supplements.separation = Some(Separation::Unknown(why));
         let mut named = NamedRamps { model, equations };
-        named.look_at_the_instant();
+        named.take_the_instant();
         named
     }
 
@@ -74,7 +74,7 @@ impl NamedRamps {
     }
 
     /// Lets s be t; from then on parameters and their rates are functions of the time.
-    fn look_at_the_instant(&mut self) {
+    fn take_the_instant(&mut self) {
         let now = self.now();
         let NamedRamps { model, equations } = self;
         equations.supplements.ramp_rates = model

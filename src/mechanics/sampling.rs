@@ -22,7 +22,7 @@ pub const TRIES: u64 = 400;
 /// their kind.
 const WIDTHS: [f64; 4] = [1.0, 0.1, 1.0, 0.01];
 
-/// The distances of those at which an identity that holds near the start is looked at as well.
+/// The distances of those at which an identity that holds near the start is evaluated as well.
 const FAR: [f64; 3] = [10.0, 100.0, 1000.0];
 
 /// The number of points far from the start.

@@ -310,6 +310,11 @@ impl Model {
         if self.is_poisson() { self.coordinates.len() } else { 2 * self.coordinates.len() }
     }
 
+    /// Sets the values of all parameters, in their order.
+    pub fn set_parameters(&mut self, values: &[f64]) {
+        self.parameters.iter_mut().zip(values).for_each(|(p, &value)| p.value = value);
+    }
+
     /// The index of the coordinate with this name.
     pub fn coordinate(&self, name: &str) -> Option<usize> {
         self.coordinates.iter().position(|c| c.name == name)

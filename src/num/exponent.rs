@@ -139,6 +139,11 @@ mod tests {
         let beside = Exponent::nearest(DoubleDouble::from(1e60_f64.next_up()));
         assert!(beside.minus(whole).beyond().is_nan());
         assert_eq!((whole.minus(whole).moderate(), whole.minus(whole).beyond()), (0, 0.0));
+        // from a part of 1e-12 on it is more than that
+        let nearer = Exponent::nearest(DoubleDouble::from(1e60 * (1.0 + 0.8e-12)));
+        let farther = Exponent::nearest(DoubleDouble::from(1e60 * (1.0 + 1.25e-12)));
+        assert!(nearer.minus(whole).beyond().is_nan());
+        assert_eq!(farther.minus(whole).beyond(), 0.0);
         let third = Exponent::nearest(DoubleDouble::from(1e60 / 3.0));
         assert_eq!(whole.plus(third).minus(whole).beyond(), 0.0);
         let largest = Exponent::nearest(DoubleDouble::from(1e308));

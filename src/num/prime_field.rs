@@ -222,12 +222,17 @@ impl PrimeField {
             Number::Real(_) => None,
         }
     }
+
+    /// The short fraction that this is the residue of, see [`rational`].
+    pub fn fraction(&self, x: Residue, spare: u32) -> Option<Number> {
+        rational(self.value(x).into(), self.prime().into(), spare)
+    }
 }
 
-/// The fraction n/d ≡ a (mod m) with |n|, d < √(m/2^`spare`), if there is one. The `spare` bits make it improbable
-/// that there is one by chance.
+/// The fraction n/d ≡ a (mod m) with |n|, d < √(m/2^`spare`), if there is one and it is exact as a number. The `spare` bits
+/// make it improbable that there is one by chance.
 /// Source: P. S. Wang, *A p-adic algorithm for univariate partial fractions*, SYMSAC 1981.
-pub fn rational(a: u128, m: u128, spare: u32) -> Option<(i128, i128)> {
+pub fn rational(a: u128, m: u128, spare: u32) -> Option<Number> {
     let bound = ((m >> spare.max(2)) as f64).sqrt() as i128;
     let (mut r, mut s) = ((i128::try_from(m).ok()?, 0_i128), (i128::try_from(a).ok()?, 1_i128));
     while s.0 > bound {
@@ -238,7 +243,8 @@ pub fn rational(a: u128, m: u128, spare: u32) -> Option<(i128, i128)> {
     if d == 0 || d.abs() > bound {
         return None;
     }
-    Some(if d < 0 { (-n, -d) } else { (n, d) })
+    let exact = Number::ratio(n * d.signum(), d.abs());
+    matches!(exact, Number::Rational(..)).then_some(exact)
 }
 
 #[cfg(test)]

@@ -68,10 +68,10 @@ fn unbounded<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
 }
 
 /// The steps between two looks at the token.
-const STEPS_PER_LOOK: u64 = 256;
+const STEPS_PER_CHECK: u64 = 256;
 
-/// The number of accurate looks at the gauges, besides those after every step.
-const LOOKS: f64 = 64.0;
+/// The number of accurate observations of the gauges, besides those after every step.
+const OBSERVATIONS: f64 = 64.0;
 
 impl RunOutcome {
     /// A run that could not begin.
@@ -116,7 +116,7 @@ impl RunPlan {
             settings: self.settings,
             start: start.time,
             end: Some(end),
-            spacing: length / LOOKS,
+            spacing: length / OBSERVATIONS,
             ..Setup::of(&self.model)
         };
         Experiment::new(&self.model, &self.equations, &self.system, setup)
@@ -137,7 +137,7 @@ impl RunPlan {
         experiment.only_count_occurrences();
         experiment.forget_past();
         let (status, message) = loop {
-            experiment.advance(end, STEPS_PER_LOOK);
+            experiment.advance(end, STEPS_PER_CHECK);
             if self.system.cancel().is_cancelled() {
                 return None;
             }
@@ -234,7 +234,7 @@ impl<D: FnMut(usize, RunOutcome)> Follower for RunTogether<'_, D> {
         OrbitCourse::Over
     }
 
-    fn look_at_all(&mut self, batch: &BatchPropagator) {
+    fn observe_all(&mut self, batch: &BatchPropagator) {
         if let Some(terms) = &mut self.terms {
             let underway = |lane| batch.status(lane) == LaneStatus::Underway;
             terms.observe(std::array::from_fn(|lane| underway(lane).then(|| batch.state(lane))));

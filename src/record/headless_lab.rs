@@ -95,7 +95,7 @@ impl HeadlessLab {
         let Some(elapsed) = self.clock.tick() else { return false };
         self.advance();
         self.happen(Event::Tick(elapsed));
-        self.look_at_motion();
+        self.observe_motion();
         true
     }
 
@@ -134,7 +134,7 @@ impl HeadlessLab {
         if after != before {
             self.base = (self.clock.frame(), after.1, after.2);
         }
-        self.look_at_motion();
+        self.observe_motion();
     }
 
     /// Whether every cell must be painted again; resets the flag.
@@ -164,7 +164,7 @@ impl HeadlessLab {
         }
     }
 
-    fn look_at_motion(&mut self) {
+    fn observe_motion(&mut self) {
         if let Some(experiment) = &self.experiment {
             let snapshot = Arc::new(experiment.snapshot());
             self.happen(Event::Snapshot(snapshot));
@@ -179,7 +179,7 @@ impl HeadlessLab {
                 Effect::Load(name) => {
                     let loaded = self.load(name);
                     self.happen(Event::Loaded(loaded));
-                    self.look_at_motion();
+                    self.observe_motion();
                 }
                 Effect::Check { ticket, title, text } => self.check(ticket, title, text),
                 Effect::Repaint => self.repaint = true,
@@ -223,6 +223,6 @@ impl HeadlessLab {
             Err(unready) => Err(unready.diagnostics),
         };
         self.happen(Event::Checked(Box::new(CheckedText { ticket, outcome, took: None })));
-        self.look_at_motion();
+        self.observe_motion();
     }
 }

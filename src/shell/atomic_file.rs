@@ -33,7 +33,7 @@ pub(super) const USUAL: u32 = 0o666;
 const MOST_LINKS: usize = 40;
 
 /// The maximum number of files of a folder that are searched for unfinished ones.
-const LOOKED_AT: usize = 100_000;
+const MOST_ENTRIES: usize = 100_000;
 
 /// Whether a file must be on the disk before it gets its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -192,7 +192,7 @@ pub(super) fn named(path: &Path, why: &io::Error) -> io::Error {
 /// Returns the unfinished files in a folder whose writers have ended (killed, or by a power failure), with the
 /// starts of their names.
 fn abandoned(folder: &Path) -> impl Iterator<Item = (String, DirEntry)> {
-    let listing = fs::read_dir(folder).into_iter().flatten().take(LOOKED_AT).flatten();
+    let listing = fs::read_dir(folder).into_iter().flatten().take(MOST_ENTRIES).flatten();
     listing.filter_map(|entry| {
         let name = entry.file_name();
         let (lead, process) = name.to_str()?.strip_suffix(PARTIAL)?.rsplit_once('.')?;

@@ -16,7 +16,7 @@ use crate::preset::{Catalog, is_path};
 use crate::printable;
 
 /// The interval between checks of a watched file.
-const LOOKS: Duration = Duration::from_millis(500);
+const INTERVAL: Duration = Duration::from_millis(500);
 
 /// Writes a text over a file if the file still has the expected contents. Returns the file.
 pub(super) fn save(place: &Path, text: &str, known: Option<&str>) -> Result<(), SaveError> {
@@ -105,14 +105,14 @@ impl Watch {
     /// Starts to watch a file that is about to be read; later changes are reported.
     pub(super) fn follow(&mut self, place: &Path) {
         let stamp = stamp(place);
-        *self = Self { place: Some(place.to_owned()), stamp, since: LOOKS, missed: 0 };
+        *self = Self { place: Some(place.to_owned()), stamp, since: INTERVAL, missed: 0 };
     }
 
     /// Advances the time. Returns a change of the file since the last check; each is reported once.
-    pub(super) fn look(&mut self, place: &Path, elapsed: Duration) -> Option<FileChange> {
+    pub(super) fn poll(&mut self, place: &Path, elapsed: Duration) -> Option<FileChange> {
         if self.place.as_deref() != Some(place) {
             let place = place.to_owned();
-            *self = Self { stamp: stamp(&place), place: Some(place), since: LOOKS, missed: 0 };
+            *self = Self { stamp: stamp(&place), place: Some(place), since: INTERVAL, missed: 0 };
             // It may have changed between its loading and now.
             let text = read(self.place.as_deref()?).ok()?;
             return Some(FileChange::Text { text, back: false });
@@ -121,7 +121,7 @@ impl Watch {
         if !self.since.is_zero() {
             return None;
         }
-        self.since = LOOKS;
+        self.since = INTERVAL;
         let Some(stamp) = stamp(place) else {
             self.missed = self.missed.saturating_add(1);
             return (self.missed == GONE).then_some(FileChange::Gone);
@@ -204,28 +204,28 @@ mod tests {
     }
 
     #[test]
-    fn a_change_is_noticed_at_the_next_look_and_once() {
+    fn a_change_is_noticed_at_the_next_check_and_once() {
         let folder = tempfile::tempdir().expect("a folder");
         let place = folder.path().join("system.toml");
         fs::write(&place, "one").expect("it is written");
         let mut watch = Watch::default();
         let text = |text: &str, back| Some(FileChange::Text { text: text.to_owned(), back });
-        assert_eq!(watch.look(&place, Duration::ZERO), text("one", false));
+        assert_eq!(watch.poll(&place, Duration::ZERO), text("one", false));
         fs::write(&place, "longer").expect("it is written");
-        assert_eq!(watch.look(&place, LOOKS / 2), None, "it is not looked at all the time");
-        assert_eq!(watch.look(&place, LOOKS / 2), text("longer", false));
-        assert_eq!(watch.look(&place, LOOKS), None);
+        assert_eq!(watch.poll(&place, INTERVAL / 2), None, "it is not looked at all the time");
+        assert_eq!(watch.poll(&place, INTERVAL / 2), text("longer", false));
+        assert_eq!(watch.poll(&place, INTERVAL), None);
         // It is gone for a moment, and then there again.
         fs::remove_file(&place).expect("it goes");
-        assert_eq!(watch.look(&place, LOOKS), None);
+        assert_eq!(watch.poll(&place, INTERVAL), None);
         fs::write(&place, "again").expect("it is written");
-        assert_eq!(watch.look(&place, LOOKS), text("again", false));
+        assert_eq!(watch.poll(&place, INTERVAL), text("again", false));
         // It is gone for good.
         fs::remove_file(&place).expect("it goes");
-        let changes: Vec<_> = (0..4).filter_map(|_| watch.look(&place, LOOKS)).collect();
+        let changes: Vec<_> = (0..4).filter_map(|_| watch.poll(&place, INTERVAL)).collect();
         assert_eq!(changes, [FileChange::Gone], "it is reported once");
         fs::write(&place, "again").expect("it is written");
-        assert_eq!(watch.look(&place, LOOKS), text("again", true));
-        assert_eq!(watch.look(&place, LOOKS), None);
+        assert_eq!(watch.poll(&place, INTERVAL), text("again", true));
+        assert_eq!(watch.poll(&place, INTERVAL), None);
     }
 }

@@ -92,7 +92,7 @@ impl BatchTerms {
     }
 
     /// Evaluates the states that have these numbers at these times, one in each lane.
-    pub fn look_at_numbers(&mut self, times: Batch, numbers: &[Batch]) {
+    pub fn evaluate_numbers(&mut self, times: Batch, numbers: &[Batch]) {
         for (&r, place) in self.program.inputs.iter().zip(&self.numbers) {
             self.registers[r as usize] = place.map_or(Batch::ZERO, |place| numbers[place]);
         }

@@ -244,6 +244,24 @@ impl Canvas<'_> {
         self.region(area, ScreenRegion::Blank);
     }
 
+    /// Draws an overlay of this size in the middle of an area, with a title, and returns it and the area for its text.
+    pub(super) fn dialog(
+        &mut self,
+        area: Rect,
+        (width, height): (u16, u16),
+        title: Span,
+    ) -> (Rect, Rect) {
+        let place = Rect {
+            x: area.x + (area.width - width) / 2,
+            y: area.y + (area.height - height) / 2,
+            width,
+            height,
+        };
+        self.clear(place);
+        let inner = self.pane(place, &[title], true);
+        (place, columns(inner, 1, inner.width.saturating_sub(2)))
+    }
+
     /// Places the terminal's cursor.
     pub(super) fn point(&mut self, at: Position) {
         self.cursor = Some(at).filter(|at| self.buffer.area.contains(*at));

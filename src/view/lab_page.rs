@@ -222,16 +222,8 @@ fn stopped(canvas: &mut Canvas<'_>, area: Rect, fault: &Failure) {
     let text = canvas.text(&capitalised(&fault.message));
     let lines = words(&text, usize::from(width.saturating_sub(4)));
     let height = (lines.len() as u16 + 4).min(area.height);
-    let place = Rect {
-        x: area.x + (area.width - width) / 2,
-        y: area.y + (area.height - height) / 2,
-        width,
-        height,
-    };
-    canvas.clear(place);
-    let title = [canvas.span(Role::Bad, "The motion cannot continue")];
-    let inner = canvas.pane(place, &title, true);
-    let inner = columns(inner, 1, inner.width.saturating_sub(2));
+    let title = canvas.span(Role::Bad, "The motion cannot continue");
+    let (_, inner) = canvas.dialog(area, (width, height), title);
     for (index, line) in lines.iter().enumerate() {
         canvas.left(row(inner, index), Role::Text, line);
     }

@@ -24,17 +24,9 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, menu: &Menu) {
     let most = (area.height * 3 / 5).max(24);
     let wanted = (menu.items.len() as u16).clamp(1, most) + 2 + search + about;
     let height = wanted.min(area.height.saturating_sub(u16::from(area.height > 12) * 2));
-    let place = Rect {
-        x: area.x + (area.width - width) / 2,
-        y: area.y + (area.height - height) / 2,
-        width,
-        height,
-    };
-    canvas.clear(place);
-    let title = [canvas.span(Role::Title, &menu.title)];
-    let inner = canvas.pane(place, &title, true);
+    let title = canvas.span(Role::Title, &menu.title);
+    let (place, inner) = canvas.dialog(area, (width, height), title);
     canvas.target(place, HitTarget::Menu);
-    let inner = columns(inner, 1, inner.width.saturating_sub(2));
     let (field, rest) = split_rows(inner, search);
     if let Some(input) = &menu.filter {
         let used = canvas.left(field, Role::Accent, "/ ");

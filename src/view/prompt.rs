@@ -26,21 +26,13 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, prompt: &Prom
     let width = area.width.saturating_sub(2).min(100);
     let lines = lines(canvas, lab, prompt, usize::from(width.saturating_sub(4)));
     let height = (lines.len() as u16 + 4).min(area.height);
-    let place = Rect {
-        x: area.x + (area.width - width) / 2,
-        y: area.y + (area.height - height) / 2,
-        width,
-        height,
-    };
-    canvas.clear(place);
     let title = if lab.loaded.model.is_poisson() {
         "{f, g}, or one: is it conserved?"
     } else {
         "[f, g], or one: is it conserved?"
     };
-    let title = [canvas.span(Role::Title, title)];
-    let inner = canvas.pane(place, &title, true);
-    let inner = columns(inner, 1, inner.width.saturating_sub(2));
+    let title = canvas.span(Role::Title, title);
+    let (_, inner) = canvas.dialog(area, (width, height), title);
     let field = row(inner, 0);
     let used = canvas.left(field, Role::Accent, "? ");
     let room = usize::from(field.width.saturating_sub(used + 1));

@@ -1,6 +1,6 @@
 //! The tables in the documents agree with those of the code.
 //!
-//! `UPDATE_EXPECT=1 cargo test readme` rewrites them.
+//! `UPDATE_EXPECT=1 cargo test documents` rewrites them.
 
 use std::fmt::Write as _;
 use std::path::Path;

@@ -1,11 +1,12 @@
-//! No test passes without checking something: each reaches an assertion, or a function that has one, on every way
-//! through it. It stands in no branch and in no loop that may be empty, none returns early, none is ignored, and none
-//! asserts what is always true.
+//! No test passes without checking something: each reaches an assertion, or a function that does, on every way
+//! through it. It stands in no branch, in no loop that may be empty and in no `match` of which another arm has none, none
+//! returns early, none is ignored, and none asserts what is always true.
 //!
 //! Not seen: an iterator inside an assertion that is empty, such as `assert!(none.iter().all(…))`.
 
 use std::collections::BTreeSet;
 use std::fs;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// What makes a test fail.
@@ -120,11 +121,11 @@ fn functions(file: usize, text: &str) -> Vec<Function> {
     found
 }
 
-/// The functions besides tests, by file and name: those that can fail, and the others.
+/// The functions besides tests, by file and name: those that check something on every way through them, and the others.
 struct Checking<'a> {
     able: BTreeSet<(usize, &'a str)>,
     unable: BTreeSet<(usize, &'a str)>,
-    /// The names of functions that can fail.
+    /// The names of functions that check something.
     names: BTreeSet<&'a str>,
     /// The file of the module that each file is in.
     parents: &'a [Option<usize>],
@@ -137,7 +138,7 @@ impl<'a> Checking<'a> {
         let (able, unable) = (BTreeSet::new(), BTreeSet::new());
         let mut checking = Self { able, unable, names: BTreeSet::new(), parents };
         loop {
-            let is_able = |f: &&&Function| f.body.iter().any(|line| checking.is_sure(f.file, line));
+            let is_able = |f: &&&Function| checking.checks(f.file, &f.body, 0..f.body.len(), 0);
             let (able, unable): (Vec<&Function>, Vec<&Function>) =
                 helpers.iter().partition(is_able);
             let keys =
@@ -151,7 +152,7 @@ impl<'a> Checking<'a> {
         }
     }
 
-    /// Whether a call of this name in this file can fail: of a function of the file, or else of the file of the module
+    /// Whether a call of this name in this file checks something: of a function of the file, or else of the file of the module
     /// that it is in, or else of any other.
     fn has(&self, file: usize, name: &str) -> bool {
         let own = (file, name);
@@ -179,10 +180,67 @@ impl<'a> Checking<'a> {
     fn is_honest(&self, test: &Function) -> bool {
         let skips =
             test.body.iter().any(|line| line.contains("return;") || line.contains("return }"));
-        let checks = |index: &usize| self.is_sure(test.file, &test.body[*index]);
-        let mut lines = (0..test.body.len()).filter(checks);
-        !skips && lines.any(|index| always_runs(&test.body, index))
+        !skips && self.checks(test.file, &test.body, 0..test.body.len(), 0)
     }
+
+    /// Whether one of these lines of a body checks something and runs whenever those that are indented by less do.
+    fn checks(&self, file: usize, body: &[String], lines: Range<usize>, least: usize) -> bool {
+        lines.into_iter().any(|index| {
+            self.is_sure(file, &body[index]) && self.always_runs(file, body, index, least)
+        })
+    }
+
+    /// Whether a line of a body runs whenever those that are indented by less than `least` do: in no branch, in no loop that
+    /// may be empty, and in no arm of a `match` beside one that checks nothing.
+    fn always_runs(&self, file: usize, body: &[String], index: usize, least: usize) -> bool {
+        if is_branch(body[index].trim()) || body[index].contains("for_each(") {
+            return false;
+        }
+        let mut depth = indent(&body[index]);
+        for above in (0..index).rev() {
+            let mut line = &body[above];
+            if indent(line) >= depth {
+                continue;
+            }
+            depth = indent(line);
+            if depth < least {
+                break;
+            }
+            if line.trim() == "{" {
+                // the header has several lines
+                let header = body[..above].iter().rev().find(|line| indent(line) == depth);
+                line = header.unwrap_or(line);
+            }
+            if line.contains("match ") && !self.every_arm_checks(file, body, above) {
+                return false;
+            }
+            let line = line.trim();
+            let may_be_empty = |(_, items): (&str, &str)| !is_filled(body, items);
+            let loops = line.starts_with("for ").then(|| line.split_once(" in ")).flatten();
+            if is_branch(line) || loops.is_some_and(may_be_empty) {
+                return false;
+            }
+        }
+        true
+    }
+
+    /// Whether all arms of the `match` with this header check something.
+    fn every_arm_checks(&self, file: usize, body: &[String], header: usize) -> bool {
+        let depth = indent(&body[header]) + 4;
+        let inside = body[header + 1..].iter().take_while(|line| indent(line) >= depth).count();
+        let (first, end) = (header + 1, header + 1 + inside);
+        let is_arm =
+            |index: &usize| indent(&body[*index]) == depth && body[*index].contains(" => ");
+        let starts: Vec<usize> = (first..end).filter(is_arm).collect();
+        let ends = starts.iter().skip(1).copied().chain([end]);
+        starts.iter().zip(ends).all(|(&start, end)| self.checks(file, body, start..end, depth))
+    }
+}
+
+/// Whether what follows this line, or this line, need not run.
+fn is_branch(line: &str) -> bool {
+    let branches = ["if ", "} else", "while ", "loop "];
+    branches.iter().any(|word| line.starts_with(word)) || line.contains("for_each(")
 }
 
 /// The names that a line calls, or may pass to be called; those of methods begin with a dot.
@@ -220,37 +278,6 @@ fn is_void(line: &str) -> bool {
         same(one, other) || same(other, one)
     };
     line.contains("assert!(true") || line.contains("assert") && either.into_iter().any(is_either)
-}
-
-/// Whether a line of a body runs whenever the body does: in no branch, and in no loop that may be empty.
-fn always_runs(body: &[String], index: usize) -> bool {
-    let mut depth = indent(&body[index]);
-    let is_branch = |line: &str| {
-        let branches = ["if ", "} else", "while ", "loop "];
-        branches.iter().any(|word| line.starts_with(word)) || line.contains("for_each(")
-    };
-    if is_branch(body[index].trim()) || body[index].contains("for_each(") {
-        return false;
-    }
-    for above in (0..index).rev() {
-        let mut line = &body[above];
-        if indent(line) >= depth {
-            continue;
-        }
-        depth = indent(line);
-        if line.trim() == "{" {
-            // the header has several lines
-            let header = body[..above].iter().rev().find(|line| indent(line) == depth);
-            line = header.unwrap_or(line);
-        }
-        let line = line.trim();
-        let may_be_empty = |(_, items): (&str, &str)| !is_filled(body, items);
-        let loops = line.starts_with("for ").then(|| line.split_once(" in ")).flatten();
-        if is_branch(line) || loops.is_some_and(may_be_empty) {
-            return false;
-        }
-    }
-    true
 }
 
 /// Whether what a loop goes over has an item for sure: it is written as a list or a range of numbers, a constant, a list of the
@@ -314,7 +341,8 @@ fn every_test_looks_at_something() {
 
 #[test]
 fn what_looks_at_nothing_is_found() {
-    let helpers = "fn check(x: u8) {\n    assert_eq!(x, 1);\n}\nfn run(x: u8) {}\n";
+    let helpers = "fn check(x: u8) {\n    assert_eq!(x, 1);\n}\nfn run(x: u8) {}\n\
+                   fn perhaps(x: u8) {\n    match x {\n        1 => check(x),\n        _ => {}\n    }\n}\n";
     let parents = [Some(1), None, None];
     let outside = [
         functions(1, "fn surely(x: u8) {\n    assert_eq!(x, 1);\n}\n"),
@@ -339,6 +367,8 @@ fn what_looks_at_nothing_is_found() {
         "let all = [1, 2];\nfor x in &all {\n    check(*x)\n}",
         "for x in list() {\n    check(x)\n}\nassert!(!list().is_empty());",
         "match it() {\n    Ok(x) => check(x),\n    Err(why) => panic!(\"{why}\"),\n}",
+        "match it() {\n    0 => check(1),\n    1 | 2 => match other() {\n        3 => check(3),\n        _ => check(4),\n    },\n    _ => {\n        run(5);\n        check(5);\n    }\n}",
+        "match it() {\n    Ok(x) => check(x),\n    Err(_) => {}\n}\ncheck(2);",
         "assert!(a.is_ok() || b.is_err());",
         "let quote = '\"';\nassert_eq!(it(), quote);",
     ] {
@@ -347,6 +377,7 @@ fn what_looks_at_nothing_is_found() {
     let early = ["let Some(x) = tool() else { re", "turn };\ncheck(x);"].concat();
     for idle in [
         "run(1);",
+        "perhaps(1);",
         "// assert!(works());\nrun(1);",
         "run(\"assert!(works());\");",
         "run(r#\"assert!(\"works\");\"#);",
@@ -360,6 +391,12 @@ fn what_looks_at_nothing_is_found() {
         "list().for_each(|x| {\n    check(x)\n});",
         "if let Some(x) = it() {\n    check(x)\n}",
         "while let Some(x) = it() {\n    check(x)\n}",
+        "match it() {\n    Ok(x) => check(x),\n    Err(_) => {}\n}",
+        "match it() {\n    Some(x) => {\n        check(x);\n    }\n    None => run(0),\n}",
+        "let x = match it() {\n    Ok(x) => x,\n    Err(why) => panic!(\"{why}\"),\n};\nrun(x);",
+        "match it()\n    .other()\n{\n    Ok(x) => check(x),\n    Err(_) => run(0),\n}",
+        "match it() {\n    0 => check(1),\n    _ => match other() {\n        3 => check(3),\n        _ => {}\n    },\n}",
+        "match it() {\n    0 => check(1),\n    _ => {\n        if is_so() {\n            check(3)\n        }\n    }\n}",
         &early,
     ] {
         check(idle, 1);

@@ -36,11 +36,11 @@ fn model() -> Model {
 fn typed(model: &Model, pool: &mut Pool, text: &str) -> Result<Expr, Vec<String>> {
     let mut scope = Scope::new(model, Allowed::Observable, "an observable");
     scope.read(pool, text).ok_or_else(|| {
-        let told = scope.diagnostics.iter().map(|m| {
+        let errors = scope.diagnostics.iter().map(|m| {
             assert!(text.get(m.span.start..m.span.end).is_some(), "{text}: {m:?}");
             format!("{m}; {}", m.help.clone().unwrap_or_default())
         });
-        told.collect()
+        errors.collect()
     })
 }
 
@@ -49,7 +49,8 @@ fn the_notation_of_the_screen_means_the_plain_one() {
     let model = model();
     let check = |text: &str, plain: &str| {
         let mut pool = model.pool.clone();
-        let e = typed(&model, &mut pool, text).unwrap_or_else(|told| panic!("{text}: {told:?}"));
+        let e =
+            typed(&model, &mut pool, text).unwrap_or_else(|errors| panic!("{text}: {errors:?}"));
         assert_eq!(e, typed(&model, &mut pool, plain).unwrap(), "{text} and {plain}");
         let mut scope = Scope::new(&model, Allowed::Observable, "an observable");
         scope.read(&mut pool, text);
@@ -98,10 +99,10 @@ fn the_notation_of_the_screen_means_the_plain_one() {
 #[test]
 fn what_could_be_read_in_two_ways_is_refused_with_both() {
     let model = model();
-    let check = |text: &str, told: &[&str]| {
+    let check = |text: &str, errors: &[&str]| {
         let mut pool = model.pool.clone();
         let diagnostics = typed(&model, &mut pool, text).expect_err(text);
-        assert_eq!(diagnostics, told, "{text}");
+        assert_eq!(diagnostics, errors, "{text}");
     };
     check("m/l x", &["`m/l x` can be read in two ways; write `(m/l) x` or `m/(l x)`"]);
     check("1/2 m", &["`1/2 m` can be read in two ways; write `(1/2) m` or `1/(2 m)`"]);
@@ -148,7 +149,7 @@ fn what_could_be_read_in_two_ways_is_refused_with_both() {
     check("mgl", &["unknown name `mgl`; names side by side are written apart: `m g l`"]);
     check("cosθ", &["unknown name `cosθ`; names side by side are written apart: `cos θ`"]);
     check("mlsin θ", &["unknown name `mlsin`; names side by side are written apart: `m l sin`"]);
-    // several are told at once, and then how the whole of it is written
+    // several errors are reported at once, and then how the whole of it is written
     let apart = |name: &str, pieces: &str| {
         format!("unknown name `{name}`; names side by side are written apart: `{pieces}`")
     };
@@ -186,16 +187,16 @@ fn what_could_be_read_in_two_ways_is_refused_with_both() {
 fn all_doubts_are_told_at_once_with_the_line() {
     let model = model();
     let mut pool = model.pool.clone();
-    let told = typed(&model, &mut pool, "1/2 m x'^2 + sin θ x - 1/2 q").unwrap_err();
-    assert_eq!(told.len(), 4, "{told:?}");
-    assert!(told[0].contains("`(1/2) m`"), "{told:?}");
-    assert!(told[1].contains("`sin(θ) x`"), "{told:?}");
+    let errors = typed(&model, &mut pool, "1/2 m x'^2 + sin θ x - 1/2 q").unwrap_err();
+    assert_eq!(errors.len(), 4, "{errors:?}");
+    assert!(errors[0].contains("`(1/2) m`"), "{errors:?}");
+    assert!(errors[1].contains("`sin(θ) x`"), "{errors:?}");
     let line = "read from left to right, all of it is `1/2*m*x'^2 + sin(θ)*x - 1/2*q`";
-    assert!(told[2].ends_with(line), "{told:?}");
-    assert!(told[3].starts_with("unknown name `q`"), "{told:?}");
+    assert!(errors[2].ends_with(line), "{errors:?}");
+    assert!(errors[3].starts_with("unknown name `q`"), "{errors:?}");
 }
 
-/// One letter for two names is told, unless only one of them may stand there.
+/// One letter for two names is an error, unless only one of them may stand there.
 #[test]
 fn a_letter_shown_for_two_names_is_refused() {
     let file = FILE.replace(
@@ -205,8 +206,8 @@ fn a_letter_shown_for_two_names_is_refused() {
     let file = file.replace("- Vmax", "- Vmax - a*x - e*x");
     let model = read(&file).unwrap().model;
     let mut pool = model.pool.clone();
-    let told = typed(&model, &mut pool, "q x").unwrap_err();
-    assert_eq!(told, ["`q` is shown for more than one name; write `a` or `g`"]);
+    let errors = typed(&model, &mut pool, "q x").unwrap_err();
+    assert_eq!(errors, ["`q` is shown for more than one name; write `a` or `g`"]);
     // `e` of the file is not Euler's number, and what is printed says so
     let own = typed(&model, &mut pool, "e^x").unwrap();
     let euler = typed(&model, &mut pool, "exp(x)").unwrap();
@@ -243,7 +244,7 @@ fn what_the_lab_prints_of_every_preset_can_be_typed() {
                 .collect();
             for text in [dotted, primed, pool.text(e)] {
                 let again = typed(&model, &mut pool, &text)
-                    .unwrap_or_else(|told| panic!("{}: {text}: {told:?}", entry.name));
+                    .unwrap_or_else(|errors| panic!("{}: {text}: {errors:?}", entry.name));
                 let difference = pool.sub(again, e);
                 let zero = pool.is_zero(difference);
                 assert_eq!(zero, Zero::Proved, "{}: {text}", entry.name);

@@ -92,9 +92,9 @@ fn orbit_b_of_henon_and_heiles_has_its_published_numbers() {
     let half = measure(&app, "trace").unwrap() / 2.0;
     let exponent = (half + (half * half - 1.0).sqrt()).ln() / measure(&app, "period").unwrap();
     assert!((exponent - 0.191_954_536_236_23).abs() < 1e-10, "{exponent}");
-    let told = legend(&app);
+    let message = legend(&app);
     for words in ["T = 6.9005994", "1 (flow), 1 (energy)", "unstable, residue −0.50665"] {
-        assert!(told.contains(words), "{words}: {told}");
+        assert!(message.contains(words), "{words}: {message}");
     }
     // the curve closes, and passes through the published start
     let curve = curve(&app).unwrap();

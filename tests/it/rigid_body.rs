@@ -339,27 +339,31 @@ fn its_names_follow_the_parameters_into_the_motion() {
         system.observer(&parameters).observe(&state, &mut values).expect("values");
         let right = -k * ratio / (zz + 3.0 * m * x * x);
         assert!((values[place] - right).abs() < 1e-14 * right.abs(), "{} {right}", values[place]);
-        let told = system.body_values(&parameters);
-        assert!((told[8].1 - moments[2]).abs() < 1e-14 * moments[2]);
+        let values = system.body_values(&parameters);
+        assert!((values[8].1 - moments[2]).abs() < 1e-14 * moments[2]);
     }
 }
 
 #[test]
 fn senseless_bodies_are_refused_at_their_place() {
-    let told = |pieces: &[Written<'_>]| {
+    let diagnostics_of = |pieces: &[Written<'_>]| {
         let model = with_body(names(&["x"], &[]), pieces);
         let equations = mechanics::derive(&model).expect("derivable");
         let found = structure_diagnostics(&model, &equations).into_iter();
         found.map(|m| (m.place, m.message)).collect::<Vec<_>>()
     };
     let ball = ("sphere", ["0.5", "0", "0"], "1", ["0"; 3], Turned::Not);
-    assert!(told(&[ball]).is_empty());
-    let negative = told(&[("cuboid", ["1", "-2", "1"], "1", ["0"; 3], Turned::Not), ball]);
+    assert!(diagnostics_of(&[ball]).is_empty());
+    let negative =
+        diagnostics_of(&[("cuboid", ["1", "-2", "1"], "1", ["0"; 3], Turned::Not), ball]);
     assert_eq!(negative, [(5..9, "a size of this piece is -2".to_owned())]);
     let hole = ("sphere", ["0.5", "0", "0"], "-1", ["1", "0", "0"], Turned::Not);
-    assert_eq!(told(&[ball, hole]), [(1..3, "the masses of this body sum to 0".to_owned())]);
+    assert_eq!(
+        diagnostics_of(&[ball, hole]),
+        [(1..3, "the masses of this body sum to 0".to_owned())]
+    );
     let still = ("rod", ["0", "1", "0"], "1", ["0"; 3], Turned::Axis(["0"; 3], "1"));
-    assert_eq!(told(&[still])[0].1, "the axis this piece is turned about has no length");
+    assert_eq!(diagnostics_of(&[still])[0].1, "the axis this piece is turned about has no length");
 }
 
 #[test]
@@ -459,8 +463,8 @@ fn a_free_body_keeps_its_angular_momentum_in_space() {
     });
     let mut equations = mechanics::derive(&model).expect("derivable");
     let classes = mechanics::classes(&model, &mut equations);
-    let told: Vec<Class> = classes.iter().map(|c| c.class).collect();
-    assert_eq!(told, [Class::Proved, Class::Proved, Class::Proved, Class::Changing]);
+    let found: Vec<Class> = classes.iter().map(|c| c.class).collect();
+    assert_eq!(found, [Class::Proved, Class::Proved, Class::Proved, Class::Changing]);
     assert_eq!(equations.is_conserved(norm), Some(Zero::Proved));
     let (f, g) = (norm, equations.pool.named("L1"));
     let why = mechanics::bracket(&model, &mut equations, f, g).expect_err("not of phase space");

@@ -386,8 +386,8 @@ fn enter_begins_at_the_cursor_or_says_why_not() {
     let [Effect::Tell(Command::Start(given))] = &effects[..] else { panic!("{effects:?}") };
     assert!(given.contains(&InitialOverride::Position(1, 0.1)) && given.len() == 4);
     assert_eq!(at(&mut app, [0.1, 0.7]), []);
-    let told = app.notifications.shown.take().expect("a reason").text;
-    assert!(told.contains("outside the region that the energy"), "{told}");
+    let message = app.notifications.shown.take().expect("a reason").text;
+    assert!(message.contains("outside the region that the energy"), "{message}");
 }
 
 #[test]

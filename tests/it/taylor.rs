@@ -65,6 +65,7 @@ impl Run {
 /// Asserts |value − expected| ≤ within, number by number.
 #[track_caller]
 pub(crate) fn near(values: &[f64], expected: &[f64], within: f64) {
+    assert!(!expected.is_empty() && values.len() >= expected.len(), "{values:?} {expected:?}");
     for (i, (a, b)) in values.iter().zip(expected).enumerate() {
         assert!((a - b).abs() <= within, "number {i}: {a} and {b} differ by {:e}", (a - b).abs());
     }

@@ -87,6 +87,22 @@ fn a_function_of_the_state_is_open_until_it_has_returned_by_half() {
     assert_eq!(word(0.55), "bounded");
 }
 
+/// A staircase never comes back, but its rest beside a line does: there and back once for each step.
+#[test]
+fn a_staircase_of_a_state_is_a_trend_from_seven_steps_on() {
+    let word = |steps: f64| {
+        let mut history = History::new();
+        for k in 0..=8192_u32 {
+            let time = f64::from(k) / 8192.0;
+            let phase = std::f64::consts::TAU * steps * time;
+            history.push(time, phase - phase.sin());
+        }
+        Verdict::of(&history, 0.0, 1e-9, Errors::OfState).word()
+    };
+    assert_eq!(word(6.0), "open");
+    assert_eq!(word(8.0), "secular");
+}
+
 /// Where errors accumulate it must have come back more often: three peaks and a part of the fourth make a way of seven
 /// times the swing.
 #[test]
@@ -422,4 +438,83 @@ fn a_drift_is_not_known_where_every_term_underflows() {
     assert_eq!(along_a_line(1e-170), ["unknown", "exact"]);
     // at rest in the middle nothing moves, and nothing underflows
     assert_eq!(along_a_line(0.0), ["exact", "exact"]);
+}
+
+/// A fall to y = 0 in this time from rest at 1, in the potential −k/y² with k = 1/(2 t²).
+fn fall(variable: &str, time: f64) -> String {
+    format!("{:e}/{variable}^2", 0.5 / (time * time))
+}
+
+/// From rest at 1 the kink of √|x| is passed after (4/3) √2. Every method stops where y = 0; as it is only known which of them come
+/// beyond the kink from trials that take a twentieth of the time longer, nothing is said of it where that comes before.
+#[test]
+fn a_method_is_called_to_pass_where_it_comes_a_twentieth_beyond() {
+    let kink = 4.0 / 3.0 * 2.0_f64.sqrt();
+    for (longer, passes) in [(1.03, false), (1.08, true)] {
+        let text = format!(
+            "title = \"Two\"\n[coordinates]\nx = {{ initial = 1 }}\ny = {{ initial = 1 }}\n[lagrangian]\n\
+             L = \"1/2*(x'^2 + y'^2) - sqrt(abs(x)) + {}\"\n",
+            fall("y", longer * kink)
+        );
+        let said = with_file(&text, &["run", "system.toml", "--method=dop853", "--until=6"]).text();
+        assert_eq!(said.contains("taylor passes it"), passes, "{longer}: {said}");
+    }
+}
+
+/// A pendulum in spherical coordinates swings through the pole after a quarter of its period, where tangent vectors have no limit.
+/// Where the motion continues for a hundredth of that time no collision lies there.
+#[test]
+fn a_pole_is_told_from_a_collision_where_the_motion_continues_a_hundredth_beyond() {
+    // the quarter of a period at amplitude 1: π/2 over the mean of 1 and cos ½
+    let (mut a, mut b) = (1.0_f64, 0.5_f64.cos());
+    for _ in 0..6 {
+        (a, b) = (f64::midpoint(a, b), (a * b).sqrt());
+    }
+    let quarter = std::f64::consts::FRAC_PI_2 / a;
+    for (longer, words) in [(1.005, "a collision or another"), (1.02, "a pole of the coordinates")]
+    {
+        let text = format!(
+            "title = \"A pole\"\n[coordinates]\nth = {{ initial = 1 }}\nf = {{ initial = 0 }}\nz = {{ initial = 1 }}\n\
+             [lagrangian]\nL = \"1/2*(th'^2 + sin(th)^2*f'^2 + z'^2) + cos(th) + {}\"\n",
+            fall("z", longer * quarter)
+        );
+        let said = with_file(&text, &["flow", "system.toml", "--until=3"]).text();
+        assert!(said.contains(words), "{longer}: {said}");
+    }
+}
+
+/// Beside a force of 1 that a constraint balances, one of 64 ε is rounding of its equations.
+#[test]
+fn a_multiplier_is_zero_below_sixty_four_units_of_what_constraints_balance() {
+    for (force, is_zero) in [(1.2e-14, true), (1.6e-14, false)] {
+        let text = format!(
+            "title = \"Held\"\n[coordinates]\nx = {{ initial = 0 }}\ny = {{ initial = 0 }}\nz = {{ initial = 0 }}\n\
+             [lagrangian]\nL = \"1/2*(x'^2 + y'^2 + z'^2) - {force:e}*x - y - 1/2*z^2\"\n\
+             [[constraints]]\nname = \"a\"\nexpression = \"x\"\n[[constraints]]\nname = \"b\"\nexpression = \"y\"\n"
+        );
+        let found = with_file(&text, &["equilibria", "system.toml", "--format=json"]).json();
+        let multipliers = &found["equilibria"][0]["multipliers"];
+        let expected = if is_zero { 0.0 } else { force };
+        assert_eq!(multipliers["lambda_a"].as_f64(), Some(expected), "{multipliers}");
+        assert_eq!(multipliers["lambda_b"].as_f64(), Some(1.0), "{multipliers}");
+    }
+}
+
+/// In the variables of a rotation every term of H has some twenty nodes.
+#[test]
+fn a_new_hamiltonian_is_written_up_to_ten_thousand_nodes() {
+    for (terms, is_written) in [(380, true), (600, false)] {
+        let sum: Vec<String> =
+            (1..=terms).map(|k| format!("{k}*sin({k}*x)*cos(p_x/{k})")).collect();
+        let text = format!(
+            "title = \"Long\"\n[coordinates]\nx = {{ initial = 0.3, momentum = 0.2 }}\n[hamiltonian]\n\
+             H = \"1/2*p_x^2 + {}\"\n[[transformations]]\nname = \"m\"\nkind = \"explicit\"\n\
+             Q = {{ Q = \"x*cos(1) + p_x*sin(1)\" }}\nP = {{ P = \"p_x*cos(1) - x*sin(1)\" }}\n",
+            sum.join(" + ")
+        );
+        let found = with_file(&text, &["derive", "system.toml", "--format=json"]).json();
+        let map = &found["transformations"][0];
+        assert_eq!(map["K"].is_string(), is_written, "{terms}: {}", map["why"]);
+        assert_eq!(map["K_of_old"].is_string(), !is_written, "{terms}: {}", map["why"]);
+    }
 }

@@ -25,8 +25,8 @@ use crate::system::{State, System};
 
 /// The most steps between two checks for the time and for signals, and the longest time between two checks: if steps
 /// are slow, fewer are taken.
-pub(super) const STEPS_PER_LOOK: u64 = 4096;
-const BETWEEN_LOOKS: Duration = Duration::from_millis(20);
+pub(super) const STEPS_PER_CHECK: u64 = 4096;
+const BETWEEN_CHECKS: Duration = Duration::from_millis(20);
 
 /// A run that is about to be written.
 pub(super) struct Run<'i> {
@@ -227,10 +227,10 @@ impl Run<'_> {
         loop {
             let begun = Instant::now();
             let progress = self.experiment.advance(time, self.steps);
-            self.steps = if begun.elapsed() > BETWEEN_LOOKS {
+            self.steps = if begun.elapsed() > BETWEEN_CHECKS {
                 (self.steps / 2).max(1)
             } else {
-                (self.steps * 2).min(STEPS_PER_LOOK)
+                (self.steps * 2).min(STEPS_PER_CHECK)
             };
             bar.show(self.experiment.time());
             // a step that a signal has cancelled is not a fault of the motion

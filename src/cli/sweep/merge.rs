@@ -2,7 +2,7 @@
 //!
 //! In: the files of all shards. Out: one file. Never here: rows computed.
 
-use std::io::{self, Write};
+use std::io;
 use std::path::{Path, PathBuf};
 
 use super::identity::{Identity, Shard};
@@ -60,9 +60,7 @@ pub(super) fn perform(paths: &[PathBuf], output: Option<&Path>) -> Result<(), Co
         text += &parts[row % of].rows[row / of];
         text.push('\n');
     }
-    let mut out = Output::open(output, OutputForm::Text)?;
-    out.write_all(text.as_bytes()).map_err(|error| out.failed(&error))?;
-    out.finish()
+    Output::open(output, OutputForm::Text)?.write_text(&text)
 }
 
 fn read(path: &Path) -> Result<ReadShard, CommandError> {

@@ -107,7 +107,7 @@ impl EquilibriumSearch<'_> {
     /// Whether the rates at a place are no more than rounding of it causes.
     fn rests(&mut self, variables: &[f64]) -> bool {
         let size = size_of(&self.in_units(variables));
-        let rates = self.look_in_units(variables);
+        let rates = self.equations_in_units(variables);
         rates.is_some_and(|(f, df)| f.amax() <= NEARLY_ZERO * size * df.amax())
     }
 

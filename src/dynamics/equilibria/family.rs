@@ -22,7 +22,7 @@ const VANISHES: f64 = 1e-6;
 /// Those of a kernel that is no larger than the family, which has its directions to all digits.
 const EXACT: f64 = 1e-8;
 
-/// How far along the kernel another zero is looked for, in the size of the place, and the least part of it that a zero moves away.
+/// How far along the kernel another zero is searched for, in the size of the place, and the least part of it that a zero moves away.
 const BESIDE: f64 = 0.02;
 const MOVED: f64 = 0.2;
 

@@ -55,13 +55,13 @@ impl EquilibriumSearch<'_> {
         if apart > NEAR * size {
             return false;
         }
-        let Some((f, df)) = self.look_in_units(known) else { return false };
+        let Some((f, df)) = self.equations_in_units(known) else { return false };
         let mut noise = 0.0_f64;
         for step in 1..=NOISE_SAMPLES {
             let mut there = known.to_vec();
             let moved = SAME * size * f64::from(step) / f64::from(NOISE_SAMPLES);
             self.unknowns.iter().for_each(|&i| there[i] += moved * self.units[i]);
-            let Some((g, _)) = self.look_in_units(&there) else { return false };
+            let Some((g, _)) = self.equations_in_units(&there) else { return false };
             let linear = &f + &df * DVector::from_element(df.ncols(), moved);
             noise = noise.max((g - linear).amax());
         }
@@ -70,7 +70,8 @@ impl EquilibriumSearch<'_> {
             && [0.25, 0.5, 0.75].into_iter().all(|part| {
                 let pairs = known.iter().zip(one);
                 let there: Vec<f64> = pairs.map(|(a, b)| a + part * (b - a)).collect();
-                self.look_in_units(&there).is_some_and(|(g, _)| g.amax() <= ABOVE_NOISE * noise)
+                self.equations_in_units(&there)
+                    .is_some_and(|(g, _)| g.amax() <= ABOVE_NOISE * noise)
             })
     }
 

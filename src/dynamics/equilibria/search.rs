@@ -123,7 +123,7 @@ impl<'a> EquilibriumSearch<'a> {
     }
 
     /// What must vanish and its derivatives, in the units of the variables.
-    pub(super) fn look_in_units(
+    pub(super) fn equations_in_units(
         &mut self,
         variables: &[f64],
     ) -> Option<(DVector<f64>, DMatrix<f64>)> {
@@ -205,7 +205,7 @@ impl<'a> EquilibriumSearch<'a> {
     /// Whether the rates fall away from a place in the direction in which they change most, as they do next to a pole, where they are
     /// as small a part of their derivative as at a zero.
     fn is_pole(&mut self, variables: &[f64]) -> bool {
-        let Some((f, df)) = self.look_in_units(variables) else { return true };
+        let Some((f, df)) = self.equations_in_units(variables) else { return true };
         let size = size_of(&self.in_units(variables));
         let steepest = (0..df.ncols())
             .max_by(|&a, &b| df.column(a).amax().total_cmp(&df.column(b).amax()))
@@ -214,7 +214,7 @@ impl<'a> EquilibriumSearch<'a> {
             let mut there = variables.to_vec();
             let i = self.unknowns[steepest];
             there[i] += side * BEYOND_ROUNDING * size * self.units[i];
-            self.look_in_units(&there).map_or(f64::INFINITY, |(g, _)| g.amax())
+            self.equations_in_units(&there).map_or(f64::INFINITY, |(g, _)| g.amax())
         });
         beside.into_iter().all(|g| g < f.amax())
     }
@@ -255,7 +255,7 @@ impl<'a> EquilibriumSearch<'a> {
         if self.unknowns.is_empty() {
             return None;
         }
-        let (mut f, mut df) = self.look_in_units(&variables)?;
+        let (mut f, mut df) = self.equations_in_units(&variables)?;
         let mut settled = 0;
         for _ in 0..STEPS {
             if self.space.system().cancel().is_cancelled() {
@@ -295,7 +295,7 @@ impl<'a> EquilibriumSearch<'a> {
             for (k, &i) in self.unknowns.iter().enumerate() {
                 there[i] += part * step[k] * self.units[i];
             }
-            match self.look_in_units(&there) {
+            match self.equations_in_units(&there) {
                 Some((g, dg)) if any || g.norm() < f.norm() => return Some((there, g, dg)),
                 _ if part < 1e-4 => return None,
                 _ => part *= 0.5,
@@ -323,7 +323,7 @@ impl<'a> EquilibriumSearch<'a> {
         &mut self,
         place: &DVector<f64>,
     ) -> Option<(DVector<f64>, DMatrix<f64>)> {
-        self.look_in_units(&self.unscaled(place))
+        self.equations_in_units(&self.unscaled(place))
     }
 
     /// Takes the place nearest to the start among its periods, with angles within half a turn of zero. Returns whether it is in reach.

@@ -39,7 +39,7 @@ const ABOVE_STEP: f64 = 8.0;
 /// A step is a part of the one before it where it converges linearly: that of a zero of order m is 1 − 1/m.
 const LINEAR: std::ops::Range<f64> = 0.4..0.999;
 
-/// The error of rates is looked for in so many places beside one, this far apart in its size, and counts so many times.
+/// The error of rates is searched for in so many places beside one, this far apart in its size, and counts so many times.
 const NOISE_SAMPLES: u32 = 8;
 const NOISE_DISTANCE: f64 = 1e-11;
 const ABOVE_NOISE: f64 = 64.0;

@@ -48,37 +48,37 @@ pub(super) struct Distance {
     pub(super) moving: f64,
 }
 
-/// The number of first looks, whose distances are deferred until there were …
-const FIRST_LOOKS: u32 = 64;
+/// The number of first observations, whose distances are deferred until there were …
+const FIRST_OBSERVATIONS: u32 = 64;
 
 /// … so many.
-const LOOKS_TO_KNOW: u32 = 2 * FIRST_LOOKS;
+const OBSERVATIONS_TO_KNOW: u32 = 2 * FIRST_OBSERVATIONS;
 
-/// The distances at the first looks. A motion that begins at rest moves little in its first steps, and the error of the first
+/// The distances at the first observations. A motion that begins at rest moves little in its first steps, and the error of the first
 /// may be as large as all that has moved: they are compared with what moves a few steps later.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Early {
-    looks: u32,
+    observations: u32,
     pub(super) distances: Vec<Distance>,
 }
 
 impl Early {
     /// That of a motion that has moved.
     pub(super) fn over() -> Early {
-        Early { looks: LOOKS_TO_KNOW + 1, distances: Vec::new() }
+        Early { observations: OBSERVATIONS_TO_KNOW + 1, distances: Vec::new() }
     }
 
     /// Whether what moves is just known.
     pub(super) fn is_known(&self) -> bool {
-        self.looks == LOOKS_TO_KNOW
+        self.observations == OBSERVATIONS_TO_KNOW
     }
 
-    /// Takes a look, with a distance if rounding does not explain it. Returns whether the distance is deferred.
+    /// Counts an observation, with a distance if rounding does not explain it. Returns whether the distance is deferred.
     pub(super) fn take(&mut self, distance: Option<Distance>) -> bool {
-        if self.looks < LOOKS_TO_KNOW {
-            self.looks += 1;
+        if self.observations < OBSERVATIONS_TO_KNOW {
+            self.observations += 1;
         }
-        let is_first = self.looks <= FIRST_LOOKS;
+        let is_first = self.observations <= FIRST_OBSERVATIONS;
         self.distances.extend(distance.filter(|_| is_first));
         is_first
     }

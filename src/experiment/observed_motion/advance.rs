@@ -37,7 +37,7 @@ impl ObservedMotion {
             {
                 self.watch.pending = false;
             }
-            self.look_at_step(gauges, spacing, new);
+            self.observe_step(gauges, spacing, new);
             match &reached {
                 Reached::Underway if *budget > 0 => continue,
                 Reached::Happened(occurrence) => self.record(occurrence)?,
@@ -79,7 +79,7 @@ impl ObservedMotion {
             let last = block.count - 1;
             let due = !dense(last) && block.times.0[last] >= *next;
             let count = if due { last } else { block.count };
-            terms.look_at_numbers(block.times, &block.numbers);
+            terms.evaluate_numbers(block.times, &block.numbers);
             if terms.are_regular(count) {
                 let ends = (0..count).map(|i| (sign * block.times.0[i], dense(i)));
                 gauges.steps(steps + 1, ends, terms);
@@ -92,7 +92,7 @@ impl ObservedMotion {
                 }
             }
             if due {
-                self.look_at_step(gauges, spacing, true);
+                self.observe_step(gauges, spacing, true);
             }
             self.log_step();
         }
@@ -103,7 +103,7 @@ impl ObservedMotion {
     /// and the method is as accurate there as at the ends. A state that cannot be observed is skipped; its error
     /// appears again when it is requested. Where events are searched for in several pieces of a step, its end is free of
     /// them only after the last.
-    fn look_at_step(&mut self, gauges: &mut Gauges, spacing: f64, new: bool) {
+    fn observe_step(&mut self, gauges: &mut Gauges, spacing: f64, new: bool) {
         let (begin, end) = self.inner.undisturbed();
         let steps = self.inner.steps();
         self.watch.pending |= new;
@@ -125,7 +125,7 @@ impl ObservedMotion {
             if self.inner.anywhere_inside(time, state).is_ok() && terms.observe(state) {
                 if due && self.observer.observe(state, values).is_ok() {
                     mark_lost(&mut self.lost, values);
-                    gauges.look_on_the_way(self.sign * time, steps, values, terms);
+                    gauges.observe_on_the_way(self.sign * time, steps, values, terms);
                 }
                 gauges.step(self.sign * time, steps, terms, false);
             }
@@ -137,7 +137,7 @@ impl ObservedMotion {
                 && self.observer.observe(state, values).is_ok()
             {
                 mark_lost(&mut self.lost, values);
-                gauges.look_on_the_way(self.sign * end, steps, values, terms);
+                gauges.observe_on_the_way(self.sign * end, steps, values, terms);
             }
             gauges.step(self.sign * end, steps, terms, !sparse);
         }

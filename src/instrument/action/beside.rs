@@ -19,7 +19,7 @@ use crate::system::ChannelKind;
 const MOST_STEP_ENDS: usize = 20_000;
 
 /// Where on the way a motion is held against one without the errors of its method.
-const LOOKS: [f64; 8] = [0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1.0];
+const PARTS: [f64; 8] = [0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1.0];
 
 /// The action beside a motion.
 pub(super) struct Beside {
@@ -92,7 +92,7 @@ pub(super) fn beside(
         _ => varied_action(lagrangian, &mut motion, coordinate, span),
     };
     let varied = varied.map_err(|why| why.to_string())?;
-    let times = LOOKS.map(|part| part * duration);
+    let times = PARTS.map(|part| part * duration);
     let exact = accurate(&flow).and_then(|exact| followed(&exact, &times));
     let method_errors = match exact.zip(motion(&times)) {
         None => [0.0; 2],

@@ -172,6 +172,28 @@ pub(super) fn old_variables(
 mod tests {
     use super::*;
 
+    /// Where steps have one length a jump is 30 times that, and where they are short a fourth of the whole.
+    #[test]
+    fn a_jump_is_long_beside_other_steps_and_beside_the_line() {
+        let up_and_down = |jump: f64| {
+            let high = |k: i32| if k < 50 { 0.0 } else { jump };
+            let line: Vec<[f64; 2]> = (0..100).map(|k| [0.0, f64::from(k % 2) + high(k)]).collect();
+            parted(&line).len()
+        };
+        // from 1 to the jump
+        assert_eq!(up_and_down(1.0 + 27.0), 1);
+        assert_eq!(up_and_down(1.0 + 33.0), 2);
+        let along = |part: f64| {
+            let jump = 0.999 * part / (1.0 - part);
+            let high = |k: i32| if k < 500 { 0.0 } else { jump };
+            let line: Vec<[f64; 2]> =
+                (0..1000).map(|k| [0.0, 0.001 * f64::from(k) + high(k)]).collect();
+            parted(&line).len()
+        };
+        assert_eq!(along(0.22), 1);
+        assert_eq!(along(0.28), 2);
+    }
+
     #[test]
     fn a_line_is_not_joined_across_a_jump() {
         let angle = |k: i32| [f64::from((k + 40) % 100), f64::from(k)];

@@ -4,7 +4,7 @@
 //! Never here: singular configurations of the motion itself.
 
 use super::Propagator;
-use super::constraint_watch::Trial;
+use super::trial::Trial;
 use crate::system::{Form, MotionError, MotionErrorKind};
 
 /// The number of times a step is halved around a place where the directions of the constraints are reversed. Directions that

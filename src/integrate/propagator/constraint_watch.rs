@@ -8,11 +8,9 @@
 
 use super::Propagator;
 use super::singularity_record::SingularityRecord;
-use crate::integrate::{Settings, Stepper, Stepping, StoppedMotion, initial_step, method_named};
-use crate::num::{DoubleDouble, math};
-use crate::system::{
-    ConstraintProjector, Directions, Form, MotionError, MotionErrorKind, Passage, State,
-};
+use crate::integrate::{Stepper, Stepping, StoppedMotion};
+use crate::num::math;
+use crate::system::{ConstraintProjector, Directions, Form, MotionError, MotionErrorKind, State};
 
 /// Between two samples whose directions have at least this cosine nothing has been passed.
 const CLOSE: f64 = 0.5;
@@ -33,25 +31,6 @@ const REGULAR: f64 = 0.1;
 
 /// … though the reference shrinks by this factor with each step, as a motion may become faster for good.
 const FORGETTING: f64 = 0.9999;
-
-/// A method that may pass a singular configuration is tried with about this many steps to it, …
-const STEPS_THERE: f64 = 50.0;
-
-/// … at most with this many, …
-const MOST_STEPS: u32 = 4000;
-
-/// … and once more with half the step: the results may differ by this part. It is also the part of the velocities by which
-/// the rates may change them in a step that no longer moves the clock, where another method may pass.
-const AGREES: f64 = 1e-3;
-
-/// A trial from the beginning of the motion goes beyond the place by this part of the time to it.
-const BEYOND: f64 = 0.05;
-
-/// A number that changes by less than this part of the largest of its kind is ignored.
-const NEGLIGIBLE: f64 = 1e-6;
-
-/// The number of step sizes tried, each a tenth of the one before.
-const STEPS_TRIED: u32 = 3;
 
 impl Propagator {
     /// The number of singular configurations passed, and the time of the first.
@@ -236,150 +215,6 @@ impl Propagator {
             || (self.stepper.at(begin, &mut origin).is_ok() && is_vast(&origin));
         grown.then(|| MotionErrorKind::OutOfRange(Some(name.clone())))
     }
-
-    /// Whether the motion stops where its rates grow without bound, as in a collision: over a step too small to move the
-    /// clock they still change its velocities. Another method only steps over it.
-    fn is_steep(&self, kind: &MotionErrorKind) -> bool {
-        let (MotionErrorKind::StepUnderflow(step), n) = (kind, self.system.degrees()) else {
-            return false;
-        };
-        let state = self.stepper.state();
-        let numbers: Vec<DoubleDouble> = (0..state.values.len()).map(|i| state.exact(i)).collect();
-        let mut rates = self.system.exact_rates();
-        rates.set_parameters(&self.system.inputs(&self.parameters));
-        if state.form != self.system.form()
-            || numbers.len() < 2 * n
-            || rates.evaluate(state.exact_time(), &numbers).is_err()
-        {
-            return false;
-        }
-        let change = (n..2 * n).map(|i| (rates.rate(i).high * step).abs()).fold(0.0, f64::max);
-        let size = (n..2 * n).map(|i| numbers[i].high.abs()).fold(0.0, f64::max);
-        change > AGREES * size
-    }
-
-    /// The initial states and end times of trials that pass a time at which the motion stops: from
-    /// nearby, and from the beginning of the motion.
-    fn around(&self, time: f64) -> Vec<(State, f64)> {
-        let mut ways = Vec::new();
-        for (from, part) in [(&self.watch.regular, 1.0), (&self.watch.begun, BEYOND)] {
-            let Some(from) = from else { continue };
-            let mut way = (part * (time - from.time)).max(2.0 * self.stepper.step_size());
-            if way == 0.0 && !self.method.locates_kinks {
-                // it begins on a kink that this method does not know, and has not taken a step
-                way = initial_step::of(&self.system, from, &self.parameters);
-            }
-            if way > 0.0 && time >= from.time && (time + way).is_finite() {
-                ways.push((from.clone(), time + way));
-            }
-        }
-        ways
-    }
-
-    /// Another method that passes a time, if there is one.
-    fn way_past(&mut self, time: f64) -> Option<Passage> {
-        let settings = Settings { step: None, tolerance: None };
-        for name in ["taylor", "dop853"] {
-            let method = method_named(name).filter(|method| method.name != self.method.name);
-            let Some(method) = method else { continue };
-            // from the beginning first: one that begins nearby may end before it comes to what stops the motion
-            for (from, until) in self.around(time).into_iter().rev() {
-                match self.trial(method, settings, &from, until) {
-                    Trial::Passed(_) => return Some(Passage { method: method.name, step: None }),
-                    Trial::Stopped => break,
-                    Trial::Unfinished => {}
-                }
-            }
-        }
-        if self.method.stepping == Stepping::Fixed { None } else { self.fixed_past(time) }
-    }
-
-    /// A fixed step with which the motion passes a time, if there is one.
-    fn fixed_past(&mut self, time: f64) -> Option<Passage> {
-        let method = method_named("rk4")?;
-        for (from, until) in self.around(time) {
-            let steps = (time - from.time) / STEPS_THERE;
-            let mut step = math::powi(10.0, math::log10(steps).floor() as i32);
-            for _ in 0..STEPS_TRIED {
-                let settings = |step| Settings { step: Some(step), tolerance: None };
-                let coarse = self.trial(method, settings(step), &from, until);
-                let fine = self.trial(method, settings(0.5 * step), &from, until);
-                if let (Trial::Passed(coarse), Trial::Passed(fine)) = (coarse, fine)
-                    && agree(&from, &coarse, &fine, self.system.degrees())
-                {
-                    return Some(Passage { method: method.name, step: Some(step) });
-                }
-                step *= 0.1;
-            }
-        }
-        None
-    }
-
-    /// Integrates the motion from a state to a time by a method.
-    pub(super) fn trial(
-        &mut self,
-        method: &'static crate::integrate::Method,
-        settings: Settings,
-        from: &State,
-        until: f64,
-    ) -> Trial {
-        self.integrated(method, settings, from, until).unwrap_or(Trial::Stopped)
-    }
-
-    /// The same; `None` where it stops.
-    fn integrated(
-        &mut self,
-        method: &'static crate::integrate::Method,
-        settings: Settings,
-        from: &State,
-        until: f64,
-    ) -> Option<Trial> {
-        let mut stepper = (method.make)(&self.system, &settings).ok()?;
-        stepper.start(from, &self.parameters).ok()?;
-        let mut state = from.clone();
-        for _ in 0..MOST_STEPS {
-            if stepper.time() >= until {
-                stepper.at(until, &mut state).ok()?;
-                return Some(Trial::Passed(state));
-            }
-            stepper.step(until).ok()?;
-            state.copy_from(stepper.state());
-            if let Some(logarithms) = &mut self.logarithms
-                && !logarithms.have_values(&state)
-            {
-                return None;
-            }
-            if let Some(projector) = &mut self.projector {
-                projector.project(&mut state).ok()?;
-                stepper.replace_state(&state);
-            }
-        }
-        Some(Trial::Unfinished)
-    }
-}
-
-/// How an integration by another method went.
-pub(super) enum Trial {
-    /// It reached this state beyond the place.
-    Passed(State),
-    /// It stopped too.
-    Stopped,
-    /// It took too many steps to find out.
-    Unfinished,
-}
-
-/// Whether two integrations from a state end at the same point. Numbers are compared relative to
-/// their change, and to the largest of their kind, since one may be nothing but rounding.
-fn agree(from: &State, coarse: &State, fine: &State, degrees: usize) -> bool {
-    let kinds = [0..degrees, degrees..(2 * degrees).min(from.values.len())];
-    kinds.into_iter().all(|kind| {
-        let apart = |x: &State, y: &State, i: usize| (x.values[i] - y.values[i]).abs();
-        let largest = kind.clone().map(|i| apart(fine, from, i)).fold(0.0, f64::max);
-        kind.clone().all(|i| {
-            let size = apart(fine, from, i).max(NEGLIGIBLE * largest);
-            apart(coarse, fine, i) <= AGREES * size
-        })
-    })
 }
 
 /// Samples the directions within a step.
@@ -417,35 +252,5 @@ impl DirectionSampler<'_> {
         let Some(there) = there else { return found.push(middle) };
         self.passages((begin, before), (middle, &there), halvings - 1, found);
         self.passages((middle, &there), (end, after), halvings - 1, found);
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn state(values: [f64; 4]) -> State {
-        State::new(0.0, Form::Velocity, values.to_vec())
-    }
-
-    #[test]
-    fn two_ways_agree_to_a_thousandth_of_what_moves() {
-        let from = state([0.0; 4]);
-        let agrees = |off: f64| {
-            let fine = state([1.0, 1.0, 2.0, 1.0]);
-            agree(&from, &state([1.0, 1.0, 2.0 * (1.0 + off), 1.0]), &fine, 2)
-        };
-        assert!(agrees(0.8e-3));
-        assert!(!agrees(1.2e-3));
-    }
-
-    #[test]
-    fn a_number_that_moves_by_less_than_a_millionth_is_noise() {
-        let from = state([0.0; 4]);
-        let agrees = |noise: f64| {
-            agree(&from, &state([1.0, noise, 1.0, 0.0]), &state([1.0, 0.0, 1.0, 0.0]), 2)
-        };
-        assert!(agrees(0.8e-9));
-        assert!(!agrees(1.2e-9));
     }
 }

@@ -19,8 +19,8 @@ const NEAR_THE_END: f64 = 0.98;
 /// all numbers do nothing limits the step, and it may be as much longer than what it passes over as these reach; else few
 /// suffice.
 const NEARER: f64 = std::f64::consts::FRAC_1_SQRT_2;
-const LOOKS: usize = 140;
-const FEW_LOOKS: usize = 8;
+const SAMPLES: usize = 140;
+const FEW_SAMPLES: usize = 8;
 
 /// The parts of a step where rates and slopes are compared.
 pub(super) fn parts(series: &Series) -> impl Iterator<Item = f64> + use<> {
@@ -31,8 +31,8 @@ pub(super) fn parts(series: &Series) -> impl Iterator<Item = f64> + use<> {
     let ending = (0..series.inputs()).filter(ends).count();
     let count = match ending {
         0 => 1,
-        _ if ending < series.inputs() => FEW_LOOKS,
-        _ => LOOKS,
+        _ if ending < series.inputs() => FEW_SAMPLES,
+        _ => SAMPLES,
     };
     std::iter::successors(Some(NEAR_THE_END), |part| Some(part * NEARER)).take(count)
 }

@@ -130,15 +130,26 @@ impl<'d> Table<'d> {
         self.absent.push((key, diagnostic));
     }
 
+    /// The value of a key that the schema has as one of this kind.
+    fn value<T>(
+        &mut self,
+        key: &'static str,
+        fits: impl Fn(ValueKind) -> bool,
+        read: fn(&Value<'d>, &str, &mut Diagnostics) -> Option<T>,
+        diagnostics: &mut Diagnostics,
+    ) -> Option<T> {
+        debug_assert!(self.agrees(key, fits), "{key} is of another kind in the schema");
+        let (_, found) = self.take(key)?;
+        read(found, &format!("`{key}`"), diagnostics)
+    }
+
     /// A text.
     pub(super) fn text(
         &mut self,
         key: &'static str,
         diagnostics: &mut Diagnostics,
     ) -> Option<Spanned<String>> {
-        debug_assert!(self.agrees(key, |kind| matches!(kind, ValueKind::Text)), "{key} is no text");
-        let (_, found) = self.take(key)?;
-        value::text(found, &format!("`{key}`"), diagnostics)
+        self.value(key, |kind| matches!(kind, ValueKind::Text), value::text, diagnostics)
     }
 
     /// A text for display on one line; empty if it is missing.
@@ -169,12 +180,7 @@ impl<'d> Table<'d> {
         key: &'static str,
         diagnostics: &mut Diagnostics,
     ) -> Option<Spanned<f64>> {
-        debug_assert!(
-            self.agrees(key, |kind| matches!(kind, ValueKind::Number)),
-            "{key} is not a number"
-        );
-        let (_, found) = self.take(key)?;
-        value::number(found, &format!("`{key}`"), diagnostics)
+        self.value(key, |kind| matches!(kind, ValueKind::Number), value::number, diagnostics)
     }
 
     /// A number or an expression in quotes.
@@ -183,12 +189,7 @@ impl<'d> Table<'d> {
         key: &'static str,
         diagnostics: &mut Diagnostics,
     ) -> Option<Formula> {
-        debug_assert!(
-            self.agrees(key, |kind| matches!(kind, ValueKind::Formula)),
-            "{key} is no formula"
-        );
-        let (_, found) = self.take(key)?;
-        value::formula(found, &format!("`{key}`"), diagnostics)
+        self.value(key, |kind| matches!(kind, ValueKind::Formula), value::formula, diagnostics)
     }
 
     /// `true` or `false`.
@@ -197,9 +198,7 @@ impl<'d> Table<'d> {
         key: &'static str,
         diagnostics: &mut Diagnostics,
     ) -> Option<Spanned<bool>> {
-        debug_assert!(self.agrees(key, |kind| matches!(kind, ValueKind::Flag)), "{key} is no flag");
-        let (_, found) = self.take(key)?;
-        value::flag(found, &format!("`{key}`"), diagnostics)
+        self.value(key, |kind| matches!(kind, ValueKind::Flag), value::flag, diagnostics)
     }
 
     /// The items of a list; empty if the key is missing.

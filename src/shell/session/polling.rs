@@ -20,7 +20,7 @@ impl Session {
             && let Some(name) = self.app.loading().filter(|name| is_path(name))
         {
             // The file has changed while it was being loaded.
-            if let Some(FileChange::Text { .. }) = watch.look(Path::new(name), elapsed) {
+            if let Some(FileChange::Text { .. }) = watch.poll(Path::new(name), elapsed) {
                 info!("load {name} again");
                 self.loader.load(name.to_owned());
             }
@@ -30,7 +30,7 @@ impl Session {
             && let Some(name) = self.app.failed_system().filter(|name| is_path(name))
         {
             // This file could not be loaded at all.
-            let Some(FileChange::Text { .. }) = watch.look(Path::new(name), elapsed) else {
+            let Some(FileChange::Text { .. }) = watch.poll(Path::new(name), elapsed) else {
                 return false;
             };
             let effects = self.app.again();
@@ -41,7 +41,7 @@ impl Session {
         let Some((watch, place)) = self.watch.as_mut().zip(self.app.file().filter(|_| open)) else {
             return false;
         };
-        match watch.look(&place, elapsed) {
+        match watch.poll(&place, elapsed) {
             None => return false,
             Some(FileChange::Gone) => {
                 info!("{} is gone", place.display());

@@ -36,7 +36,7 @@ pub(super) struct Encoder {
     clear: bool,
     /// Cells that did not fit in earlier frames, by row and column.
     pending: BTreeMap<(u16, u16), Cell>,
-    /// The first of them to be written in the next frame.
+    /// Where the next frame begins with them: at the first of them from here on.
     next: (u16, u16),
     cursor: Option<Position>,
 }
@@ -120,7 +120,8 @@ impl Encoder {
         best.map(|(_, index)| index)
     }
 
-    /// Writes the remaining cells, starting where the last frame stopped and wrapping around.
+    /// Writes pending cells in the order of rows: from the top after a frame that they did not fit in, then from the first that
+    /// the next frame had no room for either, wrapping around.
     fn write_pending(&mut self) -> io::Result<()> {
         let behind = self.pending.split_off(&self.next);
         let before = std::mem::take(&mut self.pending);

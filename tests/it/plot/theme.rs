@@ -4,6 +4,8 @@ use phaselab::view::colour::{ColourDepth, Rgb};
 use phaselab::view::theme::{CURVES, PALETTES, Palette, Role, Shade, Theme};
 use ratatui::style::{Color, Style};
 
+use crate::nonempty;
+
 const COLOURFUL: [ColourDepth; 3] = [ColourDepth::Ansi16, ColourDepth::Ansi256, ColourDepth::True];
 
 /// Every style a theme can give.
@@ -130,7 +132,7 @@ fn a_depth_is_never_exceeded() {
     for palette in &PALETTES {
         for depth in COLOURFUL {
             let theme = Theme::new(palette, depth);
-            for colour in styles(&theme).into_iter().filter_map(|style| style.fg) {
+            for colour in nonempty(styles(&theme).into_iter().filter_map(|style| style.fg)) {
                 let fits = match depth.min(palette.most) {
                     ColourDepth::True => matches!(colour, Color::Rgb(..) | Color::Reset),
                     ColourDepth::Ansi256 => matches!(colour, Color::Indexed(16..) | Color::Reset),

@@ -20,12 +20,13 @@ fn messages(allowed: Allowed, place: &str, text: &str) -> Vec<String> {
     let mut scope = Scope::new(&model, allowed, place);
     let read = scope.read(&mut model.pool, text);
     assert_eq!(read.is_none(), !scope.diagnostics.is_empty());
-    let told = scope.diagnostics.iter();
-    told.map(|m| match &m.help {
-        Some(help) => format!("{}..{} {m}; {help}", m.span.start, m.span.end),
-        None => format!("{}..{} {m}", m.span.start, m.span.end),
-    })
-    .collect()
+    let errors = scope.diagnostics.iter();
+    errors
+        .map(|m| match &m.help {
+            Some(help) => format!("{}..{} {m}; {help}", m.span.start, m.span.end),
+            None => format!("{}..{} {m}", m.span.start, m.span.end),
+        })
+        .collect()
 }
 
 #[test]

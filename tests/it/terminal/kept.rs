@@ -144,7 +144,7 @@ fn a_disk_that_is_full_at_the_end_is_reported() {
 
 #[test]
 fn a_configured_resume_of_what_cannot_be_understood_opens_all_the_same() {
-    for (text, told, stays) in [
+    for (text, shown, stays) in [
         ("version = 9\n", "newer phaselab", true),
         ("version = ]\n", "cannot be understood", false),
         ("", "running", false),
@@ -155,9 +155,9 @@ fn a_configured_resume_of_what_cannot_be_understood_opens_all_the_same() {
         let setup = Setup::new(PROGRAM, &[]).size(160, 40).variable("XDG_STATE_HOME", state.path());
         let mut lab = setup.variable("PHASELAB_RESUME", "true").start();
         lab.shows("Systems");
-        if told != "running" {
+        if shown != "running" {
             // it goes by itself, so it is waited for where it is first seen
-            lab.shows(told);
+            lab.shows(shown);
         }
         lab.press("\r");
         lab.shows("running");
