@@ -22,7 +22,8 @@ use crate::system::{MotionError, MotionErrorKind, Saltation, State, System};
 /// A motion changes within as many steps as these, also where they are short.
 const STEPS: f64 = 100.0;
 
-/// A vanishing step may lead over a singular place where it moves the clock, or every number of the motion, by at most so many of its last digits.
+/// A vanishing step may lead over a singular place where it moves the clock, or every number of the motion, by at most so many
+/// of its last digits.
 const DIGITS: f64 = 1024.0;
 
 /// The vectors alone make steps vanish where those of the bare motion are longer by this factor.
