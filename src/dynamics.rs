@@ -6,6 +6,7 @@
 
 mod action;
 mod amplified_rounding;
+mod bare_motion;
 mod carrier;
 mod casimirs;
 mod conformal;
@@ -49,6 +50,7 @@ mod orbit_units;
 mod path_search;
 mod phase_space;
 mod principle;
+mod regular_step;
 mod resonance;
 mod return_growth;
 mod rotation;
@@ -69,8 +71,10 @@ mod transverse;
 mod turning;
 mod unclosed_motion;
 mod unit_circle;
+mod unresolved_lines;
 mod variation;
 mod virtual_work;
+mod wandering;
 
 pub use action::{Lagrangian, Path};
 pub use carrier::Carrier;

@@ -8,19 +8,29 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::bare_motion::BareMotion;
 use super::error::DynamicsError;
 use super::phase_space::PhaseSpace;
+use super::regular_step::RegularStep;
 use super::tangent_step::{TangentStates, TangentStep, vectors_of};
 use crate::integrate::{
     Method, OccurrenceKind, Propagator, Reached, Settings, Stepper, Stepping, StoppedMotion,
+    spacing,
 };
 use crate::system::{MotionError, MotionErrorKind, Saltation, State, System};
 
 /// A motion changes within as many steps as these, also where they are short.
 const STEPS: f64 = 100.0;
 
-/// A motion continues where it goes on for this part of the time that it has lasted.
-const BEYOND: f64 = 1e-2;
+/// A vanishing step may lead over a singular place where it moves the clock, or every number of the motion, by at most so many
+/// of its last digits.
+const DIGITS: f64 = 1024.0;
+
+/// The vectors alone make steps vanish where those of the bare motion are longer by this factor.
+const LONGER: f64 = 1e3;
+
+/// A step of at most so many digits of the time is limited by these.
+const COARSE: f64 = 64.0;
 
 /// A motion with tangent vectors, in steps of a method. Under a method of fixed step the vectors
 /// are those of the method's own map.
@@ -34,9 +44,12 @@ pub struct Carrier {
     stepper: Box<dyn Stepper>,
     /// The motion where impulses act or constraints hold, in place of the stepper.
     jumping: Option<Jumping>,
-    /// Where the motion began that the stepper follows: its vectors may have been renewed since.
+    /// Where the motion began: its vectors may have been renewed since.
     begun: Option<State>,
     steps: u64,
+    regular_step: RegularStep,
+    /// Whether steps vanish, and it is known that those of the motion itself do.
+    is_singular: bool,
 }
 
 /// A motion with impulses, or under constraints.
@@ -55,6 +68,8 @@ struct Jumping {
     step: f64,
     /// Whether more may happen at the time that was reached.
     pending: bool,
+    /// Whether something happened at the end of the last step.
+    is_cut: bool,
     /// The product of the determinants of all impulses.
     determinant: f64,
 }
@@ -95,12 +110,24 @@ impl Carrier {
                 since: 0.0,
                 step: 0.0,
                 pending: false,
+                is_cut: false,
                 determinant: 1.0,
             });
         }
         let states = TangentStates::new(space, &system);
-        let (space, begun, steps) = (space.clone(), None, 0);
-        Ok(Carrier { space, system, states, method, settings, stepper, jumping, begun, steps })
+        Ok(Carrier {
+            space: space.clone(),
+            system,
+            states,
+            method,
+            settings,
+            stepper,
+            jumping,
+            begun: None,
+            steps: 0,
+            regular_step: RegularStep::default(),
+            is_singular: false,
+        })
     }
 
     /// Starts at a state of the space, with the columns of `vectors`.
@@ -115,8 +142,8 @@ impl Carrier {
             self.settings.step = Some(self.stepper.step_size().abs());
             self.stepper = (self.method.make)(&self.system, &self.settings)?;
         }
+        let goes_on = self.begun.is_some() && full.time == self.time();
         let Some(jumping) = &mut self.jumping else {
-            let goes_on = self.begun.is_some() && full.time == self.stepper.time();
             self.stepper.start(&full, self.space.parameters())?;
             if !goes_on {
                 self.begun = Some(full);
@@ -136,52 +163,49 @@ impl Carrier {
         jumping.span = (full.time, full.time);
         jumping.pending = false;
         jumping.since = full.time;
+        self.begun = Some(full);
         Ok(())
     }
 
     /// Takes one step towards `limit`.
     ///
     /// # Errors
-    /// Returns an error if the motion cannot continue, or was cancelled.
+    /// Returns an error if the motion cannot continue, was cancelled, or has passed where its vectors have no limit.
     pub fn step(&mut self, limit: f64) -> Result<(), MotionError> {
         if self.system.cancel().is_cancelled() {
             let state = self.stepper.state();
-            let kind = crate::system::MotionErrorKind::Cancelled;
-            return Err(self.system.fault(kind, state.time, &state.values));
+            return Err(self.system.fault(MotionErrorKind::Cancelled, state.time, &state.values));
         }
         self.steps += 1;
-        let Some(jumping) = &mut self.jumping else {
-            return self.stepper.step(limit).map_err(|fault| self.explained(fault));
+        let outcome = match &mut self.jumping {
+            None => self.stepper.step(limit),
+            Some(jumping) => jumping.step(&self.space, &self.system, limit),
         };
-        let begin = jumping.span.1;
-        let reached = jumping.motion.reach(limit, limit, &mut 1)?;
-        jumping.pending = reached != Reached::There;
-        match reached {
-            Reached::There | Reached::Underway => jumping.step = jumping.motion.step_size(),
-            Reached::Happened(found) => match found.kind {
-                OccurrenceKind::Mark | OccurrenceKind::Crossing(_) => {}
-                OccurrenceKind::Impulse { .. } => {
-                    jumping.jump(&self.space, &self.system, &found.name)?;
-                }
-                OccurrenceKind::Stop | OccurrenceKind::Release(_) => {
-                    let kind = MotionErrorKind::Ended(found.name);
-                    let state = jumping.motion.state();
-                    return Err(self.system.fault(kind, found.time, &state.values));
-                }
-            },
-            Reached::Ended => {
-                let state = jumping.motion.computed();
-                let kind = MotionErrorKind::Ended("an event".to_owned());
-                return Err(self.system.fault(kind, state.time, &state.values));
-            }
+        match outcome {
+            Ok(()) => self.check_vectors(limit),
+            Err(fault) => Err(self.explained(fault)),
         }
-        jumping.span = (begin, jumping.motion.undisturbed().1);
-        Ok(())
     }
 
-    /// An error where a motion stops that meets no impulse: one that reaches infinity is reported as such, and one whose vectors
-    /// alone stop it.
-    fn explained(&self, fault: MotionError) -> MotionError {
+    /// An error where a motion stops: one whose vectors alone stop it is reported as such, and one that reaches infinity.
+    fn explained(&mut self, fault: MotionError) -> MotionError {
+        let is_vanishing = matches!(
+            fault.kind,
+            MotionErrorKind::StepUnderflow(_) | MotionErrorKind::ClockStands(_)
+        );
+        if is_vanishing && let Some(step) = self.bare().and_then(|bare| bare.step_over(fault.time))
+        {
+            let digits = spacing(fault.time);
+            let kind = if step <= COARSE * digits {
+                MotionErrorKind::ClockStands(digits)
+            } else {
+                MotionErrorKind::NoDerivative
+            };
+            return MotionError { kind, ..fault };
+        }
+        if let Some(jumping) = &mut self.jumping {
+            return jumping.motion.explained(fault);
+        }
         let stopped = StoppedMotion {
             system: &self.system,
             method: self.method,
@@ -190,30 +214,68 @@ impl Carrier {
             begun: self.begun.as_ref(),
         };
         let cause = stopped.blow_up(&fault).or_else(|| stopped.beyond_the_clock(&fault));
-        cause.or_else(|| self.stopped_by_vectors(&fault)).unwrap_or(fault)
+        cause.unwrap_or(fault)
     }
 
-    /// The error of a motion that continues without its vectors, as at the pole of spherical coordinates.
-    fn stopped_by_vectors(&self, fault: &MotionError) -> Option<MotionError> {
-        let begun = self.begun.as_ref()?;
-        let lasted = fault.time - begun.time;
-        let vanishing = matches!(fault.kind, MotionErrorKind::StepUnderflow(_));
-        if !vanishing || lasted == 0.0 {
-            return None;
+    /// Returns an error if the last step has led over a place where the vectors have no limit, as a pole of spherical
+    /// coordinates: it is shorter than rounding lets anything be known there, while the motion itself has long steps.
+    fn check_vectors(&mut self, limit: f64) -> Result<(), MotionError> {
+        if self.method.stepping == Stepping::Fixed {
+            return Ok(());
         }
-        let plain = self.space.system();
-        let mut alone = (self.method.make)(plain, &self.settings).ok()?;
-        alone.start(&plain.extended(begun, &self.system), self.space.parameters()).ok()?;
-        let beyond = fault.time + BEYOND * lasted;
-        // without vectors the steps are no shorter
-        for _ in 0..=2 * self.steps {
-            alone.step(beyond).ok()?;
-            if alone.time() == beyond {
-                let kind = MotionErrorKind::NoDerivative;
-                return Some(MotionError { kind, ..fault.clone() });
-            }
+        let (begin, end) = self.interval();
+        let is_cut = self.jumping.as_ref().is_some_and(|jumping| jumping.is_cut);
+        let step = self.last_step();
+        if end == limit || end == begin || is_cut || self.awaits_occurrence() {
+            return Ok(());
         }
-        None
+        let is_vanishing = self.regular_step.vanishes_with(step);
+        if !is_vanishing {
+            self.is_singular = false;
+        }
+        if !is_vanishing || self.is_singular || !self.is_within_digits(begin, end)? {
+            return Ok(());
+        }
+        let over = self.bare().and_then(|bare| bare.step_over(begin));
+        if over.is_some_and(|over| over > LONGER * step) {
+            let state = self.inside(begin)?;
+            return Err(self.system.fault(MotionErrorKind::NoDerivative, begin, &state.values));
+        }
+        self.is_singular = true;
+        Ok(())
+    }
+
+    /// The length of the last step: the rest of one in which something happened is shorter.
+    fn last_step(&self) -> f64 {
+        let (begin, end) = self.interval();
+        let size = match &self.jumping {
+            None => self.stepper.step_size(),
+            Some(jumping) => jumping.motion.step_size(),
+        };
+        (end - begin).abs().max(size.abs())
+    }
+
+    /// Whether the last step moves the clock or every number of the motion by a few of its last digits only.
+    fn is_within_digits(&mut self, begin: f64, end: f64) -> Result<bool, MotionError> {
+        if (end - begin).abs() <= DIGITS * spacing(end) {
+            return Ok(true);
+        }
+        let (before, after) = (self.inside(begin)?, self.inside(end)?);
+        let moving = self.system.moving();
+        let mut pairs = before.values.iter().zip(&after.values).take(moving);
+        Ok(pairs.all(|(x, y)| (x - y).abs() <= DIGITS * spacing(x.abs().max(y.abs()))))
+    }
+
+    /// The same motion without its vectors.
+    fn bare(&self) -> Option<BareMotion<'_>> {
+        Some(BareMotion {
+            space: &self.space,
+            method: (self.method, self.settings),
+            begun: self.begun.as_ref()?,
+            carried_by: &self.system,
+            jumps: self.jumping.is_some(),
+            steps: 2 * self.steps,
+        })
     }
 
     /// The product of the determinants of the derivatives of all impulses since the start.
@@ -306,6 +368,30 @@ impl TangentStep for Carrier {
 }
 
 impl Jumping {
+    /// Takes one step towards `limit`, or goes on to what happens before.
+    fn step(&mut self, space: &PhaseSpace, system: &System, limit: f64) -> Result<(), MotionError> {
+        let begin = self.span.1;
+        let reached = self.motion.reach_unexplained(limit, limit, &mut 1)?;
+        self.pending = reached != Reached::There;
+        self.is_cut = matches!(reached, Reached::Happened(_));
+        let ended = |name: String, state: &State| {
+            Err(system.fault(MotionErrorKind::Ended(name), state.time, &state.values))
+        };
+        match reached {
+            Reached::There | Reached::Underway => self.step = self.motion.step_size(),
+            Reached::Happened(found) => match found.kind {
+                OccurrenceKind::Mark | OccurrenceKind::Crossing(_) => {}
+                OccurrenceKind::Impulse { .. } => self.jump(space, system, &found.name)?,
+                OccurrenceKind::Stop | OccurrenceKind::Release(_) => {
+                    return ended(found.name, self.motion.state());
+                }
+            },
+            Reached::Ended => return ended("an event".to_owned(), self.motion.computed()),
+        }
+        self.span = (begin, self.motion.undisturbed().1);
+        Ok(())
+    }
+
     /// Carries the vectors through the impulse that has just acted on the state.
     fn jump(&mut self, space: &PhaseSpace, system: &System, name: &str) -> Result<(), MotionError> {
         let (Some(impulse), Some(saltation)) = (self.motion.last_impulse(), &mut self.saltation)

@@ -9,6 +9,7 @@ use super::error::DynamicsError;
 use super::lyapunov::{Lyapunov, exponents, lyapunov};
 use super::lyapunov_course::{CarriedMotion, LyapunovCourse};
 use super::phase_space::PhaseSpace;
+use super::regular_step::RegularStep;
 use super::tangent_step::{TangentStates, TangentStep};
 use crate::integrate::{
     BatchPropagator, Follower, LaneStatus, Method, OrbitCourse, Settings, Stepping, side_by_side,
@@ -80,6 +81,7 @@ struct LyapunovLane {
     course: LyapunovCourse,
     states: TangentStates,
     steps: u64,
+    regular_step: RegularStep,
 }
 
 /// Motions that are followed side by side.
@@ -111,16 +113,23 @@ impl Follower for ExponentsTogether<'_> {
         if batch.begin(lane, &full, space.parameters()) != LaneStatus::Underway {
             return OrbitCourse::Over;
         }
-        self.lanes[lane] = Some(LyapunovLane { course, states, steps: 0 });
+        self.lanes[lane] =
+            Some(LyapunovLane { course, states, steps: 0, regular_step: RegularStep::default() });
         OrbitCourse::Until(*until)
     }
 
     fn observe(&mut self, orbit: usize, lane: usize, batch: &mut BatchPropagator) -> OrbitCourse {
         let LyapunovOrbit { space, until, .. } = &self.orbits[orbit];
-        let Some(LyapunovLane { course, states, steps }) = &mut self.lanes[lane] else {
+        let Some(LyapunovLane { course, states, steps, regular_step }) = &mut self.lanes[lane]
+        else {
             return OrbitCourse::Over;
         };
         *steps += 1;
+        // the motion alone says what lies there
+        let (begin, end) = batch.interval(lane);
+        if end != *until && regular_step.vanishes_with((end - begin).abs()) {
+            return OrbitCourse::Over;
+        }
         let mut step = LaneStep { batch: &mut *batch, lane, states: &mut *states };
         let Ok(renewed) = course.observe(space, &mut step) else { return OrbitCourse::Over };
         if batch.state(lane).time >= *until {

@@ -11,6 +11,7 @@
 
 use std::f64::consts::TAU;
 
+use super::wandering::{Wandering, parts_apart};
 use crate::num::{birkhoff_average, math, short};
 
 /// The fewest crossings of which a rotation number is given.
@@ -26,8 +27,7 @@ const SPREAD: f64 = 1e-9;
 const CONVERGED: f64 = 0.05;
 
 /// It does not, as in chaos, if they differ by more than this over the root of that number, as means of random numbers do.
-/// Of 160 orbits of Hénon and Heiles' system with 60 crossings, two of 24 regular ones without a rotation number yet are
-/// above it, and three of four of the chaotic ones.
+/// Regular ones without a rotation number yet may be above it: those that do not wander are not called chaotic.
 const RANDOM: f64 = 0.25;
 
 /// What turns.
@@ -87,6 +87,21 @@ pub fn rotation(points: &[[f64; 2]], periods: [Option<f64>; 2]) -> Result<Rotati
     if points.iter().flatten().any(|x| !x.is_finite()) {
         return Err(NoRotation::NotFinite);
     }
+    let found = turned(points, periods);
+    let Err(NoRotation::AllTurns | NoRotation::Diverges(_)) = found else { return found };
+    // turns around a middle that an orbit does not enclose are no smooth function of where it is
+    let wandering = Wandering::of(points, periods);
+    if wandering.is_random {
+        found
+    } else if wandering.apart * points.len() as f64 > CONVERGED {
+        Err(NoRotation::Undecided(wandering.apart))
+    } else {
+        Err(NoRotation::NotAround)
+    }
+}
+
+/// The rotation number by the average turn alone.
+fn turned(points: &[[f64; 2]], periods: [Option<f64>; 2]) -> Result<Rotation, NoRotation> {
     let round = (0..2).find_map(|axis| Some((axis, periods[axis].filter(|p| *p > 0.0)?)));
     if let Some((axis, period)) = round
         && extent(points, axis) >= period
@@ -120,14 +135,9 @@ pub fn angle_rotation(angle: &[f64], period: f64) -> Result<Rotation, NoRotation
 }
 
 fn averaged(turns: &[f64], turning: Turning) -> Result<Rotation, NoRotation> {
-    let (count, half) = (turns.len(), turns.len() / 2);
-    let quarter = (count - half) / 2;
-    let number = birkhoff_average(turns);
-    let [first, middle, last] =
-        [0, quarter, count - half].map(|from| birkhoff_average(&turns[from..from + half]));
-    let apart = (first - middle).abs().max((middle - last).abs()).max((first - last).abs());
+    let (number, apart) = (birkhoff_average(turns), parts_apart(turns));
     let error = apart.max(f64::EPSILON * number.abs());
-    let count = count as f64;
+    let count = turns.len() as f64;
     if error * count > CONVERGED {
         let random = error * count.sqrt() > RANDOM;
         return Err(if random {

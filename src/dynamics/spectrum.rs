@@ -13,6 +13,7 @@ use std::f64::consts::TAU;
 
 use super::spectral_fit::{SpectralFit, Wave};
 use super::spectral_line::SpectralLine;
+use super::unresolved_lines::UnresolvedLines;
 use crate::mechanics::Equations;
 use crate::model::Model;
 use crate::num::birkhoff_average;
@@ -23,6 +24,9 @@ const FAINTEST: f64 = 1e-12;
 
 /// Lines closer than this many turns in the whole time are one that is not a line.
 const APART: f64 = 1.5;
+
+/// So many times as many lines as are wanted are tried: some are not told apart from others.
+const TRIES: usize = 2;
 
 /// Where what is left beside a line is looked at, as parts of that.
 const BESIDE: [f64; 6] = [-1.0, -0.67, -0.33, 0.33, 0.67, 1.0];
@@ -164,18 +168,23 @@ fn fitted(
     let mut fit = SpectralFit::new(signal, spacing, degree);
     fit.polish(1);
     let (mut curve, mut turns, mut slowest) = (Vec::new(), None, f64::INFINITY);
-    for count in 0..most {
+    let mut beside = UnresolvedLines::default();
+    for _ in 0..TRIES * most {
         let left = fit.left();
         let transform = fit.transform(&left);
-        if count == 0 {
+        if curve.is_empty() {
             curve.clone_from(&transform);
         }
-        let Some(at) = fit.strongest(&left, &transform) else { break };
+        let free = beside.masked(&transform, fit.length());
+        let Some(at) = fit.strongest(&left, &free) else { break };
         let strongest = fit.lines.iter().map(Wave::amplitude).fold(0.0, f64::max);
-        let near = |line: &Wave| (line.frequency - at).abs() < APART * TAU / fit.length();
         let amplitude = fit.amplitude(&left, at);
-        if amplitude <= FAINTEST * strongest.max(fit.size) || fit.lines.iter().any(near) {
+        if amplitude <= FAINTEST * strongest.max(fit.size) {
             break;
+        }
+        if fit.lines.iter().any(|line| (line.frequency - at).abs() < APART * TAU / fit.length()) {
+            beside.add(at, amplitude);
+            continue;
         }
         // where there are no lines the first one goes anywhere
         slowest = slowest.min(at * fit.length() / TAU);
@@ -186,17 +195,18 @@ fn fitted(
         let fewest = fit.lines.iter().map(turned).fold(f64::INFINITY, f64::min);
         slowest = slowest.min(fewest);
         if fit.has_merged() {
-            // what has no lines makes those that were found run into each other
+            // those that were found run into each other
             (fit.lines, fit.mean, fit.trend) = before;
-            break;
+            beside.add(at, amplitude);
+            continue;
         }
         if fewest < least {
             // a line that has made no turn is none
-            turns = (count == 0).then_some(fewest);
+            turns = before.0.is_empty().then_some(fewest);
             (fit.lines, fit.mean, fit.trend) = before;
             break;
         }
-        if !look(count + 1) {
+        if !look(fit.lines.len()) || fit.lines.len() == most {
             break;
         }
     }

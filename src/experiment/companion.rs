@@ -133,12 +133,37 @@ impl CompanionMotion {
 
     /// Begins at a state. Nothing of what was recorded remains.
     pub(super) fn begin(&mut self, state: Result<State, MotionError>) {
-        let time = state.as_ref().map_or(0.0, |state| state.time);
+        self.clear(state.as_ref().map_or(0.0, |state| state.time));
+        self.carry_on_from(state, true);
+    }
+
+    /// Begins on the way: at a state of a motion that began at `start`, from which impulses are counted, with these constraints
+    /// released and, if steps are fixed, with this step.
+    pub(super) fn begin_underway(
+        &mut self,
+        state: &State,
+        step: f64,
+        (start, released): (f64, &[usize]),
+    ) {
+        self.clear(state.time);
+        let begun = if step == 0.0 {
+            self.motion.restore(state, &self.parameters, start, released)
+        } else {
+            self.motion.restore_with_step(state, step, (start, released))
+        };
+        self.note_begun(begun);
+    }
+
+    fn clear(&mut self, time: f64) {
         self.recorder.restart(time);
         self.crossings.clear();
         self.separation = Arc::default();
         self.due.clear();
-        self.carry_on_from(state, true);
+    }
+
+    fn note_begun(&mut self, begun: Result<(), MotionError>) {
+        self.take_observer();
+        self.message = begun.and_then(|()| self.observe()).err().map(|fault| fault.to_string());
     }
 
     /// Goes on from a state, with its parameters.
@@ -150,8 +175,7 @@ impl CompanionMotion {
                 self.motion.go_on(&state, &self.parameters)
             }
         });
-        self.take_observer();
-        self.message = begun.and_then(|()| self.observe()).err().map(|fault| fault.to_string());
+        self.note_begun(begun);
     }
 
     /// Takes other parameters; q and p stay.

@@ -61,7 +61,7 @@ impl Experiment {
         let origin = CompanionOrigin::Neighbour(sizes.iter().map(displaced).collect());
         let Some(mut one) = self.companion(origin) else { return };
         let state = Self::beside(&one.origin, self.motion.state());
-        one.begin(Ok(state));
+        one.begin_underway(&state, self.motion.step_size(), (self.setup.start, &[]));
         one.expect(self.companions.due(self.time(), self.motion.values()));
         self.companions.all.push(one);
     }
@@ -75,7 +75,8 @@ impl Experiment {
         else {
             return;
         };
-        one.begin(Ok(self.motion.state().clone()));
+        let underway = (self.setup.start, &self.motion.released()[..]);
+        one.begin_underway(self.motion.state(), self.motion.step_size(), underway);
         one.precede(&self.recorder.trail());
         self.companions.all.push(one);
     }

@@ -64,6 +64,8 @@ pub struct Experiment {
     /// Whether the motion was resumed from a checkpoint.
     pub(super) restored: bool,
     pub(super) row_spacing: RowSpacing,
+    /// Whether the gauges look at the ends of steps only.
+    pub(super) only_ends: bool,
 }
 
 impl Experiment {
@@ -103,6 +105,7 @@ impl Experiment {
             ended: None,
             restored: false,
             row_spacing: RowSpacing::default(),
+            only_ends: false,
             setup,
         };
         experiment.restart();
@@ -182,6 +185,11 @@ impl Experiment {
     /// Only counts occurrences from now on, without storing them.
     pub fn only_count_occurrences(&mut self) {
         self.log.only_count();
+    }
+
+    /// The gauges look at the ends of steps only from now on, and where a row is recorded or the motion is advanced to.
+    pub fn observe_ends_only(&mut self) {
+        self.only_ends = true;
     }
 
     /// Remembers no states between steps from now on: the motion cannot be carried back.

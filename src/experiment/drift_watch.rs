@@ -52,9 +52,10 @@ impl DriftWatch {
         self.constants = Valuation::of_parameters(&self.model, parameters).with(body);
         self.steps = 0;
         self.observe(state)?;
-        let mut gauges = self.gauges.clone();
-        gauges.refer(&self.present(state));
-        self.gauges = gauges;
+        self.look(state, |gauges, now| {
+            gauges.refer(now);
+            gauges.sample(now, false);
+        });
         Ok(())
     }
 
@@ -79,8 +80,16 @@ impl DriftWatch {
     /// Returns an error if the state cannot be observed.
     pub fn end(&mut self, state: &State) -> Result<(&[f64], Arc<[Gauge]>), MotionError> {
         self.observe(state)?;
+        self.look(state, |gauges, now| gauges.observe(now));
         let gauges = self.gauges.show(&self.present(state));
         Ok((&self.values, gauges))
+    }
+
+    /// Lets the gauges look at the state that was observed, as an experiment at its rows.
+    fn look(&mut self, state: &State, look: impl FnOnce(&mut Gauges, &GaugeInputs<'_>)) {
+        let mut gauges = self.gauges.clone();
+        look(&mut gauges, &self.present(state));
+        self.gauges = gauges;
     }
 
     fn observe(&mut self, state: &State) -> Result<(), MotionError> {

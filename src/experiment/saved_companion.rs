@@ -123,7 +123,7 @@ impl Experiment {
                 && state.is_finite()
                 && poisson == (system.form() == Form::Variables);
             if fits {
-                motion.begin(Ok(state));
+                motion.begin_underway(&state, 0.0, (self.setup.start, &[]));
             } else {
                 motion.begin(self.origin_state(&motion));
             }

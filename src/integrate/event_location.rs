@@ -7,15 +7,17 @@
 //! and all roots of these polynomials are found piece by piece. Without a series, and across kinks
 //! and poles, the functions are sampled.
 
+mod jumps;
+
 use super::DenseOutput;
 use super::clock::{DIGITS, spacing};
-use super::located_event::{Crossing, LocatedEvent, LocatedEvents, first, is_same_time};
+use super::located_event::{Crossing, LocatedEvent, LocatedEvents, first};
 use super::piece_count::PieceCount;
 use super::polynomial::StepPolynomial;
 use super::probe::Probe;
 use super::root_correction::RootCorrection;
 use super::roots::{CUT_OFF, root_error, sign_changes};
-use super::sampling::{SIGNLESS, Sampling, leaving};
+use super::sampling::{Sampling, leaving};
 use super::series_piece::SeriesPiece;
 use crate::model::Direction;
 use crate::num::DoubleDouble;
@@ -129,51 +131,6 @@ impl EventLocator {
     /// The value of a function at a state; `None` if it has none there.
     pub(super) fn value(&mut self, event: usize, state: &State) -> Option<f64> {
         self.probe.of(state).ok().map(|values| values[event]).filter(|value| !value.is_nan())
-    }
-
-    /// Records an impulse from one state to another, caused by the given event or by none.
-    /// The sides of functions that jumped with it become unknown, as they did not cross zero.
-    pub(super) fn after_impulse(
-        &mut self,
-        before: &State,
-        after: &State,
-        event: Option<usize>,
-    ) -> Result<(), MotionError> {
-        let old = self.probe.of(before)?.to_vec();
-        let new = self.probe.of(after)?;
-        for (i, (old, new)) in old.iter().zip(new).enumerate() {
-            // the event that caused it, and those that saw its time as one of their zeros, at an impulse before it too
-            let is_seen =
-                is_same_time(before.time, self.last[i]) || self.beside.crossing.contains(&i);
-            let leaves = event == Some(i) || event.is_some() && !self.acts[i] && is_seen;
-            self.leaving[i] = leaves.then_some([old.abs(), 0.0]);
-            self.last[i] = if leaves { before.time } else { f64::NAN };
-            if leaves || (old - new).abs() > 1e-12 * (old.abs() + new.abs()) {
-                self.sides[i] = 0.0;
-            }
-        }
-        self.fresh = true;
-        self.probe.begin(Some(after.exact_time()));
-        self.simple = None;
-        Ok(())
-    }
-
-    /// Records the release of a constraint at a state. Functions that did not jump with it keep the
-    /// side given by `known`.
-    pub(super) fn inherit(
-        &mut self,
-        mut known: EventLocator,
-        state: &State,
-    ) -> Result<(), MotionError> {
-        let (old, new) = (known.probe.of(state)?, self.probe.of(state)?);
-        for (i, (old, new)) in old.iter().zip(new).enumerate() {
-            let same = (old - new).abs() <= 1e-12 * (old.abs() + new.abs());
-            self.sides[i] = if same { known.sides[i] } else { 0.0 };
-            let is_freed = !known.may_cross[i] && self.may_cross[i];
-            self.leaving[i] = is_freed.then_some([old.abs(), SIGNLESS]);
-        }
-        self.fresh = true;
-        Ok(())
     }
 
     /// Returns the first crossing that counts between two times of the motion's last step, as far
@@ -422,6 +379,8 @@ impl EventLocator {
         let mut sampling = Sampling { probe, motion, whole: (from, to), is_last };
         let samples = sampling.samples(self.sides.len(), soonest)?;
         let mut passed: Vec<Vec<Crossing>> = Vec::new();
+        // functions that leave a zero, and when each shows to which side
+        let mut left = Vec::new();
         for (event, samples) in samples.iter().enumerate() {
             if !self.may_cross[event] {
                 passed.push(Vec::new());
@@ -431,9 +390,19 @@ impl EventLocator {
             let (known, last) = (&mut self.sides[event], self.last[event]);
             let zero = self.leaving[event].take().filter(|_| leaves);
             let samples = zero.map_or(&samples[..], |residual| leaving(samples, residual));
+            if let (Some(residual), Some(first)) = (zero, samples.first()) {
+                left.push((event, residual, first.time()));
+            }
             passed.push(sampling.follow(own, samples, known, last)?);
         }
-        Ok(self.take(&passed, to))
+        let found = self.take(&passed, to);
+        // what happens before changes the motion, and perhaps the side
+        for (event, residual, shown) in left {
+            if found.is_some_and(|found| found.event != event && found.exact.high < shown) {
+                (self.sides[event], self.leaving[event]) = (0.0, Some(residual));
+            }
+        }
+        Ok(found)
     }
 
     /// The first of all crossings that counts; what else happens at its time is kept.

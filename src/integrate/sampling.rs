@@ -60,6 +60,12 @@ pub(super) struct Sample {
     slope: f64,
 }
 
+impl Sample {
+    pub(super) fn time(&self) -> f64 {
+        self.time
+    }
+}
+
 /// Follows the functions over one interval.
 pub(super) struct Sampling<'a> {
     pub(super) probe: &'a mut Probe,

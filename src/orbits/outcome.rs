@@ -2,7 +2,8 @@
 //!
 //! In: a system, a start, an end in time. Out: the values of all columns there, those that a run of the same start has, and
 //! the drift of the energy on the way. Orbits that need nothing but steps are followed side by side, the others each as
-//! an experiment; which of the two depends on the orbit alone. Never here: rows on the way, files.
+//! an experiment; which of the two depends on the orbit alone, and where the gauges look on the system alone. Never here:
+//! rows on the way, files.
 
 use std::sync::Arc;
 
@@ -44,8 +45,8 @@ pub struct RunOutcome {
     pub time: f64,
     /// The value of every column there.
     pub values: Vec<f64>,
-    /// The greatest drift of the energy, or of the energy less the work done, over the ends of all steps at least, relative
-    /// to what moves; NaN if neither is monitored.
+    /// The greatest drift of the energy, or of the energy less the work done, relative to what moves: over the ends of all
+    /// steps, of systems that do not go side by side at other times too; NaN if neither is monitored.
     pub energy_drift: f64,
     /// The quantity that is conserved by the law of motion and has left its value, if there is any; the one with the greatest
     /// drift.
@@ -109,6 +110,7 @@ impl RunPlan {
     /// The experiment of one run.
     fn experiment(&self, start: &Start, end: f64) -> Result<Experiment, String> {
         let length = if end > start.time { end - start.time } else { 1.0 };
+        let only_ends = self.is_side_by_side();
         let setup = Setup {
             parameters: start.parameters.clone(),
             overrides: start.overrides.clone(),
@@ -116,14 +118,19 @@ impl RunPlan {
             settings: self.settings,
             start: start.time,
             end: Some(end),
-            spacing: length / OBSERVATIONS,
+            // one row, that of the start
+            spacing: if only_ends { 2.0 * length } else { length / OBSERVATIONS },
             ..Setup::of(&self.model)
         };
-        Experiment::new(&self.model, &self.equations, &self.system, setup)
-            .map_err(|why| why.to_string())
+        let mut experiment = Experiment::new(&self.model, &self.equations, &self.system, setup)
+            .map_err(|why| why.to_string())?;
+        if only_ends {
+            experiment.observe_ends_only();
+        }
+        Ok(experiment)
     }
 
-    /// Runs to the end; `None` if it was cancelled.
+    /// Runs to the end, alone; `None` if it was cancelled.
     pub fn run(&self, start: &Start, end: f64) -> Option<RunOutcome> {
         let columns = self.system.columns();
         let mut experiment = match self.experiment(start, end) {

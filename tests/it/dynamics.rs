@@ -13,6 +13,7 @@ mod lyapunov;
 mod lyapunov_batch;
 mod method_step;
 mod orbit;
+mod pole;
 mod principles;
 mod return_growth;
 mod rotation;

@@ -504,3 +504,51 @@ fn what_two_impacts_see_at_one_time_is_seen_once() {
         }
     }
 }
+
+/// Where the error of a method parts two impacts by more than the last digits of the time, what left its zero with the first
+/// has not come back to it with the second.
+#[test]
+fn what_two_impacts_part_is_no_second_crossing() {
+    let ball = "title = \"ball\"\n[coordinates]\nx = { initial = 1.0, velocity = -3.0 }\n\
+                y = { initial = 0.6333333333333333, velocity = -1.9 }\n[lagrangian]\nL = \"1/2*(x'^2 + y'^2)\"\n\
+                [[impulses]]\nname = \"px\"\nchange = { p_x = \"-2*x'\" }\n\
+                [[impulses]]\nname = \"py\"\nchange = { p_y = \"-2*y'\" }\n\
+                [[events]]\nname = \"x\"\nwhen = \"x\"\ndirection = \"falling\"\naction = \"impulse:px\"\n\
+                [[events]]\nname = \"y\"\nwhen = \"exp(y) - 1\"\ndirection = \"falling\"\naction = \"impulse:py\"\n";
+    for (direction, count) in [("falling", 1), ("rising", 0), ("either", 1)] {
+        let words = ["--on", "x + y", "--direction", direction, "--method", "dop853"];
+        let words = [&["section", "system.toml", "--format", "json", "--until", "0.5"], &words[..]];
+        let found = with_file(ball, &words.concat()).json();
+        assert_eq!(rows(&found).len(), count, "{direction}: {found}");
+    }
+}
+
+/// Swinging Atwood's machine is integrable where M = 3 m (N. B. Tufillaro, Am. J. Phys. 54 (1986) 142), so that none of its orbits
+/// is chaotic; where M = 2 m some are.
+#[test]
+fn no_orbit_of_an_integrable_machine_is_called_chaotic() {
+    let starts: String = (0..24)
+        .map(|k| {
+            let part = |by: f64| (by * f64::from(k)).fract();
+            format!("{},0,{}\n", 0.1 + 1.3 * part(0.618), 6.0 * part(0.755) - 3.0)
+        })
+        .collect();
+    let folder = tempfile::tempdir().unwrap();
+    let table = folder.path().join("starts.csv");
+    std::fs::write(&table, format!("r,theta,r'\n{starts}")).unwrap();
+    let chaotic = |mass: &str, energy: &str| {
+        let words = ["section", "swinging-atwood", "--on", "sin(theta/2)", "--direction", "either"];
+        let orbits = ["--orbits", table.to_str().unwrap(), "--count", "100", "--format", "json"];
+        let shell = ["--set", mass, "--energy", energy, "--solve", "theta'"];
+        let more = ["--rotation", "r,p_r", "--tolerance", "1e-12"];
+        let found = phaselab(&[&words[..], &orbits, &shell, &more].concat()).json();
+        let orbits = found["orbits"].as_array().unwrap().clone();
+        let why = |orbit: &serde_json::Value| orbit["no_rotation"].as_str().map(str::to_owned);
+        let of =
+            |words: &str| orbits.iter().filter_map(why).filter(|why| why.contains(words)).count();
+        (orbits.len(), of("as in chaos"))
+    };
+    assert_eq!(chaotic("M=3", "29.43"), (24, 0));
+    let (count, some) = chaotic("M=2", "19.62");
+    assert!(count == 24 && some > 0, "{some} of {count}");
+}

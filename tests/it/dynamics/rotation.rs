@@ -77,6 +77,32 @@ fn an_island_turns_as_its_centre_does() {
     assert!((found.number - centre).abs() < 1e-9, "{found:?} {centre}");
 }
 
+/// A closed curve that is bent around its own middle without enclosing it: turns of all sizes occur, and nothing is chaotic.
+#[test]
+fn a_curve_beside_its_middle_is_not_chaotic() {
+    let bent = |rho: f64, count: usize| -> Vec<[f64; 2]> {
+        let point = |n: usize| {
+            let phase = TAU * rho * n as f64;
+            let (angle, radius) = (2.6 * phase.sin(), 1.0 + 0.2 * phase.cos());
+            [radius * angle.sin(), radius * angle.cos()]
+        };
+        (0..count).map(point).collect()
+    };
+    for count in [100, 1000, 10_000] {
+        for rho in [GOLDEN, PI - 3.0, 2.0_f64.sqrt() - 1.0] {
+            let found = rotation(&bent(rho, count), [None; 2]);
+            let chaotic = matches!(found, Err(NoRotation::Diverges(_) | NoRotation::AllTurns));
+            assert!(!chaotic, "{rho} {count}: {found:?}");
+        }
+    }
+    // where it shifts along its curve but a little in all crossings
+    for rho in [1.0 / 5.0 + 3e-4, 1.0 / 3.0 - 8e-4, 2e-3] {
+        let found = rotation(&bent(rho, 300), [None; 2]);
+        let chaotic = matches!(found, Err(NoRotation::Diverges(_) | NoRotation::AllTurns));
+        assert!(!chaotic, "{rho}: {found:?}");
+    }
+}
+
 #[test]
 fn a_chaotic_orbit_has_none_and_is_told_why() {
     for (kick, start) in [(1.5, (0.01, 0.0)), (3.0, (0.3, 0.2)), (7.0, (1.0, 2.0))] {

@@ -334,6 +334,34 @@ fn lines_that_are_not_resolved_have_wide_errors() {
     }
 }
 
+/// Two lines that are not told apart hide none that are clean, however faint, and what they leave is no line.
+#[test]
+fn lines_that_are_not_resolved_hide_no_others() {
+    let clean = [(1.9, 1e-2), (0.4, 1e-3), (3.1, 1e-5)];
+    // half a turn in the whole time, and a little more than one
+    for apart in [0.5, 0.8, 1.1] {
+        let beside = 1.0 + apart * TAU / 1000.0;
+        let signal = |t: f64| {
+            let pair = (1.0 * t).cos() + 0.3 * (beside * t + 1.0).cos();
+            pair + clean.iter().map(|(w, a)| a * (w * t).cos()).sum::<f64>()
+        };
+        let signal: Vec<f64> = (0..4000).map(|k| signal(0.25 * f64::from(k))).collect();
+        let found = spectrum(&signal, 0.25, (8, 4), &mut |_| true).unwrap();
+        for (frequency, amplitude) in clean {
+            let line = found.lines.iter().find(|line| (line.frequency - frequency).abs() < 1e-4);
+            let line = line.unwrap_or_else(|| panic!("{apart}: {frequency} in {found:?}"));
+            assert!((line.amplitude / amplitude - 1.0).abs() < 2e-2, "{apart}: {line:?}");
+            let off = (line.frequency - frequency).abs();
+            assert!(off <= 3.0 * line.error, "{apart}: {off:e} {line:?}");
+        }
+        let is_known = |w: f64| {
+            clean.iter().any(|(known, _)| (w - known).abs() < 1e-4) || (0.99..1.01).contains(&w)
+        };
+        let others: Vec<_> = found.lines.iter().filter(|line| !is_known(line.frequency)).collect();
+        assert!(others.is_empty(), "{apart}: {others:?}");
+    }
+}
+
 /// cos 100 t + 0.1 cos √2 t: of 2048 values in 90 units of time the first has the image 2π·2048/90 − 100.
 #[test]
 fn a_line_too_fast_for_the_values_is_found_with_more_or_not_claimed() {

@@ -1,7 +1,7 @@
 //! Motions beside the main one: against experiments of their own, known exponents, and the main motion without them.
 
 use phaselab::experiment::{
-    AdvanceOutcome, Command, CompanionOrigin, Experiment, MOST_COMPANIONS, Setup,
+    AdvanceOutcome, Checkpoint, Command, CompanionOrigin, Experiment, MOST_COMPANIONS, Setup,
 };
 use phaselab::system::InitialOverride::{Momentum, Position};
 
@@ -131,6 +131,28 @@ fn a_pinned_run_keeps_its_parameters_and_its_method_and_its_past() {
     assert!(apart(&one.values, before.values()) < 1e-12);
     assert!(apart(&one.values, &seen.values) > 0.1, "the main motion has gone another way");
     assert!(one.trail.len() > rows);
+}
+
+/// Impulses at intervals are counted from where the motion began, and not from where another one joined it.
+#[test]
+fn motions_that_join_on_the_way_are_kicked_with_the_main_one() {
+    let mut experiment = shipped("kicked-rotor");
+    run(&mut experiment, 2.3);
+    experiment.execute(Command::Pin);
+    experiment.execute(Command::AddNeighbour);
+    let moment = Checkpoint::of(experiment.model(), experiment.system(), &experiment.snapshot());
+    run(&mut experiment, 12.0);
+    let mut restored = shipped("kicked-rotor");
+    restored.execute(Command::Restore(Box::new(moment)));
+    run(&mut restored, 12.0);
+    for seen in [experiment.snapshot(), restored.snapshot()] {
+        let [pinned, neighbour] = &seen.companions[..] else { panic!("two motions") };
+        assert_eq!((pinned.time, neighbour.time), (12.0, 12.0));
+        assert!(apart(&pinned.values, &seen.values) < 1e-9, "the same run");
+        // on an island, where neighbours part no faster than the time
+        let beside = apart(&neighbour.values, &seen.values);
+        assert!(beside > 0.0 && beside < 1e-5, "{beside:e}");
+    }
 }
 
 #[test]
