@@ -80,7 +80,7 @@ impl DriftWatch {
     /// Returns an error if the state cannot be observed.
     pub fn end(&mut self, state: &State) -> Result<(&[f64], Arc<[Gauge]>), MotionError> {
         self.observe(state)?;
-        self.look(state, |gauges, now| gauges.observe(now));
+        self.look(state, Gauges::observe);
         let gauges = self.gauges.show(&self.present(state));
         Ok((&self.values, gauges))
     }

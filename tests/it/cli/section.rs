@@ -527,12 +527,11 @@ fn what_two_impacts_part_is_no_second_crossing() {
 /// is chaotic; where M = 2 m some are.
 #[test]
 fn no_orbit_of_an_integrable_machine_is_called_chaotic() {
-    let starts: String = (0..24)
-        .map(|k| {
-            let part = |by: f64| (by * f64::from(k)).fract();
-            format!("{},0,{}\n", 0.1 + 1.3 * part(0.618), 6.0 * part(0.755) - 3.0)
-        })
-        .collect();
+    let start = |k: i32| {
+        let part = |by: f64| (by * f64::from(k)).fract();
+        format!("{},0,{}", 0.1 + 1.3 * part(0.618), 6.0 * part(0.755) - 3.0)
+    };
+    let starts = (0..24).map(start).collect::<Vec<_>>().join("\n");
     let folder = tempfile::tempdir().unwrap();
     let table = folder.path().join("starts.csv");
     std::fs::write(&table, format!("r,theta,r'\n{starts}")).unwrap();
