@@ -16,6 +16,7 @@ mod drift_watch;
 mod echo;
 mod energy_jump;
 mod event_log;
+mod exact_state;
 mod execute;
 mod export;
 mod found_constant;

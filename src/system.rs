@@ -20,7 +20,7 @@
 //!   Evaluator (value)                             │  │     schedule: inner products first,
 //!     f64, double-double, batches of orbits       │  │     finishing_pass: then the rest, sorted by kind
 //!        ▼                                        │  │     jet: order k of all registers, f64 … batches
-//!   rates, exact       motion of every method     │  │          machine_code (feature `jit`): all orders of one f64 orbit
+//!   rates, exact       motion of every method     │  │          machine_code: the same orders by generated code
 //!   observe            channels of a state        │  │                                       ▼
 //!                                                 │  │     growth, series, batch_series
 //!   term_watch, batch_terms   conserved terms     │  │     expansion: events along a step
@@ -96,6 +96,7 @@ mod stage_list;
 mod stage_machine;
 mod state;
 mod state_layout;
+mod state_sum;
 mod step_series;
 mod surface;
 mod tangent;

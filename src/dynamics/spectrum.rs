@@ -197,6 +197,10 @@ fn fitted(
         if fit.has_merged() {
             // those that were found run into each other
             (fit.lines, fit.mean, fit.trend) = before;
+            if fit.lines.is_empty() {
+                // a line alone runs away where there is none
+                break;
+            }
             beside.add(at, amplitude);
             continue;
         }

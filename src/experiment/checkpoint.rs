@@ -9,6 +9,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::exact_state::{exact_numbers, exact_state};
 use super::last_change::SavedChange;
 use super::named::{Named, named};
 use super::reference::Reference;
@@ -159,17 +160,6 @@ impl Checkpoint {
     pub fn with_another_law(self, what: &str) -> Checkpoint {
         Checkpoint { changed: Some(what.to_owned()), ..self }
     }
-}
-
-/// The numbers of a state, each with its carried rounding error.
-pub(super) fn exact_numbers(state: &State) -> Vec<[f64; 2]> {
-    state.values.iter().zip(&state.carry).map(|(&value, &carry)| [value, carry]).collect()
-}
-
-/// The state of these numbers at this time.
-pub(super) fn exact_state([time, time_carry]: [f64; 2], form: Form, numbers: &[[f64; 2]]) -> State {
-    let (values, carry) = numbers.iter().map(|&[value, carry]| (value, carry)).unzip();
-    State { time, time_carry, form, values, carry }
 }
 
 impl MotionState {

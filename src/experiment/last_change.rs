@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::checkpoint::{exact_numbers, exact_state};
+use super::exact_state::{exact_numbers, exact_state};
 use crate::system::{Form, State, System};
 
 /// Where a motion continued under another law.

@@ -5,9 +5,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::checkpoint::{exact_numbers, exact_state};
 use super::companion::CompanionMotion;
 use super::companions::MOST_COMPANIONS;
+use super::exact_state::{exact_numbers, exact_state};
 use super::named::{Named, given, named};
 use super::recorder::NUMBERS;
 use super::setup::choose_method;

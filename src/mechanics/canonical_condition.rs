@@ -56,6 +56,10 @@ impl PhaseMap {
             }
             found.extend(next);
         }
+        if found.is_empty() {
+            // a chain of maps among them, whose brackets are not compared
+            return found;
+        }
         let is_canonical = self.at_parameters(pool, &found).has_canonical_brackets(pool);
         if is_canonical { found } else { Vec::new() }
     }

@@ -215,7 +215,7 @@ impl<const N: usize> Analytic for Batch<N> {
         right: &[[f64; N]],
         out: &mut [Batch<N>],
     ) {
-        out[0] = Batch(InnerProducts::of(left, right).run::<FUSED>());
+        out[0] = Batch(InnerProducts { left, right }.run::<FUSED>());
     }
 
     #[inline(always)]

@@ -67,33 +67,10 @@ impl<const N: usize> Vector<N> {
     }
 }
 
-/// Inner products of N pairs of series of equal length, both read forwards. The first and the last terms are added at the
-/// end: in a Taylor series they hold the newest coefficients, so that the others need not wait for these.
+/// Inner products of N pairs of series of equal length, both read forwards.
 pub(super) struct InnerProducts<'a, T> {
-    left: &'a [T],
-    right: &'a [T],
-    /// The first and the last term, or the only one.
-    ends: Option<Ends<T>>,
-}
-
-/// The operands of the first term, and of the last where there are several.
-type Ends<T> = ([T; 2], Option<[T; 2]>);
-
-impl<'a, T: Copy> InnerProducts<'a, T> {
-    #[inline(always)]
-    pub(super) fn of(left: &'a [T], right: &'a [T]) -> InnerProducts<'a, T> {
-        // cut to one length, so that it is compared once and not for each chunk
-        let length = left.len().min(right.len());
-        let (left, right) = (&left[..length], &right[..length]);
-        let (Some((&a, left)), Some((&b, right))) = (left.split_first(), right.split_first())
-        else {
-            return InnerProducts { left, right, ends: None };
-        };
-        let (Some((&c, left)), Some((&d, right))) = (left.split_last(), right.split_last()) else {
-            return InnerProducts { left, right, ends: Some(([a, b], None)) };
-        };
-        InnerProducts { left, right, ends: Some(([a, b], Some([c, d]))) }
-    }
+    pub(super) left: &'a [T],
+    pub(super) right: &'a [T],
 }
 
 impl<const N: usize> Kernel for InnerProducts<'_, [f64; N]> {
@@ -103,27 +80,23 @@ impl<const N: usize> Kernel for InnerProducts<'_, [f64; N]> {
     #[inline(always)]
     fn run<const FUSED: bool>(self) -> [f64; N] {
         const APART: usize = 4;
-        let (left, left_rest) = self.left.as_chunks::<APART>();
-        let (right, right_rest) = self.right.as_chunks::<APART>();
+        // cut to one length, so that it is compared once and not for each chunk
+        let length = self.left.len().min(self.right.len());
+        let (left, left_rest) = self.left[..length].as_chunks::<APART>();
+        let (right, right_rest) = self.right[..length].as_chunks::<APART>();
         let mut sums = [Vector::ZERO; APART];
         // by places, since iterators over two lists are not always inlined
-        for chunk in 0..left.len().min(right.len()) {
+        for chunk in 0..left.len() {
             let (a, b) = (&left[chunk], &right[chunk]);
             for i in 0..APART {
                 sums[i] = sums[i].plus(Vector(a[i]).times(Vector(b[i])));
             }
         }
         let mut rest = Vector::ZERO;
-        for place in 0..left_rest.len().min(right_rest.len()) {
+        for place in 0..left_rest.len() {
             rest = rest.plus(Vector(left_rest[place]).times(Vector(right_rest[place])));
         }
-        let sum = sums[0].plus(sums[2]).plus(sums[1].plus(sums[3])).plus(rest);
-        let Some(([a, b], last)) = self.ends else { return sum.0 };
-        let mut ends = Vector(a).times(Vector(b));
-        if let Some([c, d]) = last {
-            ends = ends.plus(Vector(c).times(Vector(d)));
-        }
-        sum.plus(ends).0
+        sums[0].plus(sums[2]).plus(sums[1].plus(sums[3])).plus(rest).0
     }
 }
 
@@ -157,7 +130,10 @@ impl<const N: usize> Kernel for InnerProducts<'_, DoubleLanes<N>> {
     #[inline(always)]
     fn run<const FUSED: bool>(self) -> [DoubleDouble; N] {
         let (mut sum, mut errors) = (Vector::ZERO, Vector::ZERO);
-        let mut add = |a: &DoubleLanes<N>, b: &DoubleLanes<N>| {
+        let length = self.left.len().min(self.right.len());
+        let (left, right) = (&self.left[..length], &self.right[..length]);
+        for place in 0..length {
+            let (a, b) = (&left[place], &right[place]);
             let (a_high, a_low) = (Vector(a.high), Vector(a.low));
             let (b_high, b_low) = (Vector(b.high), Vector(b.low));
             let product = a_high.times(b_high);
@@ -167,15 +143,6 @@ impl<const N: usize> Kernel for InnerProducts<'_, DoubleLanes<N>> {
             let low = a_high.error_of_product::<FUSED>(b_high).plus(low);
             errors = errors.plus(lost.plus(low));
             sum = next;
-        };
-        for place in 0..self.left.len().min(self.right.len()) {
-            add(&self.left[place], &self.right[place]);
-        }
-        if let Some(([a, b], last)) = &self.ends {
-            add(a, b);
-            if let Some([c, d]) = last {
-                add(c, d);
-            }
         }
         let mut sums = [DoubleDouble::ZERO; N];
         for lane in 0..N {
@@ -206,7 +173,7 @@ mod tests {
     fn sums_have_the_same_bits_with_and_without_wide_instructions() {
         for n in 0..40 {
             let (left, right) = (side_by_side(&noise(4 * n, 1)), side_by_side(&noise(4 * n, 2)));
-            let kernel = || InnerProducts::of(&left, &right);
+            let kernel = || InnerProducts { left: &left, right: &right };
             let (wide, plain) = (vectorized(kernel()), run_plainly(kernel()));
             assert_eq!(wide.map(f64::to_bits), plain.map(f64::to_bits), "{n} terms");
             for lane in 0..LANES {
@@ -228,7 +195,7 @@ mod tests {
             let lanes =
                 |x: &[[DoubleDouble; LANES]]| x.iter().map(|&x| DoubleLanes::of(x)).collect();
             let (a, b): (Vec<_>, Vec<_>) = (lanes(&left), lanes(&right));
-            let kernel = || InnerProducts::of(&a, &b);
+            let kernel = || InnerProducts { left: &a, right: &b };
             let (wide, plain) = (vectorized(kernel()), run_plainly(kernel()));
             let bits = |x: DoubleDouble| (x.high.to_bits(), x.low.to_bits());
             assert_eq!(wide.map(bits), plain.map(bits), "{n} terms");

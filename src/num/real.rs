@@ -188,7 +188,7 @@ impl Analytic for f64 {
         right: &[[f64; LANES]],
         out: &mut [f64],
     ) {
-        let products = InnerProducts::of(left, right).run::<FUSED>();
+        let products = InnerProducts { left, right }.run::<FUSED>();
         for lane in 0..LANES {
             out[lane] = products[lane];
         }

@@ -168,7 +168,7 @@ impl System {
         System { cancel, ..self.clone() }
     }
 
-    /// The same system, whose series are never computed by machine code (cargo feature `jit`). They have the same bits.
+    /// The same system, whose series are never computed by machine code. They have the same bits.
     #[must_use]
     pub fn interpreted(&self) -> System {
         System { interpreted: true, ..self.clone() }

@@ -75,8 +75,6 @@ pub(super) struct Guard {
     pub(super) value: Register,
     /// The argument of the root.
     pub(super) under: Option<Register>,
-    /// The argument of the root or of the power, also where that has a pole: while it is positive, no branch is left.
-    pub(super) base: Option<Register>,
     /// Whether the value itself passes zero where the branch is left.
     pub(super) passes: bool,
 }

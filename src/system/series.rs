@@ -14,12 +14,12 @@ use super::jet::{Jet, Side};
 use super::machine_code::CompiledGrowth;
 use super::program::{Program, Register};
 use super::state::State;
+use super::state_sum::StateSum;
 use super::step_series::StepSeries;
 use super::underflow;
 use crate::expr::FunctionId;
 use crate::num::{
-    Analytic, DoubleDouble, ExtendedRange, Kernel, Polynomial, Real, all_finite, polynomial,
-    slope_tails, tails, vectorized,
+    Analytic, DoubleDouble, ExtendedRange, Kernel, Real, all_finite, polynomial, vectorized,
 };
 
 /// The series of all numbers of a state, in the native form of its system.
@@ -311,12 +311,6 @@ impl Series {
         Some(&self.high.jet.series(register)[..self.high.order])
     }
 
-    /// The coefficients of what is positive on its branch: the argument of its root or power.
-    pub fn guard_base(&self, i: usize) -> Option<&[f64]> {
-        let register = self.system.motion().native.guards[i].base?;
-        Some(&self.high.jet.series(register)[..self.high.order])
-    }
-
     /// Its value at a time after the origin, in the unit of the series, as exact as the lowest
     /// orders are.
     pub fn guard_after(&self, i: usize, x: DoubleDouble) -> DoubleDouble {
@@ -354,7 +348,12 @@ impl Series {
     /// Writes the state at a time `after` the origin into `out`, by the polynomials.
     pub fn state_after(&self, after: DoubleDouble, out: &mut State) {
         let x = after * self.scale.recip();
-        vectorized(StateSum { series: self, x, out: &mut *out });
+        let low = |i: usize| match &self.low {
+            Some(low) => low.known_series(i),
+            None => &self.origin[i..=i],
+        };
+        let (high, units) = (|i: usize| self.high.series(i), &self.units[..]);
+        vectorized(StateSum { low, high, units, x, out: &mut *out });
         let time = self.time + after;
         (out.time, out.time_carry) = (time.high, time.low);
     }
@@ -399,13 +398,6 @@ fn power_of_two_below(size: f64) -> f64 {
     f64::from_bits(exponent << 52)
 }
 
-/// A number in a small unit. Below the numbers that keep all their digits it is zero: what decays comes to
-/// an end.
-fn in_unit(number: DoubleDouble, unit: f64) -> DoubleDouble {
-    let number = number.scaled(unit);
-    if number.high.is_normal() { number } else { DoubleDouble::ZERO }
-}
-
 /// The largest size of some numbers.
 fn largest(numbers: impl Iterator<Item = f64>) -> f64 {
     numbers.fold(0.0, |size, x| size.max(x.abs()))
@@ -422,49 +414,5 @@ impl Kernel for Finite<'_> {
         let Finite(series) = self;
         all_finite(series.high.coefficients())
             && (0..series.switches()).all(|i| all_finite(series.switch(i)))
-    }
-}
-
-/// The number of polynomials that are summed side by side.
-const TOGETHER: usize = 4;
-
-/// The polynomials of a state, at a time in the unit of the series.
-struct StateSum<'a> {
-    series: &'a Series,
-    x: DoubleDouble,
-    out: &'a mut State,
-}
-
-impl Kernel for StateSum<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run<const FUSED: bool>(self) {
-        let StateSum { series, x, out } = self;
-        let (count, units) = (series.origin.len(), &series.units);
-        let low = |i: usize| match &series.low {
-            Some(low) => low.known_series(i),
-            None => &series.origin[i..=i],
-        };
-        let first = low(0).len();
-        let high = |i: usize| &series.high.series(i)[first..];
-        for group in (0..count).step_by(TOGETHER) {
-            // the last group is filled up with its last number
-            let of = |lane: usize| (group + lane).min(count - 1);
-            let mut series = [high(group); TOGETHER];
-            for lane in 1..TOGETHER {
-                series[lane] = high(of(lane));
-            }
-            let tails = tails(series, x.high);
-            let exact = x.low == 0.0;
-            let slopes = if exact { [0.0; TOGETHER] } else { slope_tails(series, first, x.high) };
-            for (lane, (&tail, &slope)) in (0..count - group).zip(tails.iter().zip(&slopes)) {
-                let i = group + lane;
-                let polynomial = Polynomial { low: low(i), high: series[lane], x };
-                let number = polynomial.with_tails::<FUSED>(tail, slope);
-                let unit = units[i];
-                out.set(i, if unit == 1.0 { number } else { in_unit(number, unit) });
-            }
-        }
     }
 }

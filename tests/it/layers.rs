@@ -51,14 +51,28 @@ fn table_of(text: &str) -> Table {
 }
 
 /// External items that only some rooms may use: the item, its names in code, the rooms.
-const OUTSIDE: [(&str, &[&str], &[&str]); 5] = [
+const OUTSIDE: [(&str, &[&str], &[&str]); 6] = [
     ("the clock", &["Instant", "SystemTime"], &["worker", "shell", "cli"]),
     ("threads", &["thread::", "mpsc"], &["worker", "shell", "cli"]),
     ("a pool of threads", &["rayon::"], &["ensemble"]),
+    ("executable memory", &["rustix::mm"], &["system"]),
     ("files", &["std::fs", "fs::", "File::"], &["file", "preset", "shell", "cli"]),
     (
         "the terminal",
-        &["rustix::", "signal_hook::", "stdin(", "stdout(", "stderr(", "IsTerminal"],
+        &[
+            "rustix::{",
+            "rustix::event",
+            "rustix::fs",
+            "rustix::io",
+            "rustix::process",
+            "rustix::stdio",
+            "rustix::termios",
+            "signal_hook::",
+            "stdin(",
+            "stdout(",
+            "stderr(",
+            "IsTerminal",
+        ],
         &["file", "shell", "cli"],
     ),
 ];

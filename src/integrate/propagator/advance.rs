@@ -180,6 +180,7 @@ impl Propagator {
             }
             self.system.orthonormalise(&mut self.before);
             self.stepper.replace_state(&self.before);
+            self.check_course()?;
             self.watch_step();
             self.watch_comparison();
         }

@@ -26,6 +26,9 @@ const BLURRED: f64 = 100.0;
 /// Numbers and times above this have left all that a motion is about: they overflow soon after.
 const VAST: f64 = 1e100;
 
+/// In a step shorter than this part of the regular ones velocities do not change by half of their size.
+const SUDDEN: f64 = 1e-4;
+
 /// A step shorter than this part of the regular ones is not regular, …
 const REGULAR: f64 = 0.1;
 
@@ -48,9 +51,11 @@ impl Propagator {
             _ => None,
         };
         self.watch_comparison_from_here();
+        self.watch.left = Some(self.state.clone());
         self.watch.regular = Some(self.state.clone());
         self.watch.begun = Some(self.state.clone());
         self.watch.regular_step = 0.0;
+        self.watch.fastest = 0.0;
     }
 
     /// Records the state from which the next step is taken, if the last one was not much shorter
@@ -66,6 +71,33 @@ impl Propagator {
         } else {
             *regular_step *= FORGETTING;
         }
+    }
+
+    /// Returns an error if the velocities have changed at once: at a singular configuration rounding may lead on another of
+    /// the motions that meet there, with the same energy.
+    pub(super) fn check_course(&mut self) -> Result<(), MotionError> {
+        let (begin, end) = self.stepper.interval();
+        let state = self.stepper.state();
+        let n = self.system.degrees();
+        let SingularityRecord { regular_step, fastest, left, .. } = &mut self.watch;
+        let Some(was) = left.replace(state.clone()) else { return Ok(()) };
+        if state.form != Form::Velocity {
+            return Ok(());
+        }
+        let size = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let [now, before] = [state, &was].map(|state| &state.values[n..2 * n]);
+        let step = (end - begin).abs();
+        if step >= REGULAR * *regular_step {
+            *fastest = fastest.max(size(now));
+        }
+        let change: Vec<f64> = now.iter().zip(before).map(|(x, y)| x - y).collect();
+        // where a motion turns back, small velocities change by much of themselves
+        let is_fast = size(before) > 0.5 * *fastest;
+        if step < SUDDEN * *regular_step && is_fast && size(&change) > 0.5 * size(before) {
+            let kind = MotionErrorKind::SingularConstraints(None);
+            return Err(self.system.fault(kind, begin, &was.values));
+        }
+        Ok(())
     }
 
     /// Checks whether the last step passes a singular configuration.

@@ -13,9 +13,13 @@ pub(super) struct SingularityRecord {
     pub(super) ahead: Vec<f64>,
     pub(super) passed: u64,
     pub(super) first: Option<f64>,
+    /// The state at the end of the last step.
+    pub(super) left: Option<State>,
     /// A state before steps became much shorter, and the step there.
     pub(super) regular: Option<State>,
     pub(super) regular_step: f64,
+    /// The greatest speed at the ends of regular steps.
+    pub(super) fastest: f64,
     /// The state at which it last began or continued.
     pub(super) begun: Option<State>,
     pub(super) comparison: ComparisonRecord,

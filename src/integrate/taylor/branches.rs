@@ -25,9 +25,6 @@ pub(super) struct Passing {
 
 /// The first root that passes zero before `end`.
 pub(super) fn first(series: &Series, end: f64) -> Option<Passing> {
-    if !may_stray(series, end) {
-        return None;
-    }
     let mut found: Option<(usize, f64)> = None;
     for i in (0..series.guards()).filter(|&i| series.guard_passes(i)) {
         let end = found.map_or(end, |(_, x)| x);
@@ -72,21 +69,6 @@ pub(super) fn is_exact(
 fn is_zero(value: f64, size: f64, change: f64) -> bool {
     value <= (ZERO * size).max(change.abs())
 }
-
-/// Whether some root may leave its branch within a time `after` the origin, in the unit of the series. It does not where what
-/// is under it stays positive, whatever the signs of the terms that change it.
-pub(super) fn may_stray(series: &Series, after: f64) -> bool {
-    (0..series.guards()).any(|i| {
-        let Some([first, changing @ ..]) = series.guard_base(i) else { return true };
-        let x = after.abs();
-        let change = changing.iter().rev().fold(0.0, |sum, c| (sum + c.abs()) * x);
-        // a NaN may
-        change.is_nan() || first.is_nan() || change >= CLEARLY_LESS * first
-    })
-}
-
-/// Less than everything by so much that the truncated terms of a series do not matter.
-const CLEARLY_LESS: f64 = 0.9;
 
 /// Whether some root deviates from its series a time `after` the origin, in its unit, at a state
 /// where the rates have been evaluated.

@@ -180,7 +180,7 @@ impl Analytic for DoubleDouble {
         right: &[DoubleLanes<LANES>],
         out: &mut [DoubleDouble],
     ) {
-        let products = InnerProducts::of(left, right).run::<FUSED>();
+        let products = InnerProducts { left, right }.run::<FUSED>();
         for lane in 0..LANES {
             out[lane] = products[lane];
         }

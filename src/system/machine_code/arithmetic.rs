@@ -46,8 +46,7 @@ impl Code {
     }
 
     /// Stores inner products `Σ a_j b_j` of several lanes, whose operands lie side by side with so many `f64` from one to the
-    /// next. Four sums are kept apart, as in [`InnerProducts`](crate::num::Analytic::inner_products), and the first and the
-    /// last term come at the end.
+    /// next. Four sums are kept apart, as in [`Analytic::inner_products`](crate::num::Analytic::inner_products).
     pub(super) fn inner_products(
         &mut self,
         (width, distance): (Width, usize),
@@ -62,15 +61,14 @@ impl Code {
             code.binary(Operation::Multiply, width, a.into(), b)
         };
         let add = |code: &mut Code, a, b| code.binary(Operation::Add, width, a, b);
-        let inner = 1..terms.max(2) - 1;
-        let whole = inner.len() / APART * APART;
+        let whole = terms / APART * APART;
         let mut sums: [Option<Operand>; APART] = [None; APART];
         // is never −0, so that the whole is not
         let mut sum: Operand = self.block.zero().into();
-        for (i, j) in inner.enumerate() {
+        for j in 0..terms {
             let product = product(self, j);
-            if i < whole {
-                let sum = &mut sums[i % APART];
+            if j < whole {
+                let sum = &mut sums[j % APART];
                 *sum = Some(sum.map_or(product, |sum| add(self, sum, product)));
             } else {
                 sum = add(self, sum, product);
@@ -80,14 +78,6 @@ impl Code {
             let (even, odd) = (add(self, a, c), add(self, b, d));
             let apart = add(self, even, odd);
             sum = add(self, apart, sum);
-        }
-        if terms > 0 {
-            let mut ends = product(self, 0);
-            if terms > 1 {
-                let last = product(self, terms - 1);
-                ends = add(self, ends, last);
-            }
-            sum = add(self, sum, ends);
         }
         self.block.store(width, sum, to, false);
     }

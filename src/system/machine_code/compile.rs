@@ -5,10 +5,10 @@
 
 use super::allocation::assemble;
 use super::arithmetic::{Arithmetic, Code};
-use super::basic_block::BasicBlock;
+use super::basic_block::{BasicBlock, Width};
 use super::double::Double;
 use super::emitter::Emitter;
-use super::function::{CompiledFunction, NotCompiled, Work, widest};
+use super::function::{CompiledFunction, NotCompiled, Work};
 use super::lanes::Lanes;
 use super::layout::{Address, Area, FactoredPlace, Layout, Precision, SeriesPlaces};
 use super::plain::Plain;
@@ -22,7 +22,8 @@ const LARGEST: usize = 60_000;
 /// How many numbers of how many orbits are computed.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct Extent {
-    pub(super) orbits: usize,
+    /// The orbits that one call serves.
+    pub(super) orbits: Width,
     /// The numbers of the state, and those of them that the rates depend on.
     pub(super) numbers: usize,
     pub(super) inputs: usize,
@@ -57,11 +58,12 @@ pub(super) fn compile(
     if program.ops.iter().any(alone) || program.switches() > 0 || size(plan) > LARGEST {
         return Err(NotCompiled);
     }
-    let mut code = Code { block: BasicBlock::default(), layout: Layout::new(), lanes: widest() };
-    let (places, exactly_factored) = if extent.orbits > 1 {
-        (write_lanes(plan, &mut code, extent)?, Vec::new())
-    } else {
+    let mut code =
+        Code { block: BasicBlock::default(), layout: Layout::new(), lanes: extent.orbits };
+    let (places, exactly_factored) = if extent.orbits == Width::One {
         write_one(plan, exact, &mut code, extent)?
+    } else {
+        (write_lanes(plan, &mut code, extent)?, Vec::new())
     };
     let mut first_work = code.layout.first_work();
     let (bytes, work) = assemble(&code.block, first_work.len());
@@ -102,9 +104,9 @@ fn write_one(
     let numbers = (extent.numbers, extent.inputs);
     let exact_places = exact.map(|exact| {
         let (stride, areas) = (exact.stride, (Area::ExactSeries, Area::ExactState));
-        code.layout.series(exact, Precision::of::<Double>(stride, areas))
+        code.layout.series(exact, precision_of::<Double>(stride, areas))
     });
-    let precision = Precision::of::<Plain>(plan.stride, (Area::Series, Area::State));
+    let precision = precision_of::<Plain>(plan.stride, (Area::Series, Area::State));
     let precision = Precision { copies_values: exact.is_some(), ..precision };
     let places = code.layout.series(plan, precision);
     let mut first = 0;
@@ -122,11 +124,16 @@ fn write_lanes(
     code: &mut Code,
     extent: Extent,
 ) -> Result<SeriesPlaces, NotCompiled> {
-    let precision = Precision::of::<Lanes>(plan.stride, (Area::Series, Area::State));
+    let precision = precision_of::<Lanes>(plan.stride, (Area::Series, Area::State));
     let places = code.layout.series(plan, precision);
     let numbers = (extent.numbers, extent.inputs);
     Emitter::<Lanes>::new(plan, code, (&places, None), numbers).write(0, plan.stride - 1)?;
     Ok(places)
+}
+
+/// What an arithmetic needs for so many orders of the series and the state in these areas.
+fn precision_of<A: Arithmetic>(stride: usize, areas: (Area, Area)) -> Precision {
+    Precision { size: A::SIZE, side: A::SIDE, stride, copies_values: false, areas }
 }
 
 /// About how many instructions there will be.

@@ -170,8 +170,7 @@ impl Arithmetic for Double {
         let four = Width::Four;
         let mut sum: Operand = code.block.zero().into();
         let mut errors = sum;
-        let ends = (0..terms.min(1)).chain(terms.max(2) - 1..terms);
-        for j in (1..terms.max(2) - 1).chain(ends) {
+        for j in 0..terms {
             let [a_high, a_low, b_high, b_low] = [(left, 0), (left, 1), (right, 0), (right, 1)]
                 .map(|(series, part)| code.four(series.plus((2 * j + part) * SIDE)).into());
             let (product, error) = code.exact_product(four, a_high, b_high);

@@ -5,9 +5,10 @@
 
 use std::sync::Arc;
 
+use super::basic_block::Width;
 use super::cache::CodeCache;
 use super::compile::{Compiled, Extent};
-use super::function::{BatchStretches, Stretches, Values, Work};
+use super::function::{BatchStretches, Stretches, Values, Work, widest};
 use super::layout::FactoredPlace;
 use crate::num::{BATCH, Batch, DoubleDouble, Real};
 use crate::system::growth::{SeriesBuilder, SeriesClock};
@@ -51,7 +52,7 @@ impl CompiledGrowth {
         (time, scale): (DoubleDouble, f64),
     ) -> Result<bool, Singular> {
         self.has_grown = false;
-        let extent = Extent { orbits: 1, numbers: high.len(), inputs: high.inputs };
+        let extent = Extent { orbits: Width::One, numbers: high.len(), inputs: high.inputs };
         let exact = low.as_ref().map(|low| low.jet.plan());
         self.ask(1, |cache| cache.function(&high.jet.plan(), exact.as_ref(), extent));
         if let Some(code) = &mut self.code {
@@ -70,7 +71,7 @@ impl CompiledGrowth {
         builder: &mut SeriesBuilder<Batch>,
         clock: SeriesClock<Batch>,
     ) -> Result<bool, Singular> {
-        let extent = Extent { orbits: BATCH, numbers: builder.len(), inputs: builder.inputs };
+        let extent = Extent { orbits: widest(), numbers: builder.len(), inputs: builder.inputs };
         self.ask(BATCH, |cache| cache.function(&builder.jet.plan(), None, extent));
         self.has_grown = false;
         if let Some(code) = &mut self.code {
@@ -184,6 +185,59 @@ fn take_matrices<R: Real>(matrices: &[Factored<R>], places: &[FactoredPlace], wo
             }
             // its offset in bytes
             work.set(place.rows + i, f64::from_bits((8 * size * row) as u64));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cancel::Cancel;
+    use crate::expr::{FunctionId, Pool};
+    use crate::system::jet::Jet;
+    use crate::system::program::Program;
+
+    /// ẋ = sin x/(2 + x y), ẏ = x² − y t.
+    fn program() -> Arc<Program> {
+        let mut pool = Pool::new();
+        let [x, y, t] = ["x", "y", "t"].map(|name| pool.symbol(name));
+        let [a, b, time] = [x, y, t].map(|symbol| pool.variable(symbol));
+        let sine = pool.call(FunctionId::Sin, &[a]);
+        let (product, two) = (pool.mul(a, b), pool.integer(2));
+        let below = pool.add(two, product);
+        let first = pool.div(sine, below);
+        let (square, fading) = (pool.mul(a, a), pool.mul(b, time));
+        let second = pool.sub(square, fading);
+        Program::compile(&mut pool, &[], t, &[x, y], &[first, second]).expect("all are inputs")
+    }
+
+    /// Eight orbits at their origins, and their clock.
+    fn orbits() -> (SeriesBuilder<Batch>, SeriesClock<Batch>) {
+        let mut builder = SeriesBuilder::new(Jet::<Batch>::new(program(), 12), 2, 2);
+        builder.jet.set_parameters(&[]);
+        for i in 0..2 {
+            let origin = |lane: usize| 0.1 * (lane + 3 * i) as f64 + 0.2;
+            builder.set_origin(i, Batch(std::array::from_fn(origin)));
+        }
+        (builder, SeriesClock { time: Batch::splat(0.3), scale: Batch::splat(0.5) })
+    }
+
+    fn bits(builder: &SeriesBuilder<Batch>) -> Vec<u64> {
+        builder.coefficients().iter().flat_map(|c| c.0.map(f64::to_bits)).collect()
+    }
+
+    #[test]
+    fn four_orbits_at_once_have_the_bits_of_eight() {
+        let (mut plain, clock) = orbits();
+        assert!(plain.grow_plainly(0, clock, &Cancel::new()).is_ok());
+        let widths = [Width::Four, Width::Eight].into_iter();
+        for width in widths.filter(|width| width.numbers() <= widest().numbers()) {
+            let (mut builder, clock) = orbits();
+            let extent = Extent { orbits: width, numbers: 2, inputs: 2 };
+            let compiled = CodeCache::new().function(&builder.jet.plan(), None, extent);
+            let mut code = Code::of(compiled.expect("a processor with AVX2"));
+            assert!(code.grow_all(&mut builder, clock).expect("regular"));
+            assert_eq!(bits(&builder), bits(&plain), "{width:?}");
         }
     }
 }

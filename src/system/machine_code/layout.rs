@@ -13,7 +13,6 @@
 //!              left   a_0 c_0 e_0 g_0  a_1 c_1 …        right   …  b_1 d_1 f_1 h_1  b_0 d_0 f_0 h_0
 //! ```
 
-use super::arithmetic::Arithmetic;
 use crate::system::jet::JetPlan;
 
 /// The size of a cache line, which a group of operands must not cross.
@@ -119,13 +118,6 @@ pub(super) struct Precision {
     /// Whether order 0 of all registers is copied into the stretch of work.
     pub(super) copies_values: bool,
     pub(super) areas: (Area, Area),
-}
-
-impl Precision {
-    /// That of an arithmetic, for so many orders of the series and the state in these areas.
-    pub(super) fn of<A: Arithmetic>(stride: usize, areas: (Area, Area)) -> Precision {
-        Precision { size: A::SIZE, side: A::SIDE, stride, copies_values: false, areas }
-    }
 }
 
 /// All places, which grow while code is written.

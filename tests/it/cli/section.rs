@@ -529,7 +529,7 @@ fn what_two_impacts_part_is_no_second_crossing() {
 fn no_orbit_of_an_integrable_machine_is_called_chaotic() {
     let start = |k: i32| {
         let part = |by: f64| (by * f64::from(k)).fract();
-        format!("{},0,{}", 0.1 + 1.3 * part(0.618), 6.0 * part(0.755) - 3.0)
+        format!("{},0,{}", 0.1 + 1.2 * part(0.618), 2.0 * part(0.755) - 1.0)
     };
     let starts = (0..24).map(start).collect::<Vec<_>>().join("\n");
     let folder = tempfile::tempdir().unwrap();

@@ -13,14 +13,13 @@ use crate::nonempty;
 
 #[test]
 fn a_run_has_the_same_bytes_side_by_side_and_alone() {
-    let cases = [
+    for (name, method, step, tolerance) in [
         ("henon-heiles", "taylor", None, Some(1e-12)),
         ("double-pendulum", "taylor", None, Some(1e-9)),
         ("driven-damped-pendulum", "taylor", None, Some(1e-12)),
         ("henon-heiles", "leapfrog", Some(0.3), None),
         ("double-pendulum", "rk4", Some(0.05), None),
-    ];
-    for (name, method, step, tolerance) in cases {
+    ] {
         let ready = Prepared::of(&catalog().find(name).unwrap()).unwrap();
         let plan = RunPlan {
             model: Arc::clone(&ready.model),
@@ -43,7 +42,7 @@ fn a_run_has_the_same_bytes_side_by_side_and_alone() {
         plan.run_all(&runs, |i, outcome| together[i] = Some(outcome));
         let together: Vec<_> = nonempty(together).into_iter().flatten().collect();
         assert_eq!(together.len(), runs.len());
-        for (outcome, (start, end)) in together.into_iter().zip(runs) {
+        for ((start, end), outcome) in nonempty(runs).into_iter().zip(together) {
             let alone = plan.run(start, end).unwrap();
             assert!(outcome.energy_drift.is_finite(), "{name} {method}");
             let bits = |x: f64| x.to_bits();
