@@ -72,7 +72,7 @@ pub enum NoRotation {
     #[error("it does not converge: averages of parts of the orbit differ by {}, as in chaos", short(*.0))]
     Diverges(f64),
     /// The average of parts of the orbit differs, by less than that of random numbers.
-    #[error("it has not converged: averages of parts of the orbit differ by {}; more crossings would tell", short(*.0))]
+    #[error("it has not converged: averages of parts of the orbit differ by {}; whether it is regular is not decided", short(*.0))]
     Undecided(f64),
 }
 

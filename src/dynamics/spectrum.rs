@@ -176,6 +176,9 @@ fn fitted(
             curve.clone_from(&transform);
         }
         let free = beside.masked(&transform, fit.length());
+        if free.iter().all(|point| point[1] == 0.0) {
+            break;
+        }
         let Some(at) = fit.strongest(&left, &free) else { break };
         let strongest = fit.lines.iter().map(Wave::amplitude).fold(0.0, f64::max);
         let amplitude = fit.amplitude(&left, at);

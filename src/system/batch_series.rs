@@ -127,6 +127,9 @@ impl BatchSeries {
     #[must_use]
     pub fn build(&mut self) -> bool {
         let clock = SeriesClock { time: self.start(), scale: self.scale };
+        if self.system.cancel().is_cancelled() {
+            return false;
+        }
         if matches!(self.code.grow_all(&mut self.builder, clock), Ok(true)) {
             return true;
         }

@@ -20,7 +20,7 @@
 //! ```
 //!
 //! The lowest orders are computed in double-double, those above in `f64`, by one function. On processors other than
-//! x86-64 with AVX2 nothing is generated (`absent`).
+//! x86-64 nothing is generated (`absent`), nor where there is no AVX2.
 
 #[cfg(not(target_arch = "x86_64"))]
 mod absent;

@@ -241,6 +241,9 @@ impl Series {
                 &self.high.kept
             }
         };
+        if cancel.is_cancelled() {
+            return Err(Halt::Cancelled);
+        }
         if kept.is_empty() && self.code.grow(&mut self.high, self.low.as_mut(), (time, scale))? {
             return Ok(());
         }

@@ -81,7 +81,7 @@ impl Propagator {
         let n = self.system.degrees();
         let SingularityRecord { regular_step, fastest, left, .. } = &mut self.watch;
         let Some(was) = left.replace(state.clone()) else { return Ok(()) };
-        if state.form != Form::Velocity {
+        if state.form != Form::Velocity || self.projector.is_none() {
             return Ok(());
         }
         let size = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().sqrt();

@@ -4,7 +4,7 @@
 //! here: how an instruction is encoded.
 //!
 //! Where all registers are taken, the number gives way that is read again last (L. A. Belady, IBM Syst. J. 5 (1966) 78).
-//! Every number is made once, so that it is written to memory at most once.
+//! Every number is made once, so that it is spilled at most once.
 
 use super::basic_block::{BasicBlock, Instruction, Operand, Value, Width};
 use super::encoding::{Bytes, Source, Vector};
@@ -33,11 +33,13 @@ struct Allocator {
     /// The registers that the current instruction reads.
     pinned: u16,
     room: usize,
+    /// The least number of `f64` of a spilled number.
+    slot: usize,
 }
 
-/// Assembles a block. What finds no register lies in the stretch of work from `room` on; returns the bytes and where that
-/// ends.
-pub(super) fn assemble(block: &BasicBlock, room: usize) -> (Vec<u8>, usize) {
+/// Assembles a block. What finds no register is spilled to the stretch of work from `room` on, in slots of at least so many
+/// `f64`; returns the bytes and where that ends.
+pub(super) fn assemble(block: &BasicBlock, room: usize, slot: usize) -> (Vec<u8>, usize) {
     let (first, next) = uses(block);
     let places = first.into_iter().map(|next| Place { next, ..Place::default() }).collect();
     let mut allocator = Allocator {
@@ -46,6 +48,7 @@ pub(super) fn assemble(block: &BasicBlock, room: usize) -> (Vec<u8>, usize) {
         registers: [None; REGISTERS],
         pinned: 0,
         room,
+        slot,
     };
     for (instruction, next) in block.instructions.iter().zip(&next) {
         allocator.write(instruction, next);
@@ -75,8 +78,8 @@ impl Allocator {
         self.pinned = 0;
         let reads = instruction.reads();
         match *instruction {
-            Instruction::Zero { made } => {
-                let to = self.make(made, Width::Four);
+            Instruction::Zero { width, made } => {
+                let to = self.make(made, width);
                 self.bytes.zero(to);
             }
             Instruction::Load { width, from, made } => {
@@ -108,7 +111,7 @@ impl Allocator {
             Instruction::Store { width, value, to, stays } => {
                 let from = self.read(value);
                 self.bytes.store(width, from, to);
-                if stays {
+                if stays && self.places[value.0 as usize].width == Some(width) {
                     self.places[value.0 as usize].memory = Some(to);
                 }
                 self.advance(&reads, next);
@@ -180,20 +183,20 @@ impl Allocator {
         });
         let last = last.unwrap_or(0);
         if let Some(value) = self.registers[last].take() {
-            self.give_way(value, Vector(last as u8));
+            self.spill(value, Vector(last as u8));
         }
         Vector(last as u8)
     }
 
     /// Writes a number to memory, unless it is there.
-    fn give_way(&mut self, value: Value, register: Vector) {
+    fn spill(&mut self, value: Value, register: Vector) {
         let place = &mut self.places[value.0 as usize];
         place.register = None;
         if place.memory.is_none() {
             let width = place.width.unwrap_or(Width::One);
             let to = Address { area: Area::Work, offset: self.room };
             place.memory = Some(to);
-            self.room += width.numbers();
+            self.room += width.numbers().max(self.slot);
             self.bytes.store(width, register, to);
         }
     }

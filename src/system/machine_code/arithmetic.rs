@@ -64,7 +64,7 @@ impl Code {
         let whole = terms / APART * APART;
         let mut sums: [Option<Operand>; APART] = [None; APART];
         // is never −0, so that the whole is not
-        let mut sum: Operand = self.block.zero().into();
+        let mut sum: Operand = self.block.zero(width).into();
         for j in 0..terms {
             let product = product(self, j);
             if j < whole {

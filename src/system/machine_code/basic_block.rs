@@ -3,7 +3,7 @@
 //! In: operations on numbers that were made before or lie in memory. Out: the instructions in their order, each of which
 //! makes at most one number. Never here: registers, bytes, what is computed.
 //!
-//! An [`Operand`] in memory is read where it is used: nothing else may have been written there before.
+//! An [`Operand`] in memory is read where it is used: it must not have been overwritten by then.
 
 use super::layout::Address;
 
@@ -64,6 +64,7 @@ pub(super) enum Operation {
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Instruction {
     Zero {
+        width: Width,
         made: Value,
     },
     Load {
@@ -141,8 +142,8 @@ impl BasicBlock {
     }
 
     /// Zero.
-    pub(super) fn zero(&mut self) -> Value {
-        self.push(|made| Instruction::Zero { made })
+    pub(super) fn zero(&mut self, width: Width) -> Value {
+        self.push(|made| Instruction::Zero { width, made })
     }
 
     /// What lies in memory.
@@ -194,5 +195,24 @@ impl BasicBlock {
     pub(super) fn store(&mut self, width: Width, operand: Operand, to: Address, stays: bool) {
         let value = self.made(width, operand);
         self.instructions.push(Instruction::Store { width, value, to, stays });
+    }
+}
+
+impl Instruction {
+    /// The memory that it reads or writes, but for what lies behind an offset that is read: where, and how many `f64`.
+    pub(super) fn memory(&self) -> [Option<(Address, usize)>; 2] {
+        match *self {
+            Instruction::Load { width, from, .. } => [Some((from, width.numbers())), None],
+            Instruction::LoadBehind { from, offset, .. } => [Some((from, 1)), Some((offset, 1))],
+            Instruction::Binary { operation, width, right: Operand::At(from), .. } => {
+                // of a pair one number is read
+                let count = if operation == Operation::Pair { 1 } else { width.numbers() };
+                [Some((from, count)), None]
+            }
+            Instruction::Store { width, to, .. } => [Some((to, width.numbers())), None],
+            Instruction::Zero { .. }
+            | Instruction::Binary { .. }
+            | Instruction::ProductError { .. } => [None; 2],
+        }
     }
 }

@@ -2,25 +2,40 @@
 //!
 //! In: what is wanted. Out: its function once it pays, for all threads. Never here: what it computes.
 
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use super::compile::{Compiled, Extent, compile};
 use crate::system::jet::JetPlan;
 
-/// The series of so many orbits are computed before a function is compiled: short motions end before it pays.
+/// A function is compiled when it is wanted for so many orbits: short motions end before it pays.
 const PATIENCE: usize = 64;
 
 /// The functions for one program; clones share them.
 #[derive(Clone, Debug, Default)]
 pub(in crate::system) struct CodeCache {
-    /// The number of series that were asked for.
-    asked: Arc<AtomicUsize>,
     known: Arc<Mutex<Vec<Entry>>>,
 }
 
-/// The numbers of orders, exact ones second, the extent, and the function, unless there can be none.
-type Entry = ([usize; 2], Extent, Option<Arc<Compiled>>);
+/// Whether there is a function.
+#[derive(Clone, Debug)]
+pub(super) enum Availability {
+    /// It does not pay yet.
+    NotYet,
+    /// There can be none.
+    Never,
+    Compiled(Arc<Compiled>),
+}
+
+/// What is wanted of one kind.
+#[derive(Debug)]
+struct Entry {
+    /// The numbers of orders, exact ones second.
+    orders: [usize; 2],
+    extent: Extent,
+    /// For how many orbits it was wanted.
+    wanted: usize,
+    code: Availability,
+}
 
 impl CodeCache {
     /// An empty one.
@@ -28,26 +43,26 @@ impl CodeCache {
         CodeCache::default()
     }
 
-    /// Whether functions pay, now that one more series is asked for, of so many orbits.
-    pub(super) fn pays(&self, orbits: usize) -> bool {
-        self.asked.fetch_add(orbits, Ordering::Relaxed) + orbits >= PATIENCE
-    }
-
-    /// The function for a jet of this program, and for an exact one of its lowest orders; `None` if there is none.
+    /// The function for a jet of this program, and for an exact one of its lowest orders, now that one more series is wanted.
     pub(super) fn function(
         &self,
         plan: &JetPlan<'_>,
         exact: Option<&JetPlan<'_>>,
         extent: Extent,
-    ) -> Option<Arc<Compiled>> {
+    ) -> Availability {
         let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
         let orders = [plan.stride, exact.map_or(0, |exact| exact.stride)];
-        let same = |entry: &&Entry| (entry.0, entry.1) == (orders, extent);
-        if let Some((.., function)) = known.iter().find(same) {
-            return function.clone();
+        let same = |entry: &Entry| (entry.orders, entry.extent) == (orders, extent);
+        let place = known.iter().position(same).unwrap_or_else(|| {
+            known.push(Entry { orders, extent, wanted: 0, code: Availability::NotYet });
+            known.len() - 1
+        });
+        let entry = &mut known[place];
+        entry.wanted += extent.orbits.numbers();
+        if matches!(entry.code, Availability::NotYet) && entry.wanted >= PATIENCE {
+            let compiled = compile(plan, exact, extent).map(Arc::new);
+            entry.code = compiled.map_or(Availability::Never, Availability::Compiled);
         }
-        let function = compile(plan, exact, extent).ok().map(Arc::new);
-        known.push((orders, extent, function.clone()));
-        function
+        entry.code.clone()
     }
 }

@@ -5,13 +5,14 @@
 
 use super::allocation::assemble;
 use super::arithmetic::{Arithmetic, Code};
-use super::basic_block::{BasicBlock, Width};
+use super::basic_block::{BasicBlock, Instruction, Width};
 use super::double::Double;
 use super::emitter::Emitter;
 use super::function::{CompiledFunction, NotCompiled, Work};
 use super::lanes::Lanes;
 use super::layout::{Address, Area, FactoredPlace, Layout, Precision, SeriesPlaces};
 use super::plain::Plain;
+use crate::num::BATCH;
 use crate::system::jet::JetPlan;
 use crate::system::program::{Op, Register};
 use crate::system::schedule::Denominator;
@@ -58,6 +59,10 @@ pub(super) fn compile(
     if program.ops.iter().any(alone) || program.switches() > 0 || size(plan) > LARGEST {
         return Err(NotCompiled);
     }
+    let first = exact.map_or(2, |exact| exact.stride);
+    if !(2..=plan.stride).contains(&first) {
+        return Err(NotCompiled);
+    }
     let mut code =
         Code { block: BasicBlock::default(), layout: Layout::new(), lanes: extent.orbits };
     let (places, exactly_factored) = if extent.orbits == Width::One {
@@ -66,7 +71,13 @@ pub(super) fn compile(
         (write_lanes(plan, &mut code, extent)?, Vec::new())
     };
     let mut first_work = code.layout.first_work();
-    let (bytes, work) = assemble(&code.block, first_work.len());
+    if code.block.instructions.len() > LARGEST {
+        return Err(NotCompiled);
+    }
+    // each call for a part of several orbits has a part of every slot
+    let lanes = extent.orbits.numbers();
+    let slot = if lanes > 1 { BATCH } else { 1 };
+    let (bytes, work) = assemble(&code.block, first_work.len(), slot);
     first_work.resize(work, 0.0);
     let (size, exact_stride) = (places.size, exact.map_or(0, |exact| exact.stride));
     let length = |area| match area {
@@ -77,6 +88,10 @@ pub(super) fn compile(
         Area::ExactSeries => exact.map_or(0, |exact| exact.series * Double::SIZE),
         Area::ExactState => extent.numbers * exact_stride * Double::SIZE,
     };
+    let mut accesses = code.block.instructions.iter().flat_map(Instruction::memory).flatten();
+    if accesses.any(|(at, count)| at.offset + count + (slot - lanes) > length(at.area)) {
+        return Err(NotCompiled);
+    }
     let relations = &plan.schedule.relations;
     let divisor = |denominator| match denominator {
         Denominator::One | Denominator::Order => None,

@@ -168,7 +168,7 @@ impl Arithmetic for Double {
         to: Address,
     ) {
         let four = Width::Four;
-        let mut sum: Operand = code.block.zero().into();
+        let mut sum: Operand = code.block.zero(four).into();
         let mut errors = sum;
         for j in 0..terms {
             let [a_high, a_low, b_high, b_low] = [(left, 0), (left, 1), (right, 0), (right, 1)]

@@ -5,8 +5,8 @@
 //! What the compiler of this source cannot check holds for these reasons:
 //! - The bytes are a function with the signature of [`Entry`]: they read nothing but its six arguments, change no register
 //!   that belongs to the caller, and end with a return (`encoding`).
-//! - It reads and writes only inside the six stretches of memory that it is given. The emitter takes every address from
-//!   a layout, and each call compares the lengths of the slices with those of that layout. What is read is numbers, for
+//! - It reads and writes only inside the six stretches of memory that it is given: `compile` compares every address with
+//!   the lengths of the layout, and each call the lengths of the slices with these. What is read is numbers, for
 //!   which every pattern of bits is valid; the only addresses that are read from memory are rows of a matrix, written
 //!   by [`CompiledGrowth`](super::CompiledGrowth) before each call as a permutation of its rows.
 //! - Its instructions are those that [`CompiledFunction::of`] and [`widest`] have asked the processor for.

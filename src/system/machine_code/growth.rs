@@ -6,11 +6,11 @@
 use std::sync::Arc;
 
 use super::basic_block::Width;
-use super::cache::CodeCache;
+use super::cache::{Availability, CodeCache};
 use super::compile::{Compiled, Extent};
 use super::function::{BatchStretches, Stretches, Values, Work, widest};
 use super::layout::FactoredPlace;
-use crate::num::{BATCH, Batch, DoubleDouble, Real};
+use crate::num::{Batch, DoubleDouble, Real};
 use crate::system::growth::{SeriesBuilder, SeriesClock};
 use crate::system::program::Singular;
 use crate::system::solve::Factored;
@@ -18,7 +18,7 @@ use crate::system::solve::Factored;
 /// The growth of one series by machine code.
 #[derive(Clone, Debug)]
 pub(in crate::system) struct CompiledGrowth {
-    /// The functions, until one was asked for.
+    /// The functions, until it is decided whether there is one.
     cache: Option<CodeCache>,
     code: Option<Code>,
     /// Whether the last one was computed.
@@ -54,7 +54,7 @@ impl CompiledGrowth {
         self.has_grown = false;
         let extent = Extent { orbits: Width::One, numbers: high.len(), inputs: high.inputs };
         let exact = low.as_ref().map(|low| low.jet.plan());
-        self.ask(1, |cache| cache.function(&high.jet.plan(), exact.as_ref(), extent));
+        self.ask(|cache| cache.function(&high.jet.plan(), exact.as_ref(), extent));
         if let Some(code) = &mut self.code {
             code.work.set(code.compiled.scale.offset, scale);
             self.has_grown = match low {
@@ -72,7 +72,7 @@ impl CompiledGrowth {
         clock: SeriesClock<Batch>,
     ) -> Result<bool, Singular> {
         let extent = Extent { orbits: widest(), numbers: builder.len(), inputs: builder.inputs };
-        self.ask(BATCH, |cache| cache.function(&builder.jet.plan(), None, extent));
+        self.ask(|cache| cache.function(&builder.jet.plan(), None, extent));
         self.has_grown = false;
         if let Some(code) = &mut self.code {
             self.has_grown = code.grow_all(builder, clock)?;
@@ -80,11 +80,15 @@ impl CompiledGrowth {
         Ok(self.has_grown)
     }
 
-    /// Takes a function for so many orbits once it pays.
-    fn ask(&mut self, orbits: usize, function: impl FnOnce(&CodeCache) -> Option<Arc<Compiled>>) {
-        if let Some(cache) = self.cache.take_if(|cache| cache.pays(orbits)) {
-            self.code = function(&cache).map(Code::of);
-        }
+    /// Takes a function once it pays.
+    fn ask(&mut self, function: impl FnOnce(&CodeCache) -> Availability) {
+        let answer = self.cache.as_ref().map_or(Availability::NotYet, function);
+        self.code = match answer {
+            Availability::NotYet => return,
+            Availability::Never => None,
+            Availability::Compiled(compiled) => Some(Code::of(compiled)),
+        };
+        self.cache = None;
     }
 }
 
@@ -126,7 +130,10 @@ impl Code {
         high.take_origin(low)?;
         self.work.copy(self.compiled.values.offset, high.jet.values());
         take_matrices(high.jet.factored(), &self.compiled.factored, &mut self.work);
-        take_matrices(low.jet.factored(), &self.compiled.exactly_factored, &mut self.work);
+        let places = &self.compiled.exactly_factored;
+        if !take_matrices(low.jet.factored(), places, &mut self.work) {
+            return Ok(false);
+        }
         let (jet, exact_state) = low.parts();
         let (values, exact_series) = jet.values_and_series();
         let (values, work) = (Values::Exact(values), &mut self.work);
@@ -168,8 +175,13 @@ impl Code {
     }
 }
 
-/// Takes the factored matrices of a jet.
-fn take_matrices<R: Real>(matrices: &[Factored<R>], places: &[FactoredPlace], work: &mut Work) {
+/// Takes the factored matrices of a jet. Returns whether all entries are finite.
+fn take_matrices<R: Real>(
+    matrices: &[Factored<R>],
+    places: &[FactoredPlace],
+    work: &mut Work,
+) -> bool {
+    let mut finite = true;
     // the number of `f64` of a number
     let size = size_of::<R>() / size_of::<f64>();
     for (place, factored) in places.iter().zip(matrices) {
@@ -178,6 +190,7 @@ fn take_matrices<R: Real>(matrices: &[Factored<R>], places: &[FactoredPlace], wo
             for (j, entry) in entries.iter().enumerate() {
                 let at = place.entries + (i * n + j) * size;
                 let double = entry.double();
+                finite &= double.high.is_finite();
                 work.set(at, double.high);
                 if size > 1 {
                     work.set(at + 1, double.low);
@@ -187,17 +200,19 @@ fn take_matrices<R: Real>(matrices: &[Factored<R>], places: &[FactoredPlace], wo
             work.set(place.rows + i, f64::from_bits((8 * size * row) as u64));
         }
     }
+    finite
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::compile::compile;
     use super::*;
     use crate::cancel::Cancel;
     use crate::expr::{FunctionId, Pool};
     use crate::system::jet::Jet;
     use crate::system::program::Program;
 
-    /// ẋ = sin x/(2 + x y), ẏ = x² − y t.
+    /// ẋ = sin x/(2 + x y), ẏ = x² − y t + Σ sin kx: more numbers at a time than there are registers.
     fn program() -> Arc<Program> {
         let mut pool = Pool::new();
         let [x, y, t] = ["x", "y", "t"].map(|name| pool.symbol(name));
@@ -207,7 +222,13 @@ mod tests {
         let below = pool.add(two, product);
         let first = pool.div(sine, below);
         let (square, fading) = (pool.mul(a, a), pool.mul(b, time));
-        let second = pool.sub(square, fading);
+        let mut second = pool.sub(square, fading);
+        for k in 1..=12 {
+            let factor = pool.integer(k);
+            let angle = pool.mul(factor, a);
+            let wave = pool.call(FunctionId::Sin, &[angle]);
+            second = pool.add(second, wave);
+        }
         Program::compile(&mut pool, &[], t, &[x, y], &[first, second]).expect("all are inputs")
     }
 
@@ -234,8 +255,8 @@ mod tests {
         for width in widths.filter(|width| width.numbers() <= widest().numbers()) {
             let (mut builder, clock) = orbits();
             let extent = Extent { orbits: width, numbers: 2, inputs: 2 };
-            let compiled = CodeCache::new().function(&builder.jet.plan(), None, extent);
-            let mut code = Code::of(compiled.expect("a processor with AVX2"));
+            let compiled = compile(&builder.jet.plan(), None, extent);
+            let mut code = Code::of(Arc::new(compiled.expect("a processor with AVX2")));
             assert!(code.grow_all(&mut builder, clock).expect("regular"));
             assert_eq!(bits(&builder), bits(&plain), "{width:?}");
         }

@@ -58,6 +58,7 @@ impl Arithmetic for Plain {
     }
 
     fn opposite(code: &mut Code, a: Operand) -> Operand {
+        let a = Plain::held(code, a);
         let sign = Operand::At(code.layout.constant(&[-0.0; 2]));
         code.binary(Operation::Xor, Width::Two, a, sign)
     }
