@@ -97,6 +97,16 @@ impl<const N: usize> Batch<N> {
         least
     }
 
+    /// The largest number.
+    #[inline(always)]
+    pub fn largest(self) -> f64 {
+        let mut largest = self.0[0];
+        for lane in 1..N {
+            largest = if self.0[lane] > largest { self.0[lane] } else { largest };
+        }
+        largest
+    }
+
     /// Whether no number is below that of another batch in its lane; NaN is.
     #[inline(always)]
     pub fn all_reach(self, other: Batch<N>) -> bool {

@@ -319,13 +319,17 @@ impl Program {
 /// inverse or a higher one: it meets a pole, or passes it closely.
 fn guard(program: &Program, r: Register) -> Option<Guard> {
     match program.ops[r as usize] {
-        Op::Root(under) => Some(Guard { value: r, under: Some(under), passes: true }),
+        Op::Root(under) => {
+            let argument = Some(under);
+            Some(Guard { value: r, argument, under: argument, passes: true })
+        }
         Op::Power(under, exponent) => {
             let is_pole = program.constants[exponent as usize].high <= -1.0;
-            Some(Guard { value: r, under: (!is_pole).then_some(under), passes: false })
+            let argument = Some(under);
+            Some(Guard { value: r, argument, under: argument.filter(|_| !is_pole), passes: false })
         }
         Op::Call(FunctionId::Asin | FunctionId::Acos, _) => {
-            Some(Guard { value: r + 1, under: None, passes: true })
+            Some(Guard { value: r + 1, argument: None, under: None, passes: true })
         }
         _ => None,
     }

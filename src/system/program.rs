@@ -73,7 +73,9 @@ pub(super) struct Block {
 pub(super) struct Guard {
     /// A value that is positive on the intended branch.
     pub(super) value: Register,
-    /// The argument of the root.
+    /// The argument, where it is a root or a power.
+    pub(super) argument: Option<Register>,
+    /// The same if a motion may continue through its zero.
     pub(super) under: Option<Register>,
     /// Whether the value itself passes zero where the branch is left.
     pub(super) passes: bool,

@@ -13,6 +13,9 @@ const ZERO: f64 = 3e-15;
 /// term.
 const STRAYED: f64 = 1e-6;
 
+/// The terms after the first may be this part of it where a series keeps off zero; the rest is for what is truncated.
+const OFF_ZERO: f64 = 0.9;
+
 /// A root whose values along a step stay above this part of their largest does not pass zero.
 const CLEAR: f64 = 0.2;
 
@@ -70,6 +73,36 @@ fn is_zero(value: f64, size: f64, change: f64) -> bool {
     value <= (ZERO * size).max(change.abs())
 }
 
+/// Whether some root may deviate from its series a time `after` the origin, in its unit: its argument may come to zero
+/// before.
+pub(super) fn may_stray(series: &Series, after: f64) -> bool {
+    (0..series.guards()).any(|i| {
+        series.guard_argument(i).is_none_or(|argument| !keeps_off_zero(argument, after.abs()))
+    })
+}
+
+/// Whether a series has no zero up to this distance from the origin, in no direction of the complex plane: all its other
+/// terms together are less than the first. A root of it is the same branch there.
+fn keeps_off_zero(c: &[f64], distance: f64) -> bool {
+    // four sums side by side, each in powers of the fourth power
+    const LANES: usize = 4;
+    let square = distance * distance;
+    let (chunks, rest) = c.as_chunks::<LANES>();
+    let mut sums = [0.0; LANES];
+    for (sum, c) in sums.iter_mut().zip(rest) {
+        *sum = c.abs();
+    }
+    for chunk in chunks.iter().rev() {
+        for lane in 0..LANES {
+            sums[lane] = sums[lane] * (square * square) + chunk[lane].abs();
+        }
+    }
+    let [zeroth, first, second, third] = sums;
+    let Some(own) = c.first().map(|c| c.abs()) else { return false };
+    let rest = (zeroth - own) + distance * first + square * (second + distance * third);
+    rest < OFF_ZERO * own
+}
+
 /// Whether some root deviates from its series a time `after` the origin, in its unit, at a state
 /// where the rates have been evaluated.
 pub(super) fn strayed(series: &Series, after: f64, rates: &ExactRates) -> bool {
@@ -118,7 +151,28 @@ fn polish(series: &Series, guard: usize, x: f64) -> DoubleDouble {
 
 #[cfg(test)]
 mod tests {
-    use super::{is_zero, passes};
+    use super::{is_zero, keeps_off_zero, passes};
+    use crate::num::math;
+
+    #[test]
+    fn a_series_keeps_off_zero_where_its_other_terms_are_below_nine_tenths_of_the_first() {
+        // 1/(1 − t/2): the others are the first at t = 1, and nine tenths of it at 18/19
+        let geometric: Vec<f64> = (0..60).map(|k| math::powi(0.5, k)).collect();
+        assert!(keeps_off_zero(&geometric, 18.0 / 19.0 - 1e-9));
+        assert!(!keeps_off_zero(&geometric, 18.0 / 19.0 + 1e-9));
+        // of any length and sign: 1 − t − t² − …
+        for length in 1..12 {
+            let c: Vec<f64> = (0..length).map(|k| if k == 0 { 1.0 } else { -1.0 }).collect();
+            let others = |t: f64| (1..length).map(|k| math::powi(t, k)).sum::<f64>();
+            for t in [0.1, 0.3, 0.45, 0.5, 0.6, 0.89, 0.91] {
+                assert_eq!(keeps_off_zero(&c, t), others(t) < 0.9, "{length} {t}");
+            }
+        }
+        // what is not finite, or nothing, does not
+        assert!(!keeps_off_zero(&[1.0, f64::NAN], 0.1));
+        assert!(!keeps_off_zero(&[0.0, 0.0], 0.1));
+        assert!(!keeps_off_zero(&[], 0.1));
+    }
 
     #[test]
     fn a_root_is_zero_to_the_rounding_of_its_terms_or_within_the_time_that_does_not_count() {

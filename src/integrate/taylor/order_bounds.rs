@@ -1,39 +1,41 @@
-//! The steps that the last orders of a series allow, all of them side by side.
+//! The steps that the last orders of a series allow, each by itself.
 //!
-//! In: the logarithms of the sizes of a series' coefficients. Out: the logarithm of the step that they allow. Never here:
-//! coefficients, the constants of the rule.
+//! In: the logarithms of the sizes of a series' coefficients. Out: the logarithm of the step that one of its last orders
+//! allows. Never here: coefficients, the constants of the rule, which orders are asked.
 //!
 //! ```text
-//!                 k = p−11  p−10  …  p        one lane for each of the last orders; the first two are not among them
-//!   j = 0             ·      ·       ·
-//!   j = 1             ·      ·       ·        (ln |c_j| − ln |c_k|)/(k − j) + ln ε/(p − j)
-//!   …                                         the largest of each column
+//!   order k:    j = 0   1   2   3  │  4   5   6   7  │  …  k − 1     four lower orders at once
+//!               (ln |c_j| − ln |c_k|)/(k − j) + ln ε/(p − j)         the largest of these, but no more than
+//!               (ln |c_j| − ln |c_k|)/(k − j) + ln of the part of    the largest of these, 2 ≤ j < k − 1
+//!                                             the radius
 //! ```
 
-use super::last_orders::{ROOM, WIDTH, lanes_of_last_orders};
+use super::last_orders::{LANES, ROOM, WIDTH, last_orders};
 use crate::num::Batch;
 
-/// Less than anything that a coefficient allows.
-const LEAST: Batch<WIDTH> = Batch([f64::NEG_INFINITY; WIDTH]);
+/// What the lower orders enter with for one of the last, four at once.
+#[derive(Clone, Debug)]
+struct OrderBound {
+    order: usize,
+    chunks: Vec<BoundChunk>,
+    /// By how much the logarithm of the step may be longer.
+    indulgence: f64,
+}
 
-/// What a coefficient of an order enters with.
 #[derive(Clone, Copy, Debug)]
-struct Bound {
+struct BoundChunk {
     /// The reciprocals of the differences of the orders.
-    reciprocals: Batch<WIDTH>,
+    reciprocals: Batch<LANES>,
     /// What is added for the tolerance; −∞ where the order is none of those below.
-    by_tolerance: Batch<WIDTH>,
+    by_tolerance: Batch<LANES>,
     /// What is added for the radius of convergence; −∞ where the order gives none.
-    by_radius: Batch<WIDTH>,
+    by_radius: Batch<LANES>,
 }
 
 /// The bounds at one tolerance and order.
 #[derive(Clone, Debug)]
 pub(super) struct OrderBounds {
-    bounds: Vec<Bound>,
-    /// By how much the logarithm of the step may be longer; infinite for an order that is not among the last, which therefore
-    /// allows anything.
-    indulgence: Batch<WIDTH>,
+    bounds: Vec<OrderBound>,
 }
 
 impl OrderBounds {
@@ -46,39 +48,44 @@ impl OrderBounds {
         indulgence: impl Fn(usize) -> f64,
     ) -> OrderBounds {
         let only = |known: bool, x: f64| if known { x } else { f64::NEG_INFINITY };
-        let of_last = |of: &dyn Fn(usize) -> f64| Batch(lanes_of_last_orders(order, 0.0, of));
-        let bound = |j: usize| Bound {
-            reciprocals: of_last(&|k| {
-                if j < k { 1.0 / (k - j) as f64 } else { 0.0 }
-            }),
-            by_tolerance: of_last(&|k| only(j < k, table[j])),
-            by_radius: of_last(&|k| only((2..k - 1).contains(&j), log_part)),
+        let chunk = |k: usize, first: usize| {
+            let lanes = |of: &dyn Fn(usize) -> f64| Batch(std::array::from_fn(|i| of(first + i)));
+            BoundChunk {
+                reciprocals: lanes(&|j| if j < k { 1.0 / (k - j) as f64 } else { 1.0 }),
+                by_tolerance: lanes(&|j| only(j < k, table[j])),
+                by_radius: lanes(&|j| only((2..k - 1).contains(&j), log_part)),
+            }
         };
-        OrderBounds {
-            bounds: (0..order).map(bound).collect(),
-            indulgence: Batch(lanes_of_last_orders(order, f64::INFINITY, indulgence)),
-        }
+        let bound = |k: usize| OrderBound {
+            order: k,
+            chunks: (0..k).step_by(LANES).map(|first| chunk(k, first)).collect(),
+            indulgence: indulgence(k),
+        };
+        OrderBounds { bounds: last_orders(order).map(bound).collect() }
     }
 
-    /// The logarithm of the step, or `shortest` if that is less. A coefficient that vanishes has the logarithm −∞.
+    /// The logarithm of the step that the order in a lane of [`lanes_of_last_orders`](super::last_orders::lanes_of_last_orders)
+    /// allows, infinite for one that does not enter. A coefficient that vanishes has the logarithm −∞.
     #[inline(always)]
-    pub(super) fn shortest(&self, logs: &[f64; ROOM], shortest: f64) -> f64 {
-        let order = self.bounds.len();
-        let (Some(own), logs) = (logs[..=order].last_chunk::<WIDTH>(), &logs[..order]) else {
-            return shortest;
-        };
-        let own = Batch(*own);
-        let (mut by_tolerance, mut by_radius) = (LEAST, LEAST);
-        for j in 0..order {
-            let (bound, log) = (&self.bounds[j], logs[j]);
-            let root = (Batch::splat(log) - own) * bound.reciprocals;
-            by_tolerance = by_tolerance.larger(root + bound.by_tolerance);
-            by_radius = by_radius.larger(root + bound.by_radius);
+    pub(super) fn of_lane(&self, lane: usize, logs: &[f64; ROOM]) -> f64 {
+        let place = (lane + self.bounds.len()).checked_sub(WIDTH);
+        let Some(bound) = place.and_then(|i| self.bounds.get(i)) else { return f64::INFINITY };
+        let own = logs[bound.order];
+        if own == f64::NEG_INFINITY {
+            // a coefficient that vanishes allows anything
+            return f64::INFINITY;
         }
-        let within = by_tolerance.smaller(by_radius);
-        let log = by_radius.where_equal(f64::NEG_INFINITY, by_tolerance, within) + self.indulgence;
-        // a coefficient that vanishes allows anything
-        let anything = Batch::splat(f64::INFINITY);
-        own.where_equal(f64::NEG_INFINITY, anything, log).least().min(shortest)
+        let own = Batch::splat(own);
+        let mut by_tolerance = Batch([f64::NEG_INFINITY; LANES]);
+        let mut by_radius = by_tolerance;
+        for (chunk, logs) in bound.chunks.iter().zip(logs.as_chunks::<LANES>().0) {
+            let root = (Batch(*logs) - own) * chunk.reciprocals;
+            by_tolerance = by_tolerance.larger(root + chunk.by_tolerance);
+            by_radius = by_radius.larger(root + chunk.by_radius);
+        }
+        let (by_tolerance, by_radius) = (by_tolerance.largest(), by_radius.largest());
+        let no_radius = by_radius == f64::NEG_INFINITY;
+        let log = if no_radius { by_tolerance } else { by_tolerance.min(by_radius) };
+        log + bound.indulgence
     }
 }

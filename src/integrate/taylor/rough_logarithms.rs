@@ -1,7 +1,7 @@
-//! Logarithms of the sizes of coefficients, as far as the length of a step needs them.
+//! Logarithms of the sizes of coefficients and their inverse, as far as the length of a step needs them.
 //!
-//! In: numbers. Out: the natural logarithms of their absolute values, to four digits or so. Never here: the rule that reads
-//! them.
+//! In: numbers. Out: the natural logarithms of their absolute values, to four digits or so; exponentials, to eight. Never
+//! here: the rule that reads them.
 
 use super::last_orders::{FAINT, LANES, ROOM};
 use crate::num::Kernel;
@@ -20,16 +20,23 @@ impl Kernel for Logarithms<'_> {
     fn run<const FUSED: bool>(self) -> bool {
         let mut finite = true;
         let (chunks, rest) = self.of.as_chunks::<LANES>();
-        let mut last = [0.0; LANES];
-        last[..rest.len()].copy_from_slice(rest);
-        let places = self.logs.as_chunks_mut::<LANES>().0.iter_mut();
-        for (log, c) in places.zip(chunks.iter().chain([&last])) {
+        let (places, _) = self.logs.as_chunks_mut::<LANES>();
+        let mut take = |log: &mut [f64; LANES], c: &[f64; LANES]| {
             let mut x = *c;
             for size in &mut x {
                 *size = size.abs();
                 finite &= *size < f64::INFINITY;
             }
             *log = rough_logarithms(x);
+        };
+        let (whole, behind) = places.split_at_mut(chunks.len());
+        for i in 0..chunks.len() {
+            take(&mut whole[i], &chunks[i]);
+        }
+        if let Some(last) = behind.first_mut() {
+            let mut c = [0.0; LANES];
+            c[..rest.len()].copy_from_slice(rest);
+            take(last, &c);
         }
         finite
     }
@@ -61,10 +68,38 @@ pub(super) fn rough_logarithms<const N: usize>(x: [f64; N]) -> [f64; N] {
     logs
 }
 
+/// An exponential to eight digits or so: a power of two, and the power series of the rest. Infinite or zero beyond the range
+/// of normal numbers.
+#[inline(always)]
+pub(super) fn rough_exponential(x: f64) -> f64 {
+    const MIDDLE: f64 = 1.5 * (1_u64 << 52) as f64;
+    const ABOVE: f64 = 709.0;
+    if x.abs() > ABOVE {
+        return if x > 0.0 { f64::INFINITY } else { 0.0 };
+    }
+    // the nearest integer, in the last digits of 1.5 × 2⁵²
+    let rounded = x * std::f64::consts::LOG2_E + MIDDLE;
+    let t = x - (rounded - MIDDLE) * std::f64::consts::LN_2;
+    let power = f64::from_bits((rounded.to_bits() << 52).wrapping_add(1.0_f64.to_bits()));
+    let terms = [1.0 / 5040.0, 1.0 / 720.0, 1.0 / 120.0, 1.0 / 24.0, 1.0 / 6.0, 0.5, 1.0, 1.0];
+    power * terms.iter().fold(0.0, |sum, term| sum * t + term)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::num::math;
+
+    #[test]
+    fn rough_exponentials_have_eight_digits() {
+        for i in -7000..7000 {
+            let x = f64::from(i) * 0.10123;
+            assert!((rough_exponential(x) / math::exp(x) - 1.0).abs() < 1e-8, "{x}");
+        }
+        assert_eq!(rough_exponential(710.0), f64::INFINITY);
+        assert_eq!(rough_exponential(-710.0), 0.0);
+        assert_eq!(rough_exponential(f64::NEG_INFINITY), 0.0);
+    }
 
     #[test]
     fn rough_logarithms_have_four_digits() {

@@ -190,7 +190,7 @@ impl Taylor {
     fn advance(&mut self, after: DoubleDouble) -> Result<f64, MotionError> {
         let (mut part, scale) = (1.0, self.series.scale());
         let steep = self.series.is_steep() && !self.series.sides().contains(&Side::Between);
-        if self.series.guards() == 0 && !steep {
+        if !steep && !branches::may_stray(&self.series, after.high / scale) {
             self.series.state_after(after, &mut self.state);
             return Ok(part);
         }

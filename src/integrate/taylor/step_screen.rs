@@ -50,12 +50,13 @@ impl StepScreen {
         }
     }
 
-    /// Whether a series allows a step, whose powers these are. May be false where it does.
+    /// One for each of the last orders of a series that surely allows a step, whose powers these are, else zero. May be
+    /// zero where one does.
     #[inline(always)]
-    pub(super) fn passes(&self, coefficients: &[f64], powers: &[f64; ROOM]) -> bool {
+    pub(super) fn passing(&self, coefficients: &[f64], powers: &[f64; ROOM]) -> Batch<WIDTH> {
         let last = powers[self.first..].first_chunk::<WIDTH>();
         let (Some(&own), Some(&powers_of_last)) = (coefficients.last_chunk::<WIDTH>(), last) else {
-            return false;
+            return Batch([0.0; WIDTH]);
         };
         let low = |j: usize| {
             let c = coefficients[j].abs();
@@ -70,7 +71,7 @@ impl StepScreen {
         let bound = by_tolerance.smaller(by_radius);
         // a coefficient that vanishes allows anything
         let (passes, terms) = (Batch([1.0; WIDTH]), own * Batch(powers_of_last));
-        own.where_below(FAINT, passes, bound.is_above(terms)).least() > 0.0
+        own.where_below(FAINT, passes, bound.is_above(terms))
     }
 }
 

@@ -5,15 +5,18 @@
 //! step h is such that the last terms are a small part of the tolerance, |c_p| h^p ≤ ε/100 max_j
 //! |c_j| h^j, and stays inside the radius of convergence however small those terms are: a body far
 //! from a collision is hardly affected by it.
+//!
+//! For each of the last orders k the logarithm of the step is the largest of `(ln |c_j| − ln |c_k|)/(k − j) + ln ε/(p − j)`
+//! over all j < k, but no more than the radius of convergence, that is the largest of the first terms alone, allows.
 
 use super::argument_step::{
     FARTHEST_ARGUMENT, before_pole, may_pass_pole, of_argument, of_steep_pole,
 };
 use super::last_orders::{INDULGENCE, ROOM, WIDTH, indulgence_of};
 use super::order_bounds::OrderBounds;
-use super::rough_logarithms::Logarithms;
+use super::rough_logarithms::{Logarithms, rough_exponential};
 use super::step_screen::{StepScreen, set_powers};
-use crate::num::{Kernel, math, vectorized};
+use crate::num::{Batch, Kernel, math, vectorized};
 use crate::system::Series;
 
 /// Below this tolerance the lowest orders are built in double-double.
@@ -59,9 +62,9 @@ pub(super) fn has_velocity(series: &Series) -> bool {
 pub(super) struct StepSize {
     motion: Shares,
     integrals: Shares,
-    /// The number whose series allowed the least last time. Looked at first, it mostly shows that
-    /// the others allow more.
-    least: usize,
+    /// The number whose series allowed the least last time, and the lane of the order that did. Taken
+    /// first, they mostly show that the others allow more.
+    least: (usize, usize),
 }
 
 impl StepSize {
@@ -69,7 +72,7 @@ impl StepSize {
         StepSize {
             motion: Shares::of_motion(tolerance, order),
             integrals: Shares::of_integrals(tolerance, order),
-            least: 0,
+            least: (0, WIDTH - 1),
         }
     }
 
@@ -101,54 +104,91 @@ impl StepSize {
     #[inline(always)]
     fn by_coefficients<const FUSED: bool>(&mut self, series: &Series) -> Option<f64> {
         let StepSize { motion, integrals: spared, least } = self;
-        let mut shortest = Shortest::new();
-        let first = *least;
+        let mut shortest = Shortest::new(least.1);
+        let first = least.0;
         if let Some(c) = numbers(series).nth(first) {
             shortest.take::<FUSED>(c, motion)?;
         }
         for (i, c) in numbers(series).enumerate().filter(|&(i, _)| i != first) {
             if shortest.take::<FUSED>(c, motion)? {
-                *least = i;
+                least.0 = i;
             }
         }
+        least.1 = shortest.lane;
         for i in 0..series.switches() {
             shortest.take::<FUSED>(series.switch(i), motion)?;
         }
         for c in integrals(series) {
             shortest.take::<FUSED>(c, spared)?;
         }
-        Some(shortest.step)
+        Some(math::exp(shortest.log))
     }
 }
 
-/// The shortest step that some series allow, its logarithm, and its powers.
+/// The shortest step that some series allow.
 struct Shortest {
+    /// Its logarithm, and its powers to eight digits or so.
     log: f64,
-    step: f64,
     powers: [f64; ROOM],
+    /// The lane of the order that allows no more; before there is one, the lane of that which is asked first.
+    lane: usize,
 }
 
 impl Shortest {
     #[inline(always)]
-    fn new() -> Shortest {
-        Shortest { log: f64::INFINITY, step: f64::INFINITY, powers: [f64::NAN; ROOM] }
+    fn new(lane: usize) -> Shortest {
+        Shortest { log: f64::INFINITY, powers: [f64::NAN; ROOM], lane }
     }
 
-    /// Takes another series into account, which is finite if another one was. Returns whether it allows less than those before; `None`
-    /// if a coefficient is not finite.
+    /// Takes another series into account. Returns whether it allows less than those before; `None` if a coefficient is
+    /// not finite.
+    ///
+    /// A test by multiplications tells which of its last orders surely allow the step found so far. Only the others are
+    /// asked what they allow, which takes logarithms.
     #[inline(always)]
     fn take<const FUSED: bool>(&mut self, coefficients: &[f64], shares: &Shares) -> Option<bool> {
-        let is_known = self.log < f64::INFINITY;
-        if is_known && shares.screen.passes(coefficients, &self.powers) {
+        let before = self.log;
+        let mut passing = self.passing(coefficients, shares);
+        if passing.all_reach(Batch([1.0; WIDTH])) {
             return Some(false);
         }
-        let log = of_one::<FUSED>(coefficients, shares, self.log)?;
-        let shorter = log < self.log;
-        if shorter {
-            (self.log, self.step) = (log, math::exp(log));
-            set_powers(&mut self.powers, self.step, coefficients.len() - 1);
+        let mut logs = [f64::NEG_INFINITY; ROOM];
+        if !(Logarithms { of: coefficients, logs: &mut logs }).run::<FUSED>() {
+            return None;
         }
-        Some(shorter)
+        let order = coefficients.len() - 1;
+        if before == f64::INFINITY {
+            self.shorten(self.lane, shares.bounds.of_lane(self.lane, &logs), order);
+            passing = self.passing(coefficients, shares);
+        }
+        let (mut least, mut log) = (self.lane, self.log);
+        for lane in 0..WIDTH {
+            if passing.0[lane] == 0.0 {
+                let allowed = shares.bounds.of_lane(lane, &logs);
+                (least, log) = if allowed < log { (lane, allowed) } else { (least, log) };
+            }
+        }
+        self.shorten(least, log, order);
+        Some(self.log < before)
+    }
+
+    /// One for each of the last orders that surely allows the step found so far, zero for the others.
+    #[inline(always)]
+    fn passing(&self, coefficients: &[f64], shares: &Shares) -> Batch<WIDTH> {
+        if self.log < f64::INFINITY {
+            shares.screen.passing(coefficients, &self.powers)
+        } else {
+            Batch([0.0; WIDTH])
+        }
+    }
+
+    /// Takes the step with this logarithm, which the order in a lane allows, if it is shorter.
+    #[inline(always)]
+    fn shorten(&mut self, lane: usize, log: f64, order: usize) {
+        if log < self.log {
+            (self.lane, self.log) = (lane, log);
+            set_powers(&mut self.powers, rough_exponential(log), order);
+        }
     }
 }
 
@@ -230,21 +270,6 @@ impl Shares {
     }
 }
 
-/// The logarithm of the step that one series allows, or `shortest` if that is less; `None` if a
-/// coefficient is not finite.
-///
-/// For each of the last orders k it is the largest of `(ln |c_j| − ln |c_k|)/(k − j) + ln ε/(p − j)`
-/// over all j < k, but no more than the radius of convergence, that is the largest of the first
-/// terms alone, allows.
-#[inline(always)]
-fn of_one<const FUSED: bool>(coefficients: &[f64], shares: &Shares, shortest: f64) -> Option<f64> {
-    let mut logs = [f64::NEG_INFINITY; ROOM];
-    if !(Logarithms { of: coefficients, logs: &mut logs }).run::<FUSED>() {
-        return None;
-    }
-    Some(shares.bounds.shortest(&logs, shortest))
-}
-
 /// The reciprocals of k − j for j = 0, 1, …, k − 1.
 #[inline(always)]
 pub(super) fn reciprocals(k: usize) -> &'static [f64] {
@@ -260,20 +285,18 @@ mod tests {
         (0..29).map(|k| math::powi(ratio, k)).collect()
     }
 
+    /// The logarithm of the step that a series allows, with every order asked.
+    fn of_one(coefficients: &[f64], shares: &Shares) -> Option<f64> {
+        let mut logs = [f64::NEG_INFINITY; ROOM];
+        let finite = Logarithms { of: coefficients, logs: &mut logs }.run::<false>();
+        let of_lane = |lane| shares.bounds.of_lane(lane, &logs);
+        finite.then(|| (0..WIDTH).map(of_lane).fold(f64::INFINITY, f64::min))
+    }
+
     /// The step that a series of order 28 allows.
     fn step_of(coefficients: &[f64], tolerance: f64) -> f64 {
         let shares = Shares::new(tolerance, coefficients.len() - 1);
-        of_one::<false>(coefficients, &shares, f64::INFINITY).map_or(f64::NAN, math::exp)
-    }
-
-    #[test]
-    fn a_longer_step_changes_nothing() {
-        let shares = Shares::new(1e-14, 28);
-        let longer = of_one::<false>(&geometric(0.5), &shares, f64::INFINITY).expect("finite");
-        let shorter = of_one::<false>(&geometric(3.0), &shares, f64::INFINITY).expect("finite");
-        assert!(longer > shorter);
-        assert_eq!(of_one::<false>(&geometric(0.5), &shares, shorter), Some(shorter));
-        assert_eq!(of_one::<false>(&geometric(3.0), &shares, longer), Some(shorter));
+        of_one(coefficients, &shares).map_or(f64::NAN, math::exp)
     }
 
     /// Series whose terms grow or shrink by a factor, with noise over many powers of ten, and zeros.
@@ -296,14 +319,14 @@ mod tests {
         let mut passed = 0;
         for seed in 0..4000 {
             let group: Vec<Vec<f64>> = (0..4).map(|i| noisy(4 * seed + i)).collect();
-            let mut with = Shortest::new();
+            let mut with = Shortest::new((seed % 10) as usize + 2);
             let mut without = f64::INFINITY;
             for series in &group {
                 let shorter = with.take::<false>(series, &shares).expect("finite");
-                let found = of_one::<false>(series, &shares, without).expect("finite");
+                let found = of_one(series, &shares).expect("finite");
                 assert_eq!(shorter, found < without, "{series:?}");
-                without = found;
-                passed += usize::from(shares.screen.passes(series, &with.powers));
+                without = without.min(found);
+                passed += usize::from(with.passing(series, &shares).least() > 0.0);
             }
             assert_eq!(with.log.to_bits(), without.to_bits());
         }
