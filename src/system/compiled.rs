@@ -20,7 +20,7 @@ use crate::cancel::Cancel;
 use crate::expr::{Expr, Symbol};
 use crate::mechanics::Equations;
 use crate::model::{self, Model};
-use crate::num::DoubleDouble;
+use crate::num::{DoubleDouble, Real};
 
 /// A model lowered to numbers. It is immutable and cheap to clone; steppers and observers share it
 /// and own their registers.
@@ -275,19 +275,19 @@ impl System {
 
     /// Writes the inputs of the observing programs: a state in the system's native form, then
     /// action and work, which are zero if the state does not carry them.
-    pub(super) fn inputs_of(&self, state: &State, out: &mut [DoubleDouble]) {
+    pub(super) fn inputs_of<R: Real>(&self, state: &State, out: &mut [R]) {
         let motion_len = self.motion_len();
         for (i, x) in out[..motion_len].iter_mut().enumerate() {
-            *x = state.exact(i);
+            *x = R::of(state.exact(i));
         }
         let quadratures = self.quadratures();
         let mut next = self.driven_len();
         for (auxiliary, place) in
             [(quadratures.action, motion_len), (quadratures.work, motion_len + 1)]
         {
-            out[place] = DoubleDouble::ZERO;
+            out[place] = R::ZERO;
             if auxiliary {
-                out[place] = state.exact(next);
+                out[place] = R::of(state.exact(next));
                 next += 1;
             }
         }

@@ -7,7 +7,7 @@ use std::borrow::Cow;
 
 use super::legendre::Legendre;
 use super::{MotionError, State, System};
-use crate::num::DoubleDouble;
+use crate::num::{DoubleDouble, Real};
 
 /// Converts the states of one motion at one set of parameters.
 #[derive(Clone, Debug)]
@@ -61,10 +61,10 @@ impl NativeStates {
     }
 
     /// Writes a state in the native form, then action and work, into the first of `inputs`.
-    pub(super) fn write(
+    pub(super) fn write<R: Real>(
         &mut self,
         state: &State,
-        inputs: &mut [DoubleDouble],
+        inputs: &mut [R],
     ) -> Result<(), MotionError> {
         let native = self.of(state)?;
         self.system.inputs_of(&native, inputs);

@@ -12,7 +12,6 @@ use super::native_states::NativeStates;
 use super::terms::{AtRest, OutputPlace, Terms};
 use super::value::Evaluator;
 use super::{State, System};
-use crate::num::DoubleDouble;
 
 /// Evaluates the quantities of one system's states at one set of parameters. It owns its registers.
 #[derive(Clone, Debug)]
@@ -23,7 +22,6 @@ pub struct TermWatch {
     canonical: Option<Evaluator<f64>>,
     native_states: NativeStates,
     inputs: Vec<f64>,
-    exact: Vec<DoubleDouble>,
     /// The terms at the last state, some followed by their values at rest.
     outputs: Vec<f64>,
     work: f64,
@@ -38,7 +36,6 @@ impl TermWatch {
             canonical: terms.canonical.clone().map(Evaluator::new),
             native_states: NativeStates::new(&system),
             inputs: vec![0.0; inputs],
-            exact: vec![DoubleDouble::ZERO; inputs],
             outputs: Vec::new(),
             work: 0.0,
             system,
@@ -61,12 +58,9 @@ impl TermWatch {
     pub fn observe(&mut self, state: &State) -> bool {
         let at_canonical = state.form != self.system.form() && self.canonical.is_some();
         if at_canonical {
-            self.system.inputs_of(state, &mut self.exact);
-        } else if self.native_states.write(state, &mut self.exact).is_err() {
+            self.system.inputs_of(state, &mut self.inputs);
+        } else if self.native_states.write(state, &mut self.inputs).is_err() {
             return false;
-        }
-        for (rounded, x) in self.inputs.iter_mut().zip(&self.exact) {
-            *rounded = x.high;
         }
         self.work = self.inputs[self.inputs.len() - 1];
         let terms = match &mut self.canonical {

@@ -7,7 +7,7 @@
 use std::sync::Arc;
 
 use super::kink_sides::KinkSides;
-use super::program::{Op, Program, Register, Singular};
+use super::program::{Block, Op, Program, Register, Singular};
 use super::solve::Factored;
 use super::underflow;
 use crate::num::{Analytic, DoubleDouble, ExtendedRange, Real};
@@ -117,15 +117,20 @@ impl<R: Real> Evaluator<R> {
     }
 
     fn evaluate_here(&mut self, time: R, inputs: &[R]) -> Result<(), Singular> {
-        for (&r, &x) in self.program.inputs.iter().zip(inputs) {
-            self.registers[r as usize] = x;
+        let Evaluator { program, registers, blocks, right, .. } = self;
+        for (&r, &x) in program.inputs.iter().zip(inputs) {
+            registers[r as usize] = x;
         }
-        for i in 0..self.program.body.len() {
-            let r = self.program.body[i];
-            match self.program.ops[r as usize] {
-                Op::Time => self.registers[r as usize] = time,
-                Op::Solve(block) => self.solve(r, block)?,
-                op => run(&self.program, &mut self.registers, r, op),
+        for &r in &program.body {
+            match program.ops[r as usize] {
+                Op::Time => registers[r as usize] = time,
+                Op::Solve(at) => {
+                    let block = &program.blocks[at as usize];
+                    if !solve(block, &mut blocks[at as usize], registers, right, r) {
+                        return Err(Singular { block: at });
+                    }
+                }
+                op => run(program, registers, r, op),
             }
         }
         Ok(())
@@ -173,21 +178,26 @@ impl<R: Real> Evaluator<R> {
         let roots = guards.map(|guard| value(guard.under.unwrap_or(guard.value)));
         KinkSides::new(self.program.switches.iter().map(|&r| value(r)), roots)
     }
+}
 
-    fn solve(&mut self, register: Register, at: u32) -> Result<(), Singular> {
-        let (block, factored) = (&self.program.blocks[at as usize], &mut self.blocks[at as usize]);
-        let n = block.size();
-        let registers = &mut self.registers;
-        if !factored.factor(|i, j| registers[block.matrix[i * n + j] as usize]) {
-            return Err(Singular { block: at });
-        }
-        for (x, &r) in self.right.iter_mut().zip(&block.right) {
-            *x = registers[r as usize];
-        }
-        factored.solve(&mut self.right[..n]);
-        registers[register as usize..][..n].copy_from_slice(&self.right[..n]);
-        Ok(())
+/// Sets the registers of a block of equations from one on to its solution. Returns false where its matrix is singular.
+fn solve<R: Real>(
+    block: &Block,
+    factored: &mut Factored<R>,
+    registers: &mut [R],
+    right: &mut [R],
+    first: Register,
+) -> bool {
+    let n = block.size();
+    if !factored.factor(|i, j| registers[block.matrix[i * n + j] as usize]) {
+        return false;
     }
+    for (x, &r) in right.iter_mut().zip(&block.right) {
+        *x = registers[r as usize];
+    }
+    factored.solve(&mut right[..n]);
+    registers[first as usize..][..n].copy_from_slice(&right[..n]);
+    true
 }
 
 /// Sets the register of an operation and that of its companion.

@@ -21,25 +21,27 @@ impl Kernel for Logarithms<'_> {
         let mut finite = true;
         let (chunks, rest) = self.of.as_chunks::<LANES>();
         let (places, _) = self.logs.as_chunks_mut::<LANES>();
-        let mut take = |log: &mut [f64; LANES], c: &[f64; LANES]| {
-            let mut x = *c;
-            for size in &mut x {
-                *size = size.abs();
-                finite &= *size < f64::INFINITY;
-            }
-            *log = rough_logarithms(x);
-        };
         let (whole, behind) = places.split_at_mut(chunks.len());
         for i in 0..chunks.len() {
-            take(&mut whole[i], &chunks[i]);
+            whole[i] = sizes_of(chunks[i], &mut finite);
         }
-        if let Some(last) = behind.first_mut() {
-            let mut c = [0.0; LANES];
-            c[..rest.len()].copy_from_slice(rest);
-            take(last, &c);
+        if let Some(log) = behind.first_mut() {
+            let mut last = [0.0; LANES];
+            last[..rest.len()].copy_from_slice(rest);
+            *log = sizes_of(last, &mut finite);
         }
         finite
     }
+}
+
+/// The natural logarithms of absolute values. Notes whether all are finite.
+#[inline(always)]
+fn sizes_of(mut x: [f64; LANES], finite: &mut bool) -> [f64; LANES] {
+    for size in &mut x {
+        *size = size.abs();
+        *finite &= *size < f64::INFINITY;
+    }
+    rough_logarithms(x)
 }
 
 /// The natural logarithms of positive numbers to four digits or so, by their exponents and a power
@@ -81,8 +83,13 @@ pub(super) fn rough_exponential(x: f64) -> f64 {
     let rounded = x * std::f64::consts::LOG2_E + MIDDLE;
     let t = x - (rounded - MIDDLE) * std::f64::consts::LN_2;
     let power = f64::from_bits((rounded.to_bits() << 52).wrapping_add(1.0_f64.to_bits()));
-    let terms = [1.0 / 5040.0, 1.0 / 720.0, 1.0 / 120.0, 1.0 / 24.0, 1.0 / 6.0, 0.5, 1.0, 1.0];
-    power * terms.iter().fold(0.0, |sum, term| sum * t + term)
+    const TERMS: [f64; 7] =
+        [1.0 / 5040.0, 1.0 / 720.0, 1.0 / 120.0, 1.0 / 24.0, 1.0 / 6.0, 0.5, 1.0];
+    let mut sum = 0.0;
+    for term in TERMS {
+        sum = (sum + term) * t;
+    }
+    power * (1.0 + sum)
 }
 
 #[cfg(test)]
