@@ -99,6 +99,11 @@ impl DoubleDouble {
         self.high.is_finite() && self.low.is_finite()
     }
 
+    /// Whether its reciprocal has all digits, so that a quotient by it can be a product.
+    pub fn has_reciprocal(self) -> bool {
+        (1e-250..1e250).contains(&self.high.abs())
+    }
+
     /// `self²`.
     #[must_use]
     pub fn squared(self) -> DoubleDouble {

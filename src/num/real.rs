@@ -72,6 +72,13 @@ pub trait Analytic:
     fn divided_by<const FUSED: bool>(self, other: Self) -> Self {
         self / other
     }
+    /// The quotient by a number that others are divided by as well: where a quotient costs much more than a product, the
+    /// product with its reciprocal, which has twice the error.
+    #[must_use]
+    #[inline(always)]
+    fn divided_by_shared<const FUSED: bool>(self, divisor: Self) -> Self {
+        self.divided_by::<FUSED>(divisor)
+    }
     /// Puts [`Analytic::SIDE`] numbers side by side.
     fn side_by_side(number: impl Fn(usize) -> Self) -> Self::Lanes;
     /// Writes `Σ_j a_j b_j` of each lane, for series of equal length. To be inlined into a

@@ -107,22 +107,30 @@ impl<R: Real> Factored<R> {
 
     /// Solves for a right-hand side, in place.
     pub(super) fn solve(&mut self, right: &mut [R]) {
-        self.solve_with::<false>(right);
+        self.solve_with::<false>(right, R::divided_by::<false>);
     }
 
-    /// The same inside a [`Kernel`](crate::num::Kernel).
+    /// The same inside a [`Kernel`](crate::num::Kernel), with a way to divide by a pivot.
     #[inline(always)]
-    pub(super) fn solve_with<const FUSED: bool>(&mut self, right: &mut [R]) {
+    pub(super) fn solve_with<const FUSED: bool>(
+        &mut self,
+        right: &mut [R],
+        over: impl Fn(R, R) -> R,
+    ) {
         match self.size {
-            2 => self.solve_of::<2, FUSED>(right),
-            3 => self.solve_of::<3, FUSED>(right),
-            4 => self.solve_of::<4, FUSED>(right),
-            _ => self.solve_of::<0, FUSED>(right),
+            2 => self.solve_of::<2, FUSED>(right, over),
+            3 => self.solve_of::<3, FUSED>(right, over),
+            4 => self.solve_of::<4, FUSED>(right, over),
+            _ => self.solve_of::<0, FUSED>(right, over),
         }
     }
 
     #[inline(always)]
-    fn solve_of<const SIZE: usize, const FUSED: bool>(&mut self, right: &mut [R]) {
+    fn solve_of<const SIZE: usize, const FUSED: bool>(
+        &mut self,
+        right: &mut [R],
+        over: impl Fn(R, R) -> R,
+    ) {
         let n = if SIZE == 0 { self.size } else { SIZE };
         let (entries, rows) = (&self.entries[..n * n], &self.rows[..n]);
         let (right, scratch) = (&mut right[..n], &mut self.scratch[..n]);
@@ -140,7 +148,7 @@ impl<R: Real> Factored<R> {
             for j in k + 1..n {
                 sum = sum - entries[row * n + j].times::<FUSED>(right[j]);
             }
-            right[k] = sum.divided_by::<FUSED>(entries[row * n + k]);
+            right[k] = over(sum, entries[row * n + k]);
         }
     }
 }

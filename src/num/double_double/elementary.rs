@@ -163,6 +163,14 @@ impl Analytic for DoubleDouble {
         self.quotient::<FUSED>(other)
     }
     #[inline(always)]
+    fn divided_by_shared<const FUSED: bool>(self, divisor: DoubleDouble) -> DoubleDouble {
+        if divisor.has_reciprocal() {
+            self.times::<FUSED>(DoubleDouble::ONE.quotient::<FUSED>(divisor))
+        } else {
+            self.quotient::<FUSED>(divisor)
+        }
+    }
+    #[inline(always)]
     fn side_by_side(number: impl Fn(usize) -> DoubleDouble) -> DoubleLanes<LANES> {
         let mut numbers = [DoubleDouble::ZERO; LANES];
         for lane in 0..LANES {

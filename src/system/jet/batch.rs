@@ -33,8 +33,12 @@ impl Elimination<Batch> for FactoredBatch {
         true
     }
 
+    fn solve(&mut self, right: &mut [Batch]) {
+        self.solve_again::<false>(right);
+    }
+
     #[inline(always)]
-    fn solve<const FUSED: bool>(&mut self, right: &mut [Batch]) {
+    fn solve_again<const FUSED: bool>(&mut self, right: &mut [Batch]) {
         for (lane, factored) in self.lanes.iter_mut().enumerate() {
             if self.singular[lane] {
                 for x in right.iter_mut() {
@@ -45,7 +49,7 @@ impl Elimination<Batch> for FactoredBatch {
             for (own, x) in self.right.iter_mut().zip(&*right) {
                 *own = x.0[lane];
             }
-            factored.solve_with::<FUSED>(&mut self.right);
+            factored.solve_with::<FUSED>(&mut self.right, |x, pivot| x / pivot);
             for (x, own) in right.iter_mut().zip(&self.right) {
                 x.0[lane] = *own;
             }

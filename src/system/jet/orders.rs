@@ -32,8 +32,11 @@ pub trait Elimination<R>: Clone + Send + Sync + std::fmt::Debug {
     /// singular.
     #[must_use]
     fn factor(&mut self, entry: impl Fn(usize, usize) -> R) -> bool;
-    /// Solves for a right-hand side, in place. With `FUSED` it must be inlined into a kernel.
-    fn solve<const FUSED: bool>(&mut self, right: &mut [R]);
+    /// Solves for a right-hand side, in place.
+    fn solve(&mut self, right: &mut [R]);
+    /// The same for one of many, by [shared](crate::num::Analytic::divided_by_shared) divisors. With `FUSED` it must be
+    /// inlined into a kernel.
+    fn solve_again<const FUSED: bool>(&mut self, right: &mut [R]);
 }
 
 impl<R: Real> Elimination<R> for Factored<R> {
@@ -43,9 +46,12 @@ impl<R: Real> Elimination<R> for Factored<R> {
     fn factor(&mut self, entry: impl Fn(usize, usize) -> R) -> bool {
         Factored::factor(self, entry)
     }
+    fn solve(&mut self, right: &mut [R]) {
+        Factored::solve(self, right);
+    }
     #[inline(always)]
-    fn solve<const FUSED: bool>(&mut self, right: &mut [R]) {
-        self.solve_with::<FUSED>(right);
+    fn solve_again<const FUSED: bool>(&mut self, right: &mut [R]) {
+        self.solve_with::<FUSED>(right, R::divided_by_shared::<FUSED>);
     }
 }
 
@@ -163,15 +169,20 @@ impl<R: Coefficient> Orders<'_, R> {
                             now[at(slope)].times::<FUSED>(values[at(factor)]).multiple::<FUSED>(k);
                         let sum = products[at(inner)] + last;
                         let sum = if sign == TermSign::Minus { -sum } else { sum };
-                        now[at(register)] = (R::ZERO + sum).over::<FUSED>(k);
+                        now[at(register)] = sum.over::<FUSED>(k);
                     }
                 }
                 OperationRun::Sums(run) => {
                     for &LinearSum { register, first, count } in run {
                         let terms = &terms[first as usize..][..count as usize];
-                        now[at(register)] = terms.iter().fold(R::ZERO, |sum, &(term, factor)| {
-                            sum + now[at(term)].times::<FUSED>(factor)
-                        });
+                        let multiple =
+                            |&(term, factor): &(Register, R)| now[at(term)].times::<FUSED>(factor);
+                        let Some((first, others)) = terms.split_first() else { continue };
+                        let mut sum = multiple(first);
+                        for term in others {
+                            sum = sum + multiple(term);
+                        }
+                        now[at(register)] = sum;
                     }
                 }
                 OperationRun::Solution(_) | OperationRun::Alone(_) => return Some(run),
@@ -205,7 +216,7 @@ impl<R: Coefficient> Orders<'_, R> {
             let sum = &mut sums[entry.row as usize];
             *sum = *sum - (product + last);
         }
-        self.blocks[block].solve::<FUSED>(sums);
+        self.blocks[block].solve_again::<FUSED>(sums);
         now[register as usize..][..sums.len()].copy_from_slice(sums);
     }
 
@@ -338,9 +349,9 @@ fn related<R: Analytic, const FUSED: bool>(
         ConvolutionFactor::Times(factor) => x.times::<FUSED>(R::of(factor)),
     };
     let mut sum = match relation.direct {
-        Direct::None => R::ZERO,
-        Direct::Coefficient(a) => now[at(a)],
-        Direct::Slope(factor, a) => times(factor, now[at(a)].multiple::<FUSED>(k)),
+        Direct::None => None,
+        Direct::Coefficient(a) => Some(now[at(a)]),
+        Direct::Slope(factor, a) => Some(times(factor, now[at(a)].multiple::<FUSED>(k))),
     };
     let range = relation.first as usize..(relation.first + relation.count) as usize;
     for summand in &schedule.summands[range] {
@@ -357,13 +368,17 @@ fn related<R: Analytic, const FUSED: bool>(
                         + now[at(a)].times::<FUSED>(values[at(b)]))
             }
         };
-        sum = sum + times(summand.factor, whole);
+        let whole = times(summand.factor, whole);
+        sum = Some(sum.map_or(whole, |sum| sum + whole));
     }
+    let sum = sum.unwrap_or(R::ZERO);
     match relation.denominator {
         Denominator::One => sum,
         Denominator::Order => sum.over::<FUSED>(k),
-        Denominator::Value(a) => sum.divided_by::<FUSED>(values[at(a)]),
-        Denominator::OrderTimes(a) => sum.divided_by::<FUSED>(values[at(a)]).over::<FUSED>(k),
-        Denominator::Twice(a) => sum.divided_by::<FUSED>(values[at(a)].multiple::<FUSED>(2)),
+        Denominator::Value(a) => sum.divided_by_shared::<FUSED>(values[at(a)]),
+        Denominator::OrderTimes(a) => {
+            sum.divided_by_shared::<FUSED>(values[at(a)]).over::<FUSED>(k)
+        }
+        Denominator::Twice(a) => sum.divided_by_shared::<FUSED>(values[at(a)].multiple::<FUSED>(2)),
     }
 }

@@ -95,7 +95,7 @@ impl<R: Coefficient> Tables<R> {
                         *x = self.rows[right as usize];
                     }
                     let solution = &mut self.vector[..block_of.size()];
-                    self.blocks[block as usize].solve::<false>(solution);
+                    self.blocks[block as usize].solve(solution);
                     self.rows[r as usize..][..block_of.size()].copy_from_slice(solution);
                 }
                 op => self.evaluate(program, r, op),

@@ -114,8 +114,19 @@ pub(super) trait Arithmetic {
     fn multiple(code: &mut Code, a: Self::Number, n: usize) -> Self::Number;
     /// The product with a unit of time, a power of two.
     fn scaled(code: &mut Code, a: Self::Number, power_of_two: Operand) -> Self::Number;
-    /// The quotient.
-    fn quotient(code: &mut Code, a: Self::Number, b: Self::Number) -> Self::Number;
+    /// What [`Arithmetic::over_shared`] is given for a divisor: its reciprocal where that is multiplied by.
+    fn shared(code: &mut Code, divisor: Self::Number) -> Self::Number;
+    /// [`Analytic::divided_by_shared`](crate::num::Analytic::divided_by_shared).
+    fn over_shared(code: &mut Code, a: Self::Number, shared: Self::Number) -> Self::Number;
+    /// The product with a constant.
+    fn times(code: &mut Code, a: Self::Number, factor: DoubleDouble) -> Self::Number {
+        let factor = Self::constant(code, factor);
+        Self::product(code, a, factor)
+    }
+    /// Twice a number.
+    fn twice(code: &mut Code, a: Self::Number) -> Self::Number {
+        Self::sum(code, a, a)
+    }
     /// The quotient by an integer.
     fn over(code: &mut Code, a: Self::Number, n: usize) -> Self::Number;
     /// The opposite.

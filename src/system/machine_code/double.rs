@@ -60,6 +60,29 @@ impl Code {
         self.ordered_sum(high, low)
     }
 
+    /// The quotient.
+    fn exact_quotient(&mut self, a: Parts, b: Parts) -> Parts {
+        let (a, b) = (Double::held(self, a), Double::held(self, b));
+        let first = Plain::over_shared(self, a.0, b.0);
+        let part = self.exact_multiple(b, first);
+        let rest = Double::difference(self, a, part);
+        let second = Plain::over_shared(self, rest.0, b.0);
+        let part = self.exact_multiple(b, second);
+        let rest = Double::difference(self, rest, part);
+        let third = Plain::over_shared(self, rest.0, b.0);
+        let (high, low) = self.ordered_sum(first, second);
+        let low = Plain::sum(self, low, third);
+        self.ordered_sum(high, low)
+    }
+
+    /// The product with a power of two, which is exact. The sum of two parts is never −0.
+    fn by_power_of_two(&mut self, a: Parts, factor: f64) -> Parts {
+        let factor = self.constant(factor);
+        let (high, low) = Double::scaled(self, a, factor);
+        let zero = self.constant(0.0);
+        (Plain::sum(self, high, zero), low)
+    }
+
     /// The sum of two numbers from the sums of their parts.
     fn renormalized(&mut self, highs: Parts, lows: Parts) -> Parts {
         let low = Plain::sum(self, highs.1, lows.0);
@@ -67,6 +90,11 @@ impl Code {
         let low = Plain::sum(self, lows.1, low);
         self.ordered_sum(high, low)
     }
+}
+
+/// Whether a factor changes no digit.
+fn is_power_of_two(factor: DoubleDouble) -> bool {
+    factor.low == 0.0 && factor.high.is_normal() && factor.high.to_bits().trailing_zeros() >= 52
 }
 
 impl Arithmetic for Double {
@@ -106,31 +134,41 @@ impl Arithmetic for Double {
     }
 
     fn multiple(code: &mut Code, a: Parts, n: usize) -> Parts {
-        let n = code.constant(n as f64);
-        code.exact_multiple(a, n)
+        if n.is_power_of_two() {
+            return code.by_power_of_two(a, n as f64);
+        }
+        let factor = code.constant(n as f64);
+        code.exact_multiple(a, factor)
     }
 
     fn scaled(code: &mut Code, a: Parts, power_of_two: Operand) -> Parts {
         (Plain::product(code, a.0, power_of_two), Plain::product(code, a.1, power_of_two))
     }
 
-    fn quotient(code: &mut Code, a: Parts, b: Parts) -> Parts {
-        let (a, b) = (Double::held(code, a), Double::held(code, b));
-        let first = Plain::quotient(code, a.0, b.0);
-        let part = code.exact_multiple(b, first);
-        let rest = Double::difference(code, a, part);
-        let second = Plain::quotient(code, rest.0, b.0);
-        let part = code.exact_multiple(b, second);
-        let rest = Double::difference(code, rest, part);
-        let third = Plain::quotient(code, rest.0, b.0);
-        let (high, low) = code.ordered_sum(first, second);
-        let low = Plain::sum(code, low, third);
-        code.ordered_sum(high, low)
+    fn shared(code: &mut Code, divisor: Parts) -> Parts {
+        let one = Double::constant(code, DoubleDouble::ONE);
+        let reciprocal = code.exact_quotient(one, divisor);
+        Double::held(code, reciprocal)
+    }
+
+    fn over_shared(code: &mut Code, a: Parts, reciprocal: Parts) -> Parts {
+        Double::product(code, a, reciprocal)
+    }
+
+    fn times(code: &mut Code, a: Parts, factor: DoubleDouble) -> Parts {
+        if is_power_of_two(factor) {
+            return code.by_power_of_two(a, factor.high);
+        }
+        let factor = Double::constant(code, factor);
+        Double::product(code, a, factor)
+    }
+
+    fn twice(code: &mut Code, a: Parts) -> Parts {
+        code.by_power_of_two(a, 2.0)
     }
 
     fn over(code: &mut Code, a: Parts, n: usize) -> Parts {
-        let inverse = Double::constant(code, DoubleDouble::ONE.over::<false>(n));
-        Double::product(code, a, inverse)
+        Double::times(code, a, DoubleDouble::ONE.over::<false>(n))
     }
 
     fn opposite(code: &mut Code, a: Parts) -> Parts {

@@ -4,7 +4,7 @@
 //! In: a program and its schedule, the orders in one precision. Out: instructions. Never here: arithmetic, bytes, numbers.
 //!
 //! Every sum has the order of [`Orders`](crate::system::jet), so the bits are the same. What is left out changes none: a term
-//! that is zero, a factor 1, a first zero where what is added to it is never −0.
+//! that is zero, a factor 1, the low part of a power of two.
 
 use super::arithmetic::{Arithmetic, Code};
 use super::basic_block::Operand;
@@ -30,6 +30,18 @@ pub(super) struct Emitter<'a, A: Arithmetic> {
     /// The order that is written, and the registers at it.
     pub(super) k: usize,
     now: Vec<Option<A::Number>>,
+    /// What was divided by, as it is divided by again.
+    divisors: Vec<(SharedDivisor, A::Number)>,
+}
+
+/// What several numbers are divided by.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum SharedDivisor {
+    /// The value of a register, or twice that.
+    Value(Register),
+    Twice(Register),
+    /// A pivot of a block.
+    Pivot(u32, u32),
 }
 
 impl<'a, A: Arithmetic> Emitter<'a, A> {
@@ -50,6 +62,7 @@ impl<'a, A: Arithmetic> Emitter<'a, A> {
             numbers,
             inputs,
             k: 0,
+            divisors: Vec::new(),
         }
     }
 
@@ -124,12 +137,8 @@ impl<'a, A: Arithmetic> Emitter<'a, A> {
                         let last = self.multiple(last, k);
                         let inner = self.product(step.inner);
                         let sum = A::sum(self.code, inner, last);
-                        let zero = self.zero();
-                        let sum = if step.sign == TermSign::Minus {
-                            A::difference(self.code, zero, sum)
-                        } else {
-                            sum
-                        };
+                        let negative = step.sign == TermSign::Minus;
+                        let sum = if negative { A::opposite(self.code, sum) } else { sum };
                         let coefficient = A::over(self.code, sum, k);
                         self.set(step.register, coefficient);
                     }
@@ -258,61 +267,78 @@ impl<'a, A: Arithmetic> Emitter<'a, A> {
             };
             let whole = ends.map_or(product, |ends| A::sum(self.code, product, ends));
             sum = Some(match (summand.factor, sum) {
-                // neither an inner product nor what it is added to is −0
-                (ConvolutionFactor::Plus, None) => whole,
-                (ConvolutionFactor::Minus, _) => {
-                    let sum = sum.unwrap_or_else(|| self.zero());
-                    A::difference(self.code, sum, whole)
-                }
-                (factor, _) => {
-                    let sum = sum.unwrap_or_else(|| self.zero());
+                (ConvolutionFactor::Minus, Some(sum)) => A::difference(self.code, sum, whole),
+                (factor, Some(sum)) => {
                     let whole = self.times_factor(whole, factor);
                     A::sum(self.code, sum, whole)
                 }
+                (factor, None) => self.times_factor(whole, factor),
             });
         }
         let sum = sum.unwrap_or_else(|| self.zero());
         Ok(match relation.denominator {
             Denominator::One => sum,
             Denominator::Order => A::over(self.code, sum, k),
-            Denominator::Value(a) => A::quotient(self.code, sum, self.value(a)),
+            Denominator::Value(a) => {
+                let divisor = self.shared(SharedDivisor::Value(a), self.value(a));
+                A::over_shared(self.code, sum, divisor)
+            }
             Denominator::OrderTimes(a) => {
-                let quotient = A::quotient(self.code, sum, self.value(a));
+                let divisor = self.shared(SharedDivisor::Value(a), self.value(a));
+                let quotient = A::over_shared(self.code, sum, divisor);
                 A::over(self.code, quotient, k)
             }
             Denominator::Twice(a) => {
                 let twice = self.multiple(self.value(a), 2);
-                A::quotient(self.code, sum, twice)
+                let divisor = self.shared(SharedDivisor::Twice(a), twice);
+                A::over_shared(self.code, sum, divisor)
             }
         })
+    }
+
+    /// What is divided by, as [`Arithmetic::over_shared`] takes it; computed once.
+    pub(super) fn shared(&mut self, divisor: SharedDivisor, number: A::Number) -> A::Number {
+        if let Some(&(_, known)) = self.divisors.iter().find(|(known, _)| *known == divisor) {
+            return known;
+        }
+        let shared = A::shared(self.code, number);
+        self.divisors.push((divisor, shared));
+        shared
     }
 
     /// A sum of multiples.
     fn sum(&mut self, sum: &LinearSum) -> Result<A::Number, NotCompiled> {
         let program = self.plan.program;
         let terms = &program.terms[sum.first as usize..][..sum.count as usize];
-        let mut total = self.zero();
-        for term in terms {
+        let mut total = None;
+        for (i, term) in terms.iter().enumerate() {
             let factor = term.coefficient;
             if program.fixed[term.register as usize] {
-                // zero above order 0
-                if factor.is_finite() {
-                    continue;
+                // zero above order 0, so it changes nothing but the sign of a zero that follows
+                if !factor.is_finite() {
+                    return Err(NotCompiled);
                 }
-                return Err(NotCompiled);
+                if i == 0 && factor.high > 0.0 {
+                    total = Some(self.zero());
+                }
+                continue;
             }
             let number = self.now(term.register)?;
-            total = if factor == DoubleDouble::ONE {
-                A::sum(self.code, total, number)
-            } else if factor == -DoubleDouble::ONE {
-                A::difference(self.code, total, number)
-            } else {
-                let factor = A::constant(self.code, factor);
-                let multiple = A::product(self.code, number, factor);
-                A::sum(self.code, total, multiple)
-            };
+            total = Some(match total {
+                Some(total) if factor == DoubleDouble::ONE => A::sum(self.code, total, number),
+                Some(total) if factor == -DoubleDouble::ONE => {
+                    A::difference(self.code, total, number)
+                }
+                Some(total) => {
+                    let multiple = A::times(self.code, number, factor);
+                    A::sum(self.code, total, multiple)
+                }
+                None if factor == DoubleDouble::ONE => number,
+                None if factor == -DoubleDouble::ONE => A::opposite(self.code, number),
+                None => A::times(self.code, number, factor),
+            });
         }
-        Ok(total)
+        Ok(total.unwrap_or_else(|| self.zero()))
     }
 
     /// An inner product of this order.
@@ -325,7 +351,7 @@ impl<'a, A: Arithmetic> Emitter<'a, A> {
     fn both_ends(&mut self, a: Register, b: Register) -> Result<A::Number, NotCompiled> {
         let first = self.last(b, a)?;
         if a == b {
-            return Ok(A::sum(self.code, first, first));
+            return Ok(A::twice(self.code, first));
         }
         let last = self.last(a, b)?;
         Ok(A::sum(self.code, first, last))
@@ -341,10 +367,7 @@ impl<'a, A: Arithmetic> Emitter<'a, A> {
         match factor {
             ConvolutionFactor::Plus => number,
             ConvolutionFactor::Minus => A::opposite(self.code, number),
-            ConvolutionFactor::Times(factor) => {
-                let factor = A::constant(self.code, factor);
-                A::product(self.code, number, factor)
-            }
+            ConvolutionFactor::Times(factor) => A::times(self.code, number, factor),
         }
     }
 

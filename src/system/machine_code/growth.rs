@@ -168,20 +168,19 @@ impl Code {
         self.compiled.vanishing.iter().any(|&r| values[r as usize].value() == 0.0)
     }
 
-    /// Whether something is divided by what is zero or not finite.
+    /// Whether something is divided by what has no reciprocal of all digits.
     fn divides_badly(&self, values: &[DoubleDouble]) -> bool {
-        let is_bad = |x: f64| x == 0.0 || !x.is_finite();
-        self.compiled.divisors.iter().any(|&r| is_bad(values[r as usize].high))
+        self.compiled.divisors.iter().any(|&r| !values[r as usize].has_reciprocal())
     }
 }
 
-/// Takes the factored matrices of a jet. Returns whether all entries are finite.
+/// Takes the factored matrices of a jet. Returns whether all entries are finite, and all pivots have reciprocals.
 fn take_matrices<R: Real>(
     matrices: &[Factored<R>],
     places: &[FactoredPlace],
     work: &mut Work,
 ) -> bool {
-    let mut finite = true;
+    let mut regular = true;
     // the number of `f64` of a number
     let size = size_of::<R>() / size_of::<f64>();
     for (place, factored) in places.iter().zip(matrices) {
@@ -190,7 +189,7 @@ fn take_matrices<R: Real>(
             for (j, entry) in entries.iter().enumerate() {
                 let at = place.entries + (i * n + j) * size;
                 let double = entry.double();
-                finite &= double.high.is_finite();
+                regular &= double.high.is_finite() && (i != j || double.has_reciprocal());
                 work.set(at, double.high);
                 if size > 1 {
                     work.set(at + 1, double.low);
@@ -200,7 +199,7 @@ fn take_matrices<R: Real>(
             work.set(place.rows + i, f64::from_bits((8 * size * row) as u64));
         }
     }
-    finite
+    regular
 }
 
 #[cfg(test)]

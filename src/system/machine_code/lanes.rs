@@ -57,8 +57,12 @@ impl Arithmetic for Lanes {
         Lanes::product(code, a, power_of_two)
     }
 
-    fn quotient(code: &mut Code, a: Operand, b: Operand) -> Operand {
-        code.on_lanes(Operation::Divide, a, b)
+    fn shared(_: &mut Code, divisor: Operand) -> Operand {
+        divisor
+    }
+
+    fn over_shared(code: &mut Code, a: Operand, shared: Operand) -> Operand {
+        code.on_lanes(Operation::Divide, a, shared)
     }
 
     fn over(code: &mut Code, a: Operand, n: usize) -> Operand {
@@ -66,7 +70,7 @@ impl Arithmetic for Lanes {
             return a;
         }
         let n = code.splat(n as f64);
-        Lanes::quotient(code, a, n)
+        Lanes::over_shared(code, a, n)
     }
 
     fn opposite(code: &mut Code, a: Operand) -> Operand {

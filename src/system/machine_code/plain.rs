@@ -45,8 +45,12 @@ impl Arithmetic for Plain {
         Plain::product(code, a, power_of_two)
     }
 
-    fn quotient(code: &mut Code, a: Operand, b: Operand) -> Operand {
-        code.binary(Operation::Divide, Width::One, a, b)
+    fn shared(_: &mut Code, divisor: Operand) -> Operand {
+        divisor
+    }
+
+    fn over_shared(code: &mut Code, a: Operand, shared: Operand) -> Operand {
+        code.binary(Operation::Divide, Width::One, a, shared)
     }
 
     fn over(code: &mut Code, a: Operand, n: usize) -> Operand {
@@ -54,7 +58,7 @@ impl Arithmetic for Plain {
             return a;
         }
         let n = code.constant(n as f64);
-        Plain::quotient(code, a, n)
+        Plain::over_shared(code, a, n)
     }
 
     fn opposite(code: &mut Code, a: Operand) -> Operand {

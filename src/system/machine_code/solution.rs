@@ -4,7 +4,7 @@
 //! [`Factored`](crate::system::solve::Factored). Never here: factoring; which row is which pivot's is read from memory.
 
 use super::arithmetic::Arithmetic;
-use super::emitter::Emitter;
+use super::emitter::{Emitter, SharedDivisor};
 use super::function::NotCompiled;
 use super::layout::{Address, Area};
 use crate::system::finishing_pass::LinearSolution;
@@ -45,7 +45,8 @@ impl<A: Arithmetic> Emitter<'_, A> {
             for j in i + 1..n {
                 sum = self.less_product(sum, entry(i, j), partial[j]);
             }
-            partial[i] = A::quotient(self.code, sum, entry(i, i));
+            let pivot = self.shared(SharedDivisor::Pivot(block, i as u32), entry(i, i));
+            partial[i] = A::over_shared(self.code, sum, pivot);
         }
         for (i, x) in (0..).zip(partial) {
             self.set(register + i, x);
