@@ -234,8 +234,16 @@ const FUSED: bool = cfg!(any(target_feature = "fma", target_arch = "aarch64"));
 impl DoubleDouble {
     #[inline(always)]
     fn times_double<const FUSED: bool>(self, other: DoubleDouble) -> DoubleDouble {
+        let parts = self.parts_of_product::<FUSED>(other);
+        DoubleDouble::ordered_sum(parts.high, parts.low)
+    }
+
+    /// The parts of a product that is not renormalized yet: it is to be added to something.
+    #[inline(always)]
+    fn parts_of_product<const FUSED: bool>(self, other: DoubleDouble) -> DoubleDouble {
         let p = DoubleDouble::product_by::<FUSED>(self.high, other.high);
-        DoubleDouble::ordered_sum(p.high, p.low + (self.high * other.low + self.low * other.high))
+        let low = p.low + (self.high * other.low + self.low * other.high);
+        DoubleDouble { high: p.high, low }
     }
 
     #[inline(always)]

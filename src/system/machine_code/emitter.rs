@@ -118,9 +118,8 @@ impl<'a, A: Arithmetic> Emitter<'a, A> {
                 }
                 OperationRun::Products(run) => {
                     for step in run {
-                        let ends = self.both_ends(step.left, step.right)?;
                         let inner = self.product(step.inner);
-                        let coefficient = A::sum(self.code, inner, ends);
+                        let coefficient = self.plus_ends(inner, step.left, step.right)?;
                         self.set(step.register, coefficient);
                     }
                 }
@@ -256,16 +255,19 @@ impl<'a, A: Arithmetic> Emitter<'a, A> {
                 Some(inner) => self.product(inner),
                 None => self.zero(),
             };
-            let ends = match summand.ends {
-                Ends::None => None,
-                Ends::Last(a, b) => Some(self.last(a, b)?),
+            let whole = match summand.ends {
+                Ends::None => product,
+                Ends::Last(a, b) => {
+                    let last = [self.now(a)?, self.value(b)];
+                    A::plus_product(self.code, product, last)
+                }
                 Ends::LastSlope(a, b) => {
                     let last = self.last(a, b)?;
-                    Some(self.multiple(last, k))
+                    let last = self.multiple(last, k);
+                    A::sum(self.code, product, last)
                 }
-                Ends::Both(a, b) => Some(self.both_ends(a, b)?),
+                Ends::Both(a, b) => self.plus_ends(product, a, b)?,
             };
-            let whole = ends.map_or(product, |ends| A::sum(self.code, product, ends));
             sum = Some(match (summand.factor, sum) {
                 (ConvolutionFactor::Minus, Some(sum)) => A::difference(self.code, sum, whole),
                 (factor, Some(sum)) => {
@@ -310,35 +312,19 @@ impl<'a, A: Arithmetic> Emitter<'a, A> {
     fn sum(&mut self, sum: &LinearSum) -> Result<A::Number, NotCompiled> {
         let program = self.plan.program;
         let terms = &program.terms[sum.first as usize..][..sum.count as usize];
-        let mut total = None;
+        let (mut zero, mut multiples) = (None, Vec::with_capacity(terms.len()));
         for (i, term) in terms.iter().enumerate() {
             let factor = term.coefficient;
-            if program.fixed[term.register as usize] {
-                // zero above order 0, so it changes nothing but the sign of a zero that follows
-                if !factor.is_finite() {
-                    return Err(NotCompiled);
-                }
-                if i == 0 && factor.high > 0.0 {
-                    total = Some(self.zero());
-                }
-                continue;
+            if !program.fixed[term.register as usize] {
+                multiples.push((self.now(term.register)?, factor));
+            } else if !factor.is_finite() {
+                return Err(NotCompiled);
+            } else if i == 0 && factor.high > 0.0 {
+                // zero above order 0, which changes nothing but the sign of a zero that follows
+                zero = Some(self.zero());
             }
-            let number = self.now(term.register)?;
-            total = Some(match total {
-                Some(total) if factor == DoubleDouble::ONE => A::sum(self.code, total, number),
-                Some(total) if factor == -DoubleDouble::ONE => {
-                    A::difference(self.code, total, number)
-                }
-                Some(total) => {
-                    let multiple = A::times(self.code, number, factor);
-                    A::sum(self.code, total, multiple)
-                }
-                None if factor == DoubleDouble::ONE => number,
-                None if factor == -DoubleDouble::ONE => A::opposite(self.code, number),
-                None => A::times(self.code, number, factor),
-            });
         }
-        Ok(total.unwrap_or_else(|| self.zero()))
+        Ok(A::sum_of_multiples(self.code, zero, &multiples))
     }
 
     /// An inner product of this order.
@@ -347,18 +333,20 @@ impl<'a, A: Arithmetic> Emitter<'a, A> {
         A::inner_product(self.places.products(group), lane)
     }
 
-    /// `a_0 b_k + a_k b_0`.
-    fn both_ends(&mut self, a: Register, b: Register) -> Result<A::Number, NotCompiled> {
-        let first = self.last(b, a)?;
-        if a == b {
-            return Ok(A::twice(self.code, first));
-        }
-        let last = self.last(a, b)?;
-        Ok(A::sum(self.code, first, last))
+    /// A number plus `a_0 b_k + a_k b_0`.
+    fn plus_ends(
+        &mut self,
+        number: A::Number,
+        a: Register,
+        b: Register,
+    ) -> Result<A::Number, NotCompiled> {
+        let first = [self.value(a), self.now(b)?];
+        let last = if a == b { None } else { Some([self.now(a)?, self.value(b)]) };
+        Ok(A::plus_products(self.code, number, first, last))
     }
 
     /// `a_k b_0`.
-    pub(super) fn last(&mut self, a: Register, b: Register) -> Result<A::Number, NotCompiled> {
+    fn last(&mut self, a: Register, b: Register) -> Result<A::Number, NotCompiled> {
         let a = self.now(a)?;
         Ok(A::product(self.code, a, self.value(b)))
     }
@@ -393,7 +381,7 @@ impl<'a, A: Arithmetic> Emitter<'a, A> {
     }
 
     /// A register at order 0.
-    fn value(&self, register: Register) -> A::Number {
+    pub(super) fn value(&self, register: Register) -> A::Number {
         A::at(self.places.value(register as usize))
     }
 }
