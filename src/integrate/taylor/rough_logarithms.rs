@@ -75,6 +75,8 @@ pub(super) fn rough_logarithms<const N: usize>(x: [f64; N]) -> [f64; N] {
 #[inline(always)]
 pub(super) fn rough_exponential(x: f64) -> f64 {
     const MIDDLE: f64 = 1.5 * (1_u64 << 52) as f64;
+    const TERMS: [f64; 7] =
+        [1.0 / 5040.0, 1.0 / 720.0, 1.0 / 120.0, 1.0 / 24.0, 1.0 / 6.0, 0.5, 1.0];
     const ABOVE: f64 = 709.0;
     if x.abs() > ABOVE {
         return if x > 0.0 { f64::INFINITY } else { 0.0 };
@@ -83,8 +85,6 @@ pub(super) fn rough_exponential(x: f64) -> f64 {
     let rounded = x * std::f64::consts::LOG2_E + MIDDLE;
     let t = x - (rounded - MIDDLE) * std::f64::consts::LN_2;
     let power = f64::from_bits((rounded.to_bits() << 52).wrapping_add(1.0_f64.to_bits()));
-    const TERMS: [f64; 7] =
-        [1.0 / 5040.0, 1.0 / 720.0, 1.0 / 120.0, 1.0 / 24.0, 1.0 / 6.0, 0.5, 1.0];
     let mut sum = 0.0;
     for term in TERMS {
         sum = (sum + term) * t;
