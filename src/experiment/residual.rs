@@ -115,7 +115,20 @@ fn force(model: &Model, equations: &Equations, index: usize) -> String {
     parts.collect::<Vec<_>>().join(", ")
 }
 
-/// A number with four significant digits.
+/// A number with four significant digits; a zero has no sign.
 fn short(x: f64) -> String {
-    significant(x, 4, 0.0..f64::INFINITY)
+    significant(if x == 0.0 { 0.0 } else { x }, 4, 0.0..f64::INFINITY).replace('-', "−")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::short;
+
+    /// A multiplier at rest is 0, whatever the sign of its zero, and a negative number has a minus sign, not a hyphen.
+    #[test]
+    fn a_multiplier_has_a_minus_sign_and_a_zero_none() {
+        for (x, written) in [(-0.0, "0"), (0.0, "0"), (-18.72, "−18.72"), (4.905, "4.905")] {
+            assert_eq!(short(x), written);
+        }
+    }
 }

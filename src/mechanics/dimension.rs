@@ -19,8 +19,9 @@ use crate::num::Number;
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 struct Dimension(BTreeMap<String, i64>);
 
-/// The units of forces and of energies that have names. What has the dimension of an energy and is a force is a torque.
-const FORCES: [&str; 3] = ["N", "N m", "N/m"];
+/// The units of forces and of energies that have names. What has the dimension of an energy is a torque if it acts on an angle.
+const FORCES: [&str; 3] = ["N", "J", "N/m"];
+const TORQUES: [&str; 1] = ["N m"];
 const ENERGIES: [&str; 3] = ["N", "J", "W"];
 
 /// Derived units in terms of base units, in halves: g^½ cm^(3/2)/s is the Gaussian unit of charge.
@@ -201,10 +202,22 @@ impl Equations {
             return constraint.unit.clone();
         }
         let dimension = self.dimension_of_multiplier(model, row);
-        let dimension = dimension.filter(|d| *d != Dimension::default());
-        dimension.map_or_else(String::new, |dimension| {
-            dimension.named_as(&FORCES).unwrap_or_else(|| dimension.written())
-        })
+        let Some(dimension) = dimension.filter(|d| *d != Dimension::default()) else {
+            return String::new();
+        };
+        let torque = || dimension.named_as(&TORQUES).filter(|_| self.acts_on_an_angle(model, row));
+        torque().or_else(|| dimension.named_as(&FORCES)).unwrap_or_else(|| dimension.written())
+    }
+
+    /// Whether a constraint without a dimension acts on an angle, so that its multiplier is a torque: its coefficient is a number there.
+    fn acts_on_an_angle(&self, model: &Model, row: &ConstraintRow) -> bool {
+        let read: Reader = Dimension::with_angles;
+        let coefficient =
+            |e| self.dimension(e, &|symbol| self.dimension_of_symbol(model, symbol, read));
+        let terms = row.row.iter().zip(&model.coordinates).filter(|(e, _)| **e != Expr::ZERO);
+        let mut angles =
+            terms.filter(|(_, c)| read(&c.unit).is_some_and(|unit| unit.is_of_angle()));
+        angles.any(|(e, _)| coefficient(*e) == Some(Dimension::default()))
     }
 
     /// The dimension of a multiplier: λ times a constraint on places is an energy, and λ times one on velocities a power.

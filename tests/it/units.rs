@@ -30,7 +30,8 @@ fn a_file_says_that_an_observable_is_a_torque() {
     assert_eq!(units(&text("unit = 'N m'"), names), ["N m", "J"]);
 }
 
-/// The multiplier of a constraint on lengths is a force, of one on their squares a force by a length, of one on angles a torque.
+/// The multiplier of a constraint on lengths is a force, of one on their squares a force by a length, of one on angles a torque, of one on
+/// a number an energy: λ times the constraint is an energy in each case.
 #[test]
 fn a_multiplier_without_a_unit_has_the_one_that_follows() {
     let text = |constraint: &str| {
@@ -50,6 +51,11 @@ fn a_multiplier_without_a_unit_has_the_one_that_follows() {
         ("x^2 + y^2 - r^2", ["N/m", "kg m/s³"]),
         ("phi", ["N m", "kg m³/s³"]),
         ("phi'", ["N m", "kg m³/s³"]),
+        ("phi - 2*pi", ["N m", "kg m³/s³"]),
+        ("phi' - x'/r", ["N m", "kg m³/s³"]),
+        ("x^2/r^2 + y^2/r^2 - 1", ["J", "kg m³/s³"]),
+        ("sin(phi)", ["N m", "kg m³/s³"]),
+        ("x'/r - y'/r", ["J", "kg m³/s³"]),
     ] {
         assert_eq!(units(&text(constraint), ["lambda_c", "power"]), expected, "{constraint}");
     }
