@@ -20,17 +20,35 @@ impl ScenePainter<'_> {
         self.labels.push(Label { tip, leftwards: tip[0] < foot[0], text, style });
     }
 
-    /// The style of a vector: that of the trace at its foot or, of a vector from the origin, at its tip.
+    /// The style of a vector: that of the trace at its foot or, of a vector from the origin, at its tip. Several without such a
+    /// trace at one foot have colours of their own, behind those of masses and traces.
     pub(super) fn vector_style(&self, at: &Point, components: &Point) -> Style {
+        let theme = &self.q.look.theme;
+        if let Some(trace) = self.trace_of_vector(at, components) {
+            return theme.curve(self.colour(&trace));
+        }
+        let shapes = self.q.lab.shapes(self.eye).map(|(shape, _)| shape);
+        let beside: Vec<&Point> = shapes
+            .filter_map(|shape| match shape {
+                Shape::Vector { at: foot, components, .. } => (foot == at).then_some(components),
+                _ => None,
+            })
+            .filter(|components| self.trace_of_vector(at, components).is_none())
+            .collect();
+        let own = beside.iter().position(|other| *other == components);
+        let own = own.filter(|_| beside.len() > 1);
+        own.map_or(theme[Role::Accent], |index| theme.curve(self.colours.len() + index))
+    }
+
+    /// The trace whose colour a vector has.
+    fn trace_of_vector(&self, at: &Point, components: &Point) -> Option<Point> {
         let pool = &self.q.lab.loaded.equations.pool;
         let from_origin = at.iter().all(|e| pool.as_number(*e).is_some_and(|n| n.value() == 0.0));
-        let theme = &self.q.look.theme;
         let mut traces = self.q.lab.shapes(self.eye).filter_map(|(shape, _)| match shape {
-            Shape::Trace { at } => Some(at),
+            Shape::Trace { at } => Some(*at),
             _ => None,
         });
-        let own = traces.find(|trace| *trace == at || from_origin && *trace == components);
-        own.map_or(theme[Role::Accent], |trace| theme.curve(self.colour(trace)))
+        traces.find(|trace| trace == at || from_origin && trace == components)
     }
 
     /// The colour of a body about this point: that of the motion it stands for, where two are compared, or of the mass at its
