@@ -246,7 +246,7 @@ pub const KEYS: &[Binding] = &[
     row(Place::Experiment, &[c('\'')], Action::GoToMark, "", "go to the previous mark, from the first to the last"),
     row(Place::Experiment, &[c('"')], Action::GoToNextMark, "", "go to the next mark, from the last to the first"),
     row(Place::Experiment, &[c('[')], Action::Slower, "slower", "slow down"),
-    row(Place::Experiment, &[c(']')], Action::Faster, "faster", "speed up; past ×1000 as fast as it can"),
+    row(Place::Experiment, &[c(']')], Action::Faster, "faster", "speed up; beyond ×1000, as fast as possible"),
     row(Place::Experiment, &[c('r')], Action::Reset, "reset", "back to the initial values; parameters stay as they are"),
     row(Place::Experiment, &[c('R')], Action::FullReset, "", "back to all values of the file"),
     row(Place::Experiment, &[c('e')], Action::Reference, "", "measure the drift of energy and all gauges from here"),
@@ -288,7 +288,7 @@ pub const KEYS: &[Binding] = &[
     row(Place::Lab, &[BACKTAB], Action::PreviousPane, "", "focus the previous pane"),
     row(Place::Lab, &[c('b')], Action::ApplyImpulse, "impulse", "apply an impulse that waits for a key"),
     row(Place::Lab, &[c('f')], Action::NextFrame, "frame", "view the motion in space in the next reference frame of the file, or in the original one again"),
-    row(Place::Lab, &[c('Q')], Action::Active, "", "let a transformation move the point (the active view), or the coordinates again (the passive one); the next principle of an action: Hamilton, Maupertuis, phase space; a diagram its frequency, its period"),
+    row(Place::Lab, &[c('Q')], Action::Active, "", "switch between the active view of a transformation (the point moves) and the passive one (the coordinates do); of an action, the next principle: Hamilton, Maupertuis, phase space; of a diagram, frequency or period"),
     row(Place::Lab, &[c('z')], Action::Zoom, "zoom", "zoom: let the focused pane fill the page, or put it back"),
 
     row(Place::Space, &[LEFT, c('h')], Action::Move(ArrowDirection::Left), "turn", "turn the picture to the left"),
@@ -335,7 +335,7 @@ pub const KEYS: &[Binding] = &[
     row(Place::Values, &[SHIFT_LEFT, c('H'), c('-')], change(-1, true), "", "less, by a coarse step"),
     row(Place::Values, &[SHIFT_RIGHT, c('L'), c('+'), c('=')], change(1, true), "", "more, by a coarse step"),
     row(Place::Values, &[ENTER], Action::TypeValue, "type", "type the value: a number or an expression, such as pi, sqrt(2) or 2*l"),
-    row(Place::Values, &[c('v')], Action::Diagram, "", "show what becomes of the motion over a range of this parameter or initial value: a bifurcation diagram where the file has a surface of section, otherwise the Lyapunov exponent; the frequency where a single coordinate keeps its energy"),
+    row(Place::Values, &[c('v')], Action::Diagram, "", "show how the motion depends on this parameter or initial value: a bifurcation diagram where the file has a surface of section, otherwise the Lyapunov exponent; the frequency where a single coordinate keeps its energy"),
     row(Place::Values, &[c('c')], Action::Ramp, "", "ramp this parameter from now on, to another value in a given time; a slow ramp conserves J, which is shown"),
     row(Place::Values, &[BACKSPACE, DELETE], Action::Restore, "", "the value of the file"),
 

@@ -17,6 +17,9 @@ use crate::num::significant;
 /// Expressions with more nodes than this are not written out.
 const MOST: u64 = 4_000;
 
+/// Definitions of more characters than this, with all others substituted into them, are named but not written out.
+const LONGEST_DEFINITION: usize = 200;
+
 /// Builds the page.
 pub(super) fn document(lab: &Lab, look: &RenderStyle) -> TextPage {
     let report = Report::readable(&lab.loaded.model, &lab.loaded.equations);
@@ -302,9 +305,20 @@ impl EquationRows<'_> {
         let report = self.report;
         if !report.model.definitions.is_empty() {
             self.page.heading("Definitions of the file");
+            let mut long = Vec::new();
             for (name, e) in &report.model.definitions {
                 let shown = self.look.glyphs.pick(crate::expr::unicode_name(name), name.clone());
-                self.put(&shown, *e, "");
+                let written = self.write(*e);
+                if written.chars().count() > LONGEST_DEFINITION {
+                    long.push(shown);
+                } else {
+                    self.page.formula(&shown, written, "");
+                }
+            }
+            if !long.is_empty() {
+                let names = long.join(", ");
+                let told = format!("{names}: too long when written out; E shows the file.");
+                self.page.words(Role::Dim, told);
             }
         }
     }

@@ -169,9 +169,18 @@ fn line(
     let beside = if used > grid.label { 0 } else { area.width };
     let room = beside.saturating_sub(from + keys);
     let note = if item.unavailable.is_some() { refused(item) } else { &item.about };
-    if room >= LEAST_NOTE || canvas.text(note).width() <= usize::from(room) {
+    if let Some(note) = shortened(canvas, note, room) {
         canvas.left(columns(area, from, room), Role::Dim, note);
     }
+}
+
+/// A note, or its first parts that have room: a name stands before what is said of it. What has no such parts is cut.
+fn shortened<'t>(canvas: &Canvas<'_>, note: &'t str, room: u16) -> Option<&'t str> {
+    let fits = |part: &&str| canvas.text(part).width() <= usize::from(room);
+    let ends = [" · ", ": "].into_iter().flat_map(|mark| note.match_indices(mark));
+    let parts = ends.map(|(at, _)| &note[..at]).chain([note]);
+    let longest = parts.filter(fits).max_by_key(|part| part.len());
+    longest.or(if room >= LEAST_NOTE { Some(note) } else { None })
 }
 
 /// The least width of a note that is cut.

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use phaselab::app::{App, Event, Guide, GuideKind};
+use phaselab::app::{App, Event, Guide, GuideKind, LessonTaken};
 use phaselab::experiment::{Growth, Verdict};
 use phaselab::instrument::Sight;
 use phaselab::view::number::rounded;
@@ -257,4 +257,35 @@ fn the_meaning_of_a_value_does_not_push_the_keys_out() {
     assert!(above.join(" ").contains("mass of the planet"), "{drawn:#?}");
     assert!(!footer.contains("mass of the planet") && footer.contains("choose"), "{footer}");
     assert!(footer.contains("0.1 to 10"), "{footer}");
+}
+
+/// A note of a list that has no room loses what is said behind its first words, rather than half a word.
+#[test]
+fn a_note_without_room_loses_its_last_part() {
+    let guide = |kind, name: &str, title: &str, system: &str| Guide {
+        kind,
+        name: name.to_owned(),
+        title: title.to_owned(),
+        system: system.to_owned(),
+    };
+    let mut app = lab("pendulum", 1.0);
+    app.picker.guides = vec![
+        guide(
+            GuideKind::Lesson(LessonTaken::NotYet),
+            "a",
+            "The hoop that rolls and the block that slides",
+            "Hoop, disc and ball",
+        ),
+        guide(GuideKind::Demo, "b", "The bouncing ball", "Bouncing ball"),
+    ];
+    press(&mut app, "F2");
+    for size in [(80, 24), (120, 40)] {
+        let text = rows(&screen(&app, &rich(), size));
+        for (title, note) in
+            [("The hoop that rolls", "lesson "), ("The bouncing", "demo: Bouncing ball ")]
+        {
+            let row = text.iter().find(|row| row.contains(title)).expect("a row");
+            assert!(row.contains(note) && !row.contains('…'), "{row}");
+        }
+    }
 }

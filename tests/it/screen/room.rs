@@ -114,3 +114,49 @@ fn vectors_have_the_colours_of_their_traces() {
     });
     assert_ne!(colours[0], colours[1]);
 }
+
+/// Several vectors from one foot are different things: none has the colour of another, whether a trace is at its tip or not.
+#[test]
+fn vectors_from_one_foot_have_colours_of_their_own() {
+    for (preset, names) in [
+        ("rotations", &["e₁", "e₂", "e₃", "n"][..]),
+        ("charge-in-fields", &["E", "B"]),
+        ("kepler-brackets", &["L", "A"]),
+    ] {
+        let mut real = Real::of(preset);
+        real.run(120);
+        let buffer = screen(&real.app, &rich(), (120, 40));
+        let text = rows(&buffer);
+        let colours: Vec<_> = names
+            .iter()
+            .map(|name| {
+                let letters: Vec<String> = name.chars().map(String::from).collect();
+                let mut cells = (2..26).flat_map(|y| (1..39).map(move |x| (x, y)));
+                let at = cells.find(|(x, y)| {
+                    let here = |(k, letter): (usize, &String)| {
+                        buffer[(x + u16::try_from(k).unwrap(), *y)].symbol() == letter
+                    };
+                    let end = x + u16::try_from(letters.len()).unwrap();
+                    let ends =
+                        |x: u16| !buffer[(x, *y)].symbol().starts_with(char::is_alphanumeric);
+                    letters.iter().enumerate().all(here) && ends(end) && ends(x - 1)
+                });
+                buffer[at.unwrap_or_else(|| panic!("{name}: {text:#?}"))].fg
+            })
+            .collect();
+        for (k, colour) in colours.iter().enumerate() {
+            assert!(!colours[..k].contains(colour), "{preset}: {names:?} {colours:?}");
+        }
+    }
+}
+
+/// Definitions that serve the drawing may be longer than a page when all others are substituted into them: they are named.
+#[test]
+fn definitions_too_long_to_be_read_are_named() {
+    let mut app = lab("heavy-top", 0.5);
+    press(&mut app, "2");
+    let text = rows(&screen(&app, &rich(), (200, 60))).join("\n");
+    assert!(text.contains("V_eff = "), "{text}");
+    let named = "u_angle, u_upper, u_lower: too long when written out";
+    assert!(text.contains(named) && !text.contains("arccos"), "{text}");
+}
