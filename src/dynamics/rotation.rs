@@ -65,6 +65,11 @@ pub enum NoRotation {
     /// The orbit does not go once around.
     #[error("the orbit does not go once round its middle")]
     NotAround,
+    /// Turns do not average though the orbit is regular: its middle lies beside it.
+    #[error(
+        "the orbit is regular, but it does not enclose its middle, round which its turns are counted"
+    )]
+    NotEnclosing,
     /// Turns of all sizes occur.
     #[error("it does not converge: turns of all sizes occur, as in chaos")]
     AllTurns,
@@ -87,29 +92,43 @@ pub fn rotation(points: &[[f64; 2]], periods: [Option<f64>; 2]) -> Result<Rotati
     if points.iter().flatten().any(|x| !x.is_finite()) {
         return Err(NoRotation::NotFinite);
     }
-    let found = turned(points, periods);
+    let round = (0..2).find_map(|axis| Some((axis, periods[axis].filter(|p| *p > 0.0)?)));
+    let round = round.filter(|&(axis, period)| extent(points, axis) >= period);
+    let found = match round {
+        Some(round) => along(points, round),
+        None => turned(points),
+    };
+    judged(found, points, periods, round.is_some())
+}
+
+/// An average turn that does not converge, judged by whether the orbit wanders: turns around a middle that an orbit does not enclose
+/// are no smooth function of where it is.
+fn judged(
+    found: Result<Rotation, NoRotation>,
+    points: &[[f64; 2]],
+    periods: [Option<f64>; 2],
+    is_angle: bool,
+) -> Result<Rotation, NoRotation> {
     let Err(NoRotation::AllTurns | NoRotation::Diverges(_)) = found else { return found };
-    // turns around a middle that an orbit does not enclose are no smooth function of where it is
     let wandering = Wandering::of(points, periods);
     if wandering.is_random {
         found
-    } else if wandering.apart * points.len() as f64 > CONVERGED {
+    } else if is_angle || wandering.apart * points.len() as f64 > CONVERGED {
         Err(NoRotation::Undecided(wandering.apart))
     } else {
-        Err(NoRotation::NotAround)
+        Err(NoRotation::NotEnclosing)
     }
 }
 
-/// The rotation number by the average turn alone.
-fn turned(points: &[[f64; 2]], periods: [Option<f64>; 2]) -> Result<Rotation, NoRotation> {
-    let round = (0..2).find_map(|axis| Some((axis, periods[axis].filter(|p| *p > 0.0)?)));
-    if let Some((axis, period)) = round
-        && extent(points, axis) >= period
-    {
-        let turns: Vec<f64> =
-            points.windows(2).map(|pair| (pair[1][axis] - pair[0][axis]) / period).collect();
-        return averaged(&turns, Turning::Axis(axis));
-    }
+/// The rotation number by the average turn of an angle.
+fn along(points: &[[f64; 2]], (axis, period): (usize, f64)) -> Result<Rotation, NoRotation> {
+    let turns: Vec<f64> =
+        points.windows(2).map(|pair| (pair[1][axis] - pair[0][axis]) / period).collect();
+    averaged(&turns, Turning::Axis(axis))
+}
+
+/// The rotation number by the average turn around the middle of the orbit.
+fn turned(points: &[[f64; 2]]) -> Result<Rotation, NoRotation> {
     let turns = around(points)?;
     let found = averaged(&turns, Turning::Middle)?;
     let whole = found.number.round();
@@ -130,8 +149,8 @@ pub fn angle_rotation(angle: &[f64], period: f64) -> Result<Rotation, NoRotation
     if angle.iter().any(|x| !x.is_finite()) {
         return Err(NoRotation::NotFinite);
     }
-    let turns: Vec<f64> = angle.windows(2).map(|pair| (pair[1] - pair[0]) / period).collect();
-    averaged(&turns, Turning::Axis(0))
+    let points: Vec<[f64; 2]> = angle.iter().map(|&x| [x, 0.0]).collect();
+    judged(along(&points, (0, period)), &points, [Some(period), None], true)
 }
 
 fn averaged(turns: &[f64], turning: Turning) -> Result<Rotation, NoRotation> {

@@ -17,10 +17,15 @@ const RANDOM: f64 = 0.25;
 /// The crossings after which an orbit may be back near where it was, …
 const RETURNS: usize = 16;
 
-/// … which is this part of its extent. Of orbits with a hundred crossings those in the chaos of Hénon and Heiles' system and of
-/// swinging Atwood's machine (M = 2 m) are 0.2 to 0.4 away on the average at best, those of the integrable machine (M = 3 m) whose
-/// averages differ at most 0.14.
-const NEAR: f64 = 0.18;
+/// … which is this part of its extent, over the number of crossings: an orbit that shifts by more has been round its curves several
+/// times, and the averages of a regular one do not differ any more.
+///
+/// Measured with 5300 orbits of the standard map (K from 0.3 to 6.5, and in the thin layers beside its saddle point) and of
+/// Hénon and Heiles' system (E from 1/12 to 1/6), which are known to be regular or chaotic by how tangent vectors grow in a
+/// hundred times as many crossings. The regular ones whose averages differ are, after 60, 100, 240 and 1000 crossings, at most 0.32,
+/// 0.24, 0.065 and 0.021 away. Of the chaotic ones 7 % are nearer than 0.25 after 100 crossings, and none nearer than 0.025
+/// after 1000: they stay undecided.
+const SHIFT: f64 = 25.0;
 
 /// How an orbit wanders.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -44,7 +49,8 @@ impl Wandering {
         let apart = functions.iter().map(|values| parts_apart(values)).fold(0.0, f64::max);
         let near = (1..=RETURNS.min(points.len() / 2)).map(|after| shift(&numbers, after));
         let near = near.fold(f64::INFINITY, f64::min);
-        let is_random = apart * (points.len() as f64).sqrt() > RANDOM && near > NEAR;
+        let is_random =
+            apart * (points.len() as f64).sqrt() > RANDOM && near * points.len() as f64 > SHIFT;
         Wandering { apart, is_random }
     }
 }

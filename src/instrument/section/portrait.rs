@@ -19,7 +19,7 @@ use crate::system::{ChannelKind, System};
 
 /// The orbits of a picture at first and those of each addition, and the crossings of each.
 const BATCH: usize = 16;
-pub(super) const COUNT: u64 = 60;
+pub(super) const COUNT: u64 = 120;
 
 /// The orbits of an addition that fills the section, and the crossings of each.
 const FILL: usize = 100;
@@ -78,8 +78,8 @@ impl DrawnOrbit {
     /// Whether its average turn converges, to a rotation number or to whole turns; `None` if its crossings do not tell.
     pub(super) fn regular(&self) -> Option<bool> {
         match self.rotation {
-            // crescents, as in a resonance, do not go round their middle, but their average converges
-            Ok(_) | Err(NoRotation::NotAround) => Some(true),
+            // crescents, as in a resonance, do not go round their middle, but averages along them converge
+            Ok(_) | Err(NoRotation::NotAround | NoRotation::NotEnclosing) => Some(true),
             Err(NoRotation::AllTurns | NoRotation::Diverges(_)) => Some(false),
             Err(_) => None,
         }

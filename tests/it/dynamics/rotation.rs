@@ -93,8 +93,13 @@ fn a_curve_beside_its_middle_is_not_chaotic() {
             let found = rotation(&bent(rho, count), [None; 2]);
             let chaotic = matches!(found, Err(NoRotation::Diverges(_) | NoRotation::AllTurns));
             assert!(!chaotic, "{rho} {count}: {found:?}");
+            let is_regular = matches!(found, Err(NoRotation::NotEnclosing | NoRotation::NotAround));
+            assert!(is_regular || count < 10_000, "{rho} {count}: {found:?}");
         }
     }
+    // averages converge, turns do not: it is regular, and is not said to go round once
+    let found = rotation(&bent(GOLDEN, 10_000), [None; 2]);
+    assert_eq!(found, Err(NoRotation::NotEnclosing));
     // where it shifts along its curve but a little in all crossings
     for rho in [1.0 / 5.0 + 3e-4, 1.0 / 3.0 - 8e-4, 2e-3] {
         let found = rotation(&bent(rho, 300), [None; 2]);
@@ -134,6 +139,71 @@ fn an_orbit_of_few_crossings_is_not_called_chaotic() {
         assert!(matches!(found, Err(NoRotation::Undecided(_))), "{count}: {found:?}");
     }
     assert!(angle_rotation(&angles(5000), TAU).is_ok());
+}
+
+/// How much a tangent vector has grown along the standard map, as a logarithm.
+fn grown(k: f64, (mut theta, mut p): (f64, f64), count: usize) -> f64 {
+    let (mut turned, mut kicked, mut sum) = (0.6_f64, 0.8_f64, 0.0);
+    for _ in 0..count {
+        kicked += k * theta.cos() * turned;
+        turned += kicked;
+        p += k * theta.sin();
+        theta += p;
+        let size = turned.hypot(kicked);
+        sum += size.ln();
+        (turned, kicked) = (turned / size, kicked / size);
+    }
+    sum
+}
+
+fn is_chaotic(found: Result<phaselab::dynamics::Rotation, NoRotation>) -> bool {
+    matches!(found, Err(NoRotation::Diverges(_) | NoRotation::AllTurns))
+}
+
+/// Starts of the standard map from weak to strong kicks, known to be regular or chaotic by how a tangent vector grows in a hundred
+/// times as many crossings: no regular one is called chaotic, however few its crossings, most chaotic ones are after a
+/// thousand, in the thin layers beside the saddle point too; the others cling to islands.
+#[test]
+fn regular_and_chaotic_orbits_are_told_apart_in_thin_layers_too() {
+    let part = |k: usize, by: f64| (by * k as f64).fract();
+    let spread = |k: usize| (TAU * part(k, 0.618_034), TAU * part(k, 0.754_878));
+    let beside = |k: usize| (0.03 * (part(k, 0.618_034) - 0.5), 0.02 * (part(k, 0.754_878) - 0.5));
+    let kicks = [0.3, 0.6, 0.9, 0.971_635, 1.2, 1.6, 2.2, 3.0];
+    let orbits = kicks.iter().flat_map(|&kick| (1..=60).map(move |k| (kick, spread(k))));
+    let layers = [0.5, 0.7, 0.9].iter().flat_map(|&kick| (1..=20).map(move |k| (kick, beside(k))));
+    let (mut regular, mut chaotic, mut found) = (0, 0, 0);
+    for (kick, start) in orbits.chain(layers) {
+        let grown = grown(kick, start, 100_000);
+        let orbit = standard(kick, start, 1000);
+        let of = |count: usize| rotation(&orbit[..count], [Some(TAU), None]);
+        if grown < 25.0 {
+            regular += 1;
+            for count in [60, 100, 240, 1000] {
+                assert!(!is_chaotic(of(count)), "{kick} {start:?} {count}: {:?}", of(count));
+            }
+        } else if grown > 100.0 {
+            chaotic += 1;
+            found += usize::from(is_chaotic(of(1000)));
+        }
+    }
+    assert!(regular > 150 && chaotic > 150, "{regular} {chaotic}");
+    assert!(found * 100 > 88 * chaotic, "{found} of {chaotic}");
+}
+
+/// Columns of two and of one tell the same of an orbit: an angle alone that wanders is chaotic, one that shifts slowly is not.
+#[test]
+fn an_angle_alone_is_judged_as_a_point_is() {
+    for (kick, start) in [(1.5, (0.01, 0.0)), (3.0, (0.3, 0.2)), (7.0, (1.0, 2.0))] {
+        let angles: Vec<f64> = standard(kick, start, 5000).iter().map(|at| at[0]).collect();
+        assert!(is_chaotic(angle_rotation(&angles, TAU)), "{kick}");
+    }
+    // slow near 0 in each of its rounds, which take 60 crossings: the parts of a few rounds differ by as much as random numbers
+    let slow = |angle: &f64| Some(angle + 0.27 + 0.26 * angle.sin());
+    for count in [90, 150, 400] {
+        let angles: Vec<f64> = std::iter::successors(Some(0.0), slow).take(count).collect();
+        let found = angle_rotation(&angles, TAU);
+        assert!(!is_chaotic(found), "{count}: {found:?}");
+    }
 }
 
 #[test]
