@@ -9,7 +9,7 @@ use std::sync::Arc;
 use super::Trail;
 use super::recorder::Recorder;
 use crate::analysis::{CrossingLog, DistanceHistory};
-use crate::integrate::{Method, OccurrenceKind, Propagator, Reached, Settings};
+use crate::integrate::{Method, OccurrenceKind, Propagator, Reached, Settings, Stepping};
 use crate::system::{InitialOverride, MotionError, Observer, State, System};
 
 /// What a companion is.
@@ -67,6 +67,10 @@ pub struct Companion {
     pub method: &'static str,
     /// Its step and tolerance, as they were set.
     pub settings: Settings,
+    /// The step in use, set or chosen, if all steps are equal.
+    pub fixed_step: Option<f64>,
+    /// The constraints that were released.
+    pub released: Arc<[usize]>,
     /// Its state, where it has come to.
     pub state: Arc<State>,
     /// Its recorded motion.
@@ -297,6 +301,18 @@ impl CompanionMotion {
         self.observer.observe(self.motion.state(), &mut self.values)
     }
 
+    /// The step in use, if all steps are equal and it is known.
+    fn fixed_step(&self) -> Option<f64> {
+        let is_fixed = self.motion.method().stepping == Stepping::Fixed;
+        Some(self.motion.step_size().abs()).filter(|step| is_fixed && *step > 0.0)
+    }
+
+    /// The constraints that were released.
+    fn released(&self) -> Arc<[usize]> {
+        let system = self.motion.system();
+        (0..system.constraints()).filter(|&k| system.is_released(k)).collect()
+    }
+
     /// Its distance from the main motion.
     pub(super) fn separation(&self) -> Arc<DistanceHistory> {
         Arc::clone(&self.separation)
@@ -323,6 +339,8 @@ impl CompanionMotion {
             parameters: self.parameters.as_slice().into(),
             method: self.motion.method().name,
             settings: self.motion.settings(),
+            fixed_step: self.fixed_step(),
+            released: self.released(),
             state: Arc::new(self.motion.state().clone()),
             trail,
             crossings,

@@ -169,6 +169,8 @@ impl Echo {
             parameters: parameters.into(),
             method: self.run.method().name,
             settings: self.run.settings(),
+            fixed_step: None,
+            released: self.run.released().into(),
             state: Arc::new(self.run.dated_state()),
             trail: self.trail.until(self.at),
             crossings: CrossingLog::new(surfaces),

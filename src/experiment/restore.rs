@@ -174,7 +174,7 @@ impl Experiment {
         taken.is_ok() && self.motion.residuals().iter().enumerate().all(satisfied)
     }
 
-    fn constraint(&self, name: &str) -> Option<usize> {
+    pub(super) fn constraint(&self, name: &str) -> Option<usize> {
         self.model.constraints.iter().position(|c| c.name == name)
     }
 

@@ -38,6 +38,12 @@ pub struct SavedCompanion {
     /// Its step, if it was set.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub step: Option<f64>,
+    /// The step in use, set or chosen, if all steps are equal.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fixed_step: Option<f64>,
+    /// The constraints that were released.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub released: Vec<String>,
     /// Its tolerance, if it was set.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f64>,
@@ -76,6 +82,7 @@ impl SavedCompanion {
         let parameters = model.parameters.iter().zip(one.parameters.iter());
         let parameters =
             parameters.map(|(p, &value)| Named { name: p.name.clone(), value }).collect();
+        let released = one.released.iter().filter_map(|&k| model.constraints.get(k));
         let goes_on = one.message.is_none() && one.state.is_finite();
         Some(SavedCompanion {
             number: one.number,
@@ -85,6 +92,8 @@ impl SavedCompanion {
             parameters: if pinned { parameters } else { Vec::new() },
             method: pinned.then(|| one.method.to_owned()),
             step: one.settings.step.filter(|_| pinned),
+            fixed_step: one.fixed_step,
+            released: released.map(|constraint| constraint.name.clone()).collect(),
             tolerance: one.settings.tolerance.filter(|_| pinned),
             time: [one.state.time, one.state.time_carry],
             form: one.state.form,
@@ -122,8 +131,11 @@ impl Experiment {
                 && state.values.len() == system.state_len()
                 && state.is_finite()
                 && poisson == (system.form() == Form::Variables);
-            if fits {
-                motion.begin_underway(&state, 0.0, (self.setup.start, &[]));
+            let released = one.released.iter().map(|name| self.constraint(name));
+            let released: Option<Vec<usize>> = released.collect();
+            if let Some(released) = released.filter(|_| fits) {
+                let step = one.fixed_step.unwrap_or(0.0);
+                motion.begin_underway(&state, step, (self.setup.start, &released));
             } else {
                 motion.begin(self.origin_state(&motion));
             }

@@ -265,3 +265,45 @@ fn what_is_added_is_said_in_a_whole_sentence() {
     said(Command::AddNeighbour, "motion 2 begins close beside the main one");
     said(Command::Pin, "motion 3 is this run, pinned; what changes from now on is seen beside it");
 }
+
+/// A copy of an experiment made from its checkpoint, as a session is continued.
+fn continued(experiment: &Experiment, name: &str) -> Experiment {
+    let seen = experiment.snapshot();
+    let checkpoint = Checkpoint::of(experiment.model(), experiment.system(), &seen);
+    let text = toml::to_string(&checkpoint).expect("it is written");
+    let mut other = shipped(name);
+    other.execute(Command::Restore(Box::new(toml::from_str(&text).expect("it is read"))));
+    other
+}
+
+/// A pinned run that has left its surface does not return to it when the session is continued.
+#[test]
+fn a_pinned_run_keeps_its_released_constraints_when_it_is_restored() {
+    let mut sphere = shipped("smooth-sphere");
+    while sphere.snapshot().released.is_empty() {
+        sphere.advance(sphere.time() + 0.01, PLENTY);
+    }
+    sphere.execute(Command::Pin);
+    let mut taken = continued(&sphere, "smooth-sphere");
+    assert_eq!(taken.snapshot().companions[0].released[..], [0]);
+    let end = sphere.time() + 0.05;
+    run(&mut sphere, end);
+    run(&mut taken, end);
+    let [one, other] = [&sphere, &taken].map(|motion| motion.snapshot().companions[0].clone());
+    assert_eq!((one.time, &other.message), (other.time, &None));
+    assert_eq!(one.state.values, other.state.values);
+}
+
+/// A step that a method has chosen at the beginning of a pinned run is not chosen anew when the session is continued.
+#[test]
+fn a_pinned_run_keeps_its_step_when_it_is_restored() {
+    let mut pendulum = shipped("pendulum");
+    pendulum.execute(Command::Method("rk4".into()));
+    pendulum.execute(Command::Reset);
+    run(&mut pendulum, 1.3);
+    pendulum.execute(Command::Pin);
+    let taken = continued(&pendulum, "pendulum");
+    let [one, other] = [&pendulum, &taken].map(|motion| motion.snapshot().companions[0].clone());
+    assert!(one.fixed_step.is_some() && one.settings.step.is_none());
+    assert_eq!((one.fixed_step, one.settings), (other.fixed_step, other.settings));
+}
