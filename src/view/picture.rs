@@ -20,10 +20,44 @@ use super::time_window::time_window;
 use super::{companions, cursor, field, legend, level_curves, prediction, space};
 use crate::instrument::{Across, Ink, Layer, Level, MarkerShape, Picture, Plot, Upwards, Viewport};
 
-/// Writes the keys of curves above the axes: as far to the right as there is room for all of them, where a curve may be in
-/// the way, else in the widest room.
+/// The rows above the axes that keys may take.
+const KEY_ROWS: usize = 3;
+
+/// Writes the keys of curves, pairs of a mark and a name, above the axes: as far to the right as there is room for all of them, where
+/// a curve may be in the way, else in the widest room. Those that a row has no room for stand in the next one, and over the picture
+/// rather than nowhere.
 fn keys_above(canvas: &mut Canvas<'_>, area: Rect, keys: &[Span]) {
-    let top = row(area, 0);
+    let mark = canvas.look.glyphs.pick("…", "~");
+    let rows = KEY_ROWS.min(area.height.into());
+    let mut rest = keys;
+    for index in 0..rows {
+        let here = row(area, index);
+        let rooms = rooms(canvas, here);
+        let is_last = index + 1 == rows;
+        let all = rooms.iter().rfind(|(_, width)| usize::from(*width) >= wide(rest));
+        let widest = all.or_else(|| rooms.iter().max_by_key(|(_, width)| *width)).copied();
+        let over = is_last.then_some((here.x + 1, here.width.saturating_sub(1)));
+        let Some((first, width)) = all.copied().or(over).or(widest) else { continue };
+        let mut shown = keys_in(rest, width.into(), mark);
+        let mut count = shown.len();
+        while !is_last && count > 0 && wide(&shown[..count]) > width.into() {
+            count -= 2.min(count);
+        }
+        shown.truncate(count);
+        let used = width.min(wide(&shown) as u16);
+        if used > 0 {
+            let at = Rect { x: first + width - used, width: used, ..here };
+            canvas.spans(at, &shown);
+        }
+        rest = &rest[count..];
+        if rest.is_empty() {
+            return;
+        }
+    }
+}
+
+/// Where a row is blank: the first column and the width of each part.
+fn rooms(canvas: &Canvas<'_>, top: Rect) -> Vec<(u16, u16)> {
     let blank = |x: u16| canvas.buffer[(x, top.y)].symbol().trim().is_empty();
     let columns_of: Vec<u16> = (top.x..top.right()).collect();
     let rooms = columns_of.chunk_by(|a, b| blank(*a) == blank(*b)).filter(|room| blank(room[0]));
@@ -33,17 +67,7 @@ fn keys_above(canvas: &mut Canvas<'_>, area: Rect, keys: &[Span]) {
         let end = if last == top.right() { last } else { last - 1 };
         (room[0] + 1, end.saturating_sub(room[0] + 1))
     });
-    let rooms: Vec<(u16, u16)> = rooms.collect();
-    let all = rooms.iter().rfind(|(_, width)| usize::from(*width) >= wide(keys));
-    let Some(&(first, width)) = all.or_else(|| rooms.iter().max_by_key(|(_, width)| *width)) else {
-        return;
-    };
-    let keys = keys_in(keys, width.into(), canvas.look.glyphs.pick("…", "~"));
-    let used = width.min(wide(&keys) as u16);
-    if used > 0 {
-        let at = Rect { x: first + width - used, width: used, ..top };
-        canvas.spans(at, &keys);
-    }
+    rooms.collect()
 }
 
 /// Draws the picture with keys of curves above it, and returns the frame of its axes if it has any.

@@ -206,8 +206,8 @@ fn each_orbit_of_an_integrable_system_lies_on_its_curve() {
     assert_eq!(index, 0, "a section that a file names opens the lab");
     assert_eq!(measure(&app, plot, "points"), 4.0);
     assert_eq!(measure(&app, plot, "orbits"), 16.0);
-    // each start is a point of its own, and has sixty crossings
-    assert_eq!(measure(&app, plot, "crossings"), 16.0 * 61.0);
+    // each start is a point of its own, and has 120 crossings
+    assert_eq!(measure(&app, plot, "crossings"), 16.0 * 121.0);
     let mut curves = Vec::new();
     for layer in layers(&app, plot) {
         let Layer::Points(points, _) = layer else { continue };
@@ -285,6 +285,13 @@ fn a_key_colours_orbits_by_whether_they_are_regular() {
             "{text}"
         );
         assert_eq!(text.matches('×').count() > 20, chaos, "{text}");
+        // where the title has no room for the keys, they stand above the picture, and none is cut
+        for size in [(100, 30), (90, 26), (80, 24), (60, 20), (44, 16)] {
+            let text = rows(&screen(&app, &rich(), size)).join("\n");
+            for key in ["● regular", "● chaotic", "● undecided"] {
+                assert!(text.contains(key), "{size:?} {key}\n{text}");
+            }
+        }
         typed(&mut app, "H");
         assert_eq!(inks(&app, 0), plain);
     }
