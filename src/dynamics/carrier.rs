@@ -146,7 +146,7 @@ impl Carrier {
         let Some(jumping) = &mut self.jumping else {
             self.stepper.start(&full, self.space.parameters())?;
             if !goes_on {
-                self.begun = Some(full);
+                self.begin_at(full);
             }
             return Ok(());
         };
@@ -163,8 +163,15 @@ impl Carrier {
         jumping.span = (full.time, full.time);
         jumping.pending = false;
         jumping.since = full.time;
-        self.begun = Some(full);
+        self.begin_at(full);
         Ok(())
+    }
+
+    /// A motion that does not continue the one before has steps of its own.
+    fn begin_at(&mut self, full: State) {
+        self.begun = Some(full);
+        self.regular_step = RegularStep::default();
+        self.is_singular = false;
     }
 
     /// Takes one step towards `limit`.

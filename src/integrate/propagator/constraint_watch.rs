@@ -10,7 +10,9 @@ use super::Propagator;
 use super::singularity_record::SingularityRecord;
 use crate::integrate::{Stepper, Stepping, StoppedMotion};
 use crate::num::math;
-use crate::system::{ConstraintProjector, Directions, Form, MotionError, MotionErrorKind, State};
+use crate::system::{
+    ConstraintProjector, Directions, Form, MotionError, MotionErrorKind, State, System,
+};
 
 /// Between two samples whose directions have at least this cosine nothing has been passed.
 const CLOSE: f64 = 0.5;
@@ -28,6 +30,9 @@ const VAST: f64 = 1e100;
 
 /// In a step shorter than this part of the regular ones velocities do not change by half of their size.
 const SUDDEN: f64 = 1e-4;
+
+/// Rounding noise of velocities has less than this part in the kinetic energy.
+const NOISE: f64 = 1e-20;
 
 /// A step shorter than this part of the regular ones is not regular, …
 const REGULAR: f64 = 0.1;
@@ -55,7 +60,7 @@ impl Propagator {
         self.watch.regular = Some(self.state.clone());
         self.watch.begun = Some(self.state.clone());
         self.watch.regular_step = 0.0;
-        self.watch.fastest = 0.0;
+        self.watch.fastest.clear();
     }
 
     /// Records the state from which the next step is taken, if the last one was not much shorter
@@ -78,25 +83,29 @@ impl Propagator {
     pub(super) fn check_course(&mut self) -> Result<(), MotionError> {
         let (begin, end) = self.stepper.interval();
         let state = self.stepper.state();
-        let n = self.system.degrees();
-        let SingularityRecord { regular_step, fastest, left, .. } = &mut self.watch;
-        let Some(was) = left.replace(state.clone()) else { return Ok(()) };
         if state.form != Form::Velocity || self.projector.is_none() {
             return Ok(());
         }
-        let size = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
-        let [now, before] = [state, &was].map(|state| &state.values[n..2 * n]);
+        let n = self.system.degrees();
+        let SingularityRecord { regular_step, fastest, left, .. } = &mut self.watch;
+        let Some(was) = left else {
+            *left = Some(state.clone());
+            return Ok(());
+        };
+        let [now, before] = [state, &*was].map(|state| &state.values[n..2 * n]);
         let step = (end - begin).abs();
         if step >= REGULAR * *regular_step {
-            *fastest = fastest.max(size(now));
+            fastest.resize(n, 0.0);
+            fastest.iter_mut().zip(now).for_each(|(most, v)| *most = most.max(v.abs()));
         }
-        let change: Vec<f64> = now.iter().zip(before).map(|(x, y)| x - y).collect();
-        // where a motion turns back, small velocities change by much of themselves
-        let is_fast = size(before) > 0.5 * *fastest;
-        if step < SUDDEN * *regular_step && is_fast && size(&change) > 0.5 * size(before) {
+        if step < SUDDEN * *regular_step
+            && has_jumped((before, now), fastest)
+            && is_felt(&self.system, (&*was, state), &self.parameters)
+        {
             let kind = MotionErrorKind::SingularConstraints(None);
             return Err(self.system.fault(kind, begin, &was.values));
         }
+        was.copy_from(state);
         Ok(())
     }
 
@@ -249,6 +258,33 @@ impl Propagator {
     }
 }
 
+/// Whether velocities have changed by more than half of their size, of which some are near the greatest so far: where a motion turns
+/// back, small ones change by much of themselves. Each is measured by the greatest of its own, whatever its unit.
+fn has_jumped((before, now): (&[f64], &[f64]), greatest: &[f64]) -> bool {
+    let size = |part: &dyn Fn(usize) -> f64| {
+        let parts = greatest.iter().enumerate().filter(|(_, most)| **most > 0.0);
+        parts.map(|(i, most)| part(i).abs() / most).fold(0.0, f64::max)
+    };
+    let (was, change) = (size(&|i| before[i]), size(&|i| now[i] - before[i]));
+    was > 0.5 && change > 0.5 * was
+}
+
+/// Whether a change of velocities has a part in the kinetic energy: the velocity of a coordinate that is at rest is rounding noise,
+/// which changes by all of itself.
+fn is_felt(system: &System, (before, now): (&State, &State), parameters: &[f64]) -> bool {
+    let n = system.degrees();
+    let momenta = |state| system.convert(state, Form::Momentum, parameters);
+    let (Ok(p), Ok(p_now)) = (momenta(before), momenta(now)) else { return true };
+    let terms = |i: usize| {
+        let (v, p) = (before.values[n + i], p.values[n + i]);
+        let (dv, dp) = (now.values[n + i] - v, p_now.values[n + i] - p);
+        [(p * v).abs(), (dp * dv).abs()]
+    };
+    let all =
+        (0..n).map(terms).fold([0.0, 0.0], |sum, [of, change]| [sum[0] + of, sum[1] + change]);
+    all[1] > NOISE * all[0]
+}
+
 /// Samples the directions within a step.
 struct DirectionSampler<'a> {
     projector: &'a mut ConstraintProjector,
@@ -284,5 +320,27 @@ impl DirectionSampler<'_> {
         let Some(there) = there else { return found.push(middle) };
         self.passages((begin, before), (middle, &there), halvings - 1, found);
         self.passages((middle, &there), (end, after), halvings - 1, found);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::has_jumped;
+
+    /// A velocity of metres a second and one of radians a second, in these units and in others.
+    #[test]
+    fn a_jump_is_one_in_any_units() {
+        for unit in [1e-9, 1.0, 1e9] {
+            let jumped = |before: [f64; 2], now: [f64; 2]| {
+                let scaled = |[v, w]: [f64; 2]| [v * unit, w];
+                has_jumped((&scaled(before), &scaled(now)), &scaled([1.0, 2.0]))
+            };
+            assert!(jumped([0.1, 1.8], [0.1, -1.8]), "{unit}");
+            assert!(jumped([0.9, 0.1], [-0.9, 0.1]), "{unit}");
+            assert!(!jumped([0.9, 1.8], [0.8, 1.7]), "{unit}");
+            // it turns back
+            assert!(!jumped([0.1, 0.2], [-0.1, -0.2]), "{unit}");
+        }
+        assert!(!has_jumped((&[0.0], &[0.0]), &[0.0]) && !has_jumped((&[1.0], &[3.0]), &[]));
     }
 }

@@ -18,8 +18,8 @@ pub(super) struct SingularityRecord {
     /// A state before steps became much shorter, and the step there.
     pub(super) regular: Option<State>,
     pub(super) regular_step: f64,
-    /// The greatest speed at the ends of regular steps.
-    pub(super) fastest: f64,
+    /// The greatest speed of each coordinate at the ends of regular steps.
+    pub(super) fastest: Vec<f64>,
     /// The state at which it last began or continued.
     pub(super) begun: Option<State>,
     pub(super) comparison: ComparisonRecord,
