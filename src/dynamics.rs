@@ -63,6 +63,7 @@ mod spectral_fit;
 mod spectral_line;
 mod spectrum;
 mod stationary_path;
+mod step_growth;
 mod symplectic;
 mod tangent_growth;
 mod tangent_step;
@@ -73,6 +74,7 @@ mod unclosed_motion;
 mod unit_circle;
 mod unresolved_lines;
 mod variation;
+mod vector_fidelity;
 mod virtual_work;
 mod wandering;
 

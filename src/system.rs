@@ -107,6 +107,7 @@ mod underflow;
 mod valuation;
 mod value;
 mod variational;
+mod variations;
 
 pub use allowed_displacements::AllowedDisplacements;
 pub use batch_event_signs::BatchEventSigns;

@@ -14,8 +14,8 @@ use super::error::DynamicsError;
 use super::lyapunov_course::{CarriedMotion, LyapunovCourse};
 use super::megno::Megno;
 use super::phase_space::PhaseSpace;
-use super::tangent_growth::TangentGrowth;
 use super::transverse::Removed;
+use super::vector_fidelity::Followed;
 use crate::integrate::{Method, Settings};
 use crate::num::{math, short};
 use crate::system::{MotionErrorKind, State};
@@ -154,7 +154,16 @@ fn result(
     let largest = |time| if count > 0 { growth.plain(0, begin, time) } else { 0.0 };
     let curve: Vec<(f64, f64)> = curve.map(|time| (time, largest(time))).collect();
     let mean = megno.mean();
-    let judged = judged(motion, growth, (&exponents, &uncertainty), megno);
+    let pairing = space.is_hamiltonian().then_some(pairing);
+    let followed = Followed {
+        motion,
+        growth,
+        single_steps: course.single_steps(),
+        largest: exponents.first().copied().unwrap_or(0.0),
+        pairing,
+        jumps: space.has_jumps(),
+    };
+    let judged = judged(&followed, (&exponents, &uncertainty), megno);
     // what ends is not followed for as long as one wishes
     let (verdict, reason) = match (&failure, judged) {
         // neighbours that part next to a pole of the coordinates tell nothing of the motion, which continues
@@ -187,7 +196,7 @@ fn result(
         megno: mean,
         verdict,
         reason,
-        pairing_residual: space.is_hamiltonian().then_some(pairing),
+        pairing_residual: pairing,
         curve,
         settings: motion.settings,
         failure,
@@ -196,12 +205,11 @@ fn result(
 
 /// The verdict and its reason.
 fn judged(
-    motion: &CarriedMotion,
-    growth: &TangentGrowth,
+    followed: &Followed<'_>,
     (exponents, uncertainty): (&[f64], &[f64]),
     mean_growth: &Megno,
 ) -> (Chaos, String) {
-    let megno = mean_growth.mean();
+    let (motion, growth, megno) = (followed.motion, followed.growth, mean_growth.mean());
     if growth.logarithms[0].is_empty() {
         let reason =
             "a motion of one degree of freedom with conserved energy has no exponent but 0";
@@ -214,6 +222,9 @@ fn judged(
     if motion.steps < least {
         let reason =
             format!("the motion is too short: {} steps, and {least} are needed", motion.steps);
+        return (Chaos::Undecided, reason);
+    }
+    if let Some(reason) = followed.doubt() {
         return (Chaos::Undecided, reason);
     }
     if grown >= GROWTH && megno >= CHAOTIC && largest > 2.0 * off {

@@ -13,6 +13,7 @@ use super::displacement_units::{displacement_units, scaled};
 use super::error::DynamicsError;
 use super::megno::Megno;
 use super::phase_space::{NOTHING_MOVES, PhaseSpace};
+use super::step_growth::StepGrowth;
 use super::tangent_growth::TangentGrowth;
 use super::tangent_step::TangentStep;
 use super::transverse::{self, Removed};
@@ -50,6 +51,7 @@ pub(super) struct LyapunovCourse {
     round: f64,
     growth: TangentGrowth,
     megno: Megno,
+    single_steps: StepGrowth,
 }
 
 impl LyapunovCourse {
@@ -99,6 +101,7 @@ impl LyapunovCourse {
             round: (until - start.time) / LEAST_ROUNDS,
             growth: TangentGrowth { times: vec![start.time], logarithms: vec![vec![0.0; count]] },
             megno: Megno::new(start.time),
+            single_steps: StepGrowth::default(),
         };
         Ok((course, vectors))
     }
@@ -115,6 +118,10 @@ impl LyapunovCourse {
 
     pub(super) fn growth(&self) -> &TangentGrowth {
         &self.growth
+    }
+
+    pub(super) fn single_steps(&self) -> &StepGrowth {
+        &self.single_steps
     }
 
     pub(super) fn megno(&self) -> &Megno {
@@ -140,7 +147,11 @@ impl LyapunovCourse {
             } else {
                 step.vector(self.count, now)?
             };
-            self.megno.add(now, math::ln(free.component_mul(&self.in_units).norm()));
+            let size = math::ln(free.component_mul(&self.in_units).norm());
+            self.megno.add(now, size);
+            if part == MEGNO_PARTS {
+                self.single_steps.reach(end, size);
+            }
         }
         let (state, vectors) = match at_end {
             Some(found) => found,
@@ -157,6 +168,7 @@ impl LyapunovCourse {
         let rates = self.direction.at(&state)?.component_div(&self.units);
         let free = vectors.column(self.count).into_owned();
         self.megno.rescale(free.norm());
+        self.single_steps.renew();
         let mut turned = vectors.columns(0, self.count).into_owned();
         let lengths = if space.is_constrained() {
             let (allowed, dimension) = space.allowed_displacements(&state)?;

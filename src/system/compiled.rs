@@ -15,6 +15,7 @@ use super::rhs::{MotionPrograms, ProgramBuilder, Quadratures, Tangents};
 use super::separability::NotSeparable;
 use super::terms::{ConservedTerms, Terms};
 use super::value::Evaluator;
+use super::variations::Variations;
 use super::{Channel, Discontinuities, Form, State};
 use crate::cancel::Cancel;
 use crate::expr::{Expr, Symbol};
@@ -66,6 +67,8 @@ pub(super) struct Shared {
     backwards: bool,
     /// The channels that were given beside those of the model.
     extra: Vec<model::WrittenExpr>,
+    /// The programs with tangent vectors that were asked for.
+    pub(super) variations: Variations,
 }
 
 /// Returns what the file specifies about an initial rate.
@@ -227,6 +230,7 @@ impl System {
             inertia: None,
             backwards: builder.backwards,
             extra: Vec::new(),
+            variations: Variations::default(),
         })
     }
 

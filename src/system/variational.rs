@@ -30,20 +30,26 @@ impl System {
         if count == 0 {
             return plain;
         }
+        let tangents = self.shared.variations.of(count, || plain.variation(count));
+        plain.carrying(Some(tangents))
+    }
+
+    /// The programs with `count` tangent vectors, of a system without any.
+    fn variation(&self, count: usize) -> Tangents {
         let (moving, first, last) = (self.moving(), self.motion_len(), self.quadratures().count());
         let of = |program: &Program, outputs: usize| {
             program.tangent(Layout { count, moving, first, outputs, last })
         };
-        let motion = plain.motion();
+        let motion = self.motion();
         let degrees = self.degrees();
         let split = motion.split.as_ref().map_err(NotSeparable::clone).map(|split| {
             SplitHamiltonian { drift: of(&split.drift, degrees), kick: of(&split.kick, degrees) }
         });
         let (canonical, direct) = &motion.canonical;
-        let legendre = plain.legendre_program();
+        let legendre = self.legendre_program();
         let outputs = if self.form() == Form::Variables { 0 } else { degrees };
         let layout = Layout { count: 1, moving, first: moving, outputs, last: 0 };
-        let tangents = Tangents {
+        Tangents {
             count,
             motion: MotionPrograms {
                 native: of(&motion.native, moving),
@@ -52,8 +58,7 @@ impl System {
                 split,
             },
             legendre: legendre.tangent(layout),
-        };
-        plain.carrying(Some(Arc::new(tangents)))
+        }
     }
 
     /// The same system without tangent vectors.

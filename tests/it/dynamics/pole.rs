@@ -128,3 +128,28 @@ fn a_clock_that_stands_is_no_pole() {
         assert_eq!(kind, Some(MotionErrorKind::ClockStands(0.125)), "{name}");
     }
 }
+
+/// Steps of fixed size, and those that follow their own errors, lead past a pole with vectors that mean nothing: the motion along the
+/// meridian is regular, and neither this nor the opposite is said of it.
+#[test]
+fn exponents_of_steps_beyond_a_pole_tell_nothing() {
+    for (theta, velocity) in [(2.0, 1.0), (2.678, -1.0), (1.0, -2.0), (0.5, 1.0)] {
+        let case = file(&sphere(theta, velocity, ""), &[]);
+        for (name, step) in [("dop853", None), ("gauss6", Some(0.01)), ("rk4", Some(0.01))] {
+            let method = (method_named(name).unwrap(), Settings { step, tolerance: None });
+            let found = lyapunov(&case.space, method, &case.start, 20.0, &mut |_| {}).unwrap();
+            assert_eq!(found.verdict, Chaos::Undecided, "{name} {theta}: {}", found.reason);
+            let says = found.reason.contains("pole") || found.reason.contains("no limit");
+            assert!(says, "{name} {theta}: {}", found.reason);
+        }
+    }
+    // beside the poles there is nothing to be said
+    let around = sphere(2.0, 0.3, "")
+        .replace("phi = { initial = 0 }", "phi = { initial = 0, velocity = 1.5 }");
+    let case = file(&around, &[]);
+    for (name, step) in [("dop853", None), ("gauss6", Some(0.05)), ("rk4", Some(0.01))] {
+        let method = (method_named(name).unwrap(), Settings { step, tolerance: None });
+        let found = lyapunov(&case.space, method, &case.start, 200.0, &mut |_| {}).unwrap();
+        assert_eq!(found.verdict, Chaos::Regular, "{name}: {}", found.reason);
+    }
+}

@@ -1,0 +1,44 @@
+//! By how much a tangent vector grows within single steps: one that stands out leads past a pole of the coordinates.
+//!
+//! In: the logarithm of the vector's length after each step. Out: the greatest growth. Never here: the vector, or a verdict.
+
+/// Within one step of a motion that it resolves, neighbours part by less than this power of e, …
+const PARTED: f64 = 1.0;
+
+/// … unless they do in all of its steps, as under a map whose steps are long: by a few times as much as on the average.
+const OUTSTANDING: f64 = 20.0;
+
+/// By how much a vector has grown within single steps.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct StepGrowth {
+    /// The logarithm of its length at the end of the last step.
+    last: f64,
+    /// The greatest growth, and when the step ended.
+    greatest: (f64, f64),
+    /// The sum of all changes.
+    sum: f64,
+}
+
+impl StepGrowth {
+    /// A step has ended, with a vector whose length has this logarithm.
+    pub(super) fn reach(&mut self, time: f64, size: f64) {
+        let grown = size - self.last;
+        if grown > self.greatest.0 {
+            self.greatest = (grown, time);
+        }
+        self.sum += grown.abs();
+        self.last = size;
+    }
+
+    /// The vector has the length 1 from now on.
+    pub(super) fn renew(&mut self) {
+        self.last = 0.0;
+    }
+
+    /// The growth within a step that stands out among so many, and when it ended.
+    pub(super) fn outstanding(&self, steps: u64) -> Option<(f64, f64)> {
+        let (grown, _) = self.greatest;
+        let mean = self.sum / steps as f64;
+        (grown > PARTED && grown > OUTSTANDING * mean).then_some(self.greatest)
+    }
+}
