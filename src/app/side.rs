@@ -9,7 +9,7 @@ use super::answers::{Answers, PlotJob};
 use super::computation::Jobs;
 use super::{App, Asker, Computation, Effect, Event, Lab, Overlay, Page, UnderWay};
 use crate::experiment::Command;
-use crate::instrument::{Answer, Need, Plot, PlotTable};
+use crate::instrument::{Answer, Need, Plot, PlotContext, PlotTable, Present};
 use crate::job::{Job, Outcome, Progress, Share};
 use crate::mechanics::Equations;
 
@@ -22,10 +22,15 @@ impl Lab {
         self.answers.of(plot)?.answer.as_ref()
     }
 
+    /// Returns what a plot is drawn from.
+    pub fn context<'a>(&'a self, plot: &'a Plot, present: &'a Present<'a>) -> PlotContext<'a> {
+        PlotContext { plot, present, answer: self.answer(plot) }
+    }
+
     /// Returns the kind of the focused plot and what its job has computed, where that is a table.
     pub fn focused_table(&self) -> Option<(&'static str, PlotTable)> {
         let (_, plot) = self.focused_plot()?;
-        let table = plot.kind.table(plot, &self.present()?, self.answer(plot))?;
+        let table = plot.kind.table(self.context(plot, &self.present()?))?;
         Some((plot.kind.name(), table))
     }
 
@@ -50,7 +55,11 @@ impl Lab {
                 continue;
             }
             let answer = entry.and_then(|entry| entry.answer.clone());
-            let under_way = match plot.kind.job(plot, &present, answer.as_ref()) {
+            let under_way = match plot.kind.job(PlotContext {
+                plot,
+                present: &present,
+                answer: answer.as_ref(),
+            }) {
                 Need::Nothing => continue,
                 Need::Addition(_) if !jobs.in_background || !is_drawn => None,
                 Need::Valid => None,

@@ -19,7 +19,7 @@ pub(super) use self::principle::Principle;
 use super::conditions::PlotConditions;
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
-    Need, Offer, Physics, Picture, Plot, Present, Upwards,
+    Need, Offer, Physics, Picture, Plot, PlotContext, Present, Upwards,
 };
 use crate::dynamics::{PhaseSpace, VARIATIONS, VariedAction};
 use crate::integrate::method_named;
@@ -111,7 +111,7 @@ impl Instrument for ActionPlot {
         Some(plot.heading(present.physics, kind, entries))
     }
 
-    fn across(&self, _plot: &Plot, _present: &Present<'_>, answer: Option<&Answer>) -> Across {
+    fn across(&self, PlotContext { answer, .. }: PlotContext<'_>) -> Across {
         let reach = varied(answer).and_then(|varied| varied.curves.first()?.last().copied());
         let reach = reach.map_or(1.0, |at| at[0]);
         Across::Named("ε".to_owned(), [-reach, reach])
@@ -119,10 +119,8 @@ impl Instrument for ActionPlot {
 
     fn picture(
         &self,
-        plot: &Plot,
-        present: &Present<'_>,
+        PlotContext { plot, present, answer }: PlotContext<'_>,
         [from, to]: [f64; 2],
-        answer: Option<&Answer>,
     ) -> Option<Picture> {
         let name = plot.column(0).map(|channel| present.physics.shown(channel));
         let (lines, answer) = match nothing_yet(present) {
@@ -149,7 +147,7 @@ impl Instrument for ActionPlot {
         named([least, greatest], layers)
     }
 
-    fn job(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Need {
+    fn job(&self, PlotContext { plot, present, answer }: PlotContext<'_>) -> Need {
         let Physics { model, equations, system } = present.physics;
         let (Some(channel), Some(method)) = (plot.column(0), method_named(present.method)) else {
             return Need::Nothing;
@@ -194,27 +192,27 @@ impl Instrument for ActionPlot {
             Measure {
                 word: "value",
                 about: "the action of the motion up to now",
-                value: |_, _, answer| Some(varied(answer)?.action),
+                value: |context| Some(varied(context.answer)?.action),
             },
             Measure {
                 word: "foci",
                 about: "how many kinetic foci it has passed",
-                value: |_, _, answer| Some(found(answer)?.foci.as_ref()?.len() as f64),
+                value: |context| Some(found(context.answer)?.foci.as_ref()?.len() as f64),
             },
             Measure {
                 word: "by_place",
                 about: "of Hamilton's action: ∂S/∂q at its end, which is p",
-                value: |_, _, answer| Some(varied(answer)?.ends?[1].by_position),
+                value: |context| Some(varied(context.answer)?.ends?[1].by_position),
             },
             Measure {
                 word: "by_time",
                 about: "of Hamilton's action: ∂S/∂t at its end, which is −H",
-                value: |_, _, answer| Some(varied(answer)?.ends?[1].by_time),
+                value: |context| Some(varied(context.answer)?.ends?[1].by_time),
             },
             Measure {
                 word: "rise",
                 about: "how much greater the action is at the greatest ε, for k = 1",
-                value: |_, _, answer| Some(varied(answer)?.curves.first()?.last()?[1]),
+                value: |context| Some(varied(context.answer)?.curves.first()?.last()?[1]),
             },
         ]
     }

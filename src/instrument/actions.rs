@@ -12,7 +12,7 @@ use std::sync::Arc;
 use super::motion_state::{self, CoordinateState, FrozenCourse};
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
-    Need, Offer, Physics, Picture, Plot, Present, Upwards,
+    Need, Offer, Physics, Picture, Plot, PlotContext, Present, Upwards,
 };
 use crate::action_angle::{FrozenMotion, OwnMotion, RegionKind, Separatrix, is_adiabatic};
 use crate::job::{Job, Progress};
@@ -101,20 +101,15 @@ impl Instrument for ActionsPlot {
         Some(plot.heading(present.physics, "Action variable", entries))
     }
 
-    fn across(&self, _plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Across {
+    fn across(&self, PlotContext { present, answer, .. }: PlotContext<'_>) -> Across {
         let energy = if bottom(answer).is_some() { "E − V₀" } else { "E" };
         let name = energy_unit(present.physics)
             .map_or_else(|| energy.to_owned(), |unit| format!("{energy} [{unit}]"));
         Across::Named(name, ranges(answer)[0])
     }
 
-    fn picture(
-        &self,
-        _plot: &Plot,
-        present: &Present<'_>,
-        _seen: [f64; 2],
-        answer: Option<&Answer>,
-    ) -> Option<Picture> {
+    fn picture(&self, context: PlotContext<'_>, _seen: [f64; 2]) -> Option<Picture> {
+        let PlotContext { present, answer, .. } = context;
         let [_, high] = ranges(answer);
         let from = bottom(answer);
         let above = |[energy, action]: [f64; 2]| [energy - from.unwrap_or(0.0), action];
@@ -141,7 +136,7 @@ impl Instrument for ActionsPlot {
         if let [first, _, ..] = past {
             layers.push((NOW, Layer::Point(first.seen(from), MarkerShape::Ring, Ink::Warn)));
         }
-        layers.push((NOW, Layer::Legend(sentences(present, answer))));
+        layers.push((NOW, Layer::Legend(sentences(context))));
         let units = energy_unit(present.physics).zip(Some(present.physics.model.time_unit()));
         let name = match units.filter(|(_, time)| !time.is_empty()) {
             Some((energy, time)) => format!("J [{energy} {time}]"),
@@ -150,7 +145,7 @@ impl Instrument for ActionsPlot {
         Some(Picture::Axes { upwards: Upwards::Named(name, high), layers, occurrences: None })
     }
 
-    fn job(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Need {
+    fn job(&self, PlotContext { plot, present, answer }: PlotContext<'_>) -> Need {
         let Some(state) = CoordinateState::of(plot, present) else { return Need::Nothing };
         let known = computed(answer);
         let leads = known.is_some_and(|known| known.course.leads_to(&state));
@@ -207,33 +202,33 @@ impl Instrument for ActionsPlot {
             Measure {
                 word: "action",
                 about: "∮ p dq of the motion",
-                value: |_, _, answer| Some(found(answer)?.own.row.as_ref().ok()?.action),
+                value: |context| Some(found(context.answer)?.own.row.as_ref().ok()?.action),
             },
             Measure {
                 word: "period",
                 about: "its period",
-                value: |_, _, answer| found(answer)?.own.row.as_ref().ok()?.even_period(),
+                value: |context| found(context.answer)?.own.row.as_ref().ok()?.even_period(),
             },
             Measure {
                 word: "separatrix",
                 about: "∮ p dq of the first lobe of the first separatrix that has an end",
-                value: |_, _, answer| {
-                    let mut actions = found(answer)?.separatrices.first()?.actions.iter();
+                value: |context| {
+                    let mut actions = found(context.answer)?.separatrices.first()?.actions.iter();
                     actions.find(|action| action.is_finite()).copied()
                 },
             },
             Measure {
                 word: "last_change",
                 about: "by what fraction it has changed since the last ramp by a key",
-                value: |_, _, answer| {
-                    let computed = computed(answer)?;
+                value: |context| {
+                    let computed = computed(context.answer)?;
                     computed.changes_since(computed.replaced.last()?).map(|[action, _]| action)
                 },
             },
             Measure {
                 word: "change",
                 about: "by what fraction the action has changed since the start",
-                value: |_, _, answer| computed(answer)?.changes().map(|[action, _]| action),
+                value: |context| computed(context.answer)?.changes().map(|[action, _]| action),
             },
         ]
     }
@@ -370,7 +365,7 @@ fn ranges(answer: Option<&Answer>) -> [[f64; 2]; 2] {
 }
 
 /// What is said of the motion, or why it has no action.
-fn sentences(present: &Present<'_>, answer: Option<&Answer>) -> Vec<String> {
+fn sentences(PlotContext { present, answer, .. }: PlotContext<'_>) -> Vec<String> {
     let Some(computed) = computed(answer) else { return vec![BEING_COMPUTED.to_owned()] };
     let found = match &computed.found {
         Err(why) => return vec![why.clone()],

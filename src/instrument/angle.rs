@@ -11,7 +11,7 @@ use std::sync::Arc;
 use super::motion_state::{self, CoordinateState, FrozenCourse};
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
-    Need, Offer, Physics, Picture, Plot, Present, Upwards,
+    Need, Offer, Physics, Picture, Plot, PlotContext, Present, Upwards,
 };
 use crate::action_angle::AngleMoment;
 use crate::job::{Job, Progress};
@@ -67,7 +67,7 @@ impl Instrument for AnglePlot {
         Some(plot.heading(present.physics, "Angle variable", entries))
     }
 
-    fn across(&self, _plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Across {
+    fn across(&self, PlotContext { present, answer, .. }: PlotContext<'_>) -> Across {
         let start = present.physics.model.run.start;
         let past = computed(answer).map_or(&[][..], |computed| &computed.course.past[..]);
         let first = past.first().map_or(start, |first| first.time);
@@ -77,10 +77,8 @@ impl Instrument for AnglePlot {
 
     fn picture(
         &self,
-        _plot: &Plot,
-        _present: &Present<'_>,
+        PlotContext { answer, .. }: PlotContext<'_>,
         [_, to]: [f64; 2],
-        answer: Option<&Answer>,
     ) -> Option<Picture> {
         let mut layers = Vec::new();
         let mut top = 1.0_f64;
@@ -103,7 +101,7 @@ impl Instrument for AnglePlot {
         Some(Picture::Axes { upwards, layers, occurrences: None })
     }
 
-    fn job(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Need {
+    fn job(&self, PlotContext { plot, present, answer }: PlotContext<'_>) -> Need {
         let Some(state) = CoordinateState::of(plot, present) else { return Need::Nothing };
         let known = computed(answer);
         if known.is_some_and(|known| known.course.leads_to(&state) && known.holds_at(state.time)) {
@@ -137,24 +135,24 @@ impl Instrument for AnglePlot {
             Measure {
                 word: "angle",
                 about: "the angle variable of the motion, in turns from 0 to 1",
-                value: |_, _, answer| {
-                    Some(computed(answer)?.course.past.last()?.angle.rem_euclid(1.0))
+                value: |context| {
+                    Some(computed(context.answer)?.course.past.last()?.angle.rem_euclid(1.0))
                 },
             },
             Measure {
                 word: "frequency",
                 about: "its frequency ν = dE/dJ",
-                value: |_, _, answer| Some(computed(answer)?.course.past.last()?.frequency),
+                value: |context| Some(computed(context.answer)?.course.past.last()?.frequency),
             },
             Measure {
                 word: "action",
                 about: "∮ p dq of the motion",
-                value: |_, _, answer| Some(computed(answer)?.course.past.last()?.action),
+                value: |context| Some(computed(context.answer)?.course.past.last()?.action),
             },
             Measure {
                 word: "residual",
                 about: "the largest |w − w₀ − ν (t − t₀)| so far, in turns",
-                value: |_, _, answer| computed(answer)?.residual().map(|[_, largest]| largest),
+                value: |context| computed(context.answer)?.residual().map(|[_, largest]| largest),
             },
         ]
     }

@@ -19,7 +19,7 @@ use super::straight_line::StraightLine;
 use super::varied::{self, VariedMotions};
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, NoStart,
-    Offer, Physics, Picture, Plot, PlotTable, Present, Upwards,
+    Offer, Physics, Picture, Plot, PlotContext, PlotTable, Present, Upwards,
 };
 use crate::job::Job;
 use crate::model::{Variation, View};
@@ -129,7 +129,7 @@ impl Instrument for Diagram {
         Some(plot.heading(present.physics, title, vec![entry]))
     }
 
-    fn across(&self, plot: &Plot, present: &Present<'_>, _answer: Option<&Answer>) -> Across {
+    fn across(&self, PlotContext { plot, present, .. }: PlotContext<'_>) -> Across {
         let over = plot.over.first();
         over.zip(varied::range(plot, present, 0)).map_or(Across::Nothing, |(&over, range)| {
             Across::Named(varied::with_unit(present.physics, over), range)
@@ -138,10 +138,8 @@ impl Instrument for Diagram {
 
     fn picture(
         &self,
-        plot: &Plot,
-        present: &Present<'_>,
+        PlotContext { plot, present, answer }: PlotContext<'_>,
         _seen: [f64; 2],
-        answer: Option<&Answer>,
     ) -> Option<Picture> {
         let found = computed(plot, answer);
         let points = found.map(|found| Arc::clone(&found.points)).unwrap_or_default();
@@ -187,7 +185,7 @@ impl Instrument for Diagram {
         varied::parameters_at(plot, at)
     }
 
-    fn job(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Need {
+    fn job(&self, PlotContext { plot, present, answer }: PlotContext<'_>) -> Need {
         let Some(motions) = VariedMotions::of(plot, present) else { return Need::Nothing };
         let known = computed(plot, answer).filter(|known| known.conditions == motions.conditions);
         let columns = known.map_or_else(Vec::new, |known| known.columns.clone());
@@ -210,12 +208,7 @@ impl Instrument for Diagram {
         if first { Need::Job(job) } else { Need::Addition(job) }
     }
 
-    fn table(
-        &self,
-        plot: &Plot,
-        present: &Present<'_>,
-        answer: Option<&Answer>,
-    ) -> Option<PlotTable> {
+    fn table(&self, PlotContext { plot, present, answer }: PlotContext<'_>) -> Option<PlotTable> {
         let mut rows: Vec<Vec<f64>> =
             computed(plot, answer)?.points.iter().map(|at| at.to_vec()).collect();
         // the values were taken ever more closely; crossings stay in their order
@@ -230,12 +223,14 @@ impl Instrument for Diagram {
             Measure {
                 word: "columns",
                 about: "how many values of the parameter are there",
-                value: |plot, _, answer| Some(computed(plot, answer)?.columns.len() as f64),
+                value: |PlotContext { plot, answer, .. }| {
+                    Some(computed(plot, answer)?.columns.len() as f64)
+                },
             },
             Measure {
                 word: "branches",
                 about: "how many different crossings there are at the value next to that of the running motion",
-                value: |plot, present, answer| {
+                value: |PlotContext { plot, present, answer }| {
                     let found = computed(plot, answer)?;
                     let now = varied::now(present, *plot.over.first()?)?;
                     let [low, high] = heights(plot, present, Some(found));
@@ -245,14 +240,14 @@ impl Instrument for Diagram {
             Measure {
                 word: "slope",
                 about: "the slope of the straight line of least squares, where the file asks for it",
-                value: |plot, present, answer| {
+                value: |PlotContext { plot, present, answer }| {
                     Some(straight_line(plot, present.physics, computed(plot, answer))?.slope)
                 },
             },
             Measure {
                 word: "value",
                 about: "the last number at that value: a crossing, or the exponent",
-                value: |plot, present, answer| {
+                value: |PlotContext { plot, present, answer }| {
                     let now = varied::now(present, *plot.over.first()?)?;
                     nearest(&computed(plot, answer)?.columns, now)?.1.last().copied()
                 },

@@ -17,7 +17,7 @@ use super::conditions::PlotConditions;
 use super::phase::initial_values;
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
-    Need, NoStart, Offer, Physics, Picture, Plot, Present, Seed, Upwards,
+    Need, NoStart, Offer, Physics, Picture, Plot, PlotContext, Present, Seed, Upwards,
 };
 use crate::expr::{Expr, Symbol};
 use crate::integrate::method_named;
@@ -88,37 +88,32 @@ impl Instrument for Ensemble {
         Some(plot.heading(present.physics, "Ensemble", vec![Entry::Words(words)]))
     }
 
-    fn across(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Across {
-        let range = range(plot, present, answer, 0);
-        plot.column(0).map_or(Across::Nothing, |x| Across::Channel(x, range))
+    fn across(&self, context: PlotContext<'_>) -> Across {
+        let range = range(context, 0);
+        context.plot.column(0).map_or(Across::Nothing, |x| Across::Channel(x, range))
     }
 
-    fn picture(
-        &self,
-        plot: &Plot,
-        present: &Present<'_>,
-        _seen: [f64; 2],
-        answer: Option<&Answer>,
-    ) -> Option<Picture> {
+    fn picture(&self, context: PlotContext<'_>, _seen: [f64; 2]) -> Option<Picture> {
+        let PlotContext { plot, present, .. } = context;
         let channels = [plot.column(0)?, plot.column(1)?];
         let mut layers = Vec::new();
-        if let Some(frame) = shown(present, answer) {
+        if let Some(frame) = shown(context) {
             layers.push((CURVE, Layer::Line(frame.curve.to_vec(), Ink::Curve(1).into())));
             layers.push((CLOUD, Layer::Cloud(Arc::clone(&frame.cloud))));
         }
         // a cloud is drawn with the motion where it was then: its last frame is a little behind, or a lot
-        let then = shown(present, answer).filter(|frame| frame.time != present.time);
+        let then = shown(context).filter(|frame| frame.time != present.time);
         let then = then.map(|frame| frame.own);
         let then = then.filter(|at| at.iter().all(|x| x.is_finite()));
         let now = then.unwrap_or_else(|| channels.map(|channel| present.value(channel)));
         layers.push((NOW, Layer::Point(now, MarkerShape::Disc, Ink::Accent)));
-        let words = [sentence(present, answer), outside_in_words(plot, present, answer)].concat();
-        let lines: Vec<String> = [words].into_iter().chain(since(present, answer)).collect();
+        let words = [sentence(context), outside_in_words(context)].concat();
+        let lines: Vec<String> = [words].into_iter().chain(since(context)).collect();
         let lines: Vec<String> = lines.into_iter().filter(|line| !line.is_empty()).collect();
         if !lines.is_empty() {
             layers.push((NOW, Layer::Legend(lines)));
         }
-        let upwards = Upwards::Channel(channels[1], range(plot, present, answer, 1));
+        let upwards = Upwards::Channel(channels[1], range(context, 1));
         Some(Picture::Axes { upwards, layers, occurrences: None })
     }
 
@@ -131,10 +126,11 @@ impl Instrument for Ensemble {
         initial_values(plot, present.physics, at).ok_or(NoStart::Nothing)
     }
 
-    fn seed(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Option<Seed> {
+    fn seed(&self, context: PlotContext<'_>) -> Option<Seed> {
+        let PlotContext { plot, present, .. } = context;
         initial_values(plot, present.physics, [0.0; 2])?;
         let viewport = plot.viewport()?;
-        let window = [range(plot, present, answer, 0)?, range(plot, present, answer, 1)?];
+        let window = [range(context, 0)?, range(context, 1)?];
         let seen = [0, 1].map(|axis| viewport.part(axis, window[axis]));
         // once more while all of the box is seen: over the energy shell in its place
         let conserved = present.physics.equations.energy_rate == Expr::ZERO;
@@ -149,7 +145,7 @@ impl Instrument for Ensemble {
         })
     }
 
-    fn job(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Need {
+    fn job(&self, PlotContext { plot, present, answer }: PlotContext<'_>) -> Need {
         let Physics { model, equations, system } = present.physics;
         if !model.constraints.is_empty() {
             return Need::Nothing;
@@ -219,40 +215,40 @@ impl Instrument for Ensemble {
             Measure {
                 word: "points",
                 about: "how many points of the cloud are there",
-                value: |_, present, answer| {
-                    let points = &shown(present, answer)?.cloud;
+                value: |context| {
+                    let points = &shown(context)?.cloud;
                     Some(points.iter().filter(|at| at[0].is_finite()).count() as f64)
                 },
             },
             Measure {
                 word: "outside",
                 about: "how many points are beyond the window that holds the bulk, or lost",
-                value: |plot, present, answer| outside(plot, present, answer).map(|n| n as f64),
+                value: |context| outside(context).map(|n| n as f64),
             },
             Measure {
                 word: "lost",
                 about: "how many points came to a collision or to infinity and are not followed farther",
-                value: |_, present, answer| lost(present, answer).map(|n| n as f64),
+                value: |context| lost(context).map(|n| n as f64),
             },
             Measure {
                 word: "action",
                 about: "the action ∫ p dq around the cloud: its area, for one degree of freedom",
-                value: |_, present, answer| Some(shown(present, answer)?.action?.value.abs()),
+                value: |context| Some(shown(context)?.action?.value.abs()),
             },
             Measure {
                 word: "expected",
                 about: "the same as the law of motion predicts it from the beginning",
-                value: |_, present, answer| expected(present, answer).map(f64::abs),
+                value: |context| expected(context).map(f64::abs),
             },
             Measure {
                 word: "off",
                 about: "how far the two are apart, as a fraction of the expected value",
-                value: |_, present, answer| off(present, answer),
+                value: |context| off(context),
             },
             Measure {
                 word: "rate",
                 about: "the rate at which it is expected to grow: 0 without friction",
-                value: |_, _, answer| cloud(answer)?.rate,
+                value: |context| cloud(context.answer)?.rate,
             },
         ]
     }
@@ -282,7 +278,7 @@ fn cloud(answer: Option<&Answer>) -> Option<&Cloud> {
 }
 
 /// Since when the cloud is carried, if that is more than a second of the wall clock after the start of the motion.
-fn since(present: &Present<'_>, answer: Option<&Answer>) -> Option<String> {
+fn since(PlotContext { present, answer, .. }: PlotContext<'_>) -> Option<String> {
     let run = &present.physics.model.run;
     let (begun, second) = (cloud(answer)?.origin.time, run.speed.abs());
     let second = if second.is_finite() { second } else { 0.0 };
@@ -292,40 +288,40 @@ fn since(present: &Present<'_>, answer: Option<&Answer>) -> Option<String> {
 }
 
 /// The frame that is shown: the last that is not later than the motion, and than what is known of clouds beside this one.
-fn shown<'a>(present: &Present<'_>, answer: Option<&'a Answer>) -> Option<&'a CloudFrame> {
+fn shown(PlotContext { present, answer, .. }: PlotContext<'_>) -> Option<&CloudFrame> {
     let cloud = cloud(answer)?;
     let before = cloud.frames.iter().rfind(|frame| frame.time <= present.carried);
     before.or_else(|| cloud.frames.first())
 }
 
 /// Whether it is behind a motion that is faster than the cloud can be carried.
-fn is_late(present: &Present<'_>, answer: Option<&Answer>) -> bool {
-    let (Some(cloud), Some(frame)) = (cloud(answer), shown(present, answer)) else { return false };
-    present.time - frame.time > 2.0 * cloud.spacing
+fn is_late(context: PlotContext<'_>) -> bool {
+    let (Some(cloud), Some(frame)) = (cloud(context.answer), shown(context)) else { return false };
+    context.present.time - frame.time > 2.0 * cloud.spacing
 }
 
 /// ∮ Σ p dq as it is expected.
-fn expected(present: &Present<'_>, answer: Option<&Answer>) -> Option<f64> {
-    let (cloud, frame) = (cloud(answer)?, shown(present, answer)?);
+fn expected(context: PlotContext<'_>) -> Option<f64> {
+    let (cloud, frame) = (cloud(context.answer)?, shown(context)?);
     let since = frame.time - cloud.origin.time;
     Some(cloud.first?.value * math::exp(cloud.rate? * since))
 }
 
 /// How far it is from that.
-fn off(present: &Present<'_>, answer: Option<&Answer>) -> Option<f64> {
-    let (expected, action) = (expected(present, answer)?, shown(present, answer)?.action?);
+fn off(context: PlotContext<'_>) -> Option<f64> {
+    let (expected, action) = (expected(context)?, shown(context)?.action?);
     Some(((action.value - expected) / expected).abs()).filter(|off| off.is_finite())
 }
 
 /// The integral in words, beside what is expected.
-fn sentence(present: &Present<'_>, answer: Option<&Answer>) -> String {
-    let Some(cloud) = cloud(answer) else { return String::new() };
+fn sentence(context: PlotContext<'_>) -> String {
+    let Some(cloud) = cloud(context.answer) else { return String::new() };
     if let Some(why) = &cloud.failure {
         return why.clone();
     }
     let short = |x: f64| significant(x, 4, 1e-3..1e5).replace('-', "−");
-    let Some(frame) = shown(present, answer) else { return String::new() };
-    let late = is_late(present, answer);
+    let Some(frame) = shown(context) else { return String::new() };
+    let late = is_late(context);
     let at = if late { format!(" at t = {}", short(frame.time)) } else { String::new() };
     if let Some(energy) = cloud.origin.energy() {
         return format!("energy {}{at}", short(energy));
@@ -340,7 +336,7 @@ fn sentence(present: &Present<'_>, answer: Option<&Answer>) -> String {
         return format!("{known}{at}");
     };
     let value = format!("action {}{at}", short(action.value.abs()));
-    match (cloud.rate, off(present, answer)) {
+    match (cloud.rate, off(context)) {
         (Some(rate), Some(off)) => {
             let law = if rate == 0.0 {
                 "constant".to_owned()
@@ -354,15 +350,16 @@ fn sentence(present: &Present<'_>, answer: Option<&Answer>) -> String {
 }
 
 /// How many points of the cloud could not be followed farther: they came to a collision, or to infinity.
-fn lost(present: &Present<'_>, answer: Option<&Answer>) -> Option<usize> {
-    let frame = shown(present, answer)?;
+fn lost(context: PlotContext<'_>) -> Option<usize> {
+    let frame = shown(context)?;
     Some(frame.cloud.iter().filter(|at| at.iter().any(|x| !x.is_finite())).count())
 }
 
 /// How many points of the cloud are outside the window, or lost.
-fn outside(plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Option<usize> {
-    let frame = shown(present, answer)?;
-    let window = [range(plot, present, answer, 0)?, range(plot, present, answer, 1)?];
+fn outside(context: PlotContext<'_>) -> Option<usize> {
+    let PlotContext { plot, present, .. } = context;
+    let frame = shown(context)?;
+    let window = [range(context, 0)?, range(context, 1)?];
     let turns = [0, 1].map(|axis| {
         let channel = plot.column(axis)?;
         present.physics.system.period(channel, present.parameters)
@@ -374,21 +371,16 @@ fn outside(plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Optio
     Some(frame.cloud.iter().filter(|at| !at.iter().enumerate().all(holds)).count())
 }
 
-fn outside_in_words(plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> String {
-    let lost = lost(present, answer).unwrap_or(0);
-    let far = outside(plot, present, answer).unwrap_or(0) - lost;
+fn outside_in_words(context: PlotContext<'_>) -> String {
+    let lost = lost(context).unwrap_or(0);
+    let far = outside(context).unwrap_or(0) - lost;
     let counted = [(far, "outside"), (lost, "lost")].into_iter().filter(|(count, _)| *count > 0);
     let counted: Vec<String> = counted.map(|(count, word)| format!(", {count} {word}")).collect();
     counted.concat()
 }
 
 /// The range of an axis: of all that was seen of the bulk of the cloud, or a turn.
-fn range(
-    plot: &Plot,
-    present: &Present<'_>,
-    answer: Option<&Answer>,
-    axis: usize,
-) -> Option<[f64; 2]> {
+fn range(PlotContext { plot, present, answer }: PlotContext<'_>, axis: usize) -> Option<[f64; 2]> {
     let channel = plot.column(axis)?;
     let [lo, hi] = cloud(answer)?.extent[axis];
     if !(lo < hi && lo.is_finite() && hi.is_finite()) {

@@ -6,7 +6,7 @@
 use super::conditions::PlotConditions;
 use super::{
     Across, Answer, Columns, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, Offer,
-    Physics, Picture, Plot, Present, Stroke, Upwards,
+    Physics, Picture, Plot, PlotContext, Present, Stroke, Upwards,
 };
 use crate::dynamics::{Chaos, Lyapunov, PhaseSpace, lyapunov};
 use crate::integrate::{Method, Settings, method_named};
@@ -63,7 +63,7 @@ impl Instrument for Exponents {
         Some(Heading { title: "Exponent".to_owned(), given: false, entries })
     }
 
-    fn across(&self, _plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Across {
+    fn across(&self, PlotContext { present, answer, .. }: PlotContext<'_>) -> Across {
         let start = present.physics.model.run.start;
         let end = found(answer).map_or(start + first(present.physics), |found| found.time);
         Across::Times([start, end])
@@ -71,10 +71,8 @@ impl Instrument for Exponents {
 
     fn picture(
         &self,
-        _plot: &Plot,
-        present: &Present<'_>,
+        PlotContext { present, answer, .. }: PlotContext<'_>,
         _seen: [f64; 2],
-        answer: Option<&Answer>,
     ) -> Option<Picture> {
         let axes = |name: &str, range, layers| {
             let upwards = Upwards::Named(name.to_owned(), range);
@@ -118,7 +116,7 @@ impl Instrument for Exponents {
         axes("λ", [least.min(0.0), greatest], layers)
     }
 
-    fn job(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Need {
+    fn job(&self, PlotContext { plot, present, answer }: PlotContext<'_>) -> Need {
         let conditions = PlotConditions::of(present, &plot.seeds);
         let known = measured(answer).filter(|known| known.conditions == conditions);
         let doublings = match known {
@@ -150,22 +148,22 @@ impl Instrument for Exponents {
             Measure {
                 word: "largest",
                 about: "the largest Lyapunov exponent",
-                value: |_, _, answer| found(answer)?.exponents.first().copied(),
+                value: |context| found(context.answer)?.exponents.first().copied(),
             },
             Measure {
                 word: "uncertainty",
                 about: "its uncertainty",
-                value: |_, _, answer| found(answer)?.uncertainty.first().copied(),
+                value: |context| found(context.answer)?.uncertainty.first().copied(),
             },
             Measure {
                 word: "megno",
                 about: "MEGNO: about 2 for regular motion, growing for chaotic",
-                value: |_, _, answer| found(answer).map(|found| found.megno),
+                value: |context| found(context.answer).map(|found| found.megno),
             },
             Measure {
                 word: "chaotic",
                 about: "1 if the motion is chaotic, 0 if it is regular; undecided has no value",
-                value: |_, _, answer| match found(answer)?.verdict {
+                value: |context| match found(context.answer)?.verdict {
                     Chaos::Chaotic => Some(1.0),
                     Chaos::Regular => Some(0.0),
                     Chaos::Undecided => None,

@@ -14,8 +14,8 @@ use super::conditions::PlotConditions;
 use super::equilibria::given;
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
-    Need, Offer, PeriodicOrbits, Physics, Picture, Plot, PlotTable, Present, Seed, Stroke, Upwards,
-    varied,
+    Need, Offer, PeriodicOrbits, Physics, Picture, Plot, PlotContext, PlotTable, Present, Seed,
+    Stroke, Upwards, varied,
 };
 use crate::dynamics::{Bifurcation, NOT_ISOLATED};
 use crate::ensemble::Start;
@@ -100,7 +100,7 @@ impl Instrument for FamilyPlot {
         Some(plot.heading(present.physics, "Family", vec![entry]))
     }
 
-    fn across(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Across {
+    fn across(&self, PlotContext { plot, present, answer }: PlotContext<'_>) -> Across {
         let range = followed(answer).map(|found| found.range);
         match (plot.over.first(), plot.column(0)) {
             (None, Some(energy)) => {
@@ -120,10 +120,8 @@ impl Instrument for FamilyPlot {
 
     fn picture(
         &self,
-        plot: &Plot,
-        present: &Present<'_>,
+        PlotContext { plot, present, answer }: PlotContext<'_>,
         _seen: [f64; 2],
-        answer: Option<&Answer>,
     ) -> Option<Picture> {
         let x = quantity(plot, answer)?;
         let now = now(plot, present)?;
@@ -149,11 +147,11 @@ impl Instrument for FamilyPlot {
     }
 
     /// The time at which the family is asked for again.
-    fn seed(&self, _plot: &Plot, present: &Present<'_>, _answer: Option<&Answer>) -> Option<Seed> {
+    fn seed(&self, PlotContext { present, .. }: PlotContext<'_>) -> Option<Seed> {
         Some(Seed::Through([present.time, 0.0]))
     }
 
-    fn job(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Need {
+    fn job(&self, PlotContext { plot, present, answer }: PlotContext<'_>) -> Need {
         let conditions = PlotConditions::of(present, &plot.seeds);
         let known = answer.and_then(Answer::of::<ComputedFamily>);
         let holds =
@@ -207,12 +205,7 @@ impl Instrument for FamilyPlot {
         if plot.seeds.is_empty() { Need::Addition(job) } else { Need::Job(job) }
     }
 
-    fn table(
-        &self,
-        plot: &Plot,
-        present: &Present<'_>,
-        answer: Option<&Answer>,
-    ) -> Option<PlotTable> {
+    fn table(&self, PlotContext { plot, present, answer }: PlotContext<'_>) -> Option<PlotTable> {
         let physics = present.physics;
         let along = match plot.over.first() {
             Some(&over) => varied::written(physics, over).to_owned(),
@@ -242,27 +235,27 @@ impl Instrument for FamilyPlot {
             Measure {
                 word: "members",
                 about: "how many orbits of the family were found",
-                value: |_, _, answer| Some(followed(answer)?.members.len() as f64),
+                value: |context| Some(followed(context.answer)?.members.len() as f64),
             },
             Measure {
                 word: "folds",
                 about: "how often the family turns back",
-                value: |_, _, answer| count(answer, Bifurcation::Fold),
+                value: |context| count(context.answer, Bifurcation::Fold),
             },
             Measure {
                 word: "doublings",
                 about: "how often a multiplier passes −1, where orbits of twice the period branch off",
-                value: |_, _, answer| count(answer, Bifurcation::PeriodDoubling),
+                value: |context| count(context.answer, Bifurcation::PeriodDoubling),
             },
             Measure {
                 word: "branchings",
                 about: "how often a multiplier passes 1 without a fold",
-                value: |_, _, answer| count(answer, Bifurcation::Branching),
+                value: |context| count(context.answer, Bifurcation::Branching),
             },
             Measure {
                 word: "first",
                 about: "the value at the bifurcation of the family next to the motion",
-                value: |plot, present, answer| {
+                value: |PlotContext { plot, present, answer }| {
                     let now = now(plot, present)?;
                     let all = followed(answer)?.members.iter();
                     let all = all.filter(|member| member.bifurcation.is_some());

@@ -10,7 +10,7 @@ use nalgebra::DMatrix;
 use super::conditions::PlotConditions;
 use super::{
     Across, Answer, Columns, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, Offer,
-    Physics, Picture, Plot, Present, Upwards,
+    Physics, Picture, Plot, PlotContext, Present, Upwards,
 };
 use crate::dynamics::{FlowMoment, PhaseSpace, flow_course};
 use crate::expr::Expr;
@@ -102,7 +102,7 @@ impl Instrument for FlowPlot {
         Some(plot.heading(present.physics, "Flow map", entries))
     }
 
-    fn across(&self, _plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Across {
+    fn across(&self, PlotContext { present, answer, .. }: PlotContext<'_>) -> Across {
         let start = present.began();
         let span = |known: &Followed| [known.begin, known.end];
         Across::Times(
@@ -110,15 +110,9 @@ impl Instrument for FlowPlot {
         )
     }
 
-    fn picture(
-        &self,
-        _plot: &Plot,
-        present: &Present<'_>,
-        _seen: [f64; 2],
-        answer: Option<&Answer>,
-    ) -> Option<Picture> {
-        let mut layers = vec![(NOW, Layer::Legend(sentences(present, answer)))];
-        let Some(courses) = courses(answer) else {
+    fn picture(&self, context: PlotContext<'_>, _seen: [f64; 2]) -> Option<Picture> {
+        let mut layers = vec![(NOW, Layer::Legend(sentences(context)))];
+        let Some(courses) = courses(context.answer) else {
             let upwards = Upwards::Named("‖MJMᵀ − J‖".to_owned(), [0.0, 1.0]);
             return Some(Picture::Axes { upwards, layers, occurrences: None });
         };
@@ -150,7 +144,7 @@ impl Instrument for FlowPlot {
         Some(Picture::Axes { upwards, layers, occurrences: None })
     }
 
-    fn job(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Need {
+    fn job(&self, PlotContext { plot, present, answer }: PlotContext<'_>) -> Need {
         let conditions = PlotConditions::of_recorded(present, &plot.seeds);
         let start = conditions.begin(present.physics.model.run.start);
         let known = followed(answer).filter(|known| known.conditions == conditions);
@@ -189,24 +183,28 @@ impl Instrument for FlowPlot {
             Measure {
                 word: "determinant",
                 about: "det M of the method's map, now",
-                value: |_, present, answer| determinant(now(present, &courses(answer)?.own)?),
+                value: |PlotContext { present, answer, .. }| {
+                    determinant(now(present, &courses(answer)?.own)?)
+                },
             },
             Measure {
                 word: "expected",
                 about: "what Liouville's theorem expects of it",
-                value: |_, present, answer| {
+                value: |PlotContext { present, answer, .. }| {
                     Some(now(present, &courses(answer)?.own)?.determinant_expected)
                 },
             },
             Measure {
                 word: "residual",
                 about: "the largest entry of |MJMᵀ − J| of the method's map, now",
-                value: |_, present, answer| residual(now(present, &courses(answer)?.own)?),
+                value: |PlotContext { present, answer, .. }| {
+                    residual(now(present, &courses(answer)?.own)?)
+                },
             },
             Measure {
                 word: "exact_residual",
                 about: "the same of the exact flow, where the method is another one",
-                value: |_, present, answer| {
+                value: |PlotContext { present, answer, .. }| {
                     residual(now(present, courses(answer)?.exact.as_deref()?)?)
                 },
             },
@@ -256,7 +254,7 @@ fn follow(
 }
 
 /// What is said of the map as it is now.
-fn sentences(present: &Present<'_>, answer: Option<&Answer>) -> Vec<String> {
+fn sentences(PlotContext { present, answer, .. }: PlotContext<'_>) -> Vec<String> {
     let courses = match followed(answer).map(|known| &known.outcome) {
         None => return vec!["being computed".to_owned()],
         Some(Err(why)) => return vec![why.clone()],

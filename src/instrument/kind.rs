@@ -34,6 +34,17 @@ pub struct Plot {
     pub seeds: Vec<Seed>,
 }
 
+/// What a plot is drawn from.
+#[derive(Clone, Copy)]
+pub struct PlotContext<'a> {
+    /// The plot.
+    pub plot: &'a Plot,
+    /// The current state of the motion.
+    pub present: &'a Present<'a>,
+    /// The last result of its job.
+    pub answer: Option<&'a Answer>,
+}
+
 /// A kind of plot: one row of [`INSTRUMENTS`](super::INSTRUMENTS). Common behaviour has defaults.
 pub trait Instrument: Sync {
     /// Its name in files, sessions and assertions.
@@ -128,20 +139,14 @@ pub trait Instrument: Sync {
         ""
     }
 
-    /// The line above the picture; `answer` is the result of its job.
+    /// The line above the picture.
     fn heading(&self, plot: &Plot, present: &Present<'_>) -> Option<Heading>;
 
     /// The horizontal range.
-    fn across(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Across;
+    fn across(&self, context: PlotContext<'_>) -> Across;
 
     /// The picture over a horizontal range, or `None` if there is nothing to draw.
-    fn picture(
-        &self,
-        plot: &Plot,
-        present: &Present<'_>,
-        seen: [f64; 2],
-        answer: Option<&Answer>,
-    ) -> Option<Picture>;
+    fn picture(&self, context: PlotContext<'_>, seen: [f64; 2]) -> Option<Picture>;
 
     /// The initial values that a point of the picture represents.
     ///
@@ -162,12 +167,12 @@ pub trait Instrument: Sync {
     }
 
     /// The further orbits that are spread over what a viewport shows, if it is a section of orbits.
-    fn seed(&self, _plot: &Plot, _present: &Present<'_>, _answer: Option<&Answer>) -> Option<Seed> {
+    fn seed(&self, _context: PlotContext<'_>) -> Option<Seed> {
         None
     }
 
     /// The background job that the picture needs, given the last result.
-    fn job(&self, _plot: &Plot, _present: &Present<'_>, _answer: Option<&Answer>) -> Need {
+    fn job(&self, _context: PlotContext<'_>) -> Need {
         Need::Nothing
     }
 
@@ -188,12 +193,7 @@ pub trait Instrument: Sync {
     }
 
     /// What its job has computed, as a table to be written to a file; `None` if it is the motion itself.
-    fn table(
-        &self,
-        _plot: &Plot,
-        _present: &Present<'_>,
-        _answer: Option<&Answer>,
-    ) -> Option<PlotTable> {
+    fn table(&self, _context: PlotContext<'_>) -> Option<PlotTable> {
         None
     }
 
@@ -272,7 +272,7 @@ pub struct Measure {
     /// A description on one line.
     pub about: &'static str,
     /// Its value, or `None` if it has none.
-    pub value: fn(&Plot, &Present<'_>, Option<&Answer>) -> Option<f64>,
+    pub value: fn(PlotContext<'_>) -> Option<f64>,
 }
 
 impl fmt::Debug for dyn Instrument {

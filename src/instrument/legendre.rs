@@ -4,8 +4,8 @@
 //! the slope q̇ (*The Principles of Dynamics*, § 2.1).
 
 use super::{
-    Across, Answer, Axis, Columns, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape,
-    Measure, Offer, Physics, Picture, Plot, Present, Stroke, Upwards,
+    Across, Axis, Columns, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
+    Offer, Physics, Picture, Plot, PlotContext, Present, Stroke, Upwards,
 };
 use crate::expr::{Expr, Symbol};
 use crate::model::Mechanics;
@@ -153,7 +153,7 @@ impl Instrument for LegendrePlot {
         Some(plot.heading(present.physics, "Legendre transform", entries))
     }
 
-    fn across(&self, plot: &Plot, present: &Present<'_>, _answer: Option<&Answer>) -> Across {
+    fn across(&self, PlotContext { plot, present, .. }: PlotContext<'_>) -> Across {
         TransformedFunction::of(plot, present.physics).map_or(Across::Nothing, |found| {
             Across::Channel(found.channel, Some(found.range(present)))
         })
@@ -161,10 +161,8 @@ impl Instrument for LegendrePlot {
 
     fn picture(
         &self,
-        plot: &Plot,
-        present: &Present<'_>,
+        PlotContext { plot, present, .. }: PlotContext<'_>,
         [from, to]: [f64; 2],
-        _answer: Option<&Answer>,
     ) -> Option<Picture> {
         let found = TransformedFunction::of(plot, present.physics)?;
         let [x, y, slope] = found.now(present);
@@ -212,14 +210,14 @@ impl Instrument for LegendrePlot {
             Measure {
                 word: "slope",
                 about: "the slope of the tangent, by the momentum (or velocity) of the motion",
-                value: |plot, present, _| {
+                value: |PlotContext { plot, present, .. }| {
                     Some(TransformedFunction::of(plot, present.physics)?.now(present)[2])
                 },
             },
             Measure {
                 word: "intercept",
                 about: "where the tangent meets the vertical axis",
-                value: |plot, present, _| {
+                value: |PlotContext { plot, present, .. }| {
                     let [x, y, slope] =
                         TransformedFunction::of(plot, present.physics)?.now(present);
                     Some(y - slope * x)

@@ -14,7 +14,7 @@ use super::section::zero;
 use super::varied::{self, VariedMotions};
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
-    Need, NoStart, Offer, Physics, Picture, Plot, PlotTable, Present, Upwards,
+    Need, NoStart, Offer, Physics, Picture, Plot, PlotContext, PlotTable, Present, Upwards,
 };
 use crate::job::Job;
 use crate::mechanics::Valuation;
@@ -110,7 +110,7 @@ impl Instrument for Map {
         Some(plot.heading(present.physics, "Map", entries))
     }
 
-    fn across(&self, plot: &Plot, present: &Present<'_>, _answer: Option<&Answer>) -> Across {
+    fn across(&self, PlotContext { plot, present, .. }: PlotContext<'_>) -> Across {
         let over = plot.over.first().copied().zip(varied::range(plot, present, 0));
         match over {
             None => Across::Nothing,
@@ -123,10 +123,8 @@ impl Instrument for Map {
 
     fn picture(
         &self,
-        plot: &Plot,
-        present: &Present<'_>,
+        PlotContext { plot, present, answer }: PlotContext<'_>,
         _seen: [f64; 2],
-        answer: Option<&Answer>,
     ) -> Option<Picture> {
         let [x, y] = [0, 1].map(|axis| plot.over.get(axis).copied());
         let range = varied::range(plot, present, 1)?;
@@ -168,7 +166,7 @@ impl Instrument for Map {
         varied::parameters_at(plot, at)
     }
 
-    fn job(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Need {
+    fn job(&self, PlotContext { plot, present, answer }: PlotContext<'_>) -> Need {
         let motions = VariedMotions::of(plot, present);
         let Some(motions) = motions.filter(|motions| motions.conditions.window.len() == 2) else {
             return Need::Nothing;
@@ -187,12 +185,7 @@ impl Instrument for Map {
         if first { Need::Job(job) } else { Need::Addition(job) }
     }
 
-    fn table(
-        &self,
-        plot: &Plot,
-        present: &Present<'_>,
-        answer: Option<&Answer>,
-    ) -> Option<PlotTable> {
+    fn table(&self, PlotContext { plot, present, answer }: PlotContext<'_>) -> Option<PlotTable> {
         let found = computed(answer)?;
         let named = |over: &Variation| varied::written(present.physics, *over).to_owned();
         let columns = plot.over.iter().map(named).chain([quantity(plot, present.physics)]);
@@ -214,12 +207,12 @@ impl Instrument for Map {
             Measure {
                 word: "places",
                 about: "how many places are there",
-                value: |_, _, answer| Some(computed(answer)?.values.len() as f64),
+                value: |context| Some(computed(context.answer)?.values.len() as f64),
             },
             Measure {
                 word: "value",
                 about: "the number at the running motion",
-                value: |plot, present, answer| {
+                value: |PlotContext { plot, present, answer }| {
                     let now = |axis: usize| varied::now(present, *plot.over.get(axis)?);
                     computed(answer)?.field.at([now(0)?, now(1)?])
                 },
@@ -227,8 +220,8 @@ impl Instrument for Map {
             Measure {
                 word: "greatest",
                 about: "the greatest number",
-                value: |_, _, answer| {
-                    let finite = computed(answer)?.values.iter().filter(|x| x.is_finite());
+                value: |context| {
+                    let finite = computed(context.answer)?.values.iter().filter(|x| x.is_finite());
                     finite.copied().reduce(f64::max)
                 },
             },

@@ -12,7 +12,8 @@ use super::equilibria::given;
 use super::orbit_crossings::periodic_points;
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
-    Need, NoStart, Offer, PeriodicOrbits, Physics, Picture, Plot, Present, Seed, Upwards,
+    Need, NoStart, Offer, PeriodicOrbits, Physics, Picture, Plot, PlotContext, Present, Seed,
+    Upwards,
 };
 use crate::dynamics::{DynamicsError, Orbit as Closed, OrbitStability, explained};
 use crate::ensemble::{Start, SystemFlow};
@@ -93,18 +94,13 @@ impl Instrument for OrbitPlot {
         Some(plot.heading(present.physics, "Periodic orbit", vec![of(0)?, of(1)?]))
     }
 
-    fn across(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Across {
-        let range = range(plot, present, answer, 0);
-        plot.column(0).map_or(Across::Nothing, |x| Across::Channel(x, range))
+    fn across(&self, context: PlotContext<'_>) -> Across {
+        let range = range(context, 0);
+        context.plot.column(0).map_or(Across::Nothing, |x| Across::Channel(x, range))
     }
 
-    fn picture(
-        &self,
-        plot: &Plot,
-        present: &Present<'_>,
-        _seen: [f64; 2],
-        answer: Option<&Answer>,
-    ) -> Option<Picture> {
+    fn picture(&self, context: PlotContext<'_>, _seen: [f64; 2]) -> Option<Picture> {
+        let PlotContext { plot, present, answer } = context;
         let channels = [plot.column(0)?, plot.column(1)?];
         let now = channels.map(|channel| present.value(channel));
         let mut layers = vec![
@@ -115,7 +111,7 @@ impl Instrument for OrbitPlot {
             layers.push((CURVE, Layer::Line(found.points.clone(), Ink::Curve(1).into())));
         }
         layers.push((NOW, Layer::Legend(legend(present.physics, answer))));
-        let upwards = Upwards::Channel(channels[1], range(plot, present, answer, 1));
+        let upwards = Upwards::Channel(channels[1], range(context, 1));
         Some(Picture::Axes { upwards, layers, occurrences: None })
     }
 
@@ -130,11 +126,11 @@ impl Instrument for OrbitPlot {
     }
 
     /// The time at which the orbit is asked for again.
-    fn seed(&self, _plot: &Plot, present: &Present<'_>, _answer: Option<&Answer>) -> Option<Seed> {
+    fn seed(&self, PlotContext { present, .. }: PlotContext<'_>) -> Option<Seed> {
         Some(Seed::Through([present.time, 0.0]))
     }
 
-    fn job(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Need {
+    fn job(&self, PlotContext { plot, present, answer }: PlotContext<'_>) -> Need {
         let conditions = PlotConditions::of(present, &plot.seeds);
         let known = found(answer)
             .filter(|known| known.conditions == conditions && known.asked <= present.time);
@@ -192,40 +188,40 @@ impl Instrument for OrbitPlot {
             Measure {
                 word: "period",
                 about: "the period of the periodic orbit",
-                value: |_, _, answer| Some(described(answer)?.orbit.period),
+                value: |context| Some(described(context.answer)?.orbit.period),
             },
             Measure {
                 word: "multiple",
                 about: "its period over that of the drive, for a law that depends on time",
-                value: |_, _, answer| {
-                    let found = described(answer)?;
+                value: |context| {
+                    let found = described(context.answer)?;
                     Some((found.orbit.period / found.drive?).round())
                 },
             },
             Measure {
                 word: "action",
                 about: "the action ∫ p dq along it",
-                value: |_, _, answer| described(answer)?.orbit.action,
+                value: |context| described(context.answer)?.orbit.action,
             },
             Measure {
                 word: "energy",
                 about: "the energy on it",
-                value: |_, _, answer| Some(described(answer)?.orbit.energy),
+                value: |context| Some(described(context.answer)?.orbit.energy),
             },
             Measure {
                 word: "trace",
                 about: "the sum of its multipliers without the trivial ones",
-                value: |_, _, answer| Some(described(answer)?.orbit.transverse.trace()),
+                value: |context| Some(described(context.answer)?.orbit.transverse.trace()),
             },
             Measure {
                 word: "residue",
                 about: "Greene's residue (2 − trace)/4, for two degrees of freedom or one with a drive",
-                value: |_, _, answer| described(answer)?.orbit.residue(),
+                value: |context| described(context.answer)?.orbit.residue(),
             },
             Measure {
                 word: "stable",
                 about: "1 if no multiplier lies outside the unit circle, else 0",
-                value: |_, _, answer| Some(f64::from(u8::from(described(answer)?.orbit.stable))),
+                value: |context| Some(f64::from(u8::from(described(context.answer)?.orbit.stable))),
             },
         ]
     }
@@ -369,12 +365,7 @@ fn legend(physics: Physics<'_>, answer: Option<&Answer>) -> Vec<String> {
 }
 
 /// The range of an axis: the orbit and the motion, or a turn.
-fn range(
-    plot: &Plot,
-    present: &Present<'_>,
-    answer: Option<&Answer>,
-    axis: usize,
-) -> Option<[f64; 2]> {
+fn range(PlotContext { plot, present, answer }: PlotContext<'_>, axis: usize) -> Option<[f64; 2]> {
     let channel = plot.column(axis)?;
     let [lo, hi] = described(answer)?.extent[axis];
     let margin = MARGIN * (hi - lo);

@@ -10,7 +10,7 @@ use super::action::{duration, nothing_yet};
 use super::conditions::PlotConditions;
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
-    Need, Offer, Physics, Picture, Plot, Present, Upwards,
+    Need, Offer, Physics, Picture, Plot, PlotContext, Present, Upwards,
 };
 use crate::dynamics::{Lagrangian, PathKind, PhaseSpace, StationaryPath, stationary_path};
 use crate::ensemble::SystemFlow;
@@ -96,7 +96,7 @@ impl Instrument for PathsPlot {
         Some(plot.heading(present.physics, "True paths", entries))
     }
 
-    fn across(&self, _plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Across {
+    fn across(&self, PlotContext { present, answer, .. }: PlotContext<'_>) -> Across {
         let begin = present.began();
         let span = |known: &ComputedPaths| [known.begin, known.begin + known.duration];
         let none = || [begin, begin + duration(present).unwrap_or(1.0)];
@@ -106,10 +106,8 @@ impl Instrument for PathsPlot {
 
     fn picture(
         &self,
-        plot: &Plot,
-        present: &Present<'_>,
+        PlotContext { plot, present, answer }: PlotContext<'_>,
         _seen: [f64; 2],
-        answer: Option<&Answer>,
     ) -> Option<Picture> {
         let column = plot.column(0)?;
         let mut layers = Vec::new();
@@ -136,7 +134,7 @@ impl Instrument for PathsPlot {
         Some(Picture::Axes { upwards: Upwards::Named(name, range), layers, occurrences: None })
     }
 
-    fn job(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Need {
+    fn job(&self, PlotContext { plot, present, answer }: PlotContext<'_>) -> Need {
         let Physics { model, equations, system } = present.physics;
         let (Some(channel), Some(method)) = (plot.column(0), method_named(present.method)) else {
             return Need::Nothing;
@@ -185,20 +183,20 @@ impl Instrument for PathsPlot {
             Measure {
                 word: "count",
                 about: "how many true paths were found",
-                value: |_, _, answer| {
-                    let known = computed(answer)?.outcome.as_ref().ok()?;
+                value: |context| {
+                    let known = computed(context.answer)?.outcome.as_ref().ok()?;
                     Some(known.len() as f64)
                 },
             },
             Measure {
                 word: "least",
                 about: "the least action of them",
-                value: |_, _, answer| Some(found(answer).first()?.action),
+                value: |context| Some(found(context.answer).first()?.action),
             },
             Measure {
                 word: "greatest",
                 about: "the greatest action of them",
-                value: |_, _, answer| Some(found(answer).last()?.action),
+                value: |context| Some(found(context.answer).last()?.action),
             },
         ]
     }

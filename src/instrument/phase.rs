@@ -9,7 +9,7 @@ use std::sync::Arc;
 use super::equilibria::marks;
 use super::{
     Across, Answer, Axis, Columns, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape,
-    Measure, Need, NoStart, Offer, Physics, Picture, Plot, Present, Upwards, value_at,
+    Measure, Need, NoStart, Offer, Physics, Picture, Plot, PlotContext, Present, Upwards, value_at,
 };
 use crate::analysis::{Landscape, Plane};
 use crate::dynamics::Equilibrium;
@@ -87,18 +87,15 @@ impl Instrument for Phase {
         Some(plot.heading(present.physics, otherwise, entries))
     }
 
-    fn across(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Across {
-        plot.column(0)
-            .map_or(Across::Nothing, |x| Across::Channel(x, window(present, answer, (0, x))))
+    fn across(&self, context: PlotContext<'_>) -> Across {
+        context
+            .plot
+            .column(0)
+            .map_or(Across::Nothing, |x| Across::Channel(x, window(context, (0, x))))
     }
 
-    fn picture(
-        &self,
-        plot: &Plot,
-        present: &Present<'_>,
-        _seen: [f64; 2],
-        answer: Option<&Answer>,
-    ) -> Option<Picture> {
+    fn picture(&self, context: PlotContext<'_>, _seen: [f64; 2]) -> Option<Picture> {
+        let PlotContext { plot, present, answer } = context;
         let [x, y] = [plot.column(0)?, plot.column(1)?];
         let landscape = landscape(answer);
         let levels = landscape.map(|l| (LEVELS, Layer::Landscape(Arc::clone(l))));
@@ -114,7 +111,7 @@ impl Instrument for Phase {
         ]);
         let layers = layers.chain(equilibria);
         Some(Picture::Axes {
-            upwards: Upwards::Channel(y, window(present, answer, (1, y))),
+            upwards: Upwards::Channel(y, window(context, (1, y))),
             layers: layers.collect(),
             occurrences: Some((MARK, [Some(x), Some(y)])),
         })
@@ -130,7 +127,7 @@ impl Instrument for Phase {
         initial_values(plot, present.physics, at).ok_or(NoStart::Nothing)
     }
 
-    fn job(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Need {
+    fn job(&self, PlotContext { plot, present, answer }: PlotContext<'_>) -> Need {
         let Physics { model, equations, system } = present.physics;
         let Some((form, channels)) = plane(system, plot) else { return Need::Nothing };
         let bounds = channels.map(|channel| present.bounds.get(channel).map(|(lo, hi)| [*lo, *hi]));
@@ -166,12 +163,14 @@ impl Instrument for Phase {
             Measure {
                 word: "equilibria",
                 about: "how many equilibria are marked on it",
-                value: |plot, present, _| Some(marked(plot, present).count() as f64),
+                value: |PlotContext { plot, present, .. }| {
+                    Some(marked(plot, present).count() as f64)
+                },
             },
             Measure {
                 word: "stable",
                 about: "how many of them are stable",
-                value: |plot, present, _| {
+                value: |PlotContext { plot, present, .. }| {
                     let stable = marked(plot, present).filter(|stable| *stable == Some(true));
                     Some(stable.count() as f64)
                 },
@@ -179,12 +178,12 @@ impl Instrument for Phase {
             Measure {
                 word: "saddles",
                 about: "how many saddles the energy has in the window",
-                value: |_, _, answer| landscape(answer).map(|l| l.saddles.len() as f64),
+                value: |context| landscape(context.answer).map(|l| l.saddles.len() as f64),
             },
             Measure {
                 word: "separatrices",
                 about: "how many curves part kinds of motion there",
-                value: |_, _, answer| landscape(answer).map(|l| l.separatrices.len() as f64),
+                value: |context| landscape(context.answer).map(|l| l.separatrices.len() as f64),
             },
         ]
     }
@@ -207,8 +206,7 @@ fn landscape(answer: Option<&Answer>) -> Option<&Arc<Landscape>> {
 /// The range of an axis that has level curves: their window and, until they are computed for a larger one, whatever the
 /// motion has reached beyond it. A periodic coordinate wraps, so its window stays.
 fn window(
-    present: &Present<'_>,
-    answer: Option<&Answer>,
+    PlotContext { present, answer, .. }: PlotContext<'_>,
     (axis, channel): (usize, usize),
 ) -> Option<[f64; 2]> {
     let survey = answer?.of::<Survey>()?;

@@ -6,8 +6,8 @@
 use std::f64::consts::PI;
 
 use super::{
-    Answer, CameraPose, Columns, Entry, Heading, Instrument, MOST_SEEDS, Physics, Plot, Present,
-    Seed, Sight, Viewport,
+    Answer, CameraPose, Columns, Entry, Heading, Instrument, MOST_SEEDS, Physics, Plot,
+    PlotContext, Present, Seed, Sight, Viewport,
 };
 use crate::model::{Model, View};
 
@@ -208,7 +208,7 @@ impl Plot {
         answer: Option<&Answer>,
         through: Option<[f64; 2]>,
     ) -> bool {
-        let seen = self.kind.seed(self, present, answer);
+        let seen = self.kind.seed(PlotContext { plot: self, present, answer });
         let seed = through.map_or(seen, |at| seen.map(|_| Seed::Through(at)));
         // a cloud has one place, a section many orbits
         if seed.is_some() && !self.kind.is_section() {
@@ -221,7 +221,7 @@ impl Plot {
 
     /// Fills what is seen of a section with orbits, and says whether it could.
     pub fn fill(&mut self, present: &Present<'_>, answer: Option<&Answer>) -> bool {
-        let added = match self.kind.seed(self, present, answer) {
+        let added = match self.kind.seed(PlotContext { plot: self, present, answer }) {
             Some(Seed::Spread(window)) if self.seeds.len() < MOST_SEEDS => Seed::Fill(window),
             _ => return false,
         };

@@ -2,8 +2,8 @@
 //! horizontal line, and the region where the motion is allowed.
 
 use super::{
-    Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Offer,
-    Physics, Picture, Plot, Present, Stroke, Upwards,
+    Across, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Offer, Physics,
+    Picture, Plot, PlotContext, Present, Stroke, Upwards,
 };
 use crate::expr::{Expr, Pool, Symbol};
 use crate::mechanics::Valuation;
@@ -105,7 +105,7 @@ impl Instrument for Potential {
         })
     }
 
-    fn across(&self, plot: &Plot, present: &Present<'_>, _answer: Option<&Answer>) -> Across {
+    fn across(&self, PlotContext { plot, present, .. }: PlotContext<'_>) -> Across {
         let along = plot.view.and_then(|view| PotentialView::of(present.physics, view));
         along.map_or(Across::Nothing, |along| {
             Across::Channel(along.x, Some(range(present, along.x)))
@@ -114,10 +114,8 @@ impl Instrument for Potential {
 
     fn picture(
         &self,
-        plot: &Plot,
-        present: &Present<'_>,
+        PlotContext { plot, present, .. }: PlotContext<'_>,
         [from, to]: [f64; 2],
-        _answer: Option<&Answer>,
     ) -> Option<Picture> {
         let along = PotentialView::of(present.physics, plot.view?)?;
         let (model, now) = (present.physics.model, present.valuation());

@@ -13,7 +13,7 @@ use std::sync::Arc;
 use super::equilibria::{lies_on, marks, value_at};
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
-    Need, NoStart, Offer, Physics, Picture, Plot, PlotTable, Present, Seed, Upwards,
+    Need, NoStart, Offer, Physics, Picture, Plot, PlotContext, PlotTable, Present, Seed, Upwards,
 };
 use crate::ensemble::{NotInPlane, PhaseShift, SectionPlan, SectionPlane, Start};
 use crate::expr::Expr;
@@ -110,18 +110,13 @@ impl Instrument for SectionPlot {
         Some(plot.heading(present.physics, "Section", entries))
     }
 
-    fn across(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Across {
-        let range = range(plot, present, answer, 0);
-        plot.column(0).map_or(Across::Nothing, |x| Across::Channel(x, range))
+    fn across(&self, context: PlotContext<'_>) -> Across {
+        let range = range(context, 0);
+        context.plot.column(0).map_or(Across::Nothing, |x| Across::Channel(x, range))
     }
 
-    fn picture(
-        &self,
-        plot: &Plot,
-        present: &Present<'_>,
-        _seen: [f64; 2],
-        answer: Option<&Answer>,
-    ) -> Option<Picture> {
+    fn picture(&self, context: PlotContext<'_>, _seen: [f64; 2]) -> Option<Picture> {
+        let PlotContext { plot, present, answer } = context;
         let channels = [plot.column(0)?, plot.column(1)?];
         let section = view(plot, present.physics)?.section?;
         let mut layers = Vec::new();
@@ -150,7 +145,7 @@ impl Instrument for SectionPlot {
             if lies_on(present, one, when) { Some([x?, y?]) } else { None }
         }));
         layers.extend(periodic::marks(present, section, channels));
-        let (channel, range) = (channels[1], range(plot, present, answer, 1));
+        let (channel, range) = (channels[1], range(context, 1));
         let upwards = match portrait(answer).and_then(newest_rotation) {
             Some(words) => Upwards::Annotated { channel, range, words },
             None => Upwards::Channel(channel, range),
@@ -169,14 +164,15 @@ impl Instrument for SectionPlot {
         given.map_err(|why| NoStart::Refused(capitalised(&why.to_string())))
     }
 
-    fn seed(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Option<Seed> {
+    fn seed(&self, context: PlotContext<'_>) -> Option<Seed> {
+        let PlotContext { plot, present, .. } = context;
         plane(plot, present)?;
         let viewport = plot.viewport()?;
-        let window = [range(plot, present, answer, 0)?, range(plot, present, answer, 1)?];
+        let window = [range(context, 0)?, range(context, 1)?];
         Some(Seed::Spread([0, 1].map(|axis| viewport.part(axis, window[axis]))))
     }
 
-    fn job(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Need {
+    fn job(&self, PlotContext { plot, present, answer }: PlotContext<'_>) -> Need {
         let Some(plane) = plane(plot, present) else { return Need::Nothing };
         let Physics { model, equations, system } = present.physics;
         // without a constant energy there is no shell to spread starts over
@@ -241,12 +237,7 @@ impl Instrument for SectionPlot {
         if plot.seeds.is_empty() { Need::Addition(job) } else { Need::Job(job) }
     }
 
-    fn table(
-        &self,
-        plot: &Plot,
-        present: &Present<'_>,
-        answer: Option<&Answer>,
-    ) -> Option<PlotTable> {
+    fn table(&self, PlotContext { plot, present, answer }: PlotContext<'_>) -> Option<PlotTable> {
         let channels = present.physics.system.channels();
         let named = |k| Some(channels.get(plot.column(k)?)?.name.clone());
         Some(portrait(answer)?.table([named(0)?, named(1)?]))
@@ -257,7 +248,7 @@ impl Instrument for SectionPlot {
             Measure {
                 word: "points",
                 about: "how often the running motion has crossed the surface",
-                value: |plot, present, _| {
+                value: |PlotContext { plot, present, .. }| {
                     let section = view(plot, present.physics)?.section?;
                     present.crossings.counts().get(section).map(|count| *count as f64)
                 },
@@ -265,7 +256,7 @@ impl Instrument for SectionPlot {
             Measure {
                 word: "own_rotation",
                 about: "the rotation number of the running motion",
-                value: |plot, present, _| {
+                value: |PlotContext { plot, present, .. }| {
                     let section = view(plot, present.physics)?.section?;
                     own_rotation(plot, present, section).map(|found| found.number)
                 },
@@ -273,44 +264,45 @@ impl Instrument for SectionPlot {
             Measure {
                 word: "orbits",
                 about: "how many other orbits are drawn",
-                value: |_, _, answer| portrait(answer).map(|p| p.orbits.len() as f64),
+                value: |context| portrait(context.answer).map(|p| p.orbits.len() as f64),
             },
             Measure {
                 word: "crossings",
                 about: "how many crossings of other orbits are drawn",
-                value: |_, _, answer| {
-                    let orbits = &portrait(answer)?.orbits;
+                value: |context| {
+                    let orbits = &portrait(context.answer)?.orbits;
                     Some(orbits.iter().map(|orbit| orbit.points.len()).sum::<usize>() as f64)
                 },
             },
             Measure {
                 word: "rotating",
                 about: "how many of them have a rotation number",
-                value: |_, _, answer| {
-                    let rotating = portrait(answer)?.orbits.iter().filter(|o| o.rotation.is_ok());
+                value: |context| {
+                    let rotating =
+                        portrait(context.answer)?.orbits.iter().filter(|o| o.rotation.is_ok());
                     Some(rotating.count() as f64)
                 },
             },
             Measure {
                 word: "regular",
                 about: "how many of them are regular: those, and crescents that do not go round their middle",
-                value: |_, _, answer| {
-                    let orbits = portrait(answer)?.orbits.iter();
+                value: |context| {
+                    let orbits = portrait(context.answer)?.orbits.iter();
                     Some(orbits.filter(|orbit| orbit.regular() == Some(true)).count() as f64)
                 },
             },
             Measure {
                 word: "chaotic",
                 about: "how many of them have none, as their average turn differs as that of random numbers does",
-                value: |_, _, answer| {
-                    let orbits = portrait(answer)?.orbits.iter();
+                value: |context| {
+                    let orbits = portrait(context.answer)?.orbits.iter();
                     Some(orbits.filter(|orbit| orbit.regular() == Some(false)).count() as f64)
                 },
             },
             Measure {
                 word: "periodic",
                 about: "how many points of periodic orbits are marked",
-                value: |plot, present, _| {
+                value: |PlotContext { plot, present, .. }| {
                     let section = view(plot, present.physics)?.section?;
                     let channels = [plot.column(0)?, plot.column(1)?];
                     let orbits = periodic::points(present, section, channels);
@@ -320,8 +312,8 @@ impl Instrument for SectionPlot {
             Measure {
                 word: "rotation",
                 about: "the rotation number of the newest of them",
-                value: |_, _, answer| {
-                    let newest = portrait(answer)?.orbits.last()?.rotation.as_ref().ok();
+                value: |context| {
+                    let newest = portrait(context.answer)?.orbits.last()?.rotation.as_ref().ok();
                     newest.map(|rotation| rotation.number)
                 },
             },
@@ -427,12 +419,7 @@ fn given(plot: &Plot, present: &Present<'_>, axis: usize) -> Option<[f64; 2]> {
 }
 
 /// The range of an axis: the file's, or that of the region.
-fn range(
-    plot: &Plot,
-    present: &Present<'_>,
-    answer: Option<&Answer>,
-    axis: usize,
-) -> Option<[f64; 2]> {
+fn range(PlotContext { plot, present, answer }: PlotContext<'_>, axis: usize) -> Option<[f64; 2]> {
     let region = portrait(answer).map(|portrait| portrait.region.window[axis]);
     given(plot, present, axis).or(region)
 }

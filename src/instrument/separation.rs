@@ -8,8 +8,8 @@ mod way_back;
 use std::sync::Arc;
 
 use super::{
-    Across, Answer, Columns, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, Offer,
-    Physics, Picture, Plot, Present, Returned, Stroke, Upwards,
+    Across, Columns, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, Offer, Physics,
+    Picture, Plot, PlotContext, Present, Returned, Stroke, Upwards,
 };
 use crate::analysis::{DistanceHistory as Distances, Slope};
 use crate::num::significant;
@@ -61,7 +61,7 @@ impl Instrument for SeparationPlot {
         Some(Heading { title: "Separation ln d".to_owned(), given: false, entries })
     }
 
-    fn across(&self, _plot: &Plot, present: &Present<'_>, _answer: Option<&Answer>) -> Across {
+    fn across(&self, PlotContext { present, .. }: PlotContext<'_>) -> Across {
         if let Some(Returned { gone: [_, all], .. }) = present.returned {
             return Across::Named("time gone back".to_owned(), [0.0, all.max(f64::MIN_POSITIVE)]);
         }
@@ -70,10 +70,8 @@ impl Instrument for SeparationPlot {
 
     fn picture(
         &self,
-        _plot: &Plot,
-        present: &Present<'_>,
+        PlotContext { present, answer, .. }: PlotContext<'_>,
         _seen: [f64; 2],
-        answer: Option<&Answer>,
     ) -> Option<Picture> {
         let mut layers = Vec::new();
         for (number, distances) in present.separations {
@@ -104,8 +102,8 @@ impl Instrument for SeparationPlot {
         Some(Picture::Axes { upwards: Upwards::Named(name, range), layers, occurrences: None })
     }
 
-    fn job(&self, _plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Need {
-        way_back::job(present, answer)
+    fn job(&self, context: PlotContext<'_>) -> Need {
+        way_back::job(context)
     }
 
     fn measures(&self) -> &'static [Measure] {
@@ -113,27 +111,27 @@ impl Instrument for SeparationPlot {
             Measure {
                 word: "motions",
                 about: "how many motions are beside the main one",
-                value: |_, present, _| Some(present.separations.len() as f64),
+                value: |context| Some(context.present.separations.len() as f64),
             },
             Measure {
                 word: "slope",
                 about: "the slope of ln d of the newest neighbour while d is small",
-                value: |_, present, _| newest(present)?.2.map(|slope| slope.rate),
+                value: |context| newest(context.present)?.2.map(|slope| slope.rate),
             },
             Measure {
                 word: "grown",
                 about: "by how much ln d has grown along that line",
-                value: |_, present, _| newest(present)?.2.map(|slope| slope.grown),
+                value: |context| newest(context.present)?.2.map(|slope| slope.grown),
             },
             Measure {
                 word: "error",
                 about: "the return error: how far a motion that was reversed came back to from its start",
-                value: |_, present, _| present.returned?.error,
+                value: |context| context.present.returned?.error,
             },
             Measure {
                 word: "expected",
                 about: "the same as it is expected: the errors of all steps so far, each grown on the way back since",
-                value: |_, present, answer| {
+                value: |PlotContext { present, answer, .. }| {
                     let returned = present.returned?;
                     way_back::expected(returned, answer, returned.gone[0])
                 },
@@ -141,8 +139,8 @@ impl Instrument for SeparationPlot {
             Measure {
                 word: "distance",
                 about: "the distance of the newest motion from the main one",
-                value: |_, present, _| {
-                    let last = newest(present)?.1.points().last()?;
+                value: |context| {
+                    let last = newest(context.present)?.1.points().last()?;
                     Some(crate::num::math::exp(last[1]))
                 },
             },

@@ -1,7 +1,8 @@
 //! `space`: the motion in space, the shapes of the file through a camera.
 
 use super::{
-    Across, Answer, Columns, Entry, Heading, Instrument, Offer, Physics, Picture, Plot, Present,
+    Across, Columns, Entry, Heading, Instrument, Offer, Physics, Picture, Plot, PlotContext,
+    Present,
 };
 
 /// The row.
@@ -52,16 +53,14 @@ impl Instrument for Space {
         })
     }
 
-    fn across(&self, _plot: &Plot, _present: &Present<'_>, _answer: Option<&Answer>) -> Across {
+    fn across(&self, _context: PlotContext<'_>) -> Across {
         Across::Nothing
     }
 
     fn picture(
         &self,
-        plot: &Plot,
-        _present: &Present<'_>,
+        PlotContext { plot, .. }: PlotContext<'_>,
         _seen: [f64; 2],
-        _answer: Option<&Answer>,
     ) -> Option<Picture> {
         plot.eye().map(Picture::Scene)
     }

@@ -7,7 +7,7 @@
 use super::conditions::PlotConditions;
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, Offer,
-    Physics, Picture, Plot, Present, Upwards,
+    Physics, Picture, Plot, PlotContext, Present, Upwards,
 };
 use crate::dynamics::{
     FrequencyDrift, MeanRate, NoSpectrum, PhaseSpace, SampledSpectrum, SpectralLine,
@@ -93,7 +93,7 @@ impl Instrument for SpectrumPlot {
         Some(plot.heading(present.physics, "Spectrum", entries))
     }
 
-    fn across(&self, _plot: &Plot, _present: &Present<'_>, answer: Option<&Answer>) -> Across {
+    fn across(&self, PlotContext { answer, .. }: PlotContext<'_>) -> Across {
         let last = lines(answer).map_or(1.0, |found| {
             let greatest = found.lines.iter().map(|line| line.frequency).fold(0.0, f64::max);
             let known = found.curve.last().map_or(1.0, |at| at[0]);
@@ -104,10 +104,8 @@ impl Instrument for SpectrumPlot {
 
     fn picture(
         &self,
-        plot: &Plot,
-        present: &Present<'_>,
+        PlotContext { plot, present, answer }: PlotContext<'_>,
         _seen: [f64; 2],
-        answer: Option<&Answer>,
     ) -> Option<Picture> {
         let name = present.physics.shown(plot.column(0)?);
         let axes = |range, layers| {
@@ -132,7 +130,7 @@ impl Instrument for SpectrumPlot {
         axes([floor, top + 1.0], layers)
     }
 
-    fn job(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Need {
+    fn job(&self, PlotContext { plot, present, answer }: PlotContext<'_>) -> Need {
         let conditions = PlotConditions::of(present, &plot.seeds);
         if found(answer).is_some_and(|known| known.conditions == conditions) {
             return Need::Valid;
@@ -199,42 +197,42 @@ impl Instrument for SpectrumPlot {
             Measure {
                 word: "lines",
                 about: "how many lines were found",
-                value: |_, _, answer| Some(lines(answer)?.lines.len() as f64),
+                value: |context| Some(lines(context.answer)?.lines.len() as f64),
             },
             Measure {
                 word: "frequency",
                 about: "ω of the strongest line",
-                value: |_, _, answer| Some(lines(answer)?.lines.first()?.frequency),
+                value: |context| Some(lines(context.answer)?.lines.first()?.frequency),
             },
             Measure {
                 word: "amplitude",
                 about: "the amplitude of the strongest line",
-                value: |_, _, answer| Some(lines(answer)?.lines.first()?.amplitude),
+                value: |context| Some(lines(context.answer)?.lines.first()?.amplitude),
             },
             Measure {
                 word: "fundamentals",
                 about: "how many frequencies the lines are combinations of",
-                value: |_, _, answer| Some(lines(answer)?.fundamentals.len() as f64),
+                value: |context| Some(lines(context.answer)?.fundamentals.len() as f64),
             },
             Measure {
                 word: "second",
                 about: "the second of those frequencies",
-                value: |_, _, answer| lines(answer)?.fundamentals.get(1).copied(),
+                value: |context| lines(context.answer)?.fundamentals.get(1).copied(),
             },
             Measure {
                 word: "left",
                 about: "the part of the motion that the lines leave: large where it is chaotic",
-                value: |_, _, answer| Some(lines(answer)?.part_left()),
+                value: |context| Some(lines(context.answer)?.part_left()),
             },
             Measure {
                 word: "drift",
                 about: "by which part the strongest ω differs between the halves of the time: large where it is chaotic",
-                value: |_, _, answer| Some(drift(answer)?.relative()),
+                value: |context| Some(drift(context.answer)?.relative()),
             },
             Measure {
                 word: "rate",
                 about: "the mean rate of an angle",
-                value: |_, _, answer| Some(mean(answer)?.rate),
+                value: |context| Some(mean(context.answer)?.rate),
             },
         ]
     }

@@ -1,8 +1,8 @@
 //! `time`: quantities against time, each in its colour.
 
 use super::{
-    Across, Answer, Axis, Columns, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape,
-    Offer, Physics, Picture, Plot, Present, Upwards,
+    Across, Axis, Columns, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Offer,
+    Physics, Picture, Plot, PlotContext, Present, Upwards,
 };
 
 /// The levels of the picture: the marks lie over the curves, and the current state over the marks.
@@ -54,16 +54,14 @@ impl Instrument for Time {
         Some(plot.heading(present.physics, "Time", entries))
     }
 
-    fn across(&self, _plot: &Plot, _present: &Present<'_>, _answer: Option<&Answer>) -> Across {
+    fn across(&self, _context: PlotContext<'_>) -> Across {
         Across::Time
     }
 
     fn picture(
         &self,
-        plot: &Plot,
-        present: &Present<'_>,
+        PlotContext { plot, present, .. }: PlotContext<'_>,
         _seen: [f64; 2],
-        _answer: Option<&Answer>,
     ) -> Option<Picture> {
         let channels = plot.columns.first()?;
         let curve = |(index, &channel): (usize, &usize)| {

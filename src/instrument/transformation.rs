@@ -23,7 +23,7 @@ use self::relations::{depends_on_time, implicit};
 use self::window::Along;
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
-    Need, Offer, Physics, Picture, Plot, Present, Stroke, Upwards,
+    Need, Offer, Physics, Picture, Plot, PlotContext, Present, Stroke, Upwards,
 };
 use crate::expr::Symbol;
 use crate::job::Job;
@@ -135,26 +135,22 @@ impl Instrument for TransformationPlot {
         Some(plot.heading(present.physics, kind, entries))
     }
 
-    fn across(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Across {
+    fn across(&self, context: PlotContext<'_>) -> Across {
+        let PlotContext { plot, present, answer } = context;
         if let Some([q, _]) = moved(plot, present.physics) {
             return Across::Channel(q, both(plot, present, q, 0));
         }
-        let images = images(plot, present, answer).all();
+        let images = images(context).all();
         let range = range(plot, present, (answer, &images), 0);
         plot.column(0).map_or(Across::Nothing, |x| Across::Channel(x, range))
     }
 
-    fn picture(
-        &self,
-        plot: &Plot,
-        present: &Present<'_>,
-        _seen: [f64; 2],
-        answer: Option<&Answer>,
-    ) -> Option<Picture> {
+    fn picture(&self, context: PlotContext<'_>, _seen: [f64; 2]) -> Option<Picture> {
+        let PlotContext { plot, present, answer } = context;
         let [x, y] = [plot.column(0)?, plot.column(1)?];
         let mapped = mapped(answer);
         if let Some(old) = moved(plot, present.physics) {
-            return Some(active(plot, present, (old, [x, y]), answer));
+            return Some(active(context, (old, [x, y])));
         }
         let stroke = Stroke::from(Ink::Level);
         let now = [x, y].map(|k| present.value(k));
@@ -162,7 +158,7 @@ impl Instrument for TransformationPlot {
         let mut layers: Vec<(Level, Layer)> =
             grid.map(|line| (GRID, Layer::Line(line.clone(), stroke))).collect();
         let branches = mapped.and_then(|mapped| mapped.branches.as_deref());
-        let images = images(plot, present, answer);
+        let images = images(context);
         let rings = [images.on_grids.len(), images.beside.len()];
         let images = images.all();
         if let Some(branches) = branches {
@@ -198,7 +194,7 @@ impl Instrument for TransformationPlot {
         Some(Picture::Axes { upwards, layers, occurrences: None })
     }
 
-    fn job(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Need {
+    fn job(&self, PlotContext { plot, present, answer }: PlotContext<'_>) -> Need {
         let Physics { model, equations, .. } = present.physics;
         let Some(Shown { law, new }) = shown(plot, present.physics) else { return Need::Nothing };
         let place = model.transformations.iter().position(|one| one.name == law.name);
@@ -306,19 +302,19 @@ impl Instrument for TransformationPlot {
             Measure {
                 word: "canonical",
                 about: "1 if it is canonical, 0 if it is not",
-                value: |_, _, answer| {
-                    judged(answer).map(|judged| f64::from(u8::from(judged.canonical)))
+                value: |context| {
+                    judged(context.answer).map(|judged| f64::from(u8::from(judged.canonical)))
                 },
             },
             Measure {
                 word: "residual",
                 about: "the largest entry of |M J Mᵀ − J| at points near the start",
-                value: |_, _, answer| judged(answer)?.residual,
+                value: |context| judged(context.answer)?.residual,
             },
             Measure {
                 word: "off_step",
                 about: "how far it is from the step of a method that the file says it is",
-                value: |_, _, answer| judged(answer)?.off_step,
+                value: |context| judged(context.answer)?.off_step,
             },
         ]
     }
@@ -360,10 +356,8 @@ fn both(plot: &Plot, present: &Present<'_>, old: usize, axis: usize) -> Option<[
 
 /// The point (q, p) of the motion and its image, in one plane, with the past of both.
 fn active(
-    plot: &Plot,
-    present: &Present<'_>,
+    PlotContext { plot, present, answer }: PlotContext<'_>,
     (old, new): ([usize; 2], [usize; 2]),
-    answer: Option<&Answer>,
 ) -> Picture {
     let at = |channels: [usize; 2]| channels.map(|channel| present.value(channel));
     let (point, image) = (at(old), at(new));
@@ -413,7 +407,7 @@ fn range(
 }
 
 /// The images of the moving point on other branches: to which their grids lead, and the others.
-fn images(plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> OtherImages {
+fn images(PlotContext { plot, present, answer }: PlotContext<'_>) -> OtherImages {
     let branches = mapped(answer).and_then(|mapped| mapped.branches.as_deref());
     branches.map_or_else(OtherImages::default, |b| b.images(&with_image(plot, present)))
 }

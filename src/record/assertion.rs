@@ -268,7 +268,7 @@ fn measured_of_plot(lab: &Lab, written: &LineText) -> Result<Option<f64>, Diagno
         return refused(format!("no pane shows a plot of kind `{kind}`"));
     };
     // the first plot that has the number
-    match plots.find_map(|plot| (measure.value)(plot, &present, lab.answer(plot))) {
+    match plots.find_map(|plot| (measure.value)(lab.context(plot, &present))) {
         Some(value) => Ok(Some(value)),
         None => refused(format!("no plot of kind `{kind}` has `{word}` here")),
     }

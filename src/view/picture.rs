@@ -77,9 +77,10 @@ pub(super) fn draw(
     (q, plot): (&Quantities<'_>, &Plot),
     keys: &[Span],
 ) -> Option<PlotFrame> {
-    let (present, answer) = (q.present(), q.lab.answer(plot));
+    let present = q.present();
+    let context = q.lab.context(plot, &present);
     let viewport = plot.viewport().unwrap_or(Viewport::WHOLE);
-    let across = match plot.kind.across(plot, &present, answer) {
+    let across = match plot.kind.across(context) {
         Across::Nothing => None,
         Across::Channel(channel, range) => Some(q.axis(channel, range, (viewport, 0))),
         Across::Times([from, to]) => {
@@ -95,7 +96,7 @@ pub(super) fn draw(
         }
     };
     let seen = across.as_ref().map_or([f64::NAN; 2], |axis| [axis.scale.lo, axis.scale.hi]);
-    let (upwards, layers, occurrences) = match plot.kind.picture(plot, &present, seen, answer)? {
+    let (upwards, layers, occurrences) = match plot.kind.picture(context, seen)? {
         Picture::Scene(eye) => {
             space::draw(canvas, area, q, &eye);
             return None;
@@ -106,7 +107,7 @@ pub(super) fn draw(
     let (whole, zoomable) = (area, !q.lab.focus.zoomed);
     let (area, beside) = legend::beside(whole, (&layers, zoomable), canvas.look);
     let mut axes = Axes::new(across?, axis_upwards(q, &upwards, viewport));
-    if let Across::Channel(x, None) = plot.kind.across(plot, &present, answer)
+    if let Across::Channel(x, None) = plot.kind.across(context)
         && let Upwards::Channel(y, None) = upwards
         && [x, y].iter().all(|&channel| q.period(channel).is_none())
     {
@@ -127,7 +128,7 @@ pub(super) fn draw(
     } else {
         axes
     };
-    if let Across::Time = plot.kind.across(plot, &present, answer) {
+    if let Across::Time = plot.kind.across(context) {
         let cells = axes.frame(area, look.glyphs).area.width;
         axes.x.scale = time_window(q, viewport, cells);
     }

@@ -47,7 +47,7 @@ impl Course {
         let (lab, plot) = (self.app.lab.as_ref().unwrap(), self.plot());
         let measure = plot.kind.measures().iter().find(|measure| measure.word == word);
         let value = measure.expect("it is measured").value;
-        value(&plot, &lab.present().expect("a motion"), lab.answer(&plot))
+        value(lab.context(&plot, &lab.present().expect("a motion")))
     }
 
     /// A measure that has a value.
@@ -58,7 +58,7 @@ impl Course {
     pub(crate) fn layers(&self) -> Vec<Layer> {
         let (lab, plot) = (self.app.lab.as_ref().unwrap(), self.plot());
         let present = lab.present().expect("a motion");
-        let picture = plot.kind.picture(&plot, &present, [0.0, 1.0], lab.answer(&plot));
+        let picture = plot.kind.picture(lab.context(&plot, &present), [0.0, 1.0]);
         let Some(Picture::Axes { layers, .. }) = picture else { panic!("no axes") };
         layers.into_iter().map(|(_, layer)| layer).collect()
     }

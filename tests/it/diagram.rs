@@ -51,7 +51,7 @@ fn the_progress_of_a_diagram_grows_with_it() {
     let lab = app.lab.as_ref().unwrap();
     let plot = diagram(&app);
     assert_eq!(measure(&app, &plot, "columns"), 32.0);
-    let need = plot.kind.job(&plot, &lab.present().unwrap(), lab.answer(&plot));
+    let need = plot.kind.job(lab.context(&plot, &lab.present().unwrap()));
     let (Need::Job(job) | Need::Addition(job)) = need else { panic!("nothing is left to do") };
     let progress = Progress::new();
     job.run(&progress);
@@ -191,7 +191,7 @@ fn a_key_shows_the_exponent_where_there_is_no_section() {
     assert_eq!(lab.focused_plot().map(|(_, shown)| shown), Some(&plot));
     let present = lab.present().unwrap();
     let Some(Picture::Axes { layers, .. }) =
-        plot.kind.picture(&plot, &present, [0.25, 4.0], lab.answer(&plot))
+        plot.kind.picture(lab.context(&plot, &present), [0.25, 4.0])
     else {
         panic!("no picture")
     };
@@ -232,7 +232,7 @@ fn told(app: &mut App) -> String {
 /// The rows of what a plot over a range has computed.
 fn computed(app: &App, plot: &Plot) -> Vec<[f64; 2]> {
     let lab = app.lab.as_ref().unwrap();
-    let table = plot.kind.table(plot, &lab.present().unwrap(), lab.answer(plot)).expect("a table");
+    let table = plot.kind.table(lab.context(plot, &lab.present().unwrap())).expect("a table");
     table.rows.iter().map(|row| [row[0], row[1]]).collect()
 }
 
@@ -317,11 +317,11 @@ fn a_key_on_a_parameter_shows_all_of_its_range() {
     press(&mut app, "v");
     let (plot, lab) = (diagram(&app), app.lab.as_ref().unwrap());
     let present = lab.present().unwrap();
-    let Across::Named(_, range) = plot.kind.across(&plot, &present, lab.answer(&plot)) else {
+    let Across::Named(_, range) = plot.kind.across(lab.context(&plot, &present)) else {
         panic!("an axis")
     };
     assert_eq!(range, [0.0, 4.0]);
-    match plot.kind.picture(&plot, &present, range, lab.answer(&plot)) {
+    match plot.kind.picture(lab.context(&plot, &present), range) {
         Some(Picture::Axes { upwards: Upwards::Named(_, range), .. }) => {
             assert_eq!(range, [-7.0, 7.0]);
         }
@@ -339,7 +339,7 @@ fn of_a_section_with_an_angle_the_momentum_is_shown() {
     press(&mut app, "v");
     let (plot, lab) = (diagram(&app), app.lab.as_ref().unwrap());
     let present = lab.present().unwrap();
-    match plot.kind.picture(&plot, &present, [f64::NAN; 2], lab.answer(&plot)) {
+    match plot.kind.picture(lab.context(&plot, &present), [f64::NAN; 2]) {
         Some(Picture::Axes { upwards: Upwards::Named(name, [low, high]), .. }) => {
             assert!(name.starts_with("p_θ where"), "{name}");
             let pi = std::f64::consts::PI;

@@ -265,7 +265,7 @@ pub(crate) fn measure(app: &App, word: &str) -> Option<f64> {
 fn since(app: &App) -> Option<String> {
     let lab = app.lab.as_ref().unwrap();
     let (plot, present) = (&lab.plots[0], lab.present().unwrap());
-    let picture = plot.kind.picture(plot, &present, [f64::NAN; 2], lab.answer(plot));
+    let picture = plot.kind.picture(lab.context(plot, &present), [f64::NAN; 2]);
     let Some(Picture::Axes { layers, .. }) = picture else { panic!("no picture") };
     let lines = layers.into_iter().filter_map(|(_, layer)| match layer {
         Layer::Legend(lines) => Some(lines),
@@ -487,7 +487,7 @@ fn two_pictures_of_a_cloud_show_the_same_moment() {
         let lab = app.lab.as_ref().unwrap();
         let present = lab.present().unwrap();
         let of = |plot: &Plot| {
-            let picture = plot.kind.picture(plot, &present, [f64::NAN; 2], lab.answer(plot));
+            let picture = plot.kind.picture(lab.context(plot, &present), [f64::NAN; 2]);
             let Some(Picture::Axes { layers, .. }) = picture else { panic!("no picture") };
             layers.iter().find_map(|(_, layer)| match layer {
                 Layer::Cloud(points) => Some(points.to_vec()),

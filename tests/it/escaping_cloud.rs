@@ -25,7 +25,7 @@ fn the_window_follows_the_bulk_and_says_how_many_are_outside() {
         assert_eq!(free > 300.0, escapes, "{free}");
         let lab = app.lab.as_ref().unwrap();
         let (plot, present) = (&lab.plots[0], lab.present().unwrap());
-        let Across::Channel(_, Some([lo, hi])) = plot.kind.across(plot, &present, lab.answer(plot))
+        let Across::Channel(_, Some([lo, hi])) = plot.kind.across(lab.context(plot, &present))
         else {
             panic!("no range")
         };

@@ -26,7 +26,7 @@ fn opened(text: &str, label: &str) -> App {
 fn table(app: &App) -> PlotTable {
     let lab = app.lab.as_ref().unwrap();
     let plot = &lab.plots[0];
-    let table = plot.kind.table(plot, &lab.present().unwrap(), lab.answer(plot));
+    let table = plot.kind.table(lab.context(plot, &lab.present().unwrap()));
     table.unwrap_or_else(|| panic!("{:?}", legend(app)))
 }
 

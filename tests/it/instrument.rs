@@ -343,7 +343,7 @@ fn a_key_finds_the_frequency_of_the_pendulum() {
     assert_eq!(plot.kind.name(), "spectrum");
     let measure = |word: &str| {
         let measure = plot.kind.measures().iter().find(|measure| measure.word == word).unwrap();
-        (measure.value)(plot, &lab.present().unwrap(), lab.answer(plot)).unwrap()
+        (measure.value)(lab.context(plot, &lab.present().unwrap())).unwrap()
     };
     // ω = √(g/l) agm(1, cos ½θ₀), θ₀ = 2
     let (mut a, mut b) = (1.0_f64, 1.0_f64.cos());
@@ -372,7 +372,7 @@ fn the_spectrum_of_an_expression() {
     let lab = app.lab.as_ref().unwrap();
     let plot = lab.plots.iter().find(|plot| plot.kind.name() == "spectrum").unwrap();
     let measure = plot.kind.measures().iter().find(|m| m.word == "frequency").unwrap();
-    let frequency = (measure.value)(plot, &lab.present().unwrap(), lab.answer(plot));
+    let frequency = (measure.value)(lab.context(plot, &lab.present().unwrap()));
     assert!(frequency.is_some_and(|f| (f - 2.0).abs() < 1e-10), "{frequency:?}");
 }
 
@@ -389,7 +389,7 @@ fn orbits_of_kicked_systems_are_closed_from_the_initial_values() {
     assert_eq!(plot.kind.name(), "orbit");
     let measure = |word: &str| {
         let measure = plot.kind.measures().iter().find(|measure| measure.word == word).unwrap();
-        (measure.value)(plot, &lab.present().unwrap(), lab.answer(plot))
+        (measure.value)(lab.context(plot, &lab.present().unwrap()))
     };
     assert!(measure("period").is_some_and(|period| (period - 1.0).abs() < 1e-12));
     assert!(measure("residue").is_some_and(|r| (r - 0.971635406 / 4.0).abs() < 1e-8));

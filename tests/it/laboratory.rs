@@ -59,7 +59,7 @@ pub(crate) fn see(app: &mut App, experiment: &mut Experiment, time: f64) {
 pub(crate) fn measured(app: &App, plot: &Plot, word: &str) -> Option<f64> {
     let lab = app.lab.as_ref().unwrap();
     let measure = plot.kind.measures().iter().find(|measure| measure.word == word).unwrap();
-    (measure.value)(plot, &lab.present().unwrap(), lab.answer(plot))
+    (measure.value)(lab.context(plot, &lab.present().unwrap()))
 }
 
 /// A measure that has a value.
@@ -69,7 +69,7 @@ pub(crate) fn measure(app: &App, plot: &Plot, word: &str) -> f64 {
 
 pub(crate) fn layers(app: &App, plot: &Plot) -> Vec<Layer> {
     let lab = app.lab.as_ref().unwrap();
-    match plot.kind.picture(plot, &lab.present().unwrap(), [f64::NAN; 2], lab.answer(plot)) {
+    match plot.kind.picture(lab.context(plot, &lab.present().unwrap()), [f64::NAN; 2]) {
         Some(Picture::Axes { layers, .. }) => layers.into_iter().map(|(_, layer)| layer).collect(),
         other => panic!("{other:?}"),
     }

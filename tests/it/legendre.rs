@@ -22,7 +22,7 @@ fn plot(app: &App) -> Plot {
 /// The layers over a range.
 fn drawn(app: &App) -> Vec<Layer> {
     let (lab, plot) = (app.lab.as_ref().unwrap(), plot(app));
-    let picture = plot.kind.picture(&plot, &lab.present().unwrap(), [-0.9, 0.9], None);
+    let picture = plot.kind.picture(lab.context(&plot, &lab.present().unwrap()), [-0.9, 0.9]);
     let Some(Picture::Axes { layers, .. }) = picture else { panic!("no axes") };
     layers.into_iter().map(|(_, layer)| layer).collect()
 }
@@ -112,7 +112,8 @@ fn the_vertical_axis_stays_while_the_curve_moves() {
     let mut present = lab.present().unwrap();
     let bounds: Vec<(f64, f64)> = present.bounds.iter().map(|_| (-2.0, 2.0)).collect();
     present.bounds = &bounds;
-    let Some(Picture::Axes { upwards, .. }) = plot.kind.picture(&plot, &present, [-7.0, 7.0], None)
+    let Some(Picture::Axes { upwards, .. }) =
+        plot.kind.picture(lab.context(&plot, &present), [-7.0, 7.0])
     else {
         panic!("no axes")
     };

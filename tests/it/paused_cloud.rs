@@ -21,7 +21,7 @@ const PENDULUM: &str = "title = \"one\"\n[coordinates]\nq = { initial = 2.2, vel
 fn drawn(app: &App) -> ([f64; 2], Vec<String>, [f64; 2]) {
     let lab = app.lab.as_ref().unwrap();
     let (plot, present) = (&lab.plots[0], lab.present().unwrap());
-    let picture = plot.kind.picture(plot, &present, [f64::NAN; 2], lab.answer(plot));
+    let picture = plot.kind.picture(lab.context(plot, &present), [f64::NAN; 2]);
     let Some(Picture::Axes { layers, .. }) = picture else { panic!("no picture") };
     let mut at = [f64::NAN; 2];
     let mut legend = Vec::new();

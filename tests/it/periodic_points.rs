@@ -98,7 +98,7 @@ fn a_stroboscope_shows_as_much_as_the_motion_will_reach() {
     let app = opened(text, &[("orbit", "orbit")]);
     let lab = app.lab.as_ref().unwrap();
     let plot = &lab.plots[0];
-    let across = plot.kind.across(plot, &lab.present().unwrap(), lab.answer(plot));
+    let across = plot.kind.across(lab.context(plot, &lab.present().unwrap()));
     let Across::Channel(_, Some([low, high])) = across else { panic!("{across:?}") };
     // where it settles: −(1 − ω²)/((1 − ω²)² + 4 γ² ω²)
     assert!(low < -1.49 && high > 0.5, "{low} {high}");

@@ -6,7 +6,7 @@ use phaselab::app::{App, Drawn, Effect, Event, Saved};
 use phaselab::cancel::Cancel;
 use phaselab::ensemble::{NotInPlane, NotOnShell, Region, SectionPlane};
 use phaselab::experiment::{Command, Prepared, Snapshot};
-use phaselab::instrument::{Entry, Ink, Layer, Plot, Seed};
+use phaselab::instrument::{Entry, Ink, Layer, Plot, PlotContext, Seed};
 use phaselab::system::{ChannelKind, InitialOverride};
 use phaselab::view::RenderStyle;
 use phaselab::view::colour::ColourDepth;
@@ -247,7 +247,9 @@ fn the_running_motion_has_its_rotation_number_in_the_title() {
     assert_eq!(words(&app, index), ["4 crossings", "rising", "each colour one orbit"]);
     let lab = app.lab.as_ref().unwrap();
     let own = lab.plots[index].kind.measures().iter().find(|m| m.word == "own_rotation").unwrap();
-    assert_eq!((own.value)(&lab.plots[index], &lab.present().unwrap(), None), None);
+    let present = lab.present().unwrap();
+    let context = PlotContext { plot: &lab.plots[index], present: &present, answer: None };
+    assert_eq!((own.value)(context), None);
 }
 
 /// `H` colours orbits by whether their average turn converges: all of two oscillators', not all of Hénon and Heiles's.

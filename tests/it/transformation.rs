@@ -23,7 +23,7 @@ fn plots(app: &App) -> Vec<Plot> {
 fn shown(app: &App, plot: &Plot) -> (Vec<Vec<[f64; 2]>>, Vec<String>) {
     let lab = app.lab.as_ref().expect("a lab");
     let present = lab.present().expect("a motion");
-    let picture = plot.kind.picture(plot, &present, [0.0, 1.0], lab.answer(plot));
+    let picture = plot.kind.picture(lab.context(plot, &present), [0.0, 1.0]);
     let Some(Picture::Axes { layers, .. }) = picture else { panic!("it has axes") };
     let (mut grid, mut words) = (Vec::new(), Vec::new());
     for (_, layer) in layers {
@@ -40,7 +40,7 @@ fn measure(app: &App, plot: &Plot, word: &str) -> f64 {
     let lab = app.lab.as_ref().expect("a lab");
     let all = plot.kind.measures();
     let measure = all.iter().find(|measure| measure.word == word).expect("it is measured");
-    (measure.value)(plot, &lab.present().expect("a motion"), lab.answer(plot)).expect("a value")
+    (measure.value)(lab.context(plot, &lab.present().expect("a motion"))).expect("a value")
 }
 
 /// Q = atan2(m ω q, p), P = E/ω with m = 1, ω = 2: along a line of the grid q = √(2 P/(m ω)) sin Q or p = √(2 P m ω) cos Q
@@ -132,7 +132,7 @@ fn in_the_active_view_the_point_is_moved_and_the_coordinates_stay() {
     assert_eq!(arrow, [vec![[x, p], [new(0), new(1)]]]);
     assert!((new(0) - x).abs() > 1e-3 && (new(1) - p).abs() > 1e-3, "it is moved");
     // motions beside the main one are moved with it
-    let picture = plot.kind.picture(&plot, &present, [0.0, 1.0], lab.answer(&plot));
+    let picture = plot.kind.picture(lab.context(&plot, &present), [0.0, 1.0]);
     let Some(Picture::Axes { layers, .. }) = picture else { panic!("it has axes") };
     let beside = layers.iter().filter(|(_, layer)| matches!(layer, Layer::Companions(_)));
     assert_eq!(beside.count(), 2);
@@ -291,7 +291,7 @@ impl Course {
         let lab = self.app.lab.as_ref().expect("a lab");
         let [plot] = &plots(&self.app)[..] else { panic!("the file has one") };
         let present = lab.present().expect("a motion");
-        let picture = plot.kind.picture(plot, &present, [0.0, 1.0], lab.answer(plot));
+        let picture = plot.kind.picture(lab.context(plot, &present), [0.0, 1.0]);
         let Some(Picture::Axes { layers, .. }) = picture else { panic!("it has axes") };
         let (mut grids, mut others, mut words) = ([vec![], vec![]], vec![], vec![]);
         for (_, layer) in layers {

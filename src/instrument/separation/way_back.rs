@@ -6,8 +6,8 @@
 use std::sync::Arc;
 
 use super::super::{
-    Answer, Entry, Heading, Ink, Layer, Level, Need, Physics, Picture, Present, Returned, Stroke,
-    Upwards,
+    Answer, Entry, Heading, Ink, Layer, Level, Need, Physics, Picture, PlotContext, Returned,
+    Stroke, Upwards,
 };
 use crate::dynamics::{PhaseSpace, ReturnGrowth, growth_after, return_growth};
 use crate::integrate::{Settings, method_named};
@@ -38,7 +38,7 @@ struct ComputedGrowth {
 }
 
 /// What is to be computed: the growth of errors along the way back.
-pub(super) fn job(present: &Present<'_>, answer: Option<&Answer>) -> Need {
+pub(super) fn job(PlotContext { present, answer, .. }: PlotContext<'_>) -> Need {
     let Some((turned, start)) = present.turned else { return Need::Nothing };
     let Some(method) = method_named(present.method) else { return Need::Nothing };
     let conditions = WayConditions {

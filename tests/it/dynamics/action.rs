@@ -157,7 +157,7 @@ fn picture_of(text: &str, time: f64, kind: &'static str) -> (String, impl Fn(&st
         let plots = &mut lab.plots.iter();
         let plot: &Plot = plots.find(|plot| Some(plot.kind) == named(kind)).unwrap();
         let measure = plot.kind.measures().iter().find(|measure| measure.word == word).unwrap();
-        (measure.value)(plot, &lab.present().unwrap(), lab.answer(plot))
+        (measure.value)(lab.context(plot, &lab.present().unwrap()))
     };
     (rows(&buffer).join("\n"), measure)
 }

@@ -104,7 +104,7 @@ fn the_plane_shows_the_step_beside_the_map() {
     let plot = lab.plots.iter().find(|plot| plot.kind.name() == "transformation").expect("a plot");
     let measure =
         plot.kind.measures().iter().find(|m| m.word == "off_step").expect("it is measured");
-    let off = (measure.value)(plot, &lab.present().expect("a motion"), lab.answer(plot));
+    let off = (measure.value)(lab.context(plot, &lab.present().expect("a motion")));
     assert!(off.is_some_and(|off| off < 1e-15), "{off:?}");
     let page = |width, height| {
         let area = ratatui::layout::Rect::new(0, 0, width, height);

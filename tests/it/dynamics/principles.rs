@@ -211,7 +211,7 @@ fn a_key_shows_the_next_principle() {
         let lab = app.lab.as_ref().unwrap();
         let plot: &Plot = lab.plots.iter().find(|p| Some(p.kind) == named(kind)).unwrap();
         let measure = plot.kind.measures().iter().find(|measure| measure.word == word).unwrap();
-        (measure.value)(plot, &lab.present().unwrap(), lab.answer(plot))
+        (measure.value)(lab.context(plot, &lab.present().unwrap()))
     };
     let hamilton = shown(&mut app);
     assert!(hamilton.contains("least of all paths nearby"), "{hamilton}");

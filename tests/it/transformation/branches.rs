@@ -1,7 +1,7 @@
 //! Branches of a map that has several images: where they lead, and what is said where they do not.
 
 use phaselab::app::App;
-use phaselab::instrument::{Layer, MarkerShape, Picture, Upwards};
+use phaselab::instrument::{Layer, MarkerShape, Picture, PlotContext, Upwards};
 
 use super::{Course, plots, shown};
 use crate::hand::{lab, press};
@@ -19,7 +19,8 @@ fn an_image_to_which_no_grid_leads_is_found() {
     let drawn = |app: &App| {
         let known = right.lab.as_ref().expect("a lab").answer(plot);
         let present = app.lab.as_ref().expect("a lab").present().expect("a motion");
-        let picture = plot.kind.picture(plot, &present, [0.0, 1.0], known);
+        let context = PlotContext { plot, present: &present, answer: known };
+        let picture = plot.kind.picture(context, [0.0, 1.0]);
         let Some(Picture::Axes { layers, .. }) = picture else { panic!("it has axes") };
         let (mut rings, mut points, mut words) = (Vec::new(), Vec::new(), Vec::new());
         for (_, layer) in layers {
@@ -70,7 +71,7 @@ fn no_image_that_exists_is_denied() {
         };
         let (q, p) = (at("q"), at("p_q"));
         let under = 1.0 - 4.0 * h * q * (p - h * q) / (1.0 + q * q).powi(2);
-        let picture = plot.kind.picture(&plot, &present, [0.0, 1.0], lab.answer(&plot));
+        let picture = plot.kind.picture(lab.context(&plot, &present), [0.0, 1.0]);
         let Some(Picture::Axes { layers, .. }) = picture else { panic!("it has axes") };
         let rings: Vec<[f64; 2]> = layers
             .iter()
@@ -112,7 +113,7 @@ fn drawn(course: &mut Course, time: f64) -> ([f64; 2], Vec<[f64; 2]>, Vec<String
     let plot = plots(&course.app)[0].clone();
     let lab = course.app.lab.as_ref().expect("a lab");
     let present = lab.present().expect("a motion");
-    let picture = plot.kind.picture(&plot, &present, [0.0, 1.0], lab.answer(&plot));
+    let picture = plot.kind.picture(lab.context(&plot, &present), [0.0, 1.0]);
     let Some(Picture::Axes { upwards: Upwards::Channel(_, range), layers, .. }) = picture else {
         panic!("it has axes")
     };
