@@ -10,7 +10,7 @@ use crate::ensemble::{EnergyShell, NotOnShell, Root, Start};
 use crate::num::math;
 use crate::system::{ChannelKind, Form, InitialOverride, MotionError, Observer, System};
 
-/// The number of places looked at first.
+/// The number of places evaluated first.
 const PLACES: usize = 4001;
 
 /// How far they reach on each side: sinh of this, in units of the distance of the start from zero (1 if it is at zero).
@@ -30,7 +30,7 @@ pub struct EffectivePotential<'a> {
     coordinate: usize,
     observer: Observer,
     values: Vec<f64>,
-    /// The places looked at, from left to right, within the walls around the start.
+    /// The places evaluated, from left to right, within the walls around the start.
     nodes: Vec<[f64; 2]>,
     /// Where the potential is greatest within a well's sides.
     tops: Vec<[f64; 2]>,
@@ -415,12 +415,12 @@ impl<'a> EffectivePotential<'a> {
         tops
     }
 
-    /// The least energy of the places looked at.
+    /// The least energy of the places evaluated.
     pub fn bottom(&self) -> f64 {
         self.nodes.iter().map(|node| node[1]).fold(f64::INFINITY, f64::min)
     }
 
-    /// The least energy of the places looked at between two, if any lies there.
+    /// The least energy of the places evaluated between two, if any lies there.
     pub fn bottom_between(&self, [from, to]: [f64; 2]) -> Option<f64> {
         let inside = self.nodes.iter().filter(|node| from <= node[0] && node[0] <= to);
         inside.map(|node| node[1]).reduce(f64::min)

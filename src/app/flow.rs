@@ -21,7 +21,7 @@ use crate::model::{Allowed, Model, Scope};
 use crate::num::significant;
 use crate::system::{ChannelKind, InitialOverride};
 
-/// The steps of integration between two looks at the token that stops them.
+/// The steps of integration between two checks of the token that stops them.
 const SLICE: u64 = 200;
 
 /// The most slices before it is given up.

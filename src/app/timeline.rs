@@ -1,4 +1,4 @@
-//! The time line: time reversed, the recorded past looked at, and marks on it.
+//! The time line: time reversed, the recorded past shown, and marks on it.
 //!
 //! In: keys and the mouse on the time bar. Out: commands. Never here: how a motion runs backwards, or what is recorded.
 
@@ -11,7 +11,7 @@ use crate::num::short;
 /// The most marks.
 const MOST: usize = 32;
 
-/// A key moves the look by this part of the recorded past.
+/// A key moves the time that is shown by this part of the recorded past.
 const STEPS: f64 = 50.0;
 
 /// Times closer together than this part of the recorded past are one.

@@ -64,10 +64,10 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let mut found = found.map_err(study::failed)?;
     let volumes = match arguments.gali {
         Some(count) if found.failure.is_none() => {
-            let mut look = |time| bar.show(time);
+            let mut report = |time| bar.show(time);
             let until = (&study.start, found.time);
             Some(
-                gali(&study.space, method, until, count.into(), &mut look)
+                gali(&study.space, method, until, count.into(), &mut report)
                     .map_err(study::failed)?,
             )
         }

@@ -40,7 +40,7 @@ pub(super) struct Arguments {
     until: Option<f64>,
 }
 
-/// The steps between two looks at the time and at signals.
+/// The steps between two checks of the time and of signals.
 const STEPS: u64 = 256;
 
 /// The number of times that the gauges are sampled on the way.
@@ -129,11 +129,11 @@ fn advance(
     experiment: &mut Experiment,
     clock: f64,
     interrupt: &Interrupt,
-    look: &mut dyn FnMut(f64),
+    report: &mut dyn FnMut(f64),
 ) -> Result<(), CommandError> {
     loop {
         let progress = experiment.advance(clock, STEPS);
-        look(experiment.clock());
+        report(experiment.clock());
         if let Some(signal) = interrupt.signal() {
             return Err(CommandError::Signal(signal));
         }

@@ -6,7 +6,7 @@ use super::phase_space::PhaseSpace;
 use crate::integrate::{Method, Propagator, Reached, Settings};
 use crate::system::{State, System};
 
-/// A motion continues where it goes on for this part of the time that it has lasted.
+/// A motion is continued beyond a time if it can be followed for this part of the time that it has lasted.
 const BEYOND: f64 = 1e-2;
 
 /// A motion that was carried with vectors.
@@ -23,7 +23,7 @@ pub(super) struct BareMotion<'a> {
 }
 
 impl BareMotion<'_> {
-    /// The length of the step that contains a time; `None` where the motion does not go on beyond it.
+    /// The length of the step that contains a time; `None` where the motion cannot be continued beyond it.
     pub(super) fn step_over(&self, time: f64) -> Option<f64> {
         let lasted = time - self.begun.time;
         if lasted == 0.0 {

@@ -142,17 +142,17 @@ impl Carrier {
             self.settings.step = Some(self.stepper.step_size().abs());
             self.stepper = (self.method.make)(&self.system, &self.settings)?;
         }
-        let goes_on = self.begun.is_some() && full.time == self.time();
+        let continues = self.begun.is_some() && full.time == self.time();
         let Some(jumping) = &mut self.jumping else {
             self.stepper.start(&full, self.space.parameters())?;
-            if !goes_on {
+            if !continues {
                 self.begin_at(full);
             }
             return Ok(());
         };
         if jumping.begun && full.time == jumping.span.1 {
             // the events of before stay known, and the impulses keep their times
-            return Ok(jumping.motion.go_on(&full, self.space.parameters())?);
+            return Ok(jumping.motion.continue_from(&full, self.space.parameters())?);
         }
         if let Some(step) = self.settings.step {
             let settings = Settings { step: Some(step), ..self.settings };
@@ -375,7 +375,7 @@ impl TangentStep for Carrier {
 }
 
 impl Jumping {
-    /// Takes one step towards `limit`, or goes on to what happens before.
+    /// Takes one step towards `limit`, or up to the first occurrence before it.
     fn step(&mut self, space: &PhaseSpace, system: &System, limit: f64) -> Result<(), MotionError> {
         let begin = self.span.1;
         let reached = self.motion.reach_unexplained(limit, limit, &mut 1)?;
@@ -428,6 +428,6 @@ impl Jumping {
         for (i, &x) in vectors.iter().enumerate() {
             full.set(first + i, x.into());
         }
-        self.motion.go_on(&full, space.parameters())
+        self.motion.continue_from(&full, space.parameters())
     }
 }

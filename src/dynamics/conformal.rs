@@ -5,7 +5,7 @@
 //! (R. McLachlan and M. Perlmutter, J. Geom. Phys. 39 (2001) 276). For one degree of freedom c is the trace of D
 //! (Liouville).
 //!
-//! A law that depends on time is looked at over a period of its drive.
+//! A law that depends on time is evaluated over a period of its drive.
 //!
 //! In: a phase space and some of its states. Out: the rate. Never here: curves.
 
@@ -18,12 +18,12 @@ use crate::system::Form;
 /// Rates that differ by less than this part of the size of D are the same.
 const SAME: f64 = 1e-10;
 
-/// How many times each state is looked at over a period of the drive, and the part of it from one time to the next: no
+/// How many times each state is evaluated over a period of the drive, and the part of it from one time to the next: no
 /// harmonic is at all of them what it is at the first.
 const TIMES: u8 = 5;
 const PART: f64 = 0.618_033_988_749_894_8;
 
-/// The rate c at which areas change along the flow: `None` if it is not the same number everywhere, looked at in these
+/// The rate c at which areas change along the flow: `None` if it is not the same number everywhere, evaluated in these
 /// states, or the variables are not canonical, or the law depends on time without a period.
 ///
 /// # Errors

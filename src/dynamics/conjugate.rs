@@ -13,7 +13,7 @@ use super::phase_space::PhaseSpace;
 use crate::integrate::{Method, Settings};
 use crate::system::State;
 
-/// The parts of a step at which the determinant is looked at.
+/// The parts of a step at which the determinant is evaluated.
 const PARTS: u32 = 16;
 
 /// A matrix has lost rank where a singular value is this small beside the largest that it has had.

@@ -38,7 +38,7 @@ pub fn driven_orbit(
     found.map_err(|error| explained(error, space, method, start, &mut |_, _| ()))
 }
 
-/// The same, but an error does not say what the motion is instead. `look` is given the steps taken, and their greatest number.
+/// The same, but an error does not say what the motion is instead. `report` is given the steps taken, and their greatest number.
 ///
 /// # Errors
 /// Returns an error if there is none nearby; if the motion cannot be followed; or on cancellation.
@@ -47,9 +47,9 @@ pub fn nearest_driven_orbit(
     method: (&'static Method, Settings),
     start: &State,
     drive: f64,
-    look: &dyn Fn(u64, u64),
+    report: &dyn Fn(u64, u64),
 ) -> Result<Orbit, DynamicsError> {
-    let budget = SearchBudget::of(method.0, look);
+    let budget = SearchBudget::of(method.0, report);
     let mut singular = None;
     let mut misses: Vec<(u32, f64)> = Vec::new();
     let mut state = start.clone();

@@ -1,7 +1,7 @@
 //! Equilibria and the small oscillations about them.
 //!
-//! In: a phase space and where to look. Out: every place in reach where the rates vanish; with
-//! cyclic coordinates also where all others rest while these go on with their momenta (relative
+//! In: a phase space and where to search. Out: every place in reach where the rates vanish; with
+//! cyclic coordinates also where all others rest while these keep moving with their momenta (relative
 //! equilibria), with kind, eigenvalues, frequencies and modes; under constraints the places on their surface
 //! (`constrained_balance`). Never here: text.
 //!
@@ -73,7 +73,7 @@ pub fn equilibria(space: &PhaseSpace, start: &State) -> Result<Equilibria, Dynam
 pub fn equilibria_watched(
     space: &PhaseSpace,
     start: &State,
-    look: &mut dyn FnMut(usize, usize),
+    report: &mut dyn FnMut(usize, usize),
 ) -> Result<Equilibria, DynamicsError> {
     if !space.is_autonomous() {
         return Err(DynamicsError::Unsuited(
@@ -94,7 +94,7 @@ pub fn equilibria_watched(
             cancelled = true;
             break;
         }
-        look(searched, searched + further.len() + beginnings - beginning);
+        report(searched, searched + further.len() + beginnings - beginning);
         searched += 1;
         let place = further.pop().unwrap_or_else(|| {
             beginning += 1;

@@ -13,7 +13,7 @@ use crate::system::{Form, State};
 /// one in which the law is periodic is its period over 2π. The units of momenta follow.
 const ORDINARY_SIZES: std::ops::RangeInclusive<f64> = 1e-3..=1e3;
 
-/// A force is looked at at each power of ten between these for the distance over which it changes its law.
+/// A force is evaluated at each power of ten between these for the distance over which it changes its law.
 const FARTHEST: f64 = 1e31;
 const NEAREST: f64 = 1e-30;
 

@@ -12,7 +12,7 @@ use super::phase_space::PhaseSpace;
 use crate::integrate::{Method, Settings};
 
 /// Follows the family of an orbit in both directions, as far as its values lie between the first
-/// and the last of `values`. `look` is given the part of this range that is behind it.
+/// and the last of `values`. `report` is given the part of this range that is behind it.
 ///
 /// # Errors
 /// Returns an error if the family has no such values.
@@ -21,10 +21,10 @@ pub fn family(
     method: (&'static Method, Settings),
     orbit: &Orbit,
     (along, fixed): (Along, Fixed),
-    (values, look): (&[f64], &dyn Fn(f64)),
+    (values, report): (&[f64], &dyn Fn(f64)),
 ) -> Result<Family, DynamicsError> {
     let mut course = FamilyCourse::new(orbit);
-    course.follow(space, method, (along, fixed, None), (values, look), usize::MAX)?;
+    course.follow(space, method, (along, fixed, None), (values, report), usize::MAX)?;
     Ok(course.family())
 }
 
@@ -38,11 +38,11 @@ pub fn driven_family(
     method: (&'static Method, Settings),
     orbit: &Orbit,
     (along, drive): (Along, &dyn Fn(&[f64]) -> Option<f64>),
-    (values, look): (&[f64], &dyn Fn(f64)),
+    (values, report): (&[f64], &dyn Fn(f64)),
 ) -> Result<Family, DynamicsError> {
     let mut course = FamilyCourse::new(orbit);
     let what = (along, Fixed::Period(orbit.period), Some(drive));
-    course.follow(space, method, what, (values, look), usize::MAX)?;
+    course.follow(space, method, what, (values, report), usize::MAX)?;
     Ok(course.family())
 }
 
@@ -89,7 +89,7 @@ impl FamilyCourse {
         space: &PhaseSpace,
         method: (&'static Method, Settings),
         (along, fixed, drive): (Along, Fixed, Option<DrivePeriod<'_>>),
-        (values, look): (&[f64], &dyn Fn(f64)),
+        (values, report): (&[f64], &dyn Fn(f64)),
         steps: usize,
     ) -> Result<(), DynamicsError> {
         let ratio = drive.and_then(|drive| drive(space.parameters()));
@@ -136,7 +136,7 @@ impl FamilyCourse {
                     }
                 }
                 let behind: f64 = (0..2).map(|k| gone(&sides[k], lengths[k])).sum();
-                look(behind / (high - low));
+                report(behind / (high - low));
             }
         }
         self.sides = Some(sides);

@@ -43,7 +43,7 @@ const NOT_SMALL: f64 = 1e-3;
 const TIMES: f64 = 64.0;
 const TIMES_IN_STEPS: f64 = 16.0;
 
-/// Follows a motion from a state of the space through increasing times, and `look`s on after each step. A motion that cannot
+/// Follows a motion from a state of the space through increasing times, and `report`s the time after each step. A motion that cannot
 /// continue has the moments up to there, and the error.
 ///
 /// # Errors
@@ -53,7 +53,7 @@ pub fn flow_course(
     (method, settings): (&'static Method, Settings),
     start: &State,
     times: &[f64],
-    look: &mut dyn FnMut(f64),
+    report: &mut dyn FnMut(f64),
 ) -> Result<(Vec<FlowMoment>, Option<MotionError>), DynamicsError> {
     let n = space.dimension();
     let mut carrier = Carrier::new(space, method, settings, n)?;
@@ -88,7 +88,7 @@ pub fn flow_course(
             done = end;
         }
         waiting = left;
-        look(end);
+        report(end);
     }
     Ok((moments, None))
 }

@@ -35,7 +35,7 @@ pub struct FlowMap {
     pub state: State,
     /// ∂η_i(t)/∂η_j(0).
     pub matrix: DMatrix<f64>,
-    /// The dimension of the displacements it is taken of: that of the space, less what constraints take away.
+    /// The dimension of the displacements it is taken of: that of the space, less what constraints remove.
     pub dimension: usize,
     /// Its determinant, under constraints that of its volumes on them; `None` where these have no volume that H preserves.
     pub determinant: Option<f64>,
@@ -56,7 +56,7 @@ pub struct FlowMap {
     pub failure: Option<MotionError>,
 }
 
-/// Follows a motion from a state of the space until a time, and `look`s on after each step.
+/// Follows a motion from a state of the space until a time, and `report`s the time after each step.
 ///
 /// # Errors
 /// Returns an error if the motion cannot begin. If it cannot continue, or is cancelled, the result
@@ -66,26 +66,26 @@ pub fn flow_map(
     (method, settings): (&'static Method, Settings),
     start: &State,
     until: f64,
-    look: &mut dyn FnMut(f64),
+    report: &mut dyn FnMut(f64),
 ) -> Result<FlowMap, DynamicsError> {
     let mut look_on = |time| {
-        look(time);
+        report(time);
         true
     };
     let divergence = (!space.is_constrained()).then(|| Divergence::of(space, method));
     followed(space, (method, settings), (start, until), divergence, &mut look_on)
 }
 
-/// The same for as long as `look` returns true, otherwise the result is that of the time reached; and without the
+/// The same for as long as `report` returns true, otherwise the result is that of the time reached; and without the
 /// determinant that Liouville's theorem predicts, whose integral takes longer than the motion.
 pub(super) fn flow_map_while(
     space: &PhaseSpace,
     (method, settings): (&'static Method, Settings),
     start: &State,
     until: f64,
-    look: &mut dyn FnMut(f64) -> bool,
+    report: &mut dyn FnMut(f64) -> bool,
 ) -> Result<FlowMap, DynamicsError> {
-    followed(space, (method, settings), (start, until), None, look)
+    followed(space, (method, settings), (start, until), None, report)
 }
 
 fn followed(
@@ -93,7 +93,7 @@ fn followed(
     (method, settings): (&'static Method, Settings),
     (start, until): (&State, f64),
     mut divergence: Option<Divergence>,
-    look: &mut dyn FnMut(f64) -> bool,
+    report: &mut dyn FnMut(f64) -> bool,
 ) -> Result<FlowMap, DynamicsError> {
     if space.has_jumps() && until < start.time {
         return Err(DynamicsError::Unsuited(
@@ -128,7 +128,7 @@ fn followed(
         if let Some(rounding) = &mut rounding {
             rounding.step(&carrier.at(time)?.1, time);
         }
-        if !look(time) {
+        if !report(time) {
             break;
         }
     }

@@ -44,7 +44,7 @@ impl Gali {
     }
 }
 
-/// Follows a motion from a state of the space until a time, with so many tangent vectors, and `look`s on after each step.
+/// Follows a motion from a state of the space until a time, with so many tangent vectors, and `report`s the time after each step.
 ///
 /// # Errors
 /// Returns an error if there are fewer than two vectors or more than variables, or the motion cannot begin. If it cannot
@@ -54,7 +54,7 @@ pub fn gali(
     (method, settings): (&'static Method, Settings),
     (start, until): (&State, f64),
     count: usize,
-    look: &mut dyn FnMut(f64),
+    report: &mut dyn FnMut(f64),
 ) -> Result<Gali, DynamicsError> {
     let n = space.dimension();
     let (allowed, dimension) = space.allowed_displacements(start)?;
@@ -89,7 +89,7 @@ pub fn gali(
         }
         let (_, end) = carrier.interval();
         let (state, now) = carrier.at(end)?;
-        look(end);
+        report(end);
         vectors = scaled(&now, &in_units);
         let grown = vectors.column_iter().any(|v| !(1.0 / GROWN..GROWN).contains(&v.norm()));
         let due = grown || end - last >= round || end >= until;

@@ -79,7 +79,7 @@ pub struct Lyapunov {
     pub failure: Option<DynamicsError>,
 }
 
-/// Follows a motion from a state of the space until a time, and `look`s on after each step.
+/// Follows a motion from a state of the space until a time, and `report`s the time after each step.
 ///
 /// # Errors
 /// Returns an error if the motion cannot begin, or is too short for any exponent. If it cannot
@@ -89,7 +89,7 @@ pub fn lyapunov(
     (method, settings): (&'static Method, Settings),
     start: &State,
     until: f64,
-    look: &mut dyn FnMut(f64),
+    report: &mut dyn FnMut(f64),
 ) -> Result<Lyapunov, DynamicsError> {
     let (mut course, vectors) = LyapunovCourse::begin(space, start, until)?;
     let mut carrier = Carrier::new(space, method, settings, course.vectors())?;
@@ -101,7 +101,7 @@ pub fn lyapunov(
             break;
         }
         let renewed = course.observe(space, &mut carrier)?;
-        look(carrier.time());
+        report(carrier.time());
         if let Some((state, vectors)) = renewed {
             carrier.start(&state, &vectors)?;
         }

@@ -4,7 +4,7 @@
 //! vector, in general position, is never turned: MEGNO is that of its length.
 //!
 //! In: a start, then each step of the motion from there with its vectors. Out: the vectors to begin with, after a step those
-//! to go on with where they are renewed, at last the growth. Never here: steps, verdicts.
+//! to continue with where they are renewed, at last the growth. Never here: steps, verdicts.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -128,7 +128,7 @@ impl LyapunovCourse {
         &self.megno
     }
 
-    /// Looks at a step. Returns the state and the vectors to go on from, where they are others than those reached.
+    /// Observes a step. Returns the state and the vectors to continue from, where they are others than those reached.
     ///
     /// # Errors
     /// Returns an error if the states or the vectors in it cannot be evaluated.

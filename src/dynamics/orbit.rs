@@ -157,7 +157,7 @@ pub fn periodic_orbit(
     found.map_err(|error| explained(error, space, method, start, &mut |_, _| ()))
 }
 
-/// The same, but an error does not say what the motion is instead. `look` is given the steps taken, and their greatest number.
+/// The same, but an error does not say what the motion is instead. `report` is given the steps taken, and their greatest number.
 ///
 /// # Errors
 /// Returns an error if there is none nearby; if the motion cannot be followed; or on cancellation.
@@ -166,9 +166,9 @@ pub fn nearest_orbit(
     method: (&'static Method, Settings),
     start: &State,
     (period, fixed): (Option<f64>, Fixed),
-    look: &dyn Fn(u64, u64),
+    report: &dyn Fn(u64, u64),
 ) -> Result<Orbit, DynamicsError> {
-    let budget = SearchBudget::of(method.0, look);
+    let budget = SearchBudget::of(method.0, report);
     let found = searched(space, method, start, (period, fixed), &budget)?;
     found.map_err(|missed| missed.error(&budget))
 }

@@ -1,6 +1,6 @@
 //! Whether the steps of a motion have begun to vanish, as they do towards a singular place.
 //!
-//! In: their lengths. Out: a word. Never here: what lies there.
+//! In: their lengths. Out: whether they vanish. Never here: what lies there.
 
 /// A step below this part of those before it leads up to a singular place, …
 const VANISHING: f64 = 1e-6;
@@ -13,7 +13,7 @@ const FORGETTING: f64 = 0.99;
 pub(super) struct RegularStep(f64);
 
 impl RegularStep {
-    /// Takes the next step, and says whether it is one of those that vanish.
+    /// Records the length of the next step, and returns whether it is one of those that vanish.
     pub(super) fn vanishes_with(&mut self, step: f64) -> bool {
         let is_vanishing = step <= VANISHING * self.0;
         self.0 = step.max(FORGETTING * self.0);

@@ -12,7 +12,7 @@ use super::spectral_line::SpectralLine;
 use super::spectrum::{MeanRate, Spectrum, advance, driven_spectrum, mean_rate, straightened};
 use crate::num::math;
 
-/// Where between two values the quantity is looked at, as a part of the interval.
+/// Where between two values the quantity is evaluated, as a part of the interval.
 const BETWEEN: f64 = 0.618_033_988_749_894_9;
 
 /// Lines are those of the quantity if they leave, between the values, no more than this many times what they leave at them, …
@@ -115,24 +115,24 @@ impl SampledSpectrum {
     }
 }
 
-/// The spectrum of a quantity whose values at ascending times `sample` gives, as far as the motion goes. `look` is given each
-/// line, and says whether to go on.
+/// The spectrum of a quantity whose values at ascending times `sample` gives, as far as the motion goes. `report` is given each
+/// line, and returns whether to continue.
 ///
 /// # Errors
 /// Returns an error if the motion ends before, or the quantity is not finite.
 pub fn sampled_spectrum(
     request: &SpectrumRequest,
     sample: &mut dyn FnMut(&[f64]) -> Vec<f64>,
-    look: &mut dyn FnMut(usize) -> bool,
+    report: &mut dyn FnMut(usize) -> bool,
 ) -> Result<SampledSpectrum, NoSpectrum> {
     let [mut count, most] = request.counts;
     loop {
-        let mut goes_on = true;
+        let mut continues = true;
         let found = taken(request, count, sample, &mut |line| {
-            goes_on = look(line);
-            goes_on
+            continues = report(line);
+            continues
         })?;
-        if found.is_resolved() || count >= most || !goes_on {
+        if found.is_resolved() || count >= most || !continues {
             return Ok(found);
         }
         // each time the motion is followed once more
@@ -145,7 +145,7 @@ fn taken(
     request: &SpectrumRequest,
     count: usize,
     sample: &mut dyn FnMut(&[f64]) -> Vec<f64>,
-    look: &mut dyn FnMut(usize) -> bool,
+    report: &mut dyn FnMut(usize) -> bool,
 ) -> Result<SampledSpectrum, NoSpectrum> {
     let [from, until] = request.span;
     let spacing = (until - from) / count as f64;
@@ -160,7 +160,7 @@ fn taken(
     let (values, others) = (part(0), part(1));
     let rate = mean_rate(&values, spacing).filter(|_| request.is_angle);
     let straight = straightened(&values, spacing, rate);
-    let spectrum = driven_spectrum(&straight, spacing, request.lines, request.drive, look);
+    let spectrum = driven_spectrum(&straight, spacing, request.lines, request.drive, report);
     let mut spectrum = spectrum.ok_or(NoSpectrum::NotFinite)?;
     let drift = frequency_drift(&spectrum.without_trend(&straight), spacing, &spectrum.lines);
     let rate_taken = advance(count, spacing, rate);

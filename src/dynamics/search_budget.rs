@@ -16,20 +16,20 @@ pub(super) struct SearchBudget<'a> {
     taken: Cell<u64>,
     total: u64,
     /// Is given the steps taken and their greatest number.
-    look: &'a dyn Fn(u64, u64),
+    report: &'a dyn Fn(u64, u64),
 }
 
 impl<'a> SearchBudget<'a> {
     /// That of a search by a method.
-    pub(super) fn of(method: &Method, look: &'a dyn Fn(u64, u64)) -> Self {
+    pub(super) fn of(method: &Method, report: &'a dyn Fn(u64, u64)) -> Self {
         let total = if method.stepping == Stepping::Fixed { STEPS_FIXED } else { STEPS };
-        Self { taken: Cell::new(0), total, look }
+        Self { taken: Cell::new(0), total, report }
     }
 
     /// Counts a step.
     pub(super) fn step(&self) {
         self.taken.set(self.taken.get() + 1);
-        (self.look)(self.taken.get().min(self.total), self.total);
+        (self.report)(self.taken.get().min(self.total), self.total);
     }
 
     /// Whether all steps are taken.
@@ -53,8 +53,8 @@ mod tests {
     fn a_search_ends_after_its_steps_and_says_after_how_many() {
         for (name, steps) in [("taylor", 100_000), ("dop853", 100_000), ("leapfrog", 4_000_000)] {
             let reported = Cell::new((0, 0));
-            let look = |taken, total| reported.set((taken, total));
-            let budget = SearchBudget::of(method_named(name).expect("a method"), &look);
+            let report = |taken, total| reported.set((taken, total));
+            let budget = SearchBudget::of(method_named(name).expect("a method"), &report);
             (1..steps).for_each(|_| budget.step());
             assert_eq!((budget.is_spent(), budget.ended()), (false, None), "{name}");
             budget.step();

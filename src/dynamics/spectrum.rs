@@ -1,7 +1,7 @@
 //! The frequencies of a signal: its lines found one after the other under a window, then polished together, and named as
 //! combinations k·ω of few; and the mean rate of an angle.
 //!
-//! A line is looked for where the transform of what is left, under the square of Hann's window, is largest (J. Laskar,
+//! A line is searched for where the transform of what is left, under the square of Hann's window, is largest (J. Laskar,
 //! Physica D 67 (1993) 257). All lines found so far are then fitted together under the window by Gauss's and Newton's method, so that they
 //! do not disturb each other. Where the strongest of what is left makes hardly a turn, the mean changes slowly, by a polynomial of
 //! third to ninth degree that is fitted together with the lines. The mean rate of an angle is a weighted Birkhoff average, which converges faster than any
@@ -28,7 +28,7 @@ const APART: f64 = 1.5;
 /// So many times as many lines as are wanted are tried: some are not told apart from others.
 const TRIES: usize = 2;
 
-/// Where what is left beside a line is looked at, as parts of that.
+/// Where what is left beside a line is evaluated, as parts of that.
 const BESIDE: [f64; 6] = [-1.0, -0.67, -0.33, 0.33, 0.67, 1.0];
 
 /// The steps of Gauss's and Newton's method after each line, and at last.
@@ -104,14 +104,14 @@ pub struct MeanRate {
 }
 
 /// The spectrum of a signal at intervals of `spacing`: at most `most` lines, named by at most `fundamentals` frequencies.
-/// `look` is given each line, and says whether to go on. `None` if there are too few numbers or one is not finite.
+/// `report` is given each line, and returns whether to continue. `None` if there are too few numbers or one is not finite.
 pub fn spectrum(
     signal: &[f64],
     spacing: f64,
     (most, fundamentals): (usize, usize),
-    look: &mut dyn FnMut(usize) -> bool,
+    report: &mut dyn FnMut(usize) -> bool,
 ) -> Option<Spectrum> {
-    driven_spectrum(signal, spacing, (most, fundamentals), None, look)
+    driven_spectrum(signal, spacing, (most, fundamentals), None, report)
 }
 
 /// The same of a motion with a drive, of which the frequency is known: it belongs to the combinations.
@@ -120,7 +120,7 @@ pub(super) fn driven_spectrum(
     spacing: f64,
     (most, fundamentals): (usize, usize),
     drive: Option<f64>,
-    look: &mut dyn FnMut(usize) -> bool,
+    report: &mut dyn FnMut(usize) -> bool,
 ) -> Option<Spectrum> {
     if signal.len() < 16
         || spacing.is_nan()
@@ -130,7 +130,7 @@ pub(super) fn driven_spectrum(
         return None;
     }
     let wanted = (most, fundamentals, drive);
-    let plain = fitted(signal, spacing, wanted, (0, 1.0), look);
+    let plain = fitted(signal, spacing, wanted, (0, 1.0), report);
     if plain.fewest >= SLOW {
         return Some(plain.spectrum);
     }
@@ -139,7 +139,7 @@ pub(super) fn driven_spectrum(
     let tried = if hidden { DEGREES.len() } else { 1 };
     let mut best = plain.spectrum;
     for degree in &DEGREES[..tried] {
-        let detrended = fitted(signal, spacing, wanted, (*degree, SLOW), look).spectrum;
+        let detrended = fitted(signal, spacing, wanted, (*degree, SLOW), report).spectrum;
         let is_better = !detrended.lines.is_empty()
             && detrended.part_left() < BETTER
             && detrended.left < BETTER * best.left;
@@ -163,7 +163,7 @@ fn fitted(
     spacing: f64,
     (most, fundamentals, drive): (usize, usize, Option<f64>),
     (degree, least): (usize, f64),
-    look: &mut dyn FnMut(usize) -> bool,
+    report: &mut dyn FnMut(usize) -> bool,
 ) -> Fitted {
     let mut fit = SpectralFit::new(signal, spacing, degree);
     fit.polish(1);
@@ -213,7 +213,7 @@ fn fitted(
             (fit.lines, fit.mean, fit.trend) = before;
             break;
         }
-        if !look(fit.lines.len()) || fit.lines.len() == most {
+        if !report(fit.lines.len()) || fit.lines.len() == most {
             break;
         }
     }

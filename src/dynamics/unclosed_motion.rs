@@ -17,7 +17,7 @@ const STEPS: u64 = 1500;
 const STEPS_FIXED: u64 = 40_000;
 const PERIODS: u32 = 1024;
 
-/// Under a drive so many times as many steps, and a motion is looked at only over so many periods at least.
+/// Under a drive so many times as many steps, and a motion is analysed only over so many periods at least.
 const DRIVEN: u64 = 8;
 const FEWEST: u32 = 128;
 
@@ -41,16 +41,16 @@ const FREQUENCIES: usize = 3;
 type ProgressReport<'a> = &'a mut dyn FnMut(u64, u64);
 
 /// An error that says beside what was not found what the motion from the start is, where that can be known. Other errors are as
-/// they are. `look` is given how much of the work is done, of how much.
+/// they are. `report` is given how much of the work is done, of how much.
 pub fn explained(
     error: DynamicsError,
     space: &PhaseSpace,
     method: (&'static Method, Settings),
     start: &State,
-    look: ProgressReport<'_>,
+    report: ProgressReport<'_>,
 ) -> DynamicsError {
     let DynamicsError::Unclosed(why) = error else { return error };
-    match character(space, method, start, look) {
+    match character(space, method, start, report) {
         Err(error) if error.is_cancelled() => error,
         Ok(Some(character)) => {
             DynamicsError::Unsuited(format!("{why}. The motion from there {character}"))
@@ -65,13 +65,13 @@ fn character(
     space: &PhaseSpace,
     method: (&'static Method, Settings),
     start: &State,
-    look: ProgressReport<'_>,
+    report: ProgressReport<'_>,
 ) -> Result<Option<String>, DynamicsError> {
     let drive = if space.is_autonomous() { None } else { space.drive() };
     let Some((end, count)) = end(space, method, start, drive)? else { return Ok(None) };
-    look(1, WORK);
+    report(1, WORK);
     let part = |time: f64| (PART as f64 * (time - start.time) / (end - start.time)) as u64;
-    let found = lyapunov(space, method, start, end, &mut |time| look(1 + part(time), WORK))?;
+    let found = lyapunov(space, method, start, end, &mut |time| report(1 + part(time), WORK))?;
     if let Some(failure) = found.failure {
         return if failure.is_cancelled() { Err(failure) } else { Ok(None) };
     }

@@ -1,7 +1,7 @@
 //! The virtual work at an equilibrium: what each term of the forces does along a small displacement of each coordinate.
 //!
 //! δW = Σ Qᵢ δqᵢ vanishes for every displacement there (H. Goldstein, *Classical Mechanics*, §1.4). Qᵢ is the rate of pᵢ at rest: −∂V/∂qᵢ and
-//! what acts beside it; where cyclic coordinates go on, the centrifugal forces of their motion are among its terms. Under
+//! what acts beside it; where cyclic coordinates keep changing, the centrifugal forces of their motion are among its terms. Under
 //! constraints the displacements that they forbid do work too, against the forces λ A of the constraints.
 //!
 //! In: equations, an equilibrium. Out: terms and their values. Never here: where equilibria are.
@@ -136,7 +136,7 @@ pub(super) fn virtual_work(
     let mut pool = equations.pool.clone();
     let n = equations.coordinates.len();
     let Some((_, _, going)) = places.first() else { return Vec::new() };
-    // the coordinates that are cyclic go on at every place
+    // cyclic coordinates keep changing at every place
     let rests = |i: usize| going.iter().all(|&(cyclic, _)| cyclic != i);
     let resting: Vec<usize> = (0..n).filter(|&i| rests(i)).collect();
     let still: HashMap<_, _> =

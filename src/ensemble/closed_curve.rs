@@ -253,7 +253,7 @@ impl ClosedCurve {
     }
 
     /// The curve in the plane of the picture at one of the last times, from its first point to its first point: where a
-    /// start was lost, and between two that are too far apart to be joined, one that is no number.
+    /// start was lost, and between two that are too far apart to be joined, one that is not a number.
     pub fn points(&self, time: usize) -> Vec<[f64; 2]> {
         let lost = [f64::NAN; 2];
         let at = |node: &CurveNode| node.seen.get(time).map_or(lost, |row| [row[0], row[1]]);

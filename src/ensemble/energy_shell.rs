@@ -82,7 +82,7 @@ const HALVINGS: u32 = 200;
 /// Sections by the golden ratio in the search for the least distance from an energy.
 const SECTIONS: u32 = 60;
 
-/// The smallest value looked at, relative to one.
+/// The smallest value evaluated, relative to one.
 const INNERMOST: f64 = 1e-30;
 
 /// Where the energy has changed by less than this part of what is missing, the next value is as many times farther out.

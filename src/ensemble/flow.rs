@@ -16,7 +16,7 @@ use crate::system::{MotionError, Observer, State, System};
 /// The states that one thread carries at a time.
 const GROUP: usize = 64;
 
-/// The steps between two looks at the token.
+/// The steps between two checks of the token.
 const STEPS_PER_CHECK: u64 = 64;
 
 /// The flow of a system at fixed parameters, by a method.

@@ -98,7 +98,7 @@ pub(super) fn next_limit(target: f64, step: f64) -> (f64, f64) {
     (target + ahead, target + ahead + ahead)
 }
 
-/// How far to look from a time on: `wanted`, or where that is lost in the digits of the time the least that is not.
+/// How far to advance from a time on: `wanted`, or where that is lost in the digits of the time the least that is not.
 fn look_ahead(from: f64, wanted: f64) -> f64 {
     wanted.max(2.0 * spacing(from))
 }
@@ -158,10 +158,10 @@ pub fn section_name(model: &Model) -> String {
     name
 }
 
-/// The steps between two looks at the token.
+/// The steps between two checks of the token.
 const STEPS_PER_CHECK: u64 = 64;
 
-/// Where no end is given, the time is first looked ahead so far, and then by so many of the steps taken: the greatest
+/// Where no end is given, the time is first advanced so far, and then by so many of the steps taken: the greatest
 /// ratio of a step to the one before.
 const FIRST_LOOK: f64 = 1.0;
 const GROWTH: f64 = 8.0;

@@ -82,7 +82,7 @@ impl Experiment {
         let end = self.setup.end.filter(|_| !self.is_backwards());
         let limit = end.unwrap_or(self.clock() + ahead).max(time);
         let reached = loop {
-            // within steps that are longer than what lies between rows nobody looks but at these
+            // within steps that are longer than what lies between rows nothing is observed but these
             let spacing = if self.only_ends { 0.0 } else { self.recorder.spacing() };
             let gauges = (&mut self.gauges, spacing);
             match self.motion.reach(time, limit, budget, gauges) {

@@ -16,7 +16,7 @@ pub enum Command {
     Step(u32),
     /// Pauses, and carries the motion back by this many single steps.
     StepBack(u32),
-    /// Pauses, and looks at a time in the recorded past. The next command that acts on the motion continues it there; a time
+    /// Pauses, and shows a time in the recorded past. The next command that acts on the motion continues it there; a time
     /// not before the current one leads back to it.
     LookAt(f64),
     /// Reverses time: from the current state on the motion runs the other way, by the same method.

@@ -176,7 +176,7 @@ impl CompanionMotion {
             if anew {
                 self.motion.begin(&state, &self.parameters)
             } else {
-                self.motion.go_on(&state, &self.parameters)
+                self.motion.continue_from(&state, &self.parameters)
             }
         });
         self.note_begun(begun);

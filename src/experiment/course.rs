@@ -47,7 +47,7 @@ pub struct Experiment {
     pub(super) jump: Option<EnergyJump>,
     /// The run before time was reversed.
     pub(super) echo: Option<Box<Echo>>,
-    /// The time in the past that is looked at.
+    /// The time in the past that is shown.
     pub(super) scrubbed: Option<Box<Scrubbed>>,
     pub(super) recorder: Recorder,
     pub(super) gauges: Gauges,
@@ -64,7 +64,7 @@ pub struct Experiment {
     /// Whether the motion was resumed from a checkpoint.
     pub(super) restored: bool,
     pub(super) row_spacing: RowSpacing,
-    /// Whether the gauges look at the ends of steps only.
+    /// Whether the gauges are evaluated at the ends of steps only.
     pub(super) only_ends: bool,
 }
 
@@ -187,7 +187,7 @@ impl Experiment {
         self.log.only_count();
     }
 
-    /// The gauges look at the ends of steps only from now on, and where a row is recorded or the motion is advanced to.
+    /// The gauges are evaluated at the ends of steps only from now on, and where a row is recorded or the motion is advanced to.
     pub fn observe_ends_only(&mut self) {
         self.only_ends = true;
     }
@@ -221,7 +221,7 @@ impl Experiment {
         ))
     }
 
-    /// A sentence about the first event whose impulse slows the motion and lets it go on to the other side.
+    /// A sentence about the first event whose impulse slows the motion and lets it continue to the other side.
     pub fn passed_event(&self) -> Option<String> {
         let (name, time) = self.motion.passed_event()?;
         Some(format!(
@@ -287,7 +287,7 @@ impl Experiment {
 
 /// The motion.
 impl Experiment {
-    /// The motion where it is looked at.
+    /// The motion at the time that is shown.
     pub(super) fn seen(&self) -> &ObservedMotion {
         self.scrubbed.as_ref().map_or(&self.motion, |scrubbed| &scrubbed.motion)
     }
@@ -302,7 +302,7 @@ impl Experiment {
         crossings
     }
 
-    /// What of the motion can be looked at.
+    /// The part of the motion that can be shown again.
     pub(super) fn recorded(&self) -> Recorded {
         let from = self.motion.known_from().unwrap_or(self.clock());
         let from = self.motion.sign() * from.max(self.began);

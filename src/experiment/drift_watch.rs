@@ -1,4 +1,4 @@
-//! The drift of the energy of a motion that nobody else looks at: one of many.
+//! The drift of the energy of one motion among many, none of which is recorded.
 //!
 //! In: the state where it begins, those at the ends of its steps, and where it ends. Out: the values of all columns there,
 //! and the gauges. Never here: rows, histories, the steps themselves.
@@ -52,14 +52,14 @@ impl DriftWatch {
         self.constants = Valuation::of_parameters(&self.model, parameters).with(body);
         self.steps = 0;
         self.observe(state)?;
-        self.look(state, |gauges, now| {
+        self.update_gauges(state, |gauges, now| {
             gauges.refer(now);
             gauges.sample(now, false);
         });
         Ok(())
     }
 
-    /// Looks at the end of a step.
+    /// Observes the end of a step.
     pub fn step(&mut self, state: &State) {
         self.steps += 1;
         if self.terms.observe(state) {
@@ -67,7 +67,7 @@ impl DriftWatch {
         }
     }
 
-    /// Looks at the end of a step, whose terms and work were evaluated elsewhere.
+    /// Observes the end of a step, whose terms and work were evaluated elsewhere.
     pub fn step_with(&mut self, time: f64, terms: impl Iterator<Item = f64>, work: f64) {
         self.steps += 1;
         self.terms.take(terms, work);
@@ -80,15 +80,15 @@ impl DriftWatch {
     /// Returns an error if the state cannot be observed.
     pub fn end(&mut self, state: &State) -> Result<(&[f64], Arc<[Gauge]>), MotionError> {
         self.observe(state)?;
-        self.look(state, Gauges::observe);
+        self.update_gauges(state, Gauges::observe);
         let gauges = self.gauges.show(&self.present(state));
         Ok((&self.values, gauges))
     }
 
-    /// Lets the gauges look at the state that was observed, as an experiment at its rows.
-    fn look(&mut self, state: &State, look: impl FnOnce(&mut Gauges, &GaugeInputs<'_>)) {
+    /// Updates the gauges by the state that was observed, as an experiment does at its rows.
+    fn update_gauges(&mut self, state: &State, update: impl FnOnce(&mut Gauges, &GaugeInputs<'_>)) {
         let mut gauges = self.gauges.clone();
-        look(&mut gauges, &self.present(state));
+        update(&mut gauges, &self.present(state));
         self.gauges = gauges;
     }
 

@@ -28,7 +28,7 @@ const MEASURED: usize = 24;
 pub(super) struct Echo {
     run: ObservedMotion,
     trail: Trail,
-    /// Its values where it was looked at last, and the time.
+    /// Its values where it was observed last, and the time.
     at: f64,
     values: Vec<f64>,
     separation: Arc<DistanceHistory>,

@@ -151,7 +151,7 @@ impl Experiment {
         if is_start { self.changed = None } else { self.changed_here(what) }
     }
 
-    /// From its current state on the motion follows another law, or goes on from another state.
+    /// From its current state on the motion follows another law, or continues from another state.
     pub(super) fn changed_here(&mut self, what: String) {
         let state = Arc::new(self.motion.dated_state());
         self.changed = Some(Arc::new(LastChange { what, state }));
@@ -268,7 +268,8 @@ impl Experiment {
 
     /// Continues from a state, or fails if there is none.
     fn continue_from(&mut self, state: Result<State, system::MotionError>) {
-        let begun = state.and_then(|state| self.motion.go_on(&state, &self.setup.parameters));
+        let begun =
+            state.and_then(|state| self.motion.continue_from(&state, &self.setup.parameters));
         self.fault = begun.err().map(|fault| self.motion.dated(fault).into());
     }
 }

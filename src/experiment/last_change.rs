@@ -15,7 +15,7 @@ use crate::system::{Form, State, System};
 pub struct LastChange {
     /// What was changed: the name of a parameter as it is shown, `the text`, or `the method`.
     pub what: String,
-    /// The state from which the motion went on, and its time.
+    /// The state from which the motion continued, and its time.
     pub state: Arc<State>,
 }
 

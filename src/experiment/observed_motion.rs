@@ -66,7 +66,7 @@ impl ObservedMotion {
         ObservedMotion::new(self.inner.whole(), self.method(), self.settings(), parameters)
     }
 
-    /// Changes the method or its settings; the motion must then [continue](ObservedMotion::go_on) from its state.
+    /// Changes the method or its settings; the motion must then [continue](ObservedMotion::continue_from) from its state.
     pub(super) fn change_method(
         &mut self,
         method: &'static Method,
@@ -123,9 +123,13 @@ impl ObservedMotion {
     }
 
     /// Continues from a state at the current time.
-    pub(super) fn go_on(&mut self, state: &State, parameters: &[f64]) -> Result<(), MotionError> {
+    pub(super) fn continue_from(
+        &mut self,
+        state: &State,
+        parameters: &[f64],
+    ) -> Result<(), MotionError> {
         self.log.clear();
-        self.inner.go_on(state, parameters)?;
+        self.inner.continue_from(state, parameters)?;
         self.watch.pending = false;
         self.log.push(self.inner.state(), self.inner.steps());
         self.observer.set_parameters(parameters);

@@ -68,7 +68,7 @@ impl Past {
 
 impl Experiment {
     /// Prepends the recorded past, if the coordinates are the same. A run of this very system is resumed: its motion
-    /// continues as it would have, and can be looked at from where it could be.
+    /// continues as it would have, and can be shown from where it could be.
     pub(super) fn restore_past(&mut self, past: &Past, time: f64, coordinates: &[String]) {
         let own = self.model.coordinates.iter();
         let same =

@@ -1,6 +1,6 @@
 //! The past of a motion: steps taken again from the states that were logged between them.
 //!
-//! In: times on the way. Out: the motion there. Never here: which time is looked at.
+//! In: times on the way. Out: the motion there. Never here: which time is shown.
 
 use super::observed_motion::{EQUAL_STEPS, ObservedMotion};
 use super::run_token::RunToken;
@@ -74,13 +74,13 @@ impl ObservedMotion {
         (0..system.constraints()).filter(|&k| system.is_released(k)).collect()
     }
 
-    /// The first reading of its clock that can be looked back to.
+    /// The first reading of its clock that can be shown again.
     pub(super) fn known_from(&self) -> Option<f64> {
         self.log.first()
     }
 
     /// Looks at a time in the past of a motion that began at `start` of its clock, and forgets nothing: what is known of
-    /// later times can be looked at again. No new step reaches further than `horizon` beyond that time. Returns whether
+    /// later times can be shown again. No new step reaches further than `horizon` beyond that time. Returns whether
     /// that time is known.
     pub(super) fn look_back(&mut self, time: f64, horizon: f64, start: f64) -> bool {
         let clock = self.sign * time;
@@ -91,10 +91,10 @@ impl ObservedMotion {
                 return false;
             }
         }
-        self.go_on_to(clock, horizon)
+        self.continue_to(clock, horizon)
     }
 
-    /// What is needed to look at a time in the past of a motion that began at `start` of its clock.
+    /// What is needed to show a time in the past of a motion that began at `start` of its clock.
     pub(super) fn known_at(&self, time: f64, start: f64) -> Option<KnownStep> {
         let LoggedState { state, steps, .. } = self.log.at(self.sign * time)?.clone();
         let (step, released) = (self.inner.step_size().abs(), self.released());
@@ -103,7 +103,7 @@ impl ObservedMotion {
 
     /// Goes to where another motion of the same system was at a time. Returns whether it came there.
     pub(super) fn look_at(&mut self, time: f64, known: &KnownStep, horizon: f64) -> bool {
-        self.begin_at(known).is_ok() && self.go_on_to(self.sign * time, horizon)
+        self.begin_at(known).is_ok() && self.continue_to(self.sign * time, horizon)
     }
 
     /// Goes from a state of the run the other way to a time before it, by the same fixed step. Returns whether it came there.
@@ -142,7 +142,7 @@ impl ObservedMotion {
     }
 
     /// Goes on to a reading of the clock. Returns whether it came there.
-    fn go_on_to(&mut self, clock: f64, horizon: f64) -> bool {
+    fn continue_to(&mut self, clock: f64, horizon: f64) -> bool {
         let mut budget = EQUAL_STEPS * 1000;
         loop {
             match self.inner.reach(clock, clock + horizon, &mut budget) {

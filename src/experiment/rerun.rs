@@ -1,7 +1,7 @@
 //! The past of a motion that is resumed in another session, computed once more.
 //!
 //! A session stores the state of a motion and not its past, which is far longer and follows from the start, or from where the law was
-//! changed last. If it has come to the stored state again, to the last bit, the motion goes on from there with all that was
+//! changed last. If it has come to the stored state again, to the last bit, the motion continues from there with all that was
 //! recorded, a run whose time was reversed included. If it comes close, as after a session that was itself resumed, what was
 //! recorded stands before the stored state.
 //!

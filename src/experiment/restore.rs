@@ -77,7 +77,7 @@ impl Experiment {
         }
         self.restore_change(checkpoint.changed.clone(), present);
         if checkpoint.backwards {
-            self.go_on_backwards();
+            self.continue_backwards();
         } else if let Some(past) = &checkpoint.past {
             self.restore_past(past, present.time, &present.coordinates);
         }
@@ -194,7 +194,7 @@ impl Experiment {
             .collect();
         let system = self.motion.whole();
         let mut state = system.initial(present.time, &self.setup.parameters, &given)?;
-        // the action goes on from what it was, whichever law it follows from now on
+        // the action continues from what it was, whichever law it follows from now on
         if let (Some(place), Some([value, carry])) = (system.action_place(), present.action) {
             (state.values[place], state.carry[place]) = (value, carry);
         }

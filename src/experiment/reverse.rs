@@ -114,7 +114,7 @@ impl Experiment {
     }
 
     /// Continues backwards from a state that was restored, without a run before it.
-    pub(super) fn go_on_backwards(&mut self) {
+    pub(super) fn continue_backwards(&mut self) {
         match self.turn() {
             Ok(_) => {
                 self.began = self.clock();

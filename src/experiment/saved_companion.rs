@@ -83,7 +83,7 @@ impl SavedCompanion {
         let parameters =
             parameters.map(|(p, &value)| Named { name: p.name.clone(), value }).collect();
         let released = one.released.iter().filter_map(|&k| model.constraints.get(k));
-        let goes_on = one.message.is_none() && one.state.is_finite();
+        let continues = one.message.is_none() && one.state.is_finite();
         Some(SavedCompanion {
             number: one.number,
             origin,
@@ -97,7 +97,7 @@ impl SavedCompanion {
             tolerance: one.settings.tolerance.filter(|_| pinned),
             time: [one.state.time, one.state.time_carry],
             form: one.state.form,
-            state: if goes_on { exact_numbers(&one.state) } else { Vec::new() },
+            state: if continues { exact_numbers(&one.state) } else { Vec::new() },
         })
     }
 

@@ -1,4 +1,4 @@
-//! A look at the recorded past, which changes nothing: the motion stays where it is, and what was recorded stays too.
+//! The recorded past shown again, which changes nothing: the motion stays where it is, and what was recorded stays too.
 //!
 //! In: a time between the first step that is known and now. Out: a snapshot of that time, exact by dense output. Never
 //! here: the step that takes the motion itself back (`rewind`).
@@ -9,7 +9,7 @@ use super::{Command, Experiment, Recorded};
 use crate::num::short;
 
 impl Experiment {
-    /// Pauses, and looks at a time in the past, of this motion and of the run before.
+    /// Pauses, and shows a time in the past, of this motion and of the run before.
     pub(super) fn look_at(&mut self, time: f64) {
         self.look_at_this(time);
         let now = self.seen().time();
@@ -51,8 +51,8 @@ impl Experiment {
         }
     }
 
-    /// Does what a command means while the past is looked at. Returns whether that was all: otherwise the motion has been
-    /// carried back to the time looked at, or is about to begin again.
+    /// Does what a command means while the past is shown. Returns whether that was all: otherwise the motion has been
+    /// carried back to the time that is shown, or is about to begin again.
     pub(super) fn scrubs(&mut self, command: &Command) -> bool {
         let Some(scrubbed) = &self.scrubbed else { return false };
         let (time, sign) = (scrubbed.motion.time(), self.motion.sign());

@@ -17,7 +17,7 @@ pub struct Snapshot {
     pub backwards: bool,
     /// How it has returned along the run before, if time was reversed.
     pub returned: Option<Return>,
-    /// What of the motion is recorded and can be looked at: from when, to when, and whether it is looked at now.
+    /// What of the motion is recorded and can be shown again: from when, to when, and whether it is shown now.
     pub recorded: Recorded,
     /// Whether time is running, paused, ended or failed.
     pub status: Status,
@@ -91,14 +91,14 @@ impl Snapshot {
     }
 }
 
-/// The recorded past of a motion, which can be looked at again.
+/// The recorded past of a motion, which can be shown again.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Recorded {
-    /// The first time that can be looked at; it is later than `to` if time runs backwards.
+    /// The first time that can be shown; it is later than `to` if time runs backwards.
     pub from: f64,
     /// The time that the motion has reached.
     pub to: f64,
-    /// Whether a time before is looked at.
+    /// Whether a time before is shown.
     pub scrubbed: bool,
     /// Where the law was changed last, if it was since the start.
     pub changed: Option<Arc<LastChange>>,

@@ -18,7 +18,7 @@ pub(super) struct StepSampler {
     pub(super) pending: bool,
     /// A number in (0, 1) that never repeats, so that the sampling times do not resonate with any period.
     golden: f64,
-    /// Steps between which nobody looks.
+    /// Steps between which nothing is observed.
     pub(super) block: StepBlock,
     /// Their terms, where these can be evaluated together, for states of this form.
     pub(super) batch_terms: Option<BatchTerms>,
@@ -52,7 +52,7 @@ impl StepSampler {
         self.form = None;
     }
 
-    /// Prepares for steps between which nobody looks, of a method whose states have this form.
+    /// Prepares for steps between which nothing is observed, of a method whose states have this form.
     pub(super) fn prepare(&mut self, system: &System, form: Form) {
         if self.form == Some(form) {
             return;

@@ -48,7 +48,7 @@ const FAR: f64 = 20.0;
 /// another one.
 const ANOTHER_ENERGY: f64 = 0.02;
 
-/// The part of the time since the start, and of the period, after which a moving law is looked at again.
+/// The part of the time since the start, and of the period, after which a moving law is evaluated again.
 const LATER: f64 = 0.01;
 const OF_A_PERIOD: f64 = 0.25;
 

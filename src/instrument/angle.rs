@@ -22,7 +22,7 @@ const LINE: Level = 0;
 const POINTS: Level = 1;
 const NOW: Level = 2;
 
-/// The part of a period after which the angle is looked at again.
+/// The part of a period after which the angle is evaluated again.
 const OF_A_PERIOD: f64 = 1.0 / 24.0;
 
 /// So many points are kept; beyond, every other one is left out.

@@ -39,12 +39,12 @@ pub(super) fn beginning(
 }
 
 /// Closes the orbit near a start: that of its energy, if that is conserved, or of a multiple of the period of its drive.
-/// `look` is given the steps taken, and their greatest number.
+/// `report` is given the steps taken, and their greatest number.
 pub(super) fn closed_orbit(
     physics: Physics<'_>,
     method: (&'static Method, Settings),
     (start, conditions): (&Start, &PlotConditions),
-    look: &dyn Fn(u64, u64),
+    report: &dyn Fn(u64, u64),
 ) -> Result<ClosedOrbit, DynamicsError> {
     let (space, state) = beginning(physics, (start, conditions))?;
     let fixed = if space.has_energy_levels() {
@@ -53,8 +53,8 @@ pub(super) fn closed_orbit(
         Fixed::Nothing
     };
     let orbit = match space.drive() {
-        Some(drive) => nearest_driven_orbit(&space, method, &state, drive, look)?,
-        None => nearest_orbit(&space, method, &state, (None, fixed), look)?,
+        Some(drive) => nearest_driven_orbit(&space, method, &state, drive, report)?,
+        None => nearest_orbit(&space, method, &state, (None, fixed), report)?,
     };
     Ok(ClosedOrbit { space, orbit, fixed })
 }

@@ -50,11 +50,12 @@ pub fn equilibria_search(
         let space = space.map_err(|why| why.to_string())?;
         let state = start.state(&system).and_then(|state| space.state(&state));
         let state = state.map_err(|fault| fault.to_string())?;
-        let mut look = |done: usize, all: usize| {
+        let mut report = |done: usize, all: usize| {
             progress.expect(all as u64);
             progress.reach(done as u64);
         };
-        let found = equilibria_watched(&space, &state, &mut look).map_err(|why| why.to_string())?;
+        let found =
+            equilibria_watched(&space, &state, &mut report).map_err(|why| why.to_string())?;
         let (periods, is_complete) = (found.periods, found.is_complete);
         let parameters = start.parameters.clone();
         let mut found = found.found;

@@ -192,8 +192,8 @@ fn follow(
 ) -> Result<Lyapunov, String> {
     progress.expect(PARTS as u64);
     let begin = state.time;
-    let mut look = |time: f64| progress.reach(((time - begin) / (until - begin) * PARTS) as u64);
-    lyapunov(space, method, state, until, &mut look).map_err(|why| why.to_string())
+    let mut report = |time: f64| progress.reach(((time - begin) / (until - begin) * PARTS) as u64);
+    lyapunov(space, method, state, until, &mut report).map_err(|why| why.to_string())
 }
 
 /// The time followed at first.

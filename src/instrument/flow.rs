@@ -233,15 +233,16 @@ fn follow(
     let exact = method_named(EXACT).filter(|exact| is_hamiltonian && exact.name != method.name);
     let share = if exact.is_some() { 0.5 } else { 1.0 };
     let part = |time: f64| share * ((time - begin) / (end - begin)).min(1.0) * PARTS;
-    let mut look = |time: f64| progress.reach(part(time) as u64);
-    let own = flow_course(space, (method, settings), state, &times, &mut look);
+    let mut report = |time: f64| progress.reach(part(time) as u64);
+    let own = flow_course(space, (method, settings), state, &times, &mut report);
     let (own, fault) = own.map_err(|why| why.to_string())?;
     let mut failures: Vec<(f64, String)> =
         fault.into_iter().map(|fault| (fault.time, fault.to_string())).collect();
-    let mut look = |time: f64| progress.reach((part(time) + share * PARTS) as u64);
+    let mut report = |time: f64| progress.reach((part(time) + share * PARTS) as u64);
     let exact = exact.and_then(|exact| {
         let settings = Settings { step: None, tolerance: None };
-        let (found, fault) = match flow_course(space, (exact, settings), state, &times, &mut look) {
+        let (found, fault) = match flow_course(space, (exact, settings), state, &times, &mut report)
+        {
             Ok((found, fault)) => (Some(found), fault.map(|fault| (fault.time, fault.to_string()))),
             Err(why) => (None, Some((begin, why.to_string()))),
         };

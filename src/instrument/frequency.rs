@@ -57,9 +57,9 @@ impl VariedMotions {
             let seen = flow.carry(&state, times, &[channel]).seen;
             seen.iter().map(|row| row[0]).collect()
         };
-        let mut look = |_| !system.cancel().is_cancelled();
+        let mut report = |_| !system.cancel().is_cancelled();
         let sampled =
-            sampled_spectrum(&request, &mut sample, &mut look).map_err(|why| match why {
+            sampled_spectrum(&request, &mut sample, &mut report).map_err(|why| match why {
                 NoSpectrum::Ends(time) => {
                     format!("the motion ends before t = {}", significant(time, 4, 1e-3..1e5))
                 }

@@ -21,7 +21,7 @@ const NOW: Level = 3;
 /// Points of the curve.
 const POINTS: usize = 241;
 
-/// The places at which the range of the vertical axis is looked up, but for one.
+/// The places at which the range of the vertical axis is evaluated, but for one.
 const PLACES: usize = 16;
 
 /// The range, as a multiple of what the motion has reached.

@@ -98,7 +98,7 @@ impl CoordinateState {
 /// What was found along a motion, of the system frozen at each instant.
 #[derive(Clone)]
 pub(super) struct FrozenCourse<M> {
-    /// The last state that was looked at.
+    /// The last state that was observed.
     pub(super) state: CoordinateState,
     pub(super) frozen: Result<Arc<FrozenSystem>, String>,
     /// What was found at the instants, in their order.

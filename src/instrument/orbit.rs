@@ -236,11 +236,11 @@ fn character(
     progress: &Progress,
 ) -> String {
     let Ok((space, state)) = beginning(physics, of) else { return error.to_string() };
-    let mut look = |done, all| {
+    let mut report = |done, all| {
         progress.expect(all);
         progress.reach(done);
     };
-    explained(error.clone(), &space, method, &state, &mut look).to_string()
+    explained(error.clone(), &space, method, &state, &mut report).to_string()
 }
 
 /// Closes the orbit near a start, and follows it once around.
@@ -251,12 +251,12 @@ fn close(
     (channels, progress): ([usize; 2], &Progress),
 ) -> Result<Described, DynamicsError> {
     let (system, parameters) = (physics.system, &start.parameters);
-    let look = |done, all| {
+    let report = |done, all| {
         progress.expect(all);
         progress.reach(done);
     };
     let ClosedOrbit { space, orbit, .. } =
-        closed_orbit(physics, method, (start, conditions), &look)?;
+        closed_orbit(physics, method, (start, conditions), &report)?;
     let flow = SystemFlow {
         system: System::clone(system),
         method: (method.0, orbit.settings),

@@ -34,7 +34,7 @@ pub struct Present<'a> {
     pub running: bool,
     /// The time up to which everything is known that is carried along beside the motion, such as a cloud; at most the time.
     pub carried: f64,
-    /// What of the law was changed last, and the state from which the motion went on, if it was since the start.
+    /// What of the law was changed last, and the state from which the motion continued, if it was since the start.
     pub changed: Option<(&'a str, &'a Arc<State>)>,
     /// The parameters.
     pub parameters: &'a [f64],

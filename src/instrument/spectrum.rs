@@ -165,7 +165,7 @@ impl Instrument for SpectrumPlot {
             let start = conditions.state(&system, begin).map_err(|fault| fault.to_string());
             let outcome = start.and_then(|start| {
                 progress.expect(MOST as u64);
-                let mut look = |count: usize| {
+                let mut report = |count: usize| {
                     progress.reach(count as u64);
                     !progress.is_cancelled()
                 };
@@ -173,7 +173,7 @@ impl Instrument for SpectrumPlot {
                     let seen = flow.carry(&start, times, &[channel]).seen;
                     seen.iter().map(|row| row[0]).collect()
                 };
-                let sampled = sampled_spectrum(&request, &mut sample, &mut look);
+                let sampled = sampled_spectrum(&request, &mut sample, &mut report);
                 let sampled = sampled.map_err(|why| match why {
                     NoSpectrum::Ends(time) => {
                         let time = significant(time, 4, 1e-3..1e5);

@@ -54,7 +54,7 @@ pub(super) trait Scheme: Clone + Send {
     fn begin_near(&mut self, _native: &State) {}
 
     /// Continues from the last solution of another scheme, which is at the same state.
-    fn go_on_from(&mut self, _other: &Self) {}
+    fn continue_from(&mut self, _other: &Self) {}
 
     /// How it amplifies modes; `None` if every step is stable.
     fn modes(&self) -> Option<Modes<'_>> {
@@ -309,7 +309,7 @@ impl<S: Scheme> DenseOutput for FixedStep<S> {
             return Ok(());
         }
         self.aside.forget();
-        self.aside.go_on_from(&self.scheme);
+        self.aside.continue_from(&self.scheme);
         let step = DoubleDouble::written(time) - self.before.exact_time();
         self.aside.advance(step.high, out)?;
         (out.time, out.time_carry) = (time, 0.0);

@@ -272,8 +272,8 @@ impl Scheme for Implicit {
         self.rates.begin_near(native);
     }
 
-    fn go_on_from(&mut self, other: &Implicit) {
-        self.rates.go_on_from(&other.rates);
+    fn continue_from(&mut self, other: &Implicit) {
+        self.rates.continue_from(&other.rates);
     }
 
     fn rates(&mut self, time: f64, numbers: &[f64], out: &mut [f64]) -> Result<(), MotionError> {

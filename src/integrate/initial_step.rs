@@ -11,7 +11,7 @@ use crate::system::{Side, State, System};
 /// The tolerance of the series that runs ahead; its steps are then near an eighth of a period.
 const TOLERANCE: f64 = 1e-9;
 
-/// The number of steps it looks ahead.
+/// The number of steps that it considers ahead.
 const AHEAD: usize = 48;
 
 /// The number of steps at the default tolerance, which is tighter.

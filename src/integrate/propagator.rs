@@ -166,7 +166,7 @@ impl Propagator {
     ///
     /// # Errors
     /// Returns an error if the motion cannot continue from there.
-    pub fn go_on(&mut self, state: &State, parameters: &[f64]) -> Result<(), MotionError> {
+    pub fn continue_from(&mut self, state: &State, parameters: &[f64]) -> Result<(), MotionError> {
         if parameters != self.parameters {
             self.system.check_intervals(parameters, state.time)?;
             self.parameters = parameters.to_vec();

@@ -20,12 +20,12 @@ pub trait Follower {
     /// Puts an orbit into a lane.
     fn begin(&mut self, orbit: usize, lane: usize, batch: &mut BatchPropagator) -> OrbitCourse;
 
-    /// The time up to which an orbit that is under way need not be looked at.
+    /// The time up to which an orbit that is under way need not be observed.
     fn next_observation(&self, _orbit: usize) -> f64 {
         f64::NEG_INFINITY
     }
 
-    /// Looks at all lanes after a step, before each orbit is looked at by itself.
+    /// Observes all lanes after a step, before each orbit is observed by itself.
     fn observe_all(&mut self, _batch: &BatchPropagator) {}
 
     /// Looks at an orbit after a step.

@@ -21,7 +21,7 @@ use crate::expr::{Expr, Pool, Symbol};
 use crate::model::{Model, Transformation, TransformationLaw};
 use crate::num::Number;
 
-/// The points at which a written solution has to hold, and the points looked at for them.
+/// The points at which a written solution has to hold, and the points tried for them.
 pub(super) const WITNESSES: usize = 8;
 const LOOKED_AT: u64 = 64;
 

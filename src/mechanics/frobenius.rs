@@ -5,7 +5,7 @@
 //! are given between the coordinates.
 //!
 //! The forms ω_β = Σ A_βα dq_α + A_β0 dt are holonomic together iff dω_β ∧ ω_1 ∧ … ∧ ω_m = 0 for each β. Of those for
-//! which it fails, none is holonomic; the others are looked at again without them.
+//! which it fails, none is holonomic; the others are examined again without them.
 //! Source: V. I. Arnold, *Mathematical Methods of Classical Mechanics*, appendix 4; Ju. I. Neimark and N. A. Fufaev,
 //! *Dynamics of Nonholonomic Systems*, ch. I.
 
@@ -17,7 +17,7 @@ use super::potential::potential;
 use super::structure::Holonomy;
 use crate::expr::{Expr, Pool, Symbol, Zero};
 
-/// More components than this of a product of forms are not looked at.
+/// More components than this of a product of forms are not examined.
 const MOST_COMPONENTS: usize = 3_000;
 
 /// A form of some degree: its components by their ascending variables.

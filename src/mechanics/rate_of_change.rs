@@ -1,7 +1,7 @@
 //! The rate of change of an observable along the motion, and whether it vanishes.
 //!
 //! In: an observable. Out: its rate as a function of the state, whether it is conserved, whether it may jump. Never here:
-//! which observables are looked at.
+//! which observables are evaluated.
 //! Source: *The Principles of Dynamics*, §§ 1.4.2, 3.2.3.
 
 use std::collections::HashMap;

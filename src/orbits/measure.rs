@@ -17,13 +17,13 @@ pub struct OrbitMeasure {
     pub name: &'static str,
     /// What it is, in a sentence.
     pub about: &'static str,
-    /// The expression whose zeros it looks at.
+    /// The expression whose zeros it locates.
     pub of: Zeros,
     /// Measures orbits, several of them side by side where that is possible; `None` for one that was cancelled.
     pub measure: fn(&MeasuredOrbits<'_>) -> Vec<Option<f64>>,
 }
 
-/// The expression whose rising zeros a measure looks at.
+/// The expression whose rising zeros a measure locates.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Zeros {
     /// One that the user gives.

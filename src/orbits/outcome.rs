@@ -2,7 +2,7 @@
 //!
 //! In: a system, a start, an end in time. Out: the values of all columns there, those that a run of the same start has, and
 //! the drift of the energy on the way. Orbits that need nothing but steps are followed side by side, the others each as
-//! an experiment; which of the two depends on the orbit alone, and where the gauges look on the system alone. Never here:
+//! an experiment; which of the two depends on the orbit alone, and at which states the gauges are evaluated on the system alone. Never here:
 //! rows on the way, files.
 
 use std::sync::Arc;
@@ -68,7 +68,7 @@ fn unbounded<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
     Ok(Option::deserialize(from)?.unwrap_or(f64::INFINITY))
 }
 
-/// The steps between two looks at the token.
+/// The steps between two checks of the token.
 const STEPS_PER_CHECK: u64 = 256;
 
 /// The number of accurate observations of the gauges, besides those after every step.

@@ -253,7 +253,9 @@ impl Lesson {
 
     pub(super) fn find(&self, claim: &Assert) -> Result<AssertionResult, Diagnostic> {
         let screen = match claim {
-            Assert::Screen(_) => rows(&self.runner.picture(&self.runner.script.head.look())),
+            Assert::Screen(_) => {
+                rows(&self.runner.picture(&self.runner.script.head.render_style()))
+            }
             _ => Vec::new(),
         };
         self.runner.find(claim, &screen)
@@ -394,7 +396,7 @@ impl Lesson {
     }
 
     /// Continues from what was said.
-    pub(super) fn go_on(&mut self) {
+    pub(super) fn proceed(&mut self) {
         if let Some(view) = self.view.take() {
             view.look_back(&mut self.runner.lab);
         }
@@ -428,7 +430,7 @@ impl Lesson {
             _ => {}
         }
         self.said.clear();
-        self.go_on();
+        self.proceed();
     }
 }
 

@@ -43,10 +43,10 @@ impl Lesson {
         if reads && self.looks_around(key) {
             return Pressed::Taken;
         }
-        let goes_on = matches!(key.code, KeyCode::Enter | KeyCode::Char(' ') | KeyCode::F(9));
+        let continues = matches!(key.code, KeyCode::Enter | KeyCode::Char(' ') | KeyCode::F(9));
         match &mut self.stage {
-            LessonStage::Said if goes_on => self.go_on(),
-            LessonStage::Ended if goes_on => return Pressed::Leave,
+            LessonStage::Said if continues => self.proceed(),
+            LessonStage::Ended if continues => return Pressed::Leave,
             LessonStage::Playing | LessonStage::Said | LessonStage::Ended => {
                 self.notice = Some(nothing);
             }
@@ -95,14 +95,14 @@ impl Lesson {
                     self.notice = Some(nothing);
                 }
             }
-            LessonStage::Free if key.code == KeyCode::F(9) => self.go_on(),
+            LessonStage::Free if key.code == KeyCode::F(9) => self.proceed(),
             LessonStage::Task { hinted, hint, .. } if key.code == KeyCode::F(9) => {
                 match hint.take().filter(|_| !*hinted) {
                     Some(hint) => {
                         *hinted = true;
                         self.said.push(paragraph(ParagraphKind::Quiet, hint));
                     }
-                    None => self.go_on(),
+                    None => self.proceed(),
                 }
             }
             LessonStage::Task { .. } | LessonStage::Free => {

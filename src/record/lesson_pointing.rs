@@ -112,7 +112,7 @@ impl Lesson {
 impl ScriptRunner {
     /// The coordinates of the cursor of the focused plot, as it stands after the last key.
     fn reading(&mut self) -> Option<[f64; 2]> {
-        let look = self.script.head.look();
+        let look = self.script.head.render_style();
         let area = Rect::from(self.size);
         let mut buffer = Buffer::empty(area);
         let drawn = self.paint(&mut Painter::default(), &look, area, &mut buffer);

@@ -133,7 +133,7 @@ pub fn play_while(
     let mut take = Take {
         performance: performance.map_err(alone)?,
         screen: Frames::new(false).map_err(|why| alone(unwritten(&why)))?,
-        look: script.head.look(),
+        look: script.head.render_style(),
         area,
         events: Vec::new(),
         markers: Vec::new(),

@@ -83,7 +83,7 @@ impl Default for ScriptHeader {
 
 impl ScriptHeader {
     /// The render style, which depends on the script alone and not on the environment.
-    pub fn look(&self) -> RenderStyle {
+    pub fn render_style(&self) -> RenderStyle {
         let theme = Theme::named(self.theme, self.colour);
         RenderStyle {
             theme: theme.unwrap_or_else(|| Theme::dark(self.colour)),
@@ -340,7 +340,7 @@ const MOST_ERRORS: usize = 100;
 
 impl ScriptReading {
     /// Reads the lines of a text for as long as a condition holds.
-    fn of(document: &Document, goes_on: impl Fn(&Self) -> bool) -> Result<Self, Vec<Diagnostic>> {
+    fn of(document: &Document, continues: impl Fn(&Self) -> bool) -> Result<Self, Vec<Diagnostic>> {
         if let Some(diagnostic) = document.unreadable() {
             return Err(vec![diagnostic.clone()]);
         }
@@ -350,7 +350,7 @@ impl ScriptReading {
         for text in text.split('\n') {
             reading.line(text.strip_suffix('\r').unwrap_or(text), start);
             start += text.len() + 1;
-            if !goes_on(&reading) {
+            if !continues(&reading) {
                 break;
             }
         }

@@ -124,7 +124,7 @@ impl ScriptRunner {
     ///
     /// # Errors
     /// Returns an error of the script that only its system reveals.
-    pub fn go_on(&mut self, time: Micros) -> Result<bool, Diagnostic> {
+    pub fn continue_to(&mut self, time: Micros) -> Result<bool, Diagnostic> {
         while !self.begun || self.lab.clock.next() <= time {
             match self.next_event()? {
                 RunnerEvent::Overlay => return Ok(false),

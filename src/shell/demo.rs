@@ -71,7 +71,7 @@ impl Screen for Demo {
         }
         self.time += elapsed.min(LONGEST);
         let before = self.performance.now();
-        match self.performance.go_on(self.time.as_micros() as u64) {
+        match self.performance.continue_to(self.time.as_micros() as u64) {
             Ok(true) => {}
             Ok(false) => self.end = Some(Ok(())),
             Err(diagnostic) => self.end = Some(Err(diagnostic)),

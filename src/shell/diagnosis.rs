@@ -51,7 +51,7 @@ pub fn diagnosis(variables: Variables<'_>, size: Option<(u16, u16)>) -> Vec<Doct
     };
     let theme_of = |variables: Variables<'_>| {
         let request = Request::default();
-        let name = request.look(variables).theme.palette().name;
+        let name = request.render_style(variables).theme.palette().name;
         (name, request.pace(variables).asks.background)
     };
     let theme = match theme_of(variables) {

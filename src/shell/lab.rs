@@ -59,7 +59,7 @@ pub fn run(request: &Request) -> Result<Ending, LabError> {
         info!("nothing to continue: {why}");
     }
     let pace = request.pace(&variable);
-    let mut session = Session::new(catalog, &request, request.look(&variable), pace)?;
+    let mut session = Session::new(catalog, &request, request.render_style(&variable), pace)?;
     session.keep_in(Store::open(), request.open.as_deref());
     if let Some(saved) = saved {
         session.resume(saved);
@@ -102,7 +102,7 @@ pub fn show(cast: RecordedCast, request: &Request) -> Result<Ending, LabError> {
     let variable = |name: &str| std::env::var(name).ok();
     // Nothing in a cast can be clicked, and its text can be selected.
     let pace = FramePace { mouse: false, ..request.pace(&variable) };
-    perform(&mut CastPlayer::new(cast, request.look(&variable)), pace)
+    perform(&mut CastPlayer::new(cast, request.render_style(&variable)), pace)
 }
 
 /// Shows a cast on the terminal while it is being recorded, from its first frame on, until the user leaves it. `begin` begins
@@ -117,7 +117,7 @@ pub fn show_ahead(
     TerminalError::check()?;
     let variable = |name: &str| std::env::var(name).ok();
     let pace = FramePace { mouse: false, ..request.pace(&variable) };
-    let mut player = CastPlayer::following(begin(), request.look(&variable));
+    let mut player = CastPlayer::following(begin(), request.render_style(&variable));
     let ending = perform(&mut player, pace)?;
     Ok((ending, player.recorded()))
 }
@@ -133,7 +133,7 @@ pub fn perform_demo(
 ) -> Result<(Ending, Result<Option<String>, Diagnostic>), LabError> {
     TerminalError::check()?;
     let variable = |name: &str| std::env::var(name).ok();
-    let look = request.look(&variable);
+    let look = request.render_style(&variable);
     let palette = look.theme.palette();
     let mut demo = Demo::new(performance, look);
     let pace = FramePace { mouse: false, ..request.pace(&variable) };
@@ -152,7 +152,7 @@ pub fn take_lesson(
 ) -> Result<(Ending, Result<(), Diagnostic>), LabError> {
     TerminalError::check()?;
     let variable = |name: &str| std::env::var(name).ok();
-    let mut screen = LessonScreen::new(lesson, request.look(&variable));
+    let mut screen = LessonScreen::new(lesson, request.render_style(&variable));
     let ending = perform(&mut screen, request.pace(&variable))?;
     Ok((ending, screen.outcome().1))
 }

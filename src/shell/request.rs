@@ -79,7 +79,7 @@ impl Request {
     }
 
     /// Returns the render style; `variable` reads the environment.
-    pub(super) fn look(&self, variable: &dyn Fn(&str) -> Option<String>) -> RenderStyle {
+    pub(super) fn render_style(&self, variable: &dyn Fn(&str) -> Option<String>) -> RenderStyle {
         let depth = self.colour.unwrap_or_else(|| ColourDepth::from_environment(variable));
         let glyphs = self.glyphs.unwrap_or_else(|| Glyphs::from_environment(variable));
         let named = self.theme.as_deref().and_then(|name| Theme::named(name, depth));
@@ -153,7 +153,8 @@ mod tests {
         for (asked, frames) in [(None, 4), (Some(60), 4), (Some(2), 2)] {
             assert_eq!(request(asked).pace(&|_| None).frames, frames);
         }
-        let look = request(None).look(&|name| (name == "TERM").then(|| "xterm-direct".to_owned()));
+        let look =
+            request(None).render_style(&|name| (name == "TERM").then(|| "xterm-direct".to_owned()));
         assert_eq!(look.theme.trail(0).len(), 1);
         assert_eq!(look.reduced(crate::view::Detail::default()).theme.trail(0).len(), 1);
     }
@@ -162,7 +163,8 @@ mod tests {
     fn the_theme_is_the_one_asked_for_or_suits_the_terminal() {
         let theme = |asked: Option<&str>, colours: &str| {
             let request = Request { theme: asked.map(str::to_owned), ..Request::default() };
-            let look = request.look(&|name| (name == "COLORFGBG").then(|| colours.to_owned()));
+            let look =
+                request.render_style(&|name| (name == "COLORFGBG").then(|| colours.to_owned()));
             look.theme.palette().name
         };
         assert_eq!(theme(None, ""), "dark");
@@ -200,14 +202,14 @@ mod tests {
             "NO_COLOR" => Some("1".to_owned()),
             _ => None,
         };
-        let look = Request::default().look(&variable);
+        let look = Request::default().render_style(&variable);
         assert_eq!((look.theme.depth(), look.glyphs), (ColourDepth::None, Glyphs::Ascii));
         let asked = Request {
             colour: Some(ColourDepth::True),
             glyphs: Some(Glyphs::HalfBlock),
             ..Request::default()
         };
-        let look = asked.look(&variable);
+        let look = asked.render_style(&variable);
         assert_eq!((look.theme.depth(), look.glyphs), (ColourDepth::True, Glyphs::HalfBlock));
     }
 }

@@ -86,7 +86,7 @@ impl Conditions {
     }
 
     /// Takes the levels of what the constraints on the velocities keep constant from where the
-    /// constraints were looked at last.
+    /// constraints were evaluated last.
     pub(super) fn take_levels(&mut self) {
         for k in (0..self.count).filter(|&k| self.integrated[k]) {
             self.levels[k] = Some(self.output(k, self.degrees + 1));
@@ -101,7 +101,7 @@ impl Conditions {
         }
     }
 
-    /// Takes the turns of angles from where the constraints were looked at last, a state that satisfies them.
+    /// Takes the turns of angles from where the constraints were evaluated last, a state that satisfies them.
     pub(super) fn take_turns(&mut self) {
         for k in 0..self.count {
             self.jumped[k] = self.jumps(k);

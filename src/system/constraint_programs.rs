@@ -90,7 +90,7 @@ fn integral(builder: &mut ProgramBuilder<'_>, k: usize) -> Option<(Expr, Expr)> 
 
 /// By how much an f jumps where angles of points in it begin new turns: the greatest number of which the jumps of all are
 /// multiples. Zero where there is no angle, or no such number that tells a turn from a residual ([`MOST_PARTS`]): then the jump
-/// of each angle, if there are not too many. There the motion goes on, since the slopes of f do.
+/// of each angle, if there are not too many. There the motion continues, since the slopes of f are continuous.
 fn turn(builder: &mut ProgramBuilder<'_>, f: Expr) -> (Expr, Vec<Expr>) {
     let equations = builder.equations;
     let pool = &mut builder.pool;

@@ -19,7 +19,7 @@ use crate::num::{
     DoubleDouble, all_finite, cosine_of_arctangent, cosine_of_half, math, square_root,
 };
 
-/// The most times ahead from which functions are looked at whose last terms show nothing.
+/// The most times ahead from which functions are evaluated whose last terms show nothing.
 const MOST_LOOKS: u32 = 100;
 
 /// The series of the functions, up to one order.
@@ -27,7 +27,7 @@ const MOST_LOOKS: u32 = 100;
 pub(super) struct Expansion {
     system: System,
     jet: Jet<f64>,
-    /// The roots in the functions, whose series go on to another branch where they pass zero.
+    /// The roots in the functions, whose series continue on another branch where they pass zero.
     guards: Vec<Guard>,
     /// The number of outputs that are functions of events; the others are arguments.
     functions: usize,
@@ -171,7 +171,7 @@ impl Expansion {
         self.jet.switches() == 0
             && !self.has_branches()
             && self.about(series, 0.0)
-            && !self.may_go_on(time)
+            && !self.may_continue(time)
             && signs.iter().enumerate().all(|(i, &sign)| keeps(self.function(i), sign))
             && arguments.into_iter().all(|i| stays(self.jet.output_series(i), time))
     }
@@ -226,9 +226,9 @@ impl Expansion {
         self.degree.is_some_and(|degree| degree.saturating_mul(self.taken_degree) <= self.order())
     }
 
-    /// Whether the last terms of a series at a time show nothing of how its function goes on: the next term of cos t⁴ at 0
+    /// Whether the last terms of a series at a time show nothing of how its function continues: the next term of cos t⁴ at 0
     /// comes eight orders after the last.
-    fn may_go_on(&self, time: f64) -> bool {
+    fn may_continue(&self, time: f64) -> bool {
         let functions = (0..self.functions).map(|i| self.function(i));
         !self.is_whole()
             && functions
@@ -238,7 +238,7 @@ impl Expansion {
     }
 
     /// Expands the functions about a time `x` after the origin of the motion's series, in its unit, and returns how far
-    /// the series represent them up to a part `cut_off` of them, looked at no farther than `whole`; a NaN if there are
+    /// the series represent them up to a part `cut_off` of them, followed no farther than `whole`; a NaN if there are
     /// none.
     pub(super) fn expand(
         &mut self,
@@ -253,7 +253,7 @@ impl Expansion {
             return whole;
         }
         let reach = self.reach(cut_off, whole);
-        if !self.may_go_on(reach) {
+        if !self.may_continue(reach) {
             return reach;
         }
         // the last terms show nothing here, but those about a time ahead do, if they also hold back to here; the same
@@ -273,7 +273,7 @@ impl Expansion {
     }
 
     /// How far the series represent their functions up to a part `cut_off` of them, in their unit,
-    /// looked at no farther than `whole`.
+    /// followed no farther than `whole`.
     fn reach(&self, cut_off: f64, whole: f64) -> f64 {
         // mostly they do so all the way, which takes no root to see
         let (functions, arguments) = (0..self.functions, self.functions..self.outputs);

@@ -1,4 +1,4 @@
-//! The logarithms of a law, whose rates of change go on where they have no value.
+//! The logarithms of a law, whose rates of change are defined where they have no value.
 //!
 //! In: states. Out: whether every logarithm of the energy has a positive argument. The derivative of ln u, u'/u, is
 //! finite below zero too, so that a step of any method may end there. Other functions have no derivative where they

@@ -143,7 +143,7 @@ impl Rates {
     }
 
     /// Continues from the velocities that `other` found last.
-    pub fn go_on_from(&mut self, other: &Rates) {
+    pub fn continue_from(&mut self, other: &Rates) {
         if let (Some(own), Some(other)) = (&mut self.solver, &other.solver) {
             own.native.clone_from(&other.native);
             own.under_way = other.under_way;

@@ -51,10 +51,10 @@ impl Case {
     /// The state at `time`, in the form of the start.
     fn run(&self, method: &Method, step: f64, time: f64) -> State {
         let mut stepper = self.stepper(method, step);
-        self.go_on(stepper.as_mut(), time)
+        self.continue_to(stepper.as_mut(), time)
     }
 
-    fn go_on(&self, stepper: &mut dyn Stepper, time: f64) -> State {
+    fn continue_to(&self, stepper: &mut dyn Stepper, time: f64) -> State {
         let forwards = time > stepper.time();
         while stepper.time() != time && (stepper.time() < time) == forwards {
             stepper.step(time).expect("goes on");

@@ -10,7 +10,7 @@ use crate::system::{ChannelKind, Form, InitialOverride, MotionError};
 /// Secants to a momentum of rest.
 const SECANTS: usize = 30;
 
-/// How far beside a momentum of rest the velocities are looked at: of that momentum, and beside zero.
+/// How far beside a momentum of rest the velocities are evaluated: of that momentum, and beside zero.
 const BESIDE: f64 = 1e-4;
 const BESIDE_ZERO: f64 = 1e-6;
 

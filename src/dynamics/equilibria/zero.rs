@@ -46,7 +46,7 @@ const ABOVE_NOISE: f64 = 64.0;
 
 impl EquilibriumSearch<'_> {
     /// The place at which the rates vanish that is reached from one near it, without a step along the `held` directions, which are
-    /// orthonormal. `None` where the rates do not vanish, or go on shrinking without a zero, as in the tail of V = exp(−x²).
+    /// orthonormal. `None` where the rates do not vanish, or keep shrinking without a zero, as in the tail of V = exp(−x²).
     pub(super) fn approached(
         &mut self,
         from: &DVector<f64>,

@@ -1,4 +1,4 @@
-//! An observed motion advanced: its steps, with the gauges and the step log looking at each.
+//! An observed motion advanced: its steps, with the gauges and the step log observing each.
 //!
 //! In: a time, a budget of steps. Out: what was reached. Never here: rows.
 
@@ -8,7 +8,7 @@ use super::{EQUAL_STEPS, ObservedMotion, mark_lost};
 use crate::integrate::{OccurrenceKind, Reached, Stepping};
 use crate::system::MotionError;
 
-/// A method whose dense output is as accurate as its steps is looked at inside one of so many steps.
+/// A method whose dense output is as accurate as its steps is observed inside one of so many steps.
 const LOOKED_INSIDE: u64 = 4;
 
 impl ObservedMotion {
@@ -48,7 +48,7 @@ impl ObservedMotion {
         }
     }
 
-    /// Takes several steps at once until `time` is reached or passed, where nobody looks between them but the gauges,
+    /// Takes several steps at once until `time` is reached or passed, where nothing observes between them but the gauges,
     /// which see the end of each. Returns their number.
     fn several_steps(&mut self, time: f64, budget: u64, gauges: &mut Gauges, spacing: f64) -> u64 {
         if self.inner.method().stepping != Stepping::Fixed {

@@ -31,7 +31,7 @@ const FIRST_FRAMES: usize = 4;
 /// collision, or to infinity in a finite time, that it takes more would hold up all others, and is given up.
 const EFFORT: f64 = 1000.0;
 
-/// The states of a cloud that are looked at for the rate at which areas shrink.
+/// The states of a cloud that are evaluated for the rate at which areas shrink.
 const PROBES: usize = 16;
 
 /// A cloud under way.

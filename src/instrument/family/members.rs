@@ -44,7 +44,7 @@ pub(super) struct FollowedFamily {
     /// The channel whose greatest value on each orbit is taken.
     pub(super) channel: usize,
     pub(super) members: Vec<FamilyMember>,
-    /// Why it does not go on, at either end.
+    /// Why it cannot be continued, at either end.
     pub(super) ended: Vec<String>,
     /// Whether each orbit is the only one beside it of its value.
     pub(super) isolated: bool,
@@ -141,7 +141,7 @@ pub(super) fn follow_on(
 ) -> Result<FollowedFamily, String> {
     progress.expect(PARTS);
     progress.reach(CLOSING);
-    let look = |part: f64| progress.reach(CLOSING + ((PARTS - CLOSING) as f64 * part) as u64);
+    let report = |part: f64| progress.reach(CLOSING + ((PARTS - CLOSING) as f64 * part) as u64);
     let mut way = known.way.clone().ok_or("there is no more to follow")?;
     let space = way.space.with_cancel(progress.token());
     let along = parameter.map_or(Along::Energy, Along::Parameter);
@@ -156,7 +156,7 @@ pub(super) fn follow_on(
     } else {
         (Fixed::Period(way.course.orbit().period), Some(&drive as DrivePeriod<'_>))
     };
-    let asked = (&values[..], &look as &dyn Fn(f64));
+    let asked = (&values[..], &report as &dyn Fn(f64));
     let followed = way.course.follow(&space, method, (along, fixed, drive), asked, way.steps);
     followed.map_err(|why| why.to_string())?;
     way.steps = (2 * way.steps).min(MOST_STEPS);

@@ -29,7 +29,7 @@ impl DormandPrince {
     }
 
     /// Whether the attempted step is as short as a step can be and a kink lies within it. No shorter one would have less
-    /// of an error relative to a number that was zero before the kink. Before the first step no size is known to go on with.
+    /// of an error relative to a number that was zero before the kink. Before the first step no size is known to continue with.
     /// Returns an error if the motion follows the kink.
     pub(super) fn passes_kink(&mut self, step: f64) -> Result<bool, MotionError> {
         let begins = self.longest == 0.0;

@@ -28,7 +28,7 @@ impl Propagator {
         self.reach_unexplained(time, limit, budget).map_err(|fault| self.explained(fault))
     }
 
-    /// The same, but an error is not looked into: what could pass it takes more than most motions to find out, and of
+    /// The same, but the cause of an error is not searched for: what could pass it takes more than most motions to find out, and of
     /// many orbits nobody reads it.
     ///
     /// # Errors
@@ -100,7 +100,7 @@ impl Propagator {
     }
 
     /// Takes the next step after an impulse, which shows what else happens at its time: the state there is that after all of it.
-    /// A step that cannot be taken shows nothing, and is an error once the motion is to go on.
+    /// A step that cannot be taken shows nothing, and is an error once the motion is to be continued.
     fn settle(&mut self, limit: f64) -> Result<(), MotionError> {
         self.unsettled = false;
         if self.stepper.time() <= self.clear && self.step(limit).is_err() {
@@ -121,7 +121,7 @@ impl Propagator {
             && self.impulse_schedule.is_empty()
     }
 
-    /// Takes the steps to a time that nobody looks between.
+    /// Takes the steps to a time, between which nothing is observed.
     fn several_steps(
         &mut self,
         time: f64,
@@ -158,7 +158,7 @@ impl Propagator {
         if self.impulse_schedule.stands_still(before.high) {
             return Err(no_digits_left(before.high));
         }
-        // only a motion that goes on from the end of a step has been there: an event may lie before
+        // only a motion that is continued from the end of a step has been there: an event may lie before
         if !self.energy_has_a_value(true) {
             return Err(self.left_domain(self.state.time));
         }

@@ -11,7 +11,7 @@ use crate::system::{Form, MotionError, MotionErrorKind};
 /// are reversed within such a part of a step jump there: they turn at no rate that the step would resolve.
 const HALVINGS: u32 = 20;
 
-/// A motion continues where it goes on for this part of the time since its last regular step.
+/// A motion is continued if it can be followed for this part of the time since its last regular step.
 const BEYOND: f64 = 0.05;
 
 impl Propagator {

@@ -1,6 +1,6 @@
 //! Impulses at events that stop the motion and do not hold it: a ball whose restitution is 0 falls through its floor.
 //!
-//! In: such events. Out: the first after which the motion went on to the other side. Never here: how they are seen (`passed_event_watch`).
+//! In: such events. Out: the first after which the motion continued to the other side. Never here: how they are seen (`passed_event_watch`).
 
 /// An event whose impulse stopped the motion towards its other side.
 #[derive(Clone, Copy, Debug)]
@@ -16,6 +16,6 @@ pub(super) struct StoppedEvent {
 pub(super) struct PassedEvents {
     /// The last one, until a step has shown to which side it leads.
     pub(super) open: Option<StoppedEvent>,
-    /// The first after which the motion went on to the other side.
+    /// The first after which the motion continued to the other side.
     pub(super) first: Option<StoppedEvent>,
 }

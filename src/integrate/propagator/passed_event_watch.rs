@@ -14,7 +14,7 @@ const STOPPED: f64 = 1e-6;
 const DISPLACED: f64 = 1e-6;
 
 impl Propagator {
-    /// The name of the event whose impulse was the first to stop the motion towards a side to which it went on all the same, and the time.
+    /// The name of the event whose impulse was the first to stop the motion towards a side to which it continued all the same, and the time.
     pub fn passed_event(&self) -> Option<(&str, f64)> {
         let passed = self.passed.first?;
         let event = self.system.discontinuities().events.get(passed.event)?;

@@ -82,7 +82,7 @@ fn dop853_follows_its_tolerance() {
         let error = |tolerance: f64| {
             let settings = Settings { step: None, tolerance: Some(tolerance) };
             let mut stepper = case.stepper_with(named("dop853"), settings);
-            distance(&case.go_on(stepper.as_mut(), 3.0), &exact) / size
+            distance(&case.continue_to(stepper.as_mut(), 3.0), &exact) / size
         };
         for tolerance in [1e-5, 1e-7, 1e-9, 1e-11] {
             let error = error(tolerance);

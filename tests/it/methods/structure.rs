@@ -72,9 +72,9 @@ fn symmetric_methods_find_the_way_back() {
     for case in [pendulum(), driven(), double_pendulum(), entangled()] {
         for method in fixed().filter(|method| (method.fits)(&case.system).is_ok()) {
             let mut stepper = case.stepper(method, 0.1);
-            case.go_on(stepper.as_mut(), 5.0);
+            case.continue_to(stepper.as_mut(), 5.0);
             assert_eq!(stepper.time(), 5.0);
-            let back = case.go_on(stepper.as_mut(), 0.0);
+            let back = case.continue_to(stepper.as_mut(), 0.0);
             assert_eq!(stepper.time(), 0.0);
             let error = distance(&back, &case.start);
             match method.preserves {
@@ -172,7 +172,7 @@ fn a_state_of_either_form_is_a_start() {
             .map(|start| {
                 let mut stepper = case.stepper(named(name), 0.01);
                 stepper.start(start, &case.parameters).expect("starts");
-                case.go_on(stepper.as_mut(), 1.0)
+                case.continue_to(stepper.as_mut(), 1.0)
             })
             .to_vec();
         assert!(distance(&ends[0], &ends[1]) < 1e-13, "{name}");

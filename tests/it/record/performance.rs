@@ -15,7 +15,7 @@ const SCRIPT: &str = "Size 90x28\nCaption \"It swings\"\nPress Down x2\nSweep g 
 fn performance(text: &str) -> (ScriptRunner, RenderStyle) {
     let system = Catalog::with_folder(None).find("pendulum").expect("a preset");
     let script = script(text);
-    let look = script.head.look();
+    let look = script.head.render_style();
     (ScriptRunner::watched(script, &system, "pendulum").expect("it can be opened"), look)
 }
 
@@ -28,7 +28,7 @@ fn watched(
     let mut screen = Buffer::empty(Rect::new(0, 0, 90, 28));
     let mut more = true;
     for time in times {
-        more = it.go_on(time).expect("no errors");
+        more = it.continue_to(time).expect("no errors");
         screen.reset();
         it.draw(look, screen.area, &mut screen);
     }
@@ -57,7 +57,7 @@ fn captions_are_broken_where_the_screen_is_narrow() {
     let long =
         "The separatrix leads to the top and never arrives; a little faster, and it goes over";
     let (mut it, look) = performance(&format!("Size 110x30\nCaption \"{long}\"\nWait 1s"));
-    it.go_on(0).expect("no errors");
+    it.continue_to(0).expect("no errors");
     let mut screen = Buffer::empty(Rect::new(0, 0, 60, 24));
     it.draw(&look, screen.area, &mut screen);
     let row = |y: u16| (0..60).map(|x| screen[(x, y)].symbol()).collect::<String>();
@@ -71,7 +71,7 @@ fn a_screen_of_no_size_is_none_of_its_business() {
         let (mut it, look) = performance(SCRIPT);
         let mut screen = Buffer::empty(Rect::new(0, 0, width, height));
         for time in [0, 300_000] {
-            it.go_on(time).expect("no errors");
+            it.continue_to(time).expect("no errors");
             it.draw(&look, screen.area, &mut screen);
         }
     }
@@ -94,5 +94,5 @@ fn a_motion_too_slow_to_be_recorded_is_given_up_after_twenty_frames_and_is_watch
     assert!(why.len() == 1 && why[0].message.contains(part), "{why:?}");
     let watched = script("Fps 20\nWait 1.5s");
     let mut watched = ScriptRunner::watched(watched, &spring, "spring").expect("it can be opened");
-    assert!(watched.go_on(1_400_000).expect("no errors"));
+    assert!(watched.continue_to(1_400_000).expect("no errors"));
 }
