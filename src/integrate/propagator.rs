@@ -8,20 +8,18 @@ mod advance;
 mod comparison_watch;
 mod constraint_watch;
 mod occurrence;
+mod occurrence_search;
 mod passed_event;
 mod passed_event_watch;
 mod singular_mass;
 mod singularity_record;
 mod trial;
 
-use super::event_location::EventLocator;
-use super::impulse_schedule::ImpulseSchedule;
-use super::located_event::LocatedEvent;
-use super::zeno::AccumulationDetector;
 use super::{Method, MethodError, Settings, Stepper, Stepping, Unstable};
 use crate::num::DoubleDouble;
 use crate::system::{Branch, ConstraintProjector, Form, Logarithms, MotionError, State, System};
 pub use occurrence::{Occurrence, OccurrenceKind};
+use occurrence_search::OccurrenceSearch;
 use passed_event::PassedEvents;
 use singularity_record::SingularityRecord;
 
@@ -48,10 +46,8 @@ pub struct Propagator {
     settings: Settings,
     stepper: Box<dyn Stepper>,
     projector: Option<ConstraintProjector>,
-    crossings: Option<EventLocator>,
-    impulse_schedule: ImpulseSchedule,
+    search: OccurrenceSearch,
     parameters: Vec<f64>,
-    start: f64,
     /// The current state.
     state: State,
     /// The state before the last impulse.
@@ -59,16 +55,8 @@ pub struct Propagator {
     /// The state at which the motion last started or continued, in the system's native form.
     /// Velocities that momenta alone do not determine are searched for near it.
     near: State,
-    /// The time up to which the last step contains no unknown event.
-    clear: f64,
     /// The number of steps in a row that did not advance the time.
     stalled: u32,
-    /// The event at that time.
-    waiting: Option<LocatedEvent>,
-    /// Whether events may happen at the time of the last impulse that are known only after the next step.
-    unsettled: bool,
-    /// The accumulation detector of each event.
-    accumulation: Vec<AccumulationDetector>,
     watch: SingularityRecord,
     passed: PassedEvents,
     /// The branch of the velocities, if several belong to the momenta.
@@ -103,18 +91,12 @@ impl Propagator {
             settings,
             stepper,
             projector: None,
-            crossings: None,
-            impulse_schedule: ImpulseSchedule::default(),
+            search: OccurrenceSearch::default(),
             parameters: parameters.to_vec(),
-            start: 0.0,
             state: blank.clone(),
             before: blank.clone(),
             near: blank,
-            clear: 0.0,
-            waiting: None,
-            unsettled: false,
             stalled: 0,
-            accumulation: vec![AccumulationDetector::NONE; system.discontinuities().events.len()],
             watch: SingularityRecord::default(),
             passed: PassedEvents::default(),
             branch: None,
@@ -131,11 +113,7 @@ impl Propagator {
     /// Updates everything that depends on the enforced constraints.
     fn take_system(&mut self) {
         self.projector = self.system.projector(&self.parameters);
-        let event_functions = self.system.event_functions(&self.parameters);
-        let events = &self.system.discontinuities().events;
-        let blank = State::new(0.0, self.system.form(), Vec::new());
-        self.crossings = event_functions.map(|t| EventLocator::new(t, events, blank));
-        self.impulse_schedule.reschedule(self.system.schedule(&self.parameters));
+        self.search.take_system(&self.system, &self.parameters);
     }
 
     /// Begins again at a state, with all constraints and no earlier events.
@@ -144,12 +122,10 @@ impl Propagator {
     /// Returns an error if the motion cannot begin there.
     pub fn begin(&mut self, state: &State, parameters: &[f64]) -> Result<(), MotionError> {
         self.system.check_intervals(parameters, state.time)?;
-        self.start = state.time;
         self.ended = false;
         self.forget_passages();
         self.passed = PassedEvents::default();
-        self.impulse_schedule.begin(state.time);
-        self.accumulation.fill(AccumulationDetector::NONE);
+        self.search.begin(state.time, self.whole.discontinuities().events.len());
         self.parameters = parameters.to_vec();
         self.system = self.whole.hold_all(state, parameters);
         // a step was requested before, so the method still fits
@@ -170,13 +146,9 @@ impl Propagator {
         if parameters != self.parameters {
             self.system.check_intervals(parameters, state.time)?;
             self.parameters = parameters.to_vec();
-            self.impulse_schedule.reschedule(self.system.schedule(parameters));
+            self.search.set_parameters(&self.system, parameters);
             if let Some(projector) = &mut self.projector {
                 projector.set_parameters(parameters);
-            }
-            if let Some(crossings) = &mut self.crossings {
-                crossings.set_parameters(parameters);
-                crossings.forget();
             }
         }
         self.resume(state)
@@ -200,9 +172,7 @@ impl Propagator {
             let native_state = self.native_state()?;
             self.release(constraint, &native_state)?;
         }
-        self.start = start;
-        self.impulse_schedule.begin(start);
-        self.impulse_schedule.pass(state.time);
+        self.search.restore(start, state.time);
         self.state.copy_from(state);
         self.stepper.start(state, &self.parameters)
     }
@@ -267,12 +237,7 @@ impl Propagator {
             projector.take_levels(&self.state);
         }
         self.near.copy_from(&self.state);
-        self.clear = state.time;
-        self.waiting = None;
-        self.unsettled = false;
-        if let Some(crossings) = &mut self.crossings {
-            crossings.turn();
-        }
+        self.search.continue_from(state.time);
         self.watch_from_here();
         self.branch = self.system.branch(&self.state, &self.parameters);
         self.logarithms = self.system.logarithms(&self.parameters);
@@ -344,12 +309,12 @@ impl Propagator {
     /// The part of the last step that is free of occurrences.
     pub fn undisturbed(&self) -> (f64, f64) {
         let (begin, end) = self.stepper.interval();
-        (begin, end.min(self.clear))
+        (begin, end.min(self.search.clear))
     }
 
     /// Whether an event or an impulse is to happen at the end of the part of the last step that is free of occurrences.
     pub fn awaits_occurrence(&self) -> bool {
-        self.waiting.is_some() || self.impulse_schedule.due(self.clear).is_some()
+        self.search.waiting.is_some() || self.search.due().is_some()
     }
 
     /// Writes the state at a time within the last step into `out`, as the method gives it, that is
@@ -374,7 +339,7 @@ impl Propagator {
     /// # Errors
     /// Returns an error if the state cannot be evaluated.
     pub fn reach_computed(&mut self) -> Result<(), MotionError> {
-        self.move_to(self.clear)
+        self.move_to(self.search.clear)
     }
 
     /// The number of steps taken.

@@ -43,34 +43,34 @@ impl Propagator {
             if self.ended {
                 return Ok(Reached::Ended);
             }
-            if self.clear <= time {
-                let due = self.impulse_schedule.due(self.clear);
-                if self.waiting.is_none()
-                    && let Some(crossings) = &mut self.crossings
-                {
-                    self.waiting = crossings.next_at(self.clear);
-                }
-                if self.waiting.is_some() || due.is_some() {
+            if self.search.clear <= time {
+                let due = self.search.due();
+                self.search.find_next();
+                if self.search.waiting.is_some() || due.is_some() {
                     // there may be infinitely many occurrences
                     if *budget == 0 {
                         return Ok(Reached::Underway);
                     }
                     *budget -= 1;
-                    self.note_passages(self.clear);
+                    self.note_passages(self.search.clear);
                 }
-                if let Some(found) = self.waiting.take() {
+                if let Some(found) = self.search.waiting.take() {
                     return self.on_event(found).map(Reached::Happened);
                 }
                 if let Some(impulse) = due {
                     return self.apply_scheduled(impulse).map(Reached::Happened);
                 }
             }
-            if self.clear >= time && self.unsettled && self.clear < limit && *budget > 0 {
+            if self.search.clear >= time
+                && self.search.unsettled
+                && self.search.clear < limit
+                && *budget > 0
+            {
                 *budget -= 1;
                 self.settle(limit)?;
                 continue;
             }
-            if self.clear >= time {
+            if self.search.clear >= time {
                 let before = self.state.time;
                 self.move_to(time)?;
                 if !self.energy_has_a_value(false) {
@@ -82,7 +82,7 @@ impl Propagator {
             if *budget == 0 {
                 return Ok(Reached::Underway);
             }
-            let outcome = if self.stepper.time() > self.clear {
+            let outcome = if self.stepper.time() > self.search.clear {
                 *budget -= 1;
                 Ok(())
             } else if self.is_undisturbed() {
@@ -92,21 +92,21 @@ impl Propagator {
                 self.step(limit)
             };
             if let Err(fault) = outcome {
-                self.note_passages(self.clear);
+                self.note_passages(self.search.clear);
                 return Err(fault);
             }
-            self.scan()?;
+            self.search.scan(self.stepper.as_mut())?;
         }
     }
 
     /// Takes the next step after an impulse, which shows what else happens at its time: the state there is that after all of it.
     /// A step that cannot be taken shows nothing, and is an error once the motion is to be continued.
     fn settle(&mut self, limit: f64) -> Result<(), MotionError> {
-        self.unsettled = false;
-        if self.stepper.time() <= self.clear && self.step(limit).is_err() {
+        self.search.unsettled = false;
+        if self.stepper.time() <= self.search.clear && self.step(limit).is_err() {
             return Ok(());
         }
-        self.scan()
+        self.search.scan(self.stepper.as_mut())
     }
 
     /// Whether nothing can happen between two steps: nothing acts on the motion but its law, and
@@ -114,11 +114,10 @@ impl Propagator {
     fn is_undisturbed(&self) -> bool {
         self.method.stepping == Stepping::Fixed
             && self.whole.constraints() == 0
-            && self.crossings.is_none()
             && self.branch.is_none()
             && self.logarithms.is_none()
             && self.system.attitude_place().is_none()
-            && self.impulse_schedule.is_empty()
+            && self.search.is_empty()
     }
 
     /// Takes the steps to a time, between which nothing is observed.
@@ -132,7 +131,7 @@ impl Propagator {
         let outcome = self.stepper.steps(time, limit, budget);
         // a step that failed was not taken
         self.steps += most - *budget - u64::from(outcome.is_err());
-        self.clear = self.stepper.time();
+        self.search.clear = self.stepper.time();
         outcome
     }
 
@@ -140,22 +139,21 @@ impl Propagator {
     /// and writes the end of each into `block`. Returns their number, which is zero if the next step
     /// must be taken by itself.
     pub fn steps_seen(&mut self, time: f64, most: u64, block: &mut StepBlock) -> u64 {
-        if self.ended || self.stepper.time() > self.clear || !self.is_undisturbed() {
+        if self.ended || self.stepper.time() > self.search.clear || !self.is_undisturbed() {
             return 0;
         }
         let taken = self.stepper.steps_seen(time, most, block);
         if taken > 0 {
             self.steps += taken;
-            self.clear = self.stepper.time();
+            self.search.clear = self.stepper.time();
         }
         taken
     }
 
     fn step(&mut self, limit: f64) -> Result<(), MotionError> {
-        let limit =
-            self.impulse_schedule.next(self.clear).map_or(limit, |impulse| impulse.min(limit));
+        let limit = self.search.limit(limit);
         let before = self.stepper.state().exact_time();
-        if self.impulse_schedule.stands_still(before.high) {
+        if self.search.impulses.stands_still(before.high) {
             return Err(no_digits_left(before.high));
         }
         // only a motion that is continued from the end of a step has been there: an event may lie before
@@ -184,20 +182,6 @@ impl Propagator {
             self.watch_step();
             self.watch_comparison();
         }
-        Ok(())
-    }
-
-    /// Searches for events in what was computed beyond `clear`, up to the next impulse, as far as
-    /// the functions can be followed at once.
-    fn scan(&mut self) -> Result<(), MotionError> {
-        self.unsettled = false;
-        let end = self.stepper.time();
-        let mut end =
-            self.impulse_schedule.next(self.clear).map_or(end, |impulse| impulse.min(end));
-        if let Some(crossings) = &mut self.crossings {
-            (self.waiting, end) = crossings.scan(self.stepper.as_mut(), self.clear, end)?;
-        }
-        self.clear = self.waiting.map_or(end, |found| found.exact.high);
         Ok(())
     }
 
@@ -251,7 +235,7 @@ impl Propagator {
     /// The error for a step that has led to where they have none; what lies before the step, and what was reached, stays.
     fn left_domain(&mut self, reached: f64) -> MotionError {
         let (begin, _) = self.stepper.interval();
-        self.clear = begin.max(reached);
+        self.search.clear = begin.max(reached);
         let state = self.stepper.state();
         self.system.fault(MotionErrorKind::LogarithmLeft, begin, &state.values)
     }

@@ -41,7 +41,7 @@ pub enum OccurrenceKind {
 
 impl Propagator {
     pub(super) fn apply_scheduled(&mut self, impulse: usize) -> Result<Occurrence, MotionError> {
-        let time = self.impulse_schedule.apply_scheduled(impulse, self.clear);
+        let time = self.search.impulses.apply_scheduled(impulse, self.search.clear);
         self.move_to_exactly(time)?;
         self.impulse_at(impulse, None)
     }
@@ -68,8 +68,8 @@ impl Propagator {
         let after_impulse = self.system.apply_impulse(impulse, &before, &self.parameters)?;
         let kind =
             OccurrenceKind::Impulse { jump: after_impulse.jump, reaction: after_impulse.reaction };
-        if let Some(crossings) = &mut self.crossings {
-            crossings.after_impulse(&before, &after_impulse.after, event)?;
+        if let Some(events) = &mut self.search.events {
+            events.after_impulse(&before, &after_impulse.after, event)?;
         }
         if let Some(event) = event {
             self.note_impulse(event, &before, &after_impulse.after);
@@ -77,7 +77,7 @@ impl Propagator {
         self.before.copy_from(&before);
         self.impulse = Some((impulse, event));
         self.resume(&after_impulse.after)?;
-        self.unsettled = self.crossings.is_some();
+        self.search.unsettled = self.search.events.is_some();
         let discontinuities = self.system.discontinuities();
         let name = match event {
             Some(event) => discontinuities.events[event].name.clone(),
@@ -125,10 +125,10 @@ impl Propagator {
         if let Ok(stepper) = (self.method.make)(&self.system, &self.settings) {
             self.stepper = stepper;
         }
-        let known = self.crossings.take();
+        let known = self.search.events.take();
         self.take_system();
-        if let (Some(crossings), Some(known)) = (&mut self.crossings, known) {
-            crossings.inherit(known, state)?;
+        if let (Some(events), Some(known)) = (&mut self.search.events, known) {
+            events.inherit(known, state)?;
         }
         self.resume(state)
     }
@@ -141,7 +141,7 @@ impl Propagator {
         if matches!(action, EventAction::Section(_)) {
             return Ok(());
         }
-        if !self.accumulation[found.event].record(time, self.start) {
+        if !self.search.accumulates(found) {
             return Ok(());
         }
         let name = self.system.discontinuities().events[found.event].name.clone();

@@ -28,8 +28,7 @@ impl Propagator {
             return;
         }
         // what the impulse itself changes, as a function of the velocities, is no place that is passed
-        let values = [before, after]
-            .map(|state| self.crossings.as_mut().and_then(|c| c.value(event, state)));
+        let values = [before, after].map(|state| self.search.value(event, state));
         if values[0] != values[1] {
             return;
         }
@@ -45,7 +44,7 @@ impl Propagator {
     /// Records the end of a step.
     pub(super) fn note_side(&mut self) {
         let Some(open) = self.passed.open.take() else { return };
-        let value = self.crossings.as_mut().and_then(|c| c.value(open.event, self.stepper.state()));
+        let value = self.search.value(open.event, self.stepper.state());
         if value.is_some_and(|value| value * open.side > 0.0) {
             self.passed.first = Some(open);
         }
@@ -65,14 +64,14 @@ impl Propagator {
             return Some(0.0);
         }
         let interval = DISPLACED * (1.0 + largest(places)) / speed;
-        let crossings = self.crossings.as_mut()?;
+        let events = self.search.events.as_mut()?;
         let [later, earlier] = [interval, -interval].map(|after| {
             let mut there = state.clone();
             there.time += after;
             for i in 0..n {
                 there.values[i] += after * state.values[n + i];
             }
-            crossings.value(event, &there)
+            events.value(event, &there)
         });
         Some((later? - earlier?) / (2.0 * interval))
     }
