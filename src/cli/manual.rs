@@ -71,12 +71,7 @@ pub(super) fn perform(arguments: &Arguments, command: clap::Command) -> Result<(
 fn whole(command: clap::Command) -> io::Result<Vec<u8>> {
     let examples = examples(&command);
     let man = Man::new(command.disable_help_subcommand(true)).manual("phaselab");
-    let mut page = Vec::new();
-    man.render_title(&mut page)?;
-    man.render_name_section(&mut page)?;
-    man.render_synopsis_section(&mut page)?;
-    man.render_description_section(&mut page)?;
-    man.render_options_section(&mut page)?;
+    let mut page = head(&man)?;
     man.render_subcommands_section(&mut page)?;
     let mut roff = Roff::new();
     keys(&mut roff);
@@ -101,6 +96,17 @@ fn whole(command: clap::Command) -> io::Result<Vec<u8>> {
     Ok(page)
 }
 
+/// What every page begins with.
+fn head(man: &Man) -> io::Result<Vec<u8>> {
+    let mut page = Vec::new();
+    man.render_title(&mut page)?;
+    man.render_name_section(&mut page)?;
+    man.render_synopsis_section(&mut page)?;
+    man.render_description_section(&mut page)?;
+    man.render_options_section(&mut page)?;
+    Ok(page)
+}
+
 /// The page of one command.
 fn of_command(
     mut command: clap::Command,
@@ -120,12 +126,7 @@ fn of_command(
     let examples = examples(found);
     let man = Man::new(found.clone()).manual("phaselab");
     let render = move || {
-        let mut page = Vec::new();
-        man.render_title(&mut page)?;
-        man.render_name_section(&mut page)?;
-        man.render_synopsis_section(&mut page)?;
-        man.render_description_section(&mut page)?;
-        man.render_options_section(&mut page)?;
+        let mut page = head(&man)?;
         let mut roff = Roff::new();
         show(&mut roff, &examples);
         roff.control("SH", ["SEE ALSO"]);
