@@ -31,7 +31,7 @@ pub use coordinate::Coordinate;
 pub use description::{CommonSymbols, Info, Mechanics, Model, NamedEquilibrium, RunSettings};
 pub use occurrence::{Direction, Event, EventAction, Impulse};
 pub use parameter::{Parameter, RangeSpacing};
-pub use picture::{Follow, Point, Shape, Variation, View, Viewpoint, WrittenExpr};
+pub use picture::{Follow, Point, Shape, SpacePicture, Variation, View, Viewpoint, WrittenExpr};
 pub use ramp::{Ramp, RampRefused, replace_by_ramps};
 pub use ramped::{NamedRamp, RampForm, RampPart, RampProgress, Ramped};
 pub use scope::{Allowed, Scope};

@@ -109,7 +109,7 @@ impl FrozenSystem {
         model.comparison = None;
         model.frames.clear();
         model.observables.clear();
-        model.space.clear();
+        model.picture.shapes.clear();
         model.transformations.clear();
         model.with_ramps_named = None;
         model.expect = Expect::default();

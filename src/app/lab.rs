@@ -66,7 +66,7 @@ struct Rods {
 fn rods(loaded: &Loaded) -> Rods {
     let views = loaded.model.views.iter();
     Rods {
-        space: rods_among(loaded, &loaded.model.space),
+        space: rods_among(loaded, &loaded.model.picture.shapes),
         views: views.map(|v| rods_among(loaded, v.shapes.as_deref().unwrap_or_default())).collect(),
     }
 }

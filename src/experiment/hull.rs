@@ -24,7 +24,7 @@ impl Hulls {
     pub(super) fn of(model: &Model, system: &System) -> Hulls {
         let own = model.views.iter().flat_map(|view| view.shapes.iter().flatten());
         let mut all = Hulls::default();
-        for point in model.space.iter().chain(own).flat_map(Shape::points) {
+        for point in model.picture.shapes.iter().chain(own).flat_map(Shape::points) {
             let channels = channels(&point, model, system);
             let known = all.0.iter().any(|hull| hull.channels == channels);
             if !known && channels.iter().flatten().count() > 1 {

@@ -105,7 +105,7 @@ impl CameraPose {
     pub(super) fn at_first(self, model: &Model) -> Self {
         let usual = if self.is_plane(model) { (0.0, FRAC_PI_2) } else { (PI / 6.0, PI / 9.0) };
         let own = self.own_shapes(model).is_some();
-        let written = if own { Viewpoint::default() } else { model.viewpoint };
+        let written = if own { Viewpoint::default() } else { model.picture.viewpoint };
         let yaw = written.azimuth.map_or(usual.0, |azimuth| azimuth.rem_euclid(TAU));
         let pitch = written.elevation.unwrap_or(usual.1);
         Self { yaw, pitch, zoom: 1.0, pan: [0.0; 2], ..self }
@@ -134,8 +134,9 @@ impl CameraPose {
 
     /// The visible shapes: those of the view, or the model's.
     pub fn shapes(self, model: &Model) -> &[Shape] {
-        self.own_shapes(model)
-            .map_or(&model.space, |view| model.views[view].shapes.as_deref().unwrap_or_default())
+        self.own_shapes(model).map_or(&model.picture.shapes, |view| {
+            model.views[view].shapes.as_deref().unwrap_or_default()
+        })
     }
 
     /// The view, if it has its own shapes.

@@ -18,7 +18,7 @@ impl Instrument for Space {
     }
 
     fn opening(&self, physics: Physics<'_>) -> Vec<Columns> {
-        if physics.model.space.is_empty() { Vec::new() } else { vec![Vec::new()] }
+        if physics.model.picture.shapes.is_empty() { Vec::new() } else { vec![Vec::new()] }
     }
 
     fn offers(&self, physics: Physics<'_>) -> Vec<Offer> {

@@ -91,7 +91,7 @@ pub fn flow_of(
     moved.impulses.clear();
     moved.events.clear();
     moved.views.clear();
-    moved.space.clear();
+    moved.picture.shapes.clear();
     moved.frames.clear();
     moved.attitude = None;
     moved.comparison = None;

@@ -31,7 +31,7 @@ pub(super) fn model(model: &Model) -> Option<Model> {
     }
     let mut named = named.clone();
     named.leave_views_out();
-    named.space.clear();
+    named.picture.shapes.clear();
     Some(named)
 }
 

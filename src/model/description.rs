@@ -9,7 +9,7 @@ use super::constraint::Constraint;
 use super::coordinate::Coordinate;
 use super::occurrence::{Event, Impulse};
 use super::parameter::Parameter;
-use super::picture::{Follow, Shape, View, Viewpoint};
+use super::picture::{SpacePicture, View};
 use super::ramped::Ramped;
 use super::transformation::{CompleteIntegral, Generator, Transformation};
 use crate::diagnostic::SourceRange;
@@ -71,11 +71,7 @@ pub struct Model {
     /// The panes that the screen opens with.
     pub views: Vec<View>,
     /// The picture of the system in space.
-    pub space: Vec<Shape>,
-    /// The point that the camera follows, if it does not show all of the motion.
-    pub follow: Option<Follow>,
-    /// Where the camera stands at first.
-    pub viewpoint: Viewpoint,
+    pub picture: SpacePicture,
     /// The default settings of a run.
     pub run: RunSettings,
 }
@@ -287,9 +283,7 @@ impl Model {
             observables: Vec::new(),
             expect: Expect::default(),
             views: Vec::new(),
-            space: Vec::new(),
-            follow: None,
-            viewpoint: Viewpoint::default(),
+            picture: SpacePicture::default(),
             run: RunSettings::default(),
         }
     }

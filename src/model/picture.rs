@@ -181,6 +181,17 @@ impl Shape {
     }
 }
 
+/// The picture of a system in space.
+#[derive(Clone, Debug, Default)]
+pub struct SpacePicture {
+    /// What it shows.
+    pub shapes: Vec<Shape>,
+    /// The point that the camera follows, if it does not show all of the motion.
+    pub follow: Option<Follow>,
+    /// Where the camera stands at first.
+    pub viewpoint: Viewpoint,
+}
+
 /// Where the camera of a picture in space stands at first, in radians; `None` is up to the picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Viewpoint {

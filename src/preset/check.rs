@@ -101,7 +101,7 @@ fn check_once(
     check.frames(&draft.frames);
     let mut nodes = 0;
     check.views(&draft.views, &mut nodes);
-    check.model.space = check.shapes(&draft.shapes, &mut nodes);
+    check.model.picture.shapes = check.shapes(&draft.shapes, &mut nodes);
     check.camera(&draft.camera);
     if !check.diagnostics.any_error() {
         check.unused(draft);

@@ -98,7 +98,8 @@ impl ObservableList {
         }
         list.add_new_variables(model, equations);
         let own = model.views.iter().flat_map(|view| view.shapes.iter().flatten());
-        for e in model.space.iter().chain(own).flat_map(numbers_of).chain(followed(model)) {
+        for e in model.picture.shapes.iter().chain(own).flat_map(numbers_of).chain(followed(model))
+        {
             list.add_hidden(e);
         }
         for frame in &model.frames {
@@ -400,7 +401,7 @@ fn bind_derived(
 /// The expressions that decide where the camera is.
 fn followed(model: &Model) -> Vec<Expr> {
     let numbers = |follow: &Follow| [&follow.at[..], &[follow.reach]].concat();
-    model.follow.as_ref().map(numbers).unwrap_or_default()
+    model.picture.follow.as_ref().map(numbers).unwrap_or_default()
 }
 
 /// The expressions that a shape is drawn from.

@@ -239,7 +239,8 @@ impl Check<'_> {
 
     /// Reads where the camera stands and what it follows.
     pub(super) fn camera(&mut self, written: &DraftCamera) {
-        self.model.follow = written.follow.as_ref().and_then(|written| self.follow(written));
+        self.model.picture.follow =
+            written.follow.as_ref().and_then(|written| self.follow(written));
         if let Some(elevation) = &written.elevation
             && !(-90.0..=90.0).contains(elevation.get_ref())
         {
@@ -249,7 +250,7 @@ impl Check<'_> {
         let angle = |written: &Option<Spanned<f64>>| {
             written.as_ref().map(|degrees| degrees.get_ref().to_radians())
         };
-        self.model.viewpoint =
+        self.model.picture.viewpoint =
             Viewpoint { azimuth: angle(&written.azimuth), elevation: angle(&written.elevation) };
     }
 

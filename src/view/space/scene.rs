@@ -225,7 +225,7 @@ fn followed(
     reference_frame: Option<&ReferenceFrame>,
 ) -> Option<Extent> {
     let model = &q.lab.loaded.model;
-    let follow = model.follow.as_ref()?;
+    let follow = model.picture.follow.as_ref()?;
     if reference_frame.is_some() || eye.own_shapes(model).is_some() {
         return None;
     }

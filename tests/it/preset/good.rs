@@ -239,7 +239,7 @@ shapes = [
 ]
 "#,
     ));
-    let shapes = &file.space;
+    let shapes = &file.picture.shapes;
     assert_eq!(shapes.len(), 10);
     let Shape::Line { from, to } = &shapes[0] else { panic!("{:?}", shapes[0]) };
     assert_eq!((*from, text(&file, to[0]).as_str()), ([Expr::ZERO; 3], "x + 1"));
@@ -261,7 +261,9 @@ fn the_parameter_of_a_path_is_its_own() {
     let text = GOOD.replace("k = 2.0", "k = 2.0\ns = 3.0")
         + "[space]\nshapes = [{ path = [\"s*x\", 0], from = 0, to = 1, samples = 1 }]\n";
     let Checked { model, warnings, .. } = checked(&text);
-    let Shape::Path { points } = &model.space[0] else { panic!("{:?}", model.space[0]) };
+    let Shape::Path { points } = &model.picture.shapes[0] else {
+        panic!("{:?}", model.picture.shapes[0])
+    };
     assert_eq!(model.pool.text(points[1][0]), "x");
     assert_eq!(warnings.len(), 1);
     assert_eq!(warnings[0].message, "the parameter `s` is not used");
@@ -424,7 +426,7 @@ shapes = [
 ]
 "#,
     ));
-    let shapes = &file.space;
+    let shapes = &file.picture.shapes;
     assert_eq!(shapes.len(), 6);
     let Shape::Caption { at, text: words } = &shapes[5] else { panic!("{:?}", shapes[5]) };
     assert_eq!((text(&file, at[0]).as_str(), words.as_str()), ("x", "the bob"));
@@ -438,7 +440,7 @@ shapes = [
     assert_eq!((*tip, text(&file, base[2]).as_str()), ([Expr::ZERO; 3], "x"));
     let Shape::Vector { label, .. } = &shapes[3] else { panic!("{:?}", shapes[3]) };
     assert_eq!(label, "v");
-    let Some(follow) = &file.follow else { panic!("a point to follow") };
+    let Some(follow) = &file.picture.follow else { panic!("a point to follow") };
     assert_eq!([text(&file, follow.at[0]), text(&file, follow.reach)], ["x", "3"]);
     let eye = CameraPose::on(&file, None);
     assert_eq!([eye.yaw, eye.pitch], [315.0, 60.5].map(f64::to_radians));

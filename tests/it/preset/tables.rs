@@ -483,7 +483,7 @@ shapes = [ {{ body = ["0", "0"] }} ]
     };
     assert_eq!(of(*at), ["0", "0", "A33"]);
     assert!(plain.frame.is_none() && plain.shapes.is_none());
-    assert!(matches!(hammer.space[..], [Shape::Body { .. }]));
+    assert!(matches!(hammer.picture.shapes[..], [Shape::Body { .. }]));
 }
 
 #[test]

@@ -19,7 +19,7 @@ use crate::nonempty;
 
 /// The arrows of a picture in space, as their labels.
 fn arrows(model: &Model) -> Vec<&str> {
-    let shapes = model.space.iter();
+    let shapes = model.picture.shapes.iter();
     let labels = shapes.filter_map(|shape| match shape {
         Shape::Vector { label, .. } => Some(label.as_str()),
         _ => None,
@@ -63,7 +63,7 @@ fn masses_that_parameters_fix_leave_the_first_colour_to_what_moves() {
 #[test]
 fn the_sun_is_amber_although_it_moves() {
     let shipped = loaded("solar-system", 1);
-    let shapes = shipped.model.space.iter();
+    let shapes = shipped.model.picture.shapes.iter();
     let mut masses = shapes.filter_map(|shape| match shape {
         Shape::Mass { at, .. } => Some(shipped.model.pool.text(at[0])),
         _ => None,
