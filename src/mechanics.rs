@@ -77,7 +77,7 @@ pub use domain::widened;
 pub use equations::{
     Apparent, Auxiliary, AuxiliaryRates, CLOSED_FORM_LIMIT, Conserved, ConstraintRow,
     CoordinateSymbols, Equations, Flow, ImplicitMap, NamedRamps, NoClosedForm, Reason, Separable,
-    Supplements, Vakonomic,
+    Supplements, TransformationMaps, Vakonomic,
 };
 pub use further::{Further, GeneratorReport, TransformationReport};
 pub use gauge::GaugeDifference;

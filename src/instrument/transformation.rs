@@ -198,7 +198,7 @@ impl Instrument for TransformationPlot {
         let Physics { model, equations, .. } = present.physics;
         let Some(Shown { law, new }) = shown(plot, present.physics) else { return Need::Nothing };
         let place = model.transformations.iter().position(|one| one.name == law.name);
-        let known = place.and_then(|place| equations.supplements.transformations.get(place));
+        let known = place.and_then(|place| equations.supplements.maps.written.get(place));
         let old = known.and_then(Option::as_ref).and_then(|forwards| {
             let of = |symbol: Symbol| forwards.iter().find(|(s, _)| *s == symbol).map(|(_, e)| *e);
             let images = [of(new[0])?, of(new[1])?];

@@ -113,11 +113,11 @@ fn written(
     sides: [Expr; 2],
 ) -> Result<Expr, NoClosedForm> {
     let new = map.new_variables();
-    let mut kept = equations.supplements.new_variables.clone();
-    std::mem::swap(&mut kept, &mut equations.supplements.new_variables);
-    equations.supplements.new_variables.retain(|(symbol, _)| !new.contains(symbol));
+    let mut kept = equations.supplements.maps.new_variables.clone();
+    std::mem::swap(&mut kept, &mut equations.supplements.maps.new_variables);
+    equations.supplements.maps.new_variables.retain(|(symbol, _)| !new.contains(symbol));
     let opened = sides.map(|side| in_phase_space(equations, side));
-    equations.supplements.new_variables = kept;
+    equations.supplements.maps.new_variables = kept;
     let [f, g] = opened;
     let (mut f, mut g) = (f?, g?);
     let mut shorter = None;
@@ -134,7 +134,7 @@ fn written(
         };
         (f, g) = (eliminated(f)?, eliminated(g)?);
     }
-    let others = equations.supplements.implicit_maps.iter().flat_map(|(other, _)| &other.new);
+    let others = equations.supplements.maps.implicit.iter().flat_map(|(other, _)| &other.new);
     let own = &map.implicit.new;
     let others: Vec<Symbol> = others.copied().filter(|symbol| !own.contains(symbol)).collect();
     let pool = &mut equations.pool;

@@ -100,17 +100,8 @@ pub struct Supplements {
     pub body: Option<RigidBody>,
     /// The attitude matrix of the body, if it follows from Euler's angles.
     pub attitude: Option<Tensor>,
-    /// For each transformation of the file the new variables as functions of (q, p, t), if they can
-    /// be written down.
-    pub transformations: Vec<Option<Vec<(Symbol, Expr)>>>,
-    /// The laws of the transformations, those made of others written out where that is possible, else as chains.
-    pub transformation_laws: Vec<TransformationLaw>,
-    /// New variables of transformations and constants of the complete integral, as functions of
-    /// (q, p, t), as far as they can be written down.
-    pub new_variables: Vec<(Symbol, Expr)>,
-    /// The transformations that cannot be written down, whose new variables other expressions may use, each with the
-    /// image of a point near the start.
-    pub implicit_maps: Vec<(ImplicitMap, Vec<f64>)>,
+    /// The maps of transformations.
+    pub maps: TransformationMaps,
     /// q̇ as columns show it, if that is not what the state moves by.
     pub shown_velocities: Option<Vec<Expr>>,
     /// The symbols of the attitude matrix, by rows.
@@ -127,6 +118,21 @@ pub struct Supplements {
     pub ramp_rates: Vec<(Symbol, Expr)>,
     /// The file's values of the parameters and of what follows from a body, as exact numbers.
     pub constants: Vec<(Symbol, Number)>,
+}
+
+/// The maps of the transformations of a file, as far as they are known.
+#[derive(Clone, Debug, Default)]
+pub struct TransformationMaps {
+    /// For each transformation its new variables as functions of (q, p, t), if they can be written down.
+    pub written: Vec<Option<Vec<(Symbol, Expr)>>>,
+    /// The laws of the transformations, those made of others written out where that is possible, else as chains.
+    pub laws: Vec<TransformationLaw>,
+    /// New variables of transformations and constants of the complete integral, as functions of
+    /// (q, p, t), as far as they can be written down.
+    pub new_variables: Vec<(Symbol, Expr)>,
+    /// The transformations that cannot be written down, whose new variables other expressions may use, each with the
+    /// image of a point near the start.
+    pub implicit: Vec<(ImplicitMap, Vec<f64>)>,
 }
 
 /// A law whose parameters change with the time, and what follows from it, with these parameters and their rates as symbols.

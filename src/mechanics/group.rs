@@ -24,7 +24,7 @@ pub(super) fn find(equations: &mut Equations, model: &Model) {
     let mut all: Vec<Option<Solution>> = Vec::new();
     let mut residuals = Solution::new();
     for given in &model.transformations {
-        let before = equations.supplements.transformation_laws.clone();
+        let before = equations.supplements.maps.laws.clone();
         let law = resolved(model, equations, given, &before, &all);
         let written = Transformation { law: law.clone(), ..given.clone() };
         let map = PhaseMap::relations(&mut equations.pool, model, &written);
@@ -54,19 +54,19 @@ pub(super) fn find(equations: &mut Equations, model: &Model) {
             };
             if let Some(at) = at {
                 let image = map.implicit.new.iter().map(|&s| at.at(s)).collect();
-                equations.supplements.implicit_maps.push((map.implicit, image));
+                equations.supplements.maps.implicit.push((map.implicit, image));
             }
         }
-        equations.supplements.transformation_laws.push(law);
+        equations.supplements.maps.laws.push(law);
         all.push(forwards);
     }
-    let maps = equations.supplements.implicit_maps.iter();
+    let maps = equations.supplements.maps.implicit.iter();
     let solved: Vec<Symbol> = maps.flat_map(|(map, _)| map.new.clone()).collect();
     let known = all.iter().flatten().flatten().copied();
-    equations.supplements.new_variables =
+    equations.supplements.maps.new_variables =
         known.filter(|(symbol, _)| shared.contains(symbol) && !solved.contains(symbol)).collect();
-    equations.supplements.new_variables.extend(residuals);
-    equations.supplements.transformations = all;
+    equations.supplements.maps.new_variables.extend(residuals);
+    equations.supplements.maps.written = all;
 }
 
 /// The transformations of a model with their laws, those made of others written out, and the maps as they were found with
@@ -75,8 +75,8 @@ pub(super) fn written_maps(
     model: &Model,
     equations: &mut Equations,
 ) -> Vec<(Transformation, PhaseMap)> {
-    let found = equations.supplements.transformations.clone();
-    let laws = equations.supplements.transformation_laws.clone();
+    let found = equations.supplements.maps.written.clone();
+    let laws = equations.supplements.maps.laws.clone();
     let pool = &mut equations.pool;
     let all = model.transformations.iter().zip(found).zip(laws);
     let maps = all.map(|((given, forwards), law)| {
@@ -95,7 +95,7 @@ pub fn phase_maps(model: &Model, equations: &mut Equations) -> Vec<PhaseMap> {
 
 /// The relations of the transformation at a place of the file; `None` if it is explicit.
 pub fn relations_of(model: &Model, equations: &mut Equations, place: usize) -> Option<ImplicitMap> {
-    let law = equations.supplements.transformation_laws.get(place)?.clone();
+    let law = equations.supplements.maps.laws.get(place)?.clone();
     let solved = matches!(law, TransformationLaw::Generating { .. } | TransformationLaw::Chain(_));
     let given = Transformation { law, ..model.transformations.get(place)?.clone() };
     solved.then(|| PhaseMap::relations(&mut equations.pool, model, &given).implicit)
@@ -288,7 +288,7 @@ fn composition(
 /// at the states that are observed, one after the other, and ends at caustics.
 pub(super) fn structure_errors(model: &Model, equations: &Equations) -> Vec<StructureError> {
     let pool = &equations.pool;
-    let new = equations.supplements.implicit_maps.iter().flat_map(|(map, _)| &map.new);
+    let new = equations.supplements.maps.implicit.iter().flat_map(|(map, _)| &map.new);
     let new: Vec<Symbol> = new.copied().collect();
     let all = model.events.iter().chain(&model.sections).filter_map(|event| {
         let symbol = *new.iter().find(|&&symbol| pool.depends(event.when, symbol))?;

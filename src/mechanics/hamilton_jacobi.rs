@@ -88,7 +88,7 @@ pub(super) fn find(equations: &mut Equations, model: &Model) {
         let beta = tidy(pool, beta, &map);
         known.push((constant.conjugate, beta));
     }
-    equations.supplements.new_variables.extend(known);
+    equations.supplements.maps.new_variables.extend(known);
 }
 
 impl HamiltonJacobi {
@@ -140,7 +140,7 @@ fn with_common_roots(model: &Model, equations: &mut Equations, e: Expr) -> Expr 
     if pool.weight(opened) >= pool.weight(e) {
         return e;
     }
-    let known = &equations.supplements.new_variables;
+    let known = &equations.supplements.maps.new_variables;
     let mut seen = 0;
     for n in 0..2 * POINTS as u64 {
         let point = Valuation::near_start(model, equations, n);
@@ -220,7 +220,7 @@ fn with_constants(
     point: &Valuation,
     hamiltonian: Expr,
 ) -> Vec<Valuation> {
-    let (pool, known) = (&equations.pool, &equations.supplements.new_variables);
+    let (pool, known) = (&equations.pool, &equations.supplements.maps.new_variables);
     let constants = model.complete_integral.iter().flat_map(|s| &s.constants);
     let constants: Vec<Symbol> = constants.map(|c| c.symbol).collect();
     let scale = point.value(pool, hamiltonian).abs().max(0.1);

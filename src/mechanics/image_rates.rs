@@ -17,7 +17,7 @@ use crate::expr::{Expr, Pool, Symbol};
 impl Equations {
     /// The maps without a closed form on whose new variables an expression depends.
     fn implicit_maps_of(&self, e: Expr) -> Vec<ImplicitMap> {
-        let all = self.supplements.implicit_maps.iter().map(|(map, _)| map);
+        let all = self.supplements.maps.implicit.iter().map(|(map, _)| map);
         all.filter(|map| self.pool.depends_on_any(e, &map.new)).cloned().collect()
     }
 
@@ -83,7 +83,7 @@ impl Equations {
     /// A point of (q, p, t) with the images of the maps without a closed form, each on the branch of its image near the start
     /// if that leads there.
     pub fn with_images(&self, mut point: Valuation) -> Valuation {
-        for (map, near_start) in &self.supplements.implicit_maps {
+        for (map, near_start) in &self.supplements.maps.implicit {
             if let Some(image) = map.search(&self.pool, &point, near_start.clone()) {
                 point = point.with(map.new.iter().map(|&symbol| (symbol, image.at(symbol))));
             }
@@ -95,7 +95,7 @@ impl Equations {
     /// symbols. `None` if it has none.
     pub fn value_with_images(&self, e: Expr, at: &dyn Fn(Symbol) -> f64) -> Option<f64> {
         let value = if self.has_images(e) {
-            let used = self.supplements.implicit_maps.iter().flat_map(|(map, _)| &map.relations);
+            let used = self.supplements.maps.implicit.iter().flat_map(|(map, _)| &map.relations);
             let used: Vec<Expr> = used.copied().chain([e]).collect();
             let symbols = used.iter().flat_map(|&e| self.pool.symbols_of(e));
             let known = symbols.map(|symbol| (symbol, at(symbol))).filter(|(_, x)| !x.is_nan());

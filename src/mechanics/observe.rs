@@ -38,7 +38,7 @@ impl Equations {
     pub fn attitude_map(&self) -> HashMap<Symbol, Expr> {
         let symbols = self.supplements.attitude_symbols.iter().flat_map(|m| m.concat());
         let entries = symbols.zip(self.supplements.attitude.iter().flat_map(|m| m.concat()));
-        entries.chain(self.supplements.new_variables.iter().copied()).collect()
+        entries.chain(self.supplements.maps.new_variables.iter().copied()).collect()
     }
 
     /// An observable as a function of the state: of (q, q̇, t) and accelerations q̈ for a

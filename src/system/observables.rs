@@ -125,7 +125,7 @@ impl ObservableList {
     /// Marks what is an angle because it is written as `atan2(y, x)`: it jumps by a turn, as a periodic coordinate does.
     fn find_angles(&mut self, equations: &Equations) {
         let pool = &equations.pool;
-        let new = &equations.supplements.new_variables;
+        let new = &equations.supplements.maps.new_variables;
         let written = |e: Expr| {
             let symbol = pool.as_symbol(e)?;
             new.iter().find(|(s, _)| *s == symbol).map(|(_, e)| *e)
@@ -193,8 +193,8 @@ impl ObservableList {
     /// integral, so that they can be chosen for an axis.
     fn add_new_variables(&mut self, model: &Model, equations: &mut Equations) {
         let supplements = &equations.supplements;
-        let written = supplements.new_variables.iter().map(|(symbol, _)| *symbol);
-        let solved = supplements.implicit_maps.iter().flat_map(|(map, _)| map.new.clone());
+        let written = supplements.maps.new_variables.iter().map(|(symbol, _)| *symbol);
+        let solved = supplements.maps.implicit.iter().flat_map(|(map, _)| map.new.clone());
         let known: Vec<Symbol> = written.chain(solved).collect();
         for (name, symbol) in model.new_variables() {
             if known.contains(&symbol) {
@@ -205,7 +205,7 @@ impl ObservableList {
             }
         }
         // what several of them call by the same names is known by each of them
-        let all = model.transformations.iter().zip(&equations.supplements.transformations);
+        let all = model.transformations.iter().zip(&equations.supplements.maps.written);
         for (law, forwards) in all {
             for &(symbol, e) in forwards.iter().flatten() {
                 let info = equations.pool.symbol_info(symbol);
@@ -277,7 +277,7 @@ impl ObservableList {
     /// Compiles the list.
     pub(super) fn compile(self, builder: &mut ProgramBuilder<'_>) -> Result<Observables, Symbol> {
         let equations = builder.equations;
-        let maps = equations.supplements.implicit_maps.iter();
+        let maps = equations.supplements.maps.implicit.iter();
         let used: Vec<&(ImplicitMap, Vec<f64>)> =
             maps.filter(|(map, _)| map.new.iter().any(|&s| self.depends(equations, s))).collect();
         let images = used.iter().map(|map| ImageProgram::of(map, builder));

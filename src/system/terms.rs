@@ -116,7 +116,7 @@ impl ConservedTerms {
             .flat_map(|c| [c.acceleration, c.momentum, c.velocity])
             .filter(|symbol| !rates.contains(symbol))
             .chain(equations.constraints.iter().map(|row| row.multiplier))
-            .chain(equations.supplements.implicit_maps.iter().flat_map(|(map, _)| map.new.clone()))
+            .chain(equations.supplements.maps.implicit.iter().flat_map(|(map, _)| map.new.clone()))
             .collect();
         for (quantity, e) in all.into_iter().enumerate() {
             let e = equations.open(e);

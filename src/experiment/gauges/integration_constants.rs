@@ -42,7 +42,7 @@ impl IntegrationConstants {
     /// a name is `gauged` already.
     pub(super) fn of(model: &Model, equations: &Equations, gauged: &[String]) -> Self {
         let Some(integral) = &model.complete_integral else { return Self::default() };
-        let known = &equations.supplements.new_variables;
+        let known = &equations.supplements.maps.new_variables;
         let all = integral.constants.iter().map(|constant| {
             let of = |symbol: Symbol| known.iter().find(|(s, _)| *s == symbol).map(|(_, e)| *e);
             Some((constant, of(constant.symbol)?, of(constant.conjugate)?))

@@ -17,7 +17,7 @@ fn linear(plot: &Plot, physics: Physics<'_>) -> Option<bool> {
     let shown = shown(plot, physics)?;
     let place = model.transformations.iter().position(|law| law.name == shown.law.name)?;
     let is_position = |s: &_| shown.law.new.iter().any(|[position, _]| position == s);
-    let forwards = equations.supplements.transformations.get(place)?.as_ref()?;
+    let forwards = equations.supplements.maps.written.get(place)?.as_ref()?;
     let image = |symbol| forwards.iter().find(|(s, _)| *s == symbol).map(|(_, e)| *e);
     let images = [image(shown.new[0])?, image(shown.new[1])?];
     if shown.new[0] == shown.new[1] || !shown.new.iter().all(is_position) {

@@ -8,7 +8,7 @@ use crate::model::Model;
 
 /// The map of two new variables, if it is known by relations only.
 pub(super) fn implicit(equations: &Equations, new: [Symbol; 2]) -> Option<&ImplicitMap> {
-    let maps = equations.supplements.implicit_maps.iter();
+    let maps = equations.supplements.maps.implicit.iter();
     maps.map(|(map, _)| map).find(|map| map.new.contains(&new[0]))
 }
 
@@ -18,7 +18,7 @@ pub(super) fn depends_on_time(
     model: &Model,
     (place, new): (Option<usize>, [Symbol; 2]),
 ) -> bool {
-    let known = place.and_then(|place| equations.supplements.transformations.get(place));
+    let known = place.and_then(|place| equations.supplements.maps.written.get(place));
     let forwards = known.and_then(Option::as_ref).into_iter().flatten();
     let written = forwards.filter(|(s, _)| new.contains(s)).map(|(_, e)| *e);
     let relations = implicit(equations, new).into_iter().flat_map(|map| &map.relations);
