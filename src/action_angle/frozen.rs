@@ -96,8 +96,8 @@ impl FrozenSystem {
             return Err(NotFrozen::Constrained);
         }
         let scheduled = |impulse: &Impulse| !impulse.times.is_empty() || impulse.period.is_some();
-        let strikes = |event: &Event| matches!(event.action, EventAction::Impulse(_));
-        if model.impulses.iter().any(scheduled) || model.events.iter().any(strikes) {
+        let applies_impulse = |event: &Event| matches!(event.action, EventAction::Impulse(_));
+        if model.impulses.iter().any(scheduled) || model.events.iter().any(applies_impulse) {
             return Err(NotFrozen::Impulses);
         }
         let mut model = model.clone();

@@ -264,7 +264,7 @@ impl SourceBuffer {
     }
 
     /// Postpones its check until it is opened again. Returns whether a check was running.
-    pub(super) fn put_off(&mut self) -> bool {
+    pub(super) fn postpone_check(&mut self) -> bool {
         let checking = self.checking.take().is_some();
         if checking {
             self.rest = Some(Duration::ZERO);

@@ -29,7 +29,7 @@ impl App {
         }
         let mut effects = lab.change(target, value);
         if effects.is_empty() {
-            effects.push(Effect::Tell(match target {
+            effects.push(Effect::Execute(match target {
                 ValueId::Parameter(index) => Command::Parameter { index, value },
                 ValueId::Initial(index) => Command::Initial { index, value },
             }));
@@ -71,7 +71,7 @@ impl Lab {
                 let steps_on = self.history.steps_on(index);
                 self.note(Change::Parameter { index, numbers });
                 self.pending.set_value(target, to);
-                vec![Effect::Tell(if steps_on {
+                vec![Effect::Execute(if steps_on {
                     Command::MoveParameter { index, value: to }
                 } else {
                     Command::Parameter { index, value: to }
@@ -83,7 +83,7 @@ impl Lab {
                 self.note(Change::Initial { index, numbers, given: [before, after.clone()] });
                 self.pending.set_value(target, to);
                 self.pending.given = Some(after);
-                vec![Effect::Tell(Command::Initial { index, value: to })]
+                vec![Effect::Execute(Command::Initial { index, value: to })]
             }
         }
     }
@@ -127,19 +127,19 @@ impl Lab {
             None => {}
         }
         self.pending.method = Some(name);
-        vec![Effect::Tell(Command::Method(name.to_owned()))]
+        vec![Effect::Execute(Command::Method(name.to_owned()))]
     }
 
     /// Sets the method's step.
     pub(super) fn step_by(&mut self, step: f64) -> Vec<Effect> {
         self.settle(|settings| settings.step = Some(step));
-        vec![Effect::Tell(Command::StepSize(step))]
+        vec![Effect::Execute(Command::StepSize(step))]
     }
 
     /// Sets the method's tolerance.
     pub(super) fn tolerate(&mut self, tolerance: f64) -> Vec<Effect> {
         self.settle(|settings| settings.tolerance = Some(tolerance));
-        vec![Effect::Tell(Command::Tolerance(tolerance))]
+        vec![Effect::Execute(Command::Tolerance(tolerance))]
     }
 
     fn settle(&mut self, change: impl FnOnce(&mut Settings)) {
@@ -203,11 +203,12 @@ impl Lab {
             {
                 label += &format!(", the motion of t = {}", crate::num::short(present.time));
             }
-            effects
-                .retain(|effect| !matches!(effect, Effect::Tell(command) if command.sets_values()));
+            effects.retain(
+                |effect| !matches!(effect, Effect::Execute(command) if command.sets_values()),
+            );
             self.restoration.forget_rebuild();
             self.restoration.begin((*motion).clone(), None);
-            effects.push(Effect::Tell(Command::Restore(motion)));
+            effects.push(Effect::Execute(Command::Restore(motion)));
         }
         (effects, label)
     }
@@ -314,12 +315,12 @@ impl Lab {
             Change::Method(names) => {
                 let name = side.of(names);
                 self.pending.method = Some(name);
-                vec![Effect::Tell(Command::Method(name.to_owned()))]
+                vec![Effect::Execute(Command::Method(name.to_owned()))]
             }
             Change::Settings(settings) => {
                 let settings = side.of(settings);
                 self.pending.settings = Some(settings);
-                vec![Effect::Tell(Command::Settings(settings))]
+                vec![Effect::Execute(Command::Settings(settings))]
             }
             Change::Together(mut changes) => {
                 if matches!(side, ChangeSide::Before) {
@@ -332,7 +333,7 @@ impl Lab {
 
     fn set_parameter(&mut self, index: usize, value: f64) -> Effect {
         self.pending.set_value(ValueId::Parameter(index), value);
-        Effect::Tell(Command::Parameter { index, value })
+        Effect::Execute(Command::Parameter { index, value })
     }
 
     /// Starts the motion with these in place of the file's values.
@@ -340,7 +341,7 @@ impl Lab {
         // The experiment reports the resulting other initial values.
         self.pending.values.retain(|(target, _)| matches!(target, ValueId::Parameter(_)));
         self.pending.given = Some(given.clone());
-        Effect::Tell(Command::Start(given))
+        Effect::Execute(Command::Start(given))
     }
 
     /// Restores all values of the file.
@@ -350,7 +351,7 @@ impl Lab {
         let values = parameters.map(|(index, value)| (ValueId::Parameter(index), value));
         self.pending.values.extend(values);
         self.pending.given = Some(Vec::new());
-        Effect::Tell(Command::FullReset)
+        Effect::Execute(Command::FullReset)
     }
 }
 

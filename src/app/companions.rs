@@ -38,7 +38,7 @@ impl App {
         match lab.beginning_at(index, at) {
             Ok(given) if lab.has_room() => {
                 let given = lab.given_with(&given);
-                vec![Effect::Tell(Command::AddStart(given))]
+                vec![Effect::Execute(Command::AddStart(given))]
             }
             Ok(_) => self.notify(full()),
             Err(NoStart::Refused(why)) => self.fail(why),
@@ -58,7 +58,7 @@ impl App {
             return self.notify(full());
         }
         lab.show("separation");
-        vec![Effect::Tell(Command::AddNeighbour)]
+        vec![Effect::Execute(Command::AddNeighbour)]
     }
 
     /// Shows the picture of a kind, on the page of the lab.
@@ -84,7 +84,7 @@ impl App {
             Some(seen) if seen.companions.is_empty() => {
                 self.notify("There are no motions beside the main one.")
             }
-            _ => vec![Effect::Tell(Command::ClearCompanions)],
+            _ => vec![Effect::Execute(Command::ClearCompanions)],
         }
     }
 }

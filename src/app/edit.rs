@@ -366,7 +366,7 @@ impl App {
     /// Advances the time.
     pub(super) fn tick_buffer(&mut self, elapsed: Duration) -> Option<Effect> {
         if self.page == Page::Picker {
-            return self.workbench.put_off().then_some(Effect::StopCheck);
+            return self.workbench.postpone_check().then_some(Effect::StopCheck);
         }
         self.workbench.tick(elapsed)
     }

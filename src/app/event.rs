@@ -80,7 +80,7 @@ pub enum Event {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Effect {
     /// Send a command to the experiment.
-    Tell(Command),
+    Execute(Command),
     /// Load a preset or file and start it as a new experiment; [`Event::Loaded`] answers.
     Load(String),
     /// Cancel the last load; there is no response.

@@ -59,7 +59,7 @@ impl App {
         match self.snapshot().map(|s| &s.status) {
             Some(Status::Ended(_)) => self.notify("The motion has ended: begin it again with r."),
             Some(Status::Failed(_)) => self.fail("It cannot continue from here: reset it with r."),
-            _ => vec![Effect::Tell(Command::ApplyImpulse(index))],
+            _ => vec![Effect::Execute(Command::ApplyImpulse(index))],
         }
     }
 }

@@ -76,7 +76,7 @@ impl App {
     pub(super) fn mended(&mut self, loaded: Loaded) -> Vec<Effect> {
         self.lab = Some(Lab::new(loaded));
         self.meter.forget();
-        vec![Effect::Tell(Command::Play)]
+        vec![Effect::Execute(Command::Play)]
     }
 
     /// Leaves the editor where no system runs: the list of systems is below, at the row of the text if it is not saved.

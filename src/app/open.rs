@@ -33,7 +33,7 @@ impl App {
         let later = self.awaited.system.as_ref().is_some_and(|request| request.name != name);
         if here && !later {
             self.go(Page::Lab);
-            return vec![Effect::Tell(Command::Reset), Effect::Tell(Command::Play)];
+            return vec![Effect::Execute(Command::Reset), Effect::Execute(Command::Play)];
         }
         if let Some(request) = self.awaited.system.as_mut().filter(|request| request.name == name) {
             request.opens = true;

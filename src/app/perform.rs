@@ -78,33 +78,35 @@ impl App {
         let Some(lab) = &mut self.lab else { return Vec::new() };
         match action {
             Action::PlayPause => match lab.snapshot.as_ref().map(|s| &s.status) {
-                Some(Status::Running) => vec![Effect::Tell(Command::Pause)],
+                Some(Status::Running) => vec![Effect::Execute(Command::Pause)],
                 Some(Status::Failed(_)) => {
                     self.fail("It cannot continue from here: reset it with r.")
                 }
                 Some(Status::Ended(_)) => {
                     self.notify("The motion has ended: begin it again with r.")
                 }
-                Some(Status::Paused) | None => vec![Effect::Tell(Command::Play)],
+                Some(Status::Paused) | None => vec![Effect::Execute(Command::Play)],
             },
-            Action::Step => vec![Effect::Tell(Command::Pause), Effect::Tell(Command::Step(1))],
+            Action::Step => {
+                vec![Effect::Execute(Command::Pause), Effect::Execute(Command::Step(1))]
+            }
             Action::Reverse => self.reverse(),
             Action::LookEarlier => self.look_along(-1.0),
             Action::LookLater => self.look_along(1.0),
             Action::MarkTime => self.mark_time(),
             Action::GoToMark => self.go_to_mark(true),
             Action::GoToNextMark => self.go_to_mark(false),
-            Action::StepBack => vec![Effect::Tell(Command::StepBack(1))],
+            Action::StepBack => vec![Effect::Execute(Command::StepBack(1))],
             Action::Slower | Action::Faster => {
                 let shown = lab.snapshot.as_ref().map_or(1.0, |s| s.speed);
                 let speed = lab.pending.speed.unwrap_or(shown);
                 let speed = if action == Action::Faster { faster(speed) } else { slower(speed) };
                 lab.pending.speed = Some(speed);
-                vec![Effect::Tell(Command::Speed(speed))]
+                vec![Effect::Execute(Command::Speed(speed))]
             }
-            Action::Reset => vec![Effect::Tell(Command::Reset)],
+            Action::Reset => vec![Effect::Execute(Command::Reset)],
             Action::FullReset => lab.full_reset(),
-            Action::Reference => vec![Effect::Tell(Command::Reference)],
+            Action::Reference => vec![Effect::Execute(Command::Reference)],
             Action::Undo => match lab.undo() {
                 Some((effects, report)) => self.report(report, effects),
                 None => self.notify("Nothing to undo."),
@@ -159,7 +161,7 @@ impl App {
             Action::Spectrum => self.show_picture("spectrum"),
             Action::Diagram => self.show_diagram(),
             Action::Ramp => self.open_ramp(),
-            Action::Pin => vec![Effect::Tell(Command::Pin)],
+            Action::Pin => vec![Effect::Execute(Command::Pin)],
             Action::ClearCompanions => self.clear_companions(),
             Action::AddOrbits => self.add_orbits(),
             Action::TypeSurface => self.open_surface(),
@@ -186,7 +188,7 @@ impl App {
             },
             Action::Active => self.other_way(),
             Action::ByChaos => match lab.focused_plot() {
-                Some((_, plot)) if plot.kind.tells_orbits_apart() => {
+                Some((_, plot)) if plot.kind.classifies_orbits() => {
                     self.with_viewport(|viewport| viewport.by_chaos = !viewport.by_chaos)
                 }
                 _ => self.notify("Only a section colours its orbits; v chooses one."),

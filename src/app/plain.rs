@@ -31,7 +31,7 @@ impl App {
 
     /// Schedules a refresh if these effects, caused on this page, include a command.
     pub(super) fn expect(&mut self, effects: &[Effect]) {
-        let commanded = effects.iter().any(|effect| matches!(effect, Effect::Tell(_)));
+        let commanded = effects.iter().any(|effect| matches!(effect, Effect::Execute(_)));
         self.reading.due |= commanded && self.page == Page::Plain;
     }
 }

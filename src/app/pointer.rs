@@ -112,7 +112,7 @@ impl App {
             }
             HitTarget::Time(time) => {
                 self.drag = Some(Grab::Time);
-                return vec![Effect::Tell(Command::LookAt(time))];
+                return vec![Effect::Execute(Command::LookAt(time))];
             }
             HitTarget::Plot { index, place, .. } | HitTarget::Space { index, place } => {
                 lab.focus.pane = Pane::Plot(index);
@@ -129,7 +129,9 @@ impl App {
             (Some(Grab::Bar(grabbed)), HitTarget::Bar { target, value }) if grabbed == target => {
                 self.pull(target, value)
             }
-            (Some(Grab::Time), HitTarget::Time(time)) => vec![Effect::Tell(Command::LookAt(time))],
+            (Some(Grab::Time), HitTarget::Time(time)) => {
+                vec![Effect::Execute(Command::LookAt(time))]
+            }
             (
                 Some(Grab::Picture { index: grabbed, place: from, .. }),
                 HitTarget::Plot { index, place, .. } | HitTarget::Space { index, place },
@@ -307,7 +309,7 @@ impl App {
         if !section {
             return Vec::new();
         }
-        vec![Effect::Tell(Command::ForgetCrossings)]
+        vec![Effect::Execute(Command::ForgetCrossings)]
     }
 }
 

@@ -112,7 +112,7 @@ impl App {
         let shown = self.page == Page::Equations;
         let Some(lab) = &mut self.lab else { return };
         if let Some(kept) = lab.forget_search() {
-            effects.push(Effect::Tell(Command::Follow(kept)));
+            effects.push(Effect::Execute(Command::Follow(kept)));
         }
         if shown {
             effects.extend(lab.wants_search(&mut self.jobs).map(Effect::Compute));

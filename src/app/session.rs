@@ -106,7 +106,7 @@ impl App {
             if opened {
                 self.remind();
             }
-            return vec![Effect::Tell(Command::Play)];
+            return vec![Effect::Execute(Command::Play)];
         };
         lab.restore_view(&saved);
         lab.restoration.begin(saved.moment, saved.law);
@@ -127,7 +127,7 @@ impl App {
         let Some(lab) = &mut self.lab else { return Vec::new() };
         lab.restoration.end_wait();
         let awaited = lab.restoration.under_the_law_of(&lab.loaded.document.text);
-        let command = |checkpoint| Effect::Tell(Command::Restore(Box::new(checkpoint)));
+        let command = |checkpoint| Effect::Execute(Command::Restore(Box::new(checkpoint)));
         awaited.map(command).into_iter().collect()
     }
 
@@ -171,7 +171,7 @@ impl App {
         self.meter.forget();
         let Some(saved) = saved else {
             self.lab = Some(lab);
-            return vec![Effect::Tell(Command::Play)];
+            return vec![Effect::Execute(Command::Play)];
         };
         lab.restore_view(&saved);
         if lab.plots.len() == old.plots.len() {

@@ -158,7 +158,9 @@ impl App {
             self.renew_flows();
             return match outcome {
                 Outcome::Failed(sentence) => self.fail(sentence),
-                _ => found.into_iter().map(|found| Effect::Tell(Command::Follow(found))).collect(),
+                _ => {
+                    found.into_iter().map(|found| Effect::Execute(Command::Follow(found))).collect()
+                }
             };
         }
         if let Some(effects) = self.carried(ticket, &outcome) {

@@ -31,9 +31,9 @@ impl App {
             lab.show("separation");
         }
         self.notifications.shown = sentence.map(Notification::info);
-        let mut effects = vec![Effect::Tell(Command::Reverse)];
+        let mut effects = vec![Effect::Execute(Command::Reverse)];
         if paused {
-            effects.push(Effect::Tell(Command::Play));
+            effects.push(Effect::Execute(Command::Play));
         }
         effects
     }
@@ -53,7 +53,7 @@ impl App {
         }
         let time = seen.time + by * (to - from) / STEPS;
         let (low, high) = (from.min(to), from.max(to));
-        vec![Effect::Tell(Command::LookAt(time.clamp(low, high)))]
+        vec![Effect::Execute(Command::LookAt(time.clamp(low, high)))]
     }
 
     /// Sets a mark at the time that is seen, or takes the mark there away.
@@ -110,7 +110,7 @@ impl App {
                 times.join(", ")
             ));
         };
-        vec![Effect::Tell(Command::LookAt(mark))]
+        vec![Effect::Execute(Command::LookAt(mark))]
     }
 }
 

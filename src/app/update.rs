@@ -43,7 +43,7 @@ impl App {
     /// Clears the notifications about the previous motion where the effects begin another one. What has only just been said
     /// is about the new one.
     pub(super) fn forget_past_motion(&mut self, before: Option<&Notification>, effects: &[Effect]) {
-        let begins = |effect: &Effect| matches!(effect, Effect::Tell(command) if command.begins_another_motion());
+        let begins = |effect: &Effect| matches!(effect, Effect::Execute(command) if command.begins_another_motion());
         if effects.iter().any(begins) {
             self.notifications.shown.take_if(|notice| Some(&*notice) == before);
             self.notifications.clear_waiting();
@@ -238,7 +238,7 @@ impl App {
     pub(super) fn loaded(&mut self, loaded: Loaded) -> Vec<Effect> {
         let answered = self.answered(&loaded.name);
         self.end_group();
-        let stale = self.workbench.put_off().then_some(Effect::StopCheck);
+        let stale = self.workbench.postpone_check().then_some(Effect::StopCheck);
         self.workbench.clear();
         self.overlay.take_if(|overlay| matches!(overlay, Overlay::Workbench));
         self.awaited.plots = AwaitedPlots::default();

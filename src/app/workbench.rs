@@ -86,8 +86,8 @@ impl Workbench {
     }
 
     /// Postpones the check of the top buffer, since the editor was closed. Returns whether a check was running.
-    pub(super) fn put_off(&mut self) -> bool {
-        self.buffers.last_mut().is_some_and(SourceBuffer::put_off)
+    pub(super) fn postpone_check(&mut self) -> bool {
+        self.buffers.last_mut().is_some_and(SourceBuffer::postpone_check)
     }
 
     /// Advances the time for the top buffer. Returns the check that is now due, if there is one.

@@ -54,7 +54,7 @@ pub(super) fn removed(rates: &DVector<f64>, what: Removed) -> Vec<DVector<f64>> 
 }
 
 /// Takes the components along orthonormal vectors out of a vector, twice against rounding.
-pub(super) fn take_out(v: &mut DVector<f64>, of: &[DVector<f64>]) {
+pub(super) fn project_out(v: &mut DVector<f64>, of: &[DVector<f64>]) {
     for _ in 0..2 {
         for unit in of {
             let part = unit.dot(v);
@@ -78,7 +78,7 @@ pub(super) fn frame_within_levels(
     let mut taken = removed(rates, what);
     let independent = |gradient: &DVector<f64>| {
         let mut across = gradient.clone();
-        take_out(&mut across, &taken);
+        project_out(&mut across, &taken);
         let is_one = across.norm() > DEPENDENT * gradient.norm();
         taken.extend(is_one.then(|| across.normalize()));
         is_one
@@ -97,7 +97,7 @@ fn frame_outside(n: usize, mut taken: Vec<DVector<f64>>, symplectic: bool) -> DM
         let outside = |i: usize| {
             let mut v = DVector::zeros(n);
             v[i] = 1.0;
-            take_out(&mut v, &taken);
+            project_out(&mut v, &taken);
             v
         };
         let Some(found) = (0..n).map(outside).max_by(|a, b| a.norm().total_cmp(&b.norm())) else {
@@ -166,7 +166,7 @@ fn orthonormal(vectors: &mut DMatrix<f64>, mut taken: Vec<DVector<f64>>) -> Vec<
     let mut lengths = Vec::with_capacity(vectors.ncols());
     for mut column in vectors.column_iter_mut() {
         let mut v = DVector::from_column_slice(column.as_slice());
-        take_out(&mut v, &taken);
+        project_out(&mut v, &taken);
         let length = v.norm();
         lengths.push(length);
         let unit = v / length;

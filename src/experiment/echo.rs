@@ -90,7 +90,7 @@ impl Echo {
         for [from, to] in self.run.log.sample(MEASURED) {
             let times = [&from, &to].map(|known| self.run.sign() * known.state.time);
             let Some(begun) = self.run.values_at(&from.state) else { continue };
-            if !back.take_back((&to.state, step), times[0], horizon) {
+            if !back.go_to_before((&to.state, step), times[0], horizon) {
                 continue;
             }
             error += distance(&pick(&begun), &pick(back.values()), periods);
@@ -110,8 +110,8 @@ impl Echo {
     }
 
     /// Goes to where the run before was at a time. Returns whether it has been there.
-    pub(super) fn look_at(&mut self, time: f64, horizon: f64) -> bool {
-        let there = self.covers(time) && self.run.look_back(time, horizon, self.began);
+    pub(super) fn scrub_to(&mut self, time: f64, horizon: f64) -> bool {
+        let there = self.covers(time) && self.run.go_back_to(time, horizon, self.began);
         if there {
             self.at = time;
             self.values.copy_from_slice(self.run.values());
@@ -126,7 +126,7 @@ impl Echo {
         horizon: f64,
         (variables, periods): (&[usize], &[Option<f64>]),
     ) {
-        if !self.look_at(time, horizon) {
+        if !self.scrub_to(time, horizon) {
             return;
         }
         let pick = |values: &[f64]| -> Vec<f64> { variables.iter().map(|&i| values[i]).collect() };

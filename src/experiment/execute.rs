@@ -27,7 +27,7 @@ impl Experiment {
             return;
         }
         match command {
-            Command::LookAt(time) => self.look_at(time),
+            Command::LookAt(time) => self.scrub_to(time),
             Command::Reverse => self.reverse(),
             Command::Play => self.running = true,
             Command::Pause => self.running = false,

@@ -82,7 +82,7 @@ impl ObservedMotion {
     /// Looks at a time in the past of a motion that began at `start` of its clock, and forgets nothing: what is known of
     /// later times can be shown again. No new step reaches further than `horizon` beyond that time. Returns whether
     /// that time is known.
-    pub(super) fn look_back(&mut self, time: f64, horizon: f64, start: f64) -> bool {
+    pub(super) fn go_back_to(&mut self, time: f64, horizon: f64, start: f64) -> bool {
         let clock = self.sign * time;
         let (begin, end) = self.inner.undisturbed();
         if !(begin <= clock && clock <= end && begin < end) {
@@ -102,12 +102,12 @@ impl ObservedMotion {
     }
 
     /// Goes to where another motion of the same system was at a time. Returns whether it came there.
-    pub(super) fn look_at(&mut self, time: f64, known: &KnownStep, horizon: f64) -> bool {
+    pub(super) fn go_to(&mut self, time: f64, known: &KnownStep, horizon: f64) -> bool {
         self.begin_at(known).is_ok() && self.continue_to(self.sign * time, horizon)
     }
 
     /// Goes from a state of the run the other way to a time before it, by the same fixed step. Returns whether it came there.
-    pub(super) fn take_back(
+    pub(super) fn go_to_before(
         &mut self,
         (state, step): (&State, f64),
         time: f64,
@@ -117,7 +117,7 @@ impl ObservedMotion {
         (state.time, state.time_carry) = (-state.time, -state.time_carry);
         let start = state.time;
         let known = KnownStep { state, steps: 0, step, released: Vec::new(), start };
-        self.look_at(time, &known, horizon)
+        self.go_to(time, &known, horizon)
     }
 
     /// The value of every channel at a state of this motion.

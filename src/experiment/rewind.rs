@@ -21,7 +21,7 @@ impl Experiment {
         if time >= now {
             return self.notify("this is the beginning of the motion".to_owned());
         }
-        self.take_back_to(time);
+        self.rewind_to(time);
     }
 
     /// The time of a frame on the screen.
@@ -32,7 +32,7 @@ impl Experiment {
     }
 
     /// Takes the motion back to a reading of its clock. What was recorded after it is gone.
-    pub(super) fn take_back_to(&mut self, time: f64) {
+    pub(super) fn rewind_to(&mut self, time: f64) {
         let sign = self.motion.sign();
         let impulses = self.motion.impulses();
         // no step ends early that did not when it was first taken

@@ -10,11 +10,11 @@ use crate::num::short;
 
 impl Experiment {
     /// Pauses, and shows a time in the past, of this motion and of the run before.
-    pub(super) fn look_at(&mut self, time: f64) {
+    pub(super) fn scrub_to(&mut self, time: f64) {
         self.look_at_this(time);
         let now = self.seen().time();
         if let Some(echo) = &mut self.echo {
-            echo.look_at(now, HORIZON * self.setup.spacing);
+            echo.scrub_to(now, HORIZON * self.setup.spacing);
         }
     }
 
@@ -43,7 +43,7 @@ impl Experiment {
             Ok(motion) => motion,
             Err(why) => return self.notify(why.to_string()),
         };
-        if motion.look_at(time, &known, horizon) {
+        if motion.go_to(time, &known, horizon) {
             motion.observe_terms();
             self.scrubbed = Some(Box::new(Scrubbed { motion }));
         } else {
@@ -60,13 +60,13 @@ impl Experiment {
             Command::LookAt(_) | Command::Speed(_) | Command::Follow(_) => false,
             Command::Pause => true,
             Command::Step(count) => {
-                self.look_at(time + sign * f64::from(*count) * self.frame());
+                self.scrub_to(time + sign * f64::from(*count) * self.frame());
                 true
             }
             Command::StepBack(count) => {
                 let earlier = time - sign * f64::from(*count) * self.frame();
                 let from = self.recorded().from;
-                self.look_at(if sign * earlier < sign * from { from } else { earlier });
+                self.scrub_to(if sign * earlier < sign * from { from } else { earlier });
                 true
             }
             Command::Reset
@@ -79,7 +79,7 @@ impl Experiment {
             }
             _ => {
                 self.scrubbed = None;
-                self.take_back_to(sign * time);
+                self.rewind_to(sign * time);
                 false
             }
         }

@@ -104,7 +104,7 @@ pub trait Instrument: Sync {
     }
 
     /// Whether it can colour its orbits by whether they are regular.
-    fn tells_orbits_apart(&self) -> bool {
+    fn classifies_orbits(&self) -> bool {
         false
     }
 

@@ -57,7 +57,7 @@ impl Instrument for SectionPlot {
         true
     }
 
-    fn tells_orbits_apart(&self) -> bool {
+    fn classifies_orbits(&self) -> bool {
         true
     }
 

@@ -141,7 +141,7 @@ impl BatchEvents {
             if happened.action == EventAction::Mark
                 && search.accumulation[event].record(time, search.start)
             {
-                let kind = MotionErrorKind::PilesUp(happened.name.clone());
+                let kind = MotionErrorKind::EventsAccumulate(happened.name.clone());
                 return Err(self.system.fault(kind, time, &out.values));
             }
             return Ok(Some(LaneEvent { event, time }));

@@ -70,9 +70,10 @@ impl StoppedMotion<'_> {
                 self.blow_up_from(self.stepper.state(), step)
             }
             // events may come ever faster on the way
-            (MotionErrorKind::NotFinite(_) | MotionErrorKind::PilesUp(_), Stepping::Adaptive) => {
-                self.blow_up_from(self.stepper.state(), end - begin)
-            }
+            (
+                MotionErrorKind::NotFinite(_) | MotionErrorKind::EventsAccumulate(_),
+                Stepping::Adaptive,
+            ) => self.blow_up_from(self.stepper.state(), end - begin),
             (
                 MotionErrorKind::NotFinite(_) | MotionErrorKind::NoConvergence(_),
                 Stepping::Fixed,

@@ -125,7 +125,7 @@ impl HeadlessLab {
     }
 
     /// Sends a command to the experiment.
-    pub(super) fn tell(&mut self, command: Command) {
+    pub(super) fn execute(&mut self, command: Command) {
         let Some(experiment) = &mut self.experiment else { return };
         let clockwork = |e: &Experiment| (e.status() == Status::Running, e.clock(), e.speed());
         let before = clockwork(experiment);
@@ -175,7 +175,7 @@ impl HeadlessLab {
     fn perform(&mut self, effects: Vec<Effect>) {
         for effect in effects {
             match effect {
-                Effect::Tell(command) => self.tell(command),
+                Effect::Execute(command) => self.execute(command),
                 Effect::Load(name) => {
                     let loaded = self.load(name);
                     self.happen(Event::Loaded(loaded));

@@ -398,7 +398,7 @@ impl Lesson {
     /// Continues from what was said.
     pub(super) fn proceed(&mut self) {
         if let Some(view) = self.view.take() {
-            view.look_back(&mut self.runner.lab);
+            view.restore(&mut self.runner.lab);
         }
         let last = self.runner.next.checked_sub(1).and_then(|at| self.runner.script.steps.get(at));
         let personal = |step: &ScriptStep| {

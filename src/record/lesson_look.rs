@@ -37,7 +37,7 @@ impl LessonView {
     }
 
     /// Returns to what was seen before somebody looked around, so that what follows does not depend on it.
-    pub(super) fn look_back(self, host: &mut HeadlessLab) {
+    pub(super) fn restore(self, host: &mut HeadlessLab) {
         host.app.page = self.page;
         if let Some(lab) = &mut host.app.lab {
             lab.focus = self.focus;

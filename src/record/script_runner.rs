@@ -244,12 +244,12 @@ impl ScriptRunner {
                     let message = format!("a speed is above zero; this is {speed}");
                     return Err(Diagnostic::error(written.place, message));
                 }
-                self.lab.tell(Command::Speed(speed));
+                self.lab.execute(Command::Speed(speed));
                 done("speed", format!("{speed}"))
             }
             ScriptStep::Look(written) => {
                 let time = assertion::value(&self.lab.app, &written)?;
-                self.lab.tell(Command::LookAt(time));
+                self.lab.execute(Command::LookAt(time));
                 done("look", format!("{time}"))
             }
             ScriptStep::Focus(name) => {

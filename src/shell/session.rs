@@ -196,9 +196,9 @@ impl Session {
         let mut request = ScreenRequest::Nothing;
         for effect in effects {
             match effect {
-                Effect::Tell(command) => {
+                Effect::Execute(command) => {
                     info!("command {command:?}");
-                    self.worker.tell(command);
+                    self.worker.execute(command);
                 }
                 Effect::Load(name) => {
                     info!("load {name}");

@@ -97,7 +97,7 @@ pub enum MotionErrorKind {
     /// There are too many fixed steps of this size up to this time.
     TooManySteps(f64, f64),
     /// This event occurs at ever shorter intervals, without end.
-    PilesUp(String),
+    EventsAccumulate(String),
     /// The motion grazes the surface of this event, and has no derivative there.
     Grazes(String),
     /// Another impulse acts at the time of the one that this event causes; derivatives depend on
@@ -239,7 +239,7 @@ impl fmt::Display for MotionError {
                 f,
                 "steps of size {step:e} from t = {time} are too many to be counted up to t = {until}"
             )?,
-            MotionErrorKind::PilesUp(name) => {
+            MotionErrorKind::EventsAccumulate(name) => {
                 write!(f, "`{name}` comes ever faster and piles up at t = {time}")?;
             }
             MotionErrorKind::Grazes(name) => write!(
@@ -337,7 +337,7 @@ impl fmt::Display for MotionError {
             MotionErrorKind::ImpulseNotFinite(_) => {
                 ": its change lies outside a function's domain, or beyond the range of numbers"
             }
-            MotionErrorKind::PilesUp(_) => ": give the file an event that stops it before",
+            MotionErrorKind::EventsAccumulate(_) => ": give the file an event that stops it before",
             MotionErrorKind::Rough => ": the rates of change have no limit there, or no value beyond",
             MotionErrorKind::NoSide => ": no side of it leads away, and a motion along it cannot be followed",
             MotionErrorKind::Sticks => ": both sides of a kink push towards it",

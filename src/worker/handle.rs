@@ -81,7 +81,7 @@ impl Worker {
     }
 
     /// Sends a command. It is executed before the next slice, and a snapshot follows at once.
-    pub fn tell(&self, command: Command) {
+    pub fn execute(&self, command: Command) {
         self.send(Message::Execute(command));
     }
 

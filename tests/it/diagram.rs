@@ -356,7 +356,7 @@ fn a_point_of_it_is_a_value_of_the_parameter() {
     press(&mut app, "c");
     app.update(Event::Drawn(Drawn { reading: Some([2.25, 0.5]), ..Drawn::default() }));
     let effects = press(&mut app, "Enter");
-    let [Effect::Tell(Command::Parameter { index: 0, value })] = effects[..] else {
+    let [Effect::Execute(Command::Parameter { index: 0, value })] = effects[..] else {
         panic!("{effects:?}")
     };
     // as a slider would be left there

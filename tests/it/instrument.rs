@@ -310,7 +310,7 @@ fn a_job_that_panics_is_reported_and_the_lab_goes_on() {
     assert!(
         app.notifications.shown.take().is_some_and(|notice| notice.text.contains("by a defect"))
     );
-    assert_eq!(press(&mut app, "r"), [Effect::Tell(Command::Reset)]);
+    assert_eq!(press(&mut app, "r"), [Effect::Execute(Command::Reset)]);
 }
 
 #[test]

@@ -125,7 +125,7 @@ fn a_point_of_it_begins_a_motion_and_changes_nothing_of_it() {
     press(&mut app, "c");
     app.update(Event::Drawn(Drawn { reading: Some([2.0, -0.25]), ..Drawn::default() }));
     let effects = press(&mut app, "Enter");
-    let [Effect::Tell(Command::Start(given))] = &effects[..] else { panic!("{effects:?}") };
+    let [Effect::Execute(Command::Start(given))] = &effects[..] else { panic!("{effects:?}") };
     assert_eq!(given[..], [InitialOverride::Position(0, 2.0), InitialOverride::Velocity(0, -0.25)]);
     let loaded = &app.lab.as_ref().unwrap().loaded;
     let setup = Setup { overrides: given.clone(), ..Setup::of(&loaded.model) };
@@ -168,8 +168,10 @@ fn a_point_sets_parameters_and_initial_values() {
     press(&mut app, "c");
     app.update(Event::Drawn(Drawn { reading: Some([1.5, 2.5]), ..Drawn::default() }));
     let effects = press(&mut app, "Enter");
-    let [Effect::Tell(Command::Parameter { index: 0, value }), Effect::Tell(Command::Start(given))] =
-        &effects[..]
+    let [
+        Effect::Execute(Command::Parameter { index: 0, value }),
+        Effect::Execute(Command::Start(given)),
+    ] = &effects[..]
     else {
         panic!("{effects:?}")
     };

@@ -341,7 +341,7 @@ fn keys_add_orbits_and_clear_them_and_sessions_have_them() {
     strange.view = Some(99);
     assert_eq!(strange.place(physics), None);
     // one key removes all, another brings it back
-    assert_eq!(typed(&mut app, "N"), [Effect::Tell(Command::ForgetCrossings)]);
+    assert_eq!(typed(&mut app, "N"), [Effect::Execute(Command::ForgetCrossings)]);
     assert_eq!((plot(&app).seeds, measure(&app, &plot(&app), "orbits")), (Vec::new(), 16.0));
     typed(&mut app, "u");
     assert_eq!(plot(&app).seeds.len(), 3);
@@ -392,7 +392,7 @@ fn enter_begins_at_the_cursor_or_says_why_not() {
     assert!(app.overlay.take().is_some(), "without a cursor Enter chooses the axes");
     press(&mut app, "c");
     let effects = at(&mut app, [0.1, 0.0]);
-    let [Effect::Tell(Command::Start(given))] = &effects[..] else { panic!("{effects:?}") };
+    let [Effect::Execute(Command::Start(given))] = &effects[..] else { panic!("{effects:?}") };
     assert!(given.contains(&InitialOverride::Position(1, 0.1)) && given.len() == 4);
     assert_eq!(at(&mut app, [0.1, 0.7]), []);
     let message = app.notifications.shown.take().expect("a reason").text;

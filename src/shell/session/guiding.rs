@@ -24,7 +24,7 @@ impl Session {
                 let status = self.app.snapshot().map(|snapshot| &snapshot.status);
                 guided.was_running = status == Some(&Status::Running);
                 if guided.was_running {
-                    self.worker.tell(Command::Pause);
+                    self.worker.execute(Command::Pause);
                 }
                 self.guided = Some(guided);
             }
@@ -36,7 +36,7 @@ impl Session {
     pub(super) fn leave_guide(&mut self) {
         let Some(guided) = self.guided.take() else { return };
         if guided.was_running {
-            self.worker.tell(Command::Play);
+            self.worker.execute(Command::Play);
         }
         let wrong = guided.leave();
         self.guide_left(wrong);

@@ -200,8 +200,8 @@ fn outcome(app: &mut App, act: impl FnOnce(&mut App) -> Vec<Effect>) -> String {
     let before = facts(app);
     let effects = act(app);
     let asked = effects.iter().map(|effect| match effect {
-        Effect::Tell(Command::Restore(_)) => "Restore".to_owned(),
-        Effect::Tell(command) => format!("{command:?}"),
+        Effect::Execute(Command::Restore(_)) => "Restore".to_owned(),
+        Effect::Execute(command) => format!("{command:?}"),
         other => format!("{other:?}"),
     });
     let after = facts(app);

@@ -47,7 +47,7 @@ impl Real {
     /// Carries out the requested effects.
     pub(crate) fn execute(&mut self, effects: Vec<Effect>) {
         for effect in effects {
-            if let Effect::Tell(command) = effect {
+            if let Effect::Execute(command) = effect {
                 self.experiment.execute(command);
             }
         }

@@ -43,7 +43,7 @@ fn what_was_looked_at_is_looked_at_again() {
     let in_front = |app: &App| app.lab.as_ref().unwrap().focused_before().collect::<Vec<_>>();
     assert!(!in_front(&app).is_empty());
     assert_eq!(in_front(&resumed(kept(&app)).0), in_front(&app));
-    assert_eq!(effects, [Effect::Tell(Command::Restore(Box::new(saved.moment)))]);
+    assert_eq!(effects, [Effect::Execute(Command::Restore(Box::new(saved.moment)))]);
     press(&mut app, "2");
     assert_eq!(resumed(kept(&app)).0.page, Page::Equations);
 }
@@ -68,7 +68,7 @@ fn the_list_of_systems_keeps_what_was_left() {
 fn another_system_than_the_session_s_begins_as_always() {
     let saved = Saved { open: "planet".to_owned(), ..kept(&in_lab()) };
     let (app, effects) = resumed(saved);
-    assert_eq!(effects, [Effect::Tell(Command::Play)]);
+    assert_eq!(effects, [Effect::Execute(Command::Play)]);
     assert_eq!(app.lab.unwrap().focus.pane, Pane::Parameters);
 }
 
@@ -110,7 +110,7 @@ fn a_rebuilt_system_is_looked_at_as_before() {
         names.collect::<Vec<_>>()
     };
     assert_eq!(names(lab), names(&before));
-    assert!(matches!(effects.as_slice(), [Effect::Tell(Command::Restore(_))]), "{effects:?}");
+    assert!(matches!(effects.as_slice(), [Effect::Execute(Command::Restore(_))]), "{effects:?}");
 }
 
 #[test]
@@ -129,7 +129,7 @@ fn a_system_that_lost_what_was_shown_opens_its_own_views() {
 /// What of the law is said to be another one, where the motion is restored.
 fn changed(effects: &[Effect]) -> Option<String> {
     let restored = effects.iter().find_map(|effect| match effect {
-        Effect::Tell(Command::Restore(checkpoint)) => Some(checkpoint.changed.clone()),
+        Effect::Execute(Command::Restore(checkpoint)) => Some(checkpoint.changed.clone()),
         _ => None,
     });
     restored.expect("the motion is restored")
@@ -158,7 +158,7 @@ fn a_motion_of_another_law_is_not_brought_back() {
         app.update(Event::Rebuilt(loaded.clone()));
         app.update(Event::Snapshot(Arc::new(snapshot(&loaded, 2.0))));
         let effects = press(&mut app, "u");
-        let restores = |effect: &Effect| matches!(effect, Effect::Tell(Command::Restore(_)));
+        let restores = |effect: &Effect| matches!(effect, Effect::Execute(Command::Restore(_)));
         assert_eq!(effects.iter().any(restores), comes_back, "{effects:?}");
         assert!(!effects.is_empty());
     }
@@ -203,7 +203,7 @@ fn the_first_row_of_the_list_goes_on_with_the_session() {
     let effects = app.update(Event::Loaded(Ok(pendulum())));
     let (by_option, effects_of_option) = resumed(saved.clone());
     assert_eq!(effects, effects_of_option);
-    assert_eq!(effects, [Effect::Tell(Command::Restore(Box::new(saved.moment)))]);
+    assert_eq!(effects, [Effect::Execute(Command::Restore(Box::new(saved.moment)))]);
     assert_eq!((app.page, by_option.page), (Page::Equations, Page::Equations));
     let (lab, other) = (app.lab.as_ref().unwrap(), by_option.lab.as_ref().unwrap());
     assert_eq!(
@@ -251,7 +251,7 @@ fn only_the_row_of_the_session_goes_on_with_it() {
     assert!(app.picker.session().is_some() && app.picker.selected_session().is_none());
     press(&mut app, "Enter");
     let effects = app.update(Event::Loaded(Ok(pendulum())));
-    assert!(effects.contains(&Effect::Tell(Command::Play)), "{effects:?}");
+    assert!(effects.contains(&Effect::Execute(Command::Play)), "{effects:?}");
     // a load that was stopped leaves nothing to be taken up by the next one
     let mut app = offered(saved.clone());
     press(&mut app, "Enter");
@@ -260,5 +260,5 @@ fn only_the_row_of_the_session_goes_on_with_it() {
     app.picker.select(&saved.open);
     press(&mut app, "Enter");
     let effects = app.update(Event::Loaded(Ok(pendulum())));
-    assert!(effects.contains(&Effect::Tell(Command::Play)), "{effects:?}");
+    assert!(effects.contains(&Effect::Execute(Command::Play)), "{effects:?}");
 }

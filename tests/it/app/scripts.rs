@@ -56,8 +56,8 @@ fn values(motion: &Checkpoint) -> Vec<(&str, f64)> {
 
 fn asked(effects: &[Effect]) -> String {
     let word = |effect: &Effect| match effect {
-        Effect::Tell(Command::Restore(motion)) => format!("Restore({:?})", values(motion)),
-        Effect::Tell(command) => format!("{command:?}"),
+        Effect::Execute(Command::Restore(motion)) => format!("Restore({:?})", values(motion)),
+        Effect::Execute(command) => format!("{command:?}"),
         other => format!("{other:?}"),
     };
     effects.iter().map(word).collect::<Vec<_>>().join(", ")
@@ -206,7 +206,10 @@ fn a_system_opened_before_it_is_there_opens_when_it_comes() {
     assert_eq!(press(&mut app, "Enter"), [Effect::Load("kapitza".into())]);
     assert_eq!(press(&mut app, "Enter"), [], "it is on its way");
     assert_eq!(app.page, Page::Picker);
-    assert_eq!(app.update(Event::Loaded(Ok(loaded("kapitza", 2)))), [Effect::Tell(Command::Play)]);
+    assert_eq!(
+        app.update(Event::Loaded(Ok(loaded("kapitza", 2)))),
+        [Effect::Execute(Command::Play)]
+    );
     assert_eq!(app.page, Page::Lab);
 }
 

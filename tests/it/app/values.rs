@@ -32,7 +32,7 @@ fn a_typed_value_may_be_any_expression_in_parameters() {
     ] {
         let (effects, diagnostic, _) = typed(text);
         assert_eq!(diagnostic, None, "{text}");
-        assert_eq!(effects, [Effect::Tell(Command::Parameter { index: 0, value })], "{text}");
+        assert_eq!(effects, [Effect::Execute(Command::Parameter { index: 0, value })], "{text}");
     }
 }
 
@@ -84,7 +84,7 @@ fn a_method_is_asked_only_for_what_it_uses() {
 fn a_value_beyond_its_range_is_taken_and_said() {
     let mut app = in_lab();
     let effects = press(&mut app, "Enter Ctrl-u 9 9 Enter");
-    assert_eq!(effects, [Effect::Tell(Command::Parameter { index: 0, value: 99.0 })]);
+    assert_eq!(effects, [Effect::Execute(Command::Parameter { index: 0, value: 99.0 })]);
     assert!(app.notifications.shown.is_some_and(|notice| notice.text.contains("0.1 to 5")));
 }
 
@@ -124,8 +124,8 @@ fn steps_that_follow_each_other_are_one_change_for_the_experiment() {
     });
     let begins = |effects: &[Effect]| {
         effects.iter().find_map(|effect| match effect {
-            Effect::Tell(Command::Parameter { index: 0, .. }) => Some(true),
-            Effect::Tell(Command::MoveParameter { index: 0, .. }) => Some(false),
+            Effect::Execute(Command::Parameter { index: 0, .. }) => Some(true),
+            Effect::Execute(Command::MoveParameter { index: 0, .. }) => Some(false),
             _ => None,
         })
     };

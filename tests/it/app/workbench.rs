@@ -76,7 +76,7 @@ fn a_change_is_checked_when_typing_rests_and_the_motion_goes_on() {
     press(&mut app, "Backspace");
     assert_eq!(app.update(Event::Tick(Duration::from_millis(100))), [], "typing goes on");
     let effects = rest(&mut app);
-    let [Effect::Tell(Command::Restore(moment))] = effects.as_slice() else {
+    let [Effect::Execute(Command::Restore(moment))] = effects.as_slice() else {
         panic!("{effects:?}")
     };
     assert!(moment.running);
@@ -131,7 +131,7 @@ fn errors_stand_in_their_places_until_the_text_is_right_again() {
     assert_eq!(sheet(&app).editor.cursor(), diagnostic.from);
     press(&mut app, "Ctrl-u");
     let effects = rest(&mut app);
-    assert!(matches!(effects.as_slice(), [Effect::Tell(Command::Restore(_))]), "{effects:?}");
+    assert!(matches!(effects.as_slice(), [Effect::Execute(Command::Restore(_))]), "{effects:?}");
     assert_eq!(sheet(&app).diagnostics, []);
     assert_eq!(app.banner(), None);
 }
@@ -312,7 +312,7 @@ fn a_watched_file_is_taken_up_while_its_editor_is_closed() {
     assert_eq!(app.update(Event::Tick(Duration::from_secs(1))), [], "nothing has changed");
     app.update(file(&text.replace("9.81", "1.62")));
     let effects = rest(&mut app);
-    assert!(matches!(effects.as_slice(), [Effect::Tell(Command::Restore(_))]), "{effects:?}");
+    assert!(matches!(effects.as_slice(), [Effect::Execute(Command::Restore(_))]), "{effects:?}");
     let model = &app.lab.as_ref().unwrap().loaded.model;
     assert!(model.parameters.iter().any(|p| p.value == 1.62));
     assert!(app.overlay.is_none());
@@ -385,7 +385,7 @@ fn a_text_that_is_not_saved_outlives_the_session() {
     // the motion belongs to the text and waits for it; a session that ends now is unchanged
     assert_eq!(effects, []);
     assert_eq!(again.saved().unwrap().moment, left.moment);
-    assert_eq!(rest(&mut again), [Effect::Tell(Command::Restore(Box::new(left.moment)))]);
+    assert_eq!(rest(&mut again), [Effect::Execute(Command::Restore(Box::new(left.moment)))]);
     press(&mut again, "E Ctrl-Home");
     assert_eq!(sheet(&again).editor.text(), sheet(&app).editor.text());
     assert!(sheet(&again).is_modified());
@@ -400,7 +400,7 @@ fn a_text_with_errors_that_is_not_saved_outlives_the_session_too() {
     let left = app.saved().unwrap();
     let (mut again, effects) = started_again(&app, true);
     assert_eq!(effects, []);
-    assert_eq!(rest(&mut again), [Effect::Tell(Command::Restore(Box::new(left.moment)))]);
+    assert_eq!(rest(&mut again), [Effect::Execute(Command::Restore(Box::new(left.moment)))]);
     assert!(again.banner().is_some_and(|banner| banner.contains("thet")));
 }
 
@@ -409,7 +409,7 @@ fn without_resuming_the_file_runs_and_the_text_waits_for_its_editor() {
     let mut app = edited();
     press(&mut app, "# Enter");
     let (mut again, effects) = started_again(&app, false);
-    assert_eq!(effects, [Effect::Tell(Command::Play)]);
+    assert_eq!(effects, [Effect::Execute(Command::Play)]);
     assert!(again.notifications.shown.as_ref().unwrap().text.contains("E shows them"));
     assert_eq!(again.update(Event::Tick(Duration::from_secs(1))), []);
     assert_eq!(again.unsaved(), app.unsaved(), "it is kept on");

@@ -78,7 +78,7 @@ pub(crate) fn check(bytes: &[u8]) {
     let mut app = opened();
     app.resume(saved);
     for effect in app.update(Event::Loaded(Ok(loaded))) {
-        if let Effect::Tell(command) = effect {
+        if let Effect::Execute(command) = effect {
             experiment.execute(command);
         }
     }

@@ -557,7 +557,7 @@ fn nothing_is_under_a_place_that_shows_nothing() {
     for act in [Down(Left), Drag(Left), Up(Left), ScrollDown] {
         let effects = app.update(Event::Mouse(act, target));
         let harmless = |e: &phaselab::app::Effect| {
-            let phaselab::app::Effect::Tell(command) = e else { return true };
+            let phaselab::app::Effect::Execute(command) = e else { return true };
             !matches!(command, Command::Parameter { .. } | Command::MoveParameter { .. })
         };
         assert!(effects.iter().all(harmless), "{effects:?}");

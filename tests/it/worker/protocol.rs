@@ -94,7 +94,7 @@ fn a_paused_subject_is_shown_once_and_left_alone() {
     let mut worker = Worker::spawn(counter).expect("a thread");
     wait(&mut worker, |s| s.status == Status::Paused);
     assert!(worker.newest().is_none(), "the same snapshot is not given twice");
-    worker.tell(Command::Speed(3.0));
+    worker.execute(Command::Speed(3.0));
     wait(&mut worker, |s| s.speed == 3.0);
     assert_eq!(slices.load(Ordering::SeqCst), 0);
 }
@@ -120,12 +120,12 @@ fn flat_out_is_as_fast_as_it_goes() {
 fn play_and_pause_are_obeyed_at_once() {
     let mut worker = Worker::spawn(Counter::running(f64::INFINITY)).expect("a thread");
     wait(&mut worker, |s| s.time > 0.0);
-    worker.tell(Command::Pause);
+    worker.execute(Command::Pause);
     let held = wait(&mut worker, |s| s.status == Status::Paused);
-    worker.tell(Command::Speed(2.0));
+    worker.execute(Command::Speed(2.0));
     let still = wait(&mut worker, |s| s.speed == 2.0);
     assert_eq!(held.time, still.time);
-    worker.tell(Command::Play);
+    worker.execute(Command::Play);
     wait(&mut worker, |s| s.time > still.time);
 }
 
@@ -133,9 +133,9 @@ fn play_and_pause_are_obeyed_at_once() {
 fn every_command_is_obeyed_in_order() {
     let mut worker = Worker::spawn(Counter::running(f64::INFINITY)).expect("a thread");
     for index in 0..1000 {
-        worker.tell(Command::Parameter { index, value: 0.0 });
+        worker.execute(Command::Parameter { index, value: 0.0 });
     }
-    worker.tell(Command::Pause);
+    worker.execute(Command::Pause);
     let snapshot = wait(&mut worker, |s| s.status == Status::Paused);
     assert_eq!(snapshot.values[0], 1000.0);
 }
@@ -144,8 +144,8 @@ fn every_command_is_obeyed_in_order() {
 fn a_command_about_time_sets_the_clock_anew() {
     let mut worker = Worker::spawn(Counter::running(1e6)).expect("a thread");
     wait(&mut worker, |s| s.time > 1e5);
-    worker.tell(Command::Speed(1e-3));
-    worker.tell(Command::Reset);
+    worker.execute(Command::Speed(1e-3));
+    worker.execute(Command::Reset);
     wait(&mut worker, |s| s.speed == 1e-3 && s.time < 1.0);
     for _ in 0..3 {
         assert!(wait(&mut worker, |_| true).time < 1.0, "it goes on from the new time");
@@ -166,7 +166,7 @@ fn loading_raises_the_epoch_and_no_older_snapshot_follows() {
 #[test]
 fn an_idle_worker_waits_for_its_first_subject() {
     let mut worker = Worker::idle().expect("a thread");
-    worker.tell(Command::Play);
+    worker.execute(Command::Play);
     assert!(worker.newest().is_none());
     assert_eq!(worker.load(Counter::running(1.0)), 1);
     wait(&mut worker, |s| s.epoch == 1);
@@ -187,7 +187,7 @@ fn a_panic_becomes_a_fault_and_the_worker_goes_on() {
 #[test]
 fn a_command_that_panics_is_reported_as_well() {
     let mut worker = Worker::spawn(Counter::default()).expect("a thread");
-    worker.tell(Command::Reference);
+    worker.execute(Command::Reference);
     let snapshot = wait(&mut worker, |s| matches!(s.status, Status::Failed(_)));
     let Status::Failed(fault) = &snapshot.status else { unreachable!("just looked") };
     assert!(fault.message.contains("this command panics"), "{}", fault.message);
