@@ -7,9 +7,9 @@ use super::conservation::Claim;
 use super::own_method::{self, LENGTH};
 use super::start;
 use crate::diagnostic::{Diagnostic, SourceRange};
-use crate::expr::{Expr, Symbol};
+use crate::expr::Symbol;
 use crate::integrate::{self, Occurrence, Reached, Settings, method_named};
-use crate::mechanics::{Equations, Flow};
+use crate::mechanics::Equations;
 use crate::model::{ExpectedValue, Model};
 use crate::system::{ChannelKind, MotionError, MotionErrorKind, Observer, State, System};
 
@@ -32,15 +32,7 @@ const EVENT: u64 = 4;
 /// The number of steps allowed for claims: the larger the equations, the fewer.
 fn steps_for(equations: &Equations) -> u64 {
     let pool = &equations.pool;
-    let roots: Vec<Expr> = match &equations.flow {
-        Flow::Lagrange { mass, force, .. } => {
-            mass.concat().into_iter().chain(force.clone()).collect()
-        }
-        Flow::Hamilton { velocities, momentum_rates } => {
-            velocities.iter().chain(momentum_rates).copied().collect()
-        }
-        Flow::Poisson { rates } => rates.clone(),
-    };
+    let roots = equations.flow.expressions();
     (WORK / (pool.reachable(&roots).len() as u64).max(1)).max(FEWEST_STEPS)
 }
 
@@ -411,7 +403,8 @@ impl<'a> ClaimedMotion<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mechanics;
+    use crate::expr::Expr;
+    use crate::mechanics::{self, Flow};
 
     fn steps(law: &str) -> (u64, u64) {
         let text = format!(

@@ -106,16 +106,7 @@ fn without_inertia(model: &Model, equations: &Equations) -> Option<(SourceRange,
 /// The law and its energy, and what follows from them.
 fn law_and_rates(equations: &Equations) -> [Vec<Expr>; 2] {
     let law = equations.lagrangian.iter().copied().chain([equations.energy]).collect();
-    let rates = match &equations.flow {
-        Flow::Lagrange { mass, force, .. } => {
-            mass.concat().into_iter().chain(force.clone()).collect()
-        }
-        Flow::Hamilton { velocities, momentum_rates } => {
-            velocities.iter().chain(momentum_rates).copied().collect()
-        }
-        Flow::Poisson { rates } => rates.clone(),
-    };
-    [law, rates]
+    [law, equations.flow.expressions()]
 }
 
 /// A law that has a value at the start by rounding alone, as tan(x) has at π/2.

@@ -7,7 +7,7 @@ use super::failure::CommandError;
 use super::interrupt::Interrupt;
 use super::run::progress::Bar;
 use super::study::{self, Study, StudyArguments, shown, table};
-use crate::dynamics::{Chaos, Gali, Lyapunov, Removed, gali, lyapunov};
+use crate::dynamics::{Gali, Lyapunov, Removed, gali, lyapunov};
 
 /// Measure how fast neighbouring motions separate.
 ///
@@ -106,14 +106,6 @@ fn lines(volumes: &Gali) -> String {
     format!("\n{}", all.collect::<String>())
 }
 
-fn word(verdict: Chaos) -> &'static str {
-    match verdict {
-        Chaos::Regular => "regular",
-        Chaos::Chaotic => "chaotic",
-        Chaos::Undecided => "undecided",
-    }
-}
-
 fn removed(what: Removed) -> &'static [&'static str] {
     match what {
         Removed::Nothing => &[],
@@ -131,7 +123,7 @@ fn object(study: &Study, found: &Lyapunov) -> Map<String, Value> {
     insert("settled", json!(found.settled));
     insert("trivial", json!(removed(found.removed)));
     insert("megno", json!(found.megno));
-    insert("verdict", json!(word(found.verdict)));
+    insert("verdict", json!(found.verdict.word()));
     insert("reason", json!(found.reason));
     insert("sum", json!(found.sum));
     insert("pairing_residual", json!(found.pairing_residual));
@@ -156,7 +148,7 @@ fn text(study: &Study, found: &Lyapunov) -> String {
     }
     let mut text = format!(
         "{} from t = {} to {}\n\n",
-        word(found.verdict),
+        found.verdict.word(),
         shown(study.start.time),
         shown(found.time)
     );

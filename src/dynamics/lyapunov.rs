@@ -48,6 +48,17 @@ pub enum Chaos {
     Undecided,
 }
 
+impl Chaos {
+    /// The word for it.
+    pub fn word(self) -> &'static str {
+        match self {
+            Chaos::Regular => "regular",
+            Chaos::Chaotic => "chaotic",
+            Chaos::Undecided => "undecided",
+        }
+    }
+}
+
 /// The exponents of a motion.
 #[derive(Clone, Debug)]
 pub struct Lyapunov {

@@ -79,8 +79,7 @@ impl Instrument for ActionPlot {
             ),
             about: self.0.about().to_owned(),
             columns: vec![vec![channel]],
-            view: None,
-            over: Vec::new(),
+            ..Offer::default()
         };
         physics.positions().map(offer).collect()
     }

@@ -136,11 +136,8 @@ impl Instrument for Diagram {
         })
     }
 
-    fn picture(
-        &self,
-        PlotContext { plot, present, answer }: PlotContext<'_>,
-        _seen: [f64; 2],
-    ) -> Option<Picture> {
+    fn picture(&self, context: PlotContext<'_>, _seen: [f64; 2]) -> Option<Picture> {
+        let PlotContext { plot, present, answer } = context;
         let found = computed(plot, answer);
         let points = found.map(|found| Arc::clone(&found.points)).unwrap_or_default();
         let [low, high] = heights(plot, present, found);

@@ -72,8 +72,7 @@ impl Instrument for Ensemble {
             about: "an ensemble of starts carried by the flow, and the action ∫ p dq around it"
                 .to_owned(),
             columns: vec![vec![x], vec![y]],
-            view: None,
-            over: Vec::new(),
+            ..Offer::default()
         };
         pairs.into_iter().map(offer).collect()
     }
@@ -243,7 +242,7 @@ impl Instrument for Ensemble {
             Measure {
                 word: "off",
                 about: "how far the two are apart, as a fraction of the expected value",
-                value: |context| off(context),
+                value: off,
             },
             Measure {
                 word: "rate",

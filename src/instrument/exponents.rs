@@ -48,8 +48,7 @@ impl Instrument for Exponents {
             label: "exponents".to_owned(),
             about: "the largest Lyapunov exponent against time, regular or chaotic".to_owned(),
             columns: Columns::new(),
-            view: None,
-            over: Vec::new(),
+            ..Offer::default()
         }]
     }
 
@@ -69,11 +68,8 @@ impl Instrument for Exponents {
         Across::Times([start, end])
     }
 
-    fn picture(
-        &self,
-        PlotContext { present, answer, .. }: PlotContext<'_>,
-        _seen: [f64; 2],
-    ) -> Option<Picture> {
+    fn picture(&self, context: PlotContext<'_>, _seen: [f64; 2]) -> Option<Picture> {
+        let PlotContext { present, answer, .. } = context;
         let axes = |name: &str, range, layers| {
             let upwards = Upwards::Named(name.to_owned(), range);
             Some(Picture::Axes { upwards, layers, occurrences: None })
@@ -103,7 +99,7 @@ impl Instrument for Exponents {
         let settled = found.settled.first().copied().unwrap_or(true);
         let known = if settled { "" } else { " or more: the average has not settled" };
         let legend = vec![
-            format!("{}: λ = {largest_words} ± {off_words}{known}", word(found.verdict)),
+            format!("{}: λ = {largest_words} ± {off_words}{known}", found.verdict.word()),
             format!("MEGNO {}", short(found.megno)),
             found.reason.clone(),
         ];
@@ -207,12 +203,4 @@ fn measured(answer: Option<&Answer>) -> Option<&Measured> {
 
 fn found(answer: Option<&Answer>) -> Option<&Lyapunov> {
     measured(answer)?.found.as_ref().ok()
-}
-
-fn word(verdict: Chaos) -> &'static str {
-    match verdict {
-        Chaos::Regular => "regular",
-        Chaos::Chaotic => "chaotic",
-        Chaos::Undecided => "undecided",
-    }
 }

@@ -118,11 +118,8 @@ impl Instrument for FamilyPlot {
         }
     }
 
-    fn picture(
-        &self,
-        PlotContext { plot, present, answer }: PlotContext<'_>,
-        _seen: [f64; 2],
-    ) -> Option<Picture> {
+    fn picture(&self, context: PlotContext<'_>, _seen: [f64; 2]) -> Option<Picture> {
+        let PlotContext { plot, present, answer } = context;
         let x = quantity(plot, answer)?;
         let now = now(plot, present)?;
         let members = followed(answer).map_or(&[][..], |found| &found.members);

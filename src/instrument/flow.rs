@@ -81,8 +81,7 @@ impl Instrument for FlowPlot {
             about: "M = ∂η(t)/∂η(0): det M, and how symplectic it is, by this method and exactly"
                 .to_owned(),
             columns: Columns::new(),
-            view: None,
-            over: Vec::new(),
+            ..Offer::default()
         }]
     }
 

@@ -242,7 +242,7 @@ impl Axis {
 }
 
 /// A choice for the contents of a pane.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Offer {
     /// Its name.
     pub label: String,

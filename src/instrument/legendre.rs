@@ -135,8 +135,7 @@ impl Instrument for LegendrePlot {
                 label: format!("Legendre transform, {function} over {number}"),
                 about: "the momentum as a slope, the Hamiltonian as an intercept".to_owned(),
                 columns,
-                view: None,
-                over: Vec::new(),
+                ..Offer::default()
             })
         };
         physics.positions().filter_map(offer).collect()

@@ -121,11 +121,8 @@ impl Instrument for Map {
         }
     }
 
-    fn picture(
-        &self,
-        PlotContext { plot, present, answer }: PlotContext<'_>,
-        _seen: [f64; 2],
-    ) -> Option<Picture> {
+    fn picture(&self, context: PlotContext<'_>, _seen: [f64; 2]) -> Option<Picture> {
+        let PlotContext { plot, present, answer } = context;
         let [x, y] = [0, 1].map(|axis| plot.over.get(axis).copied());
         let range = varied::range(plot, present, 1)?;
         let mut layers = Vec::new();

@@ -22,8 +22,7 @@ pub(super) fn offers(physics: Physics<'_>, what: &str, about: &str) -> Vec<Offer
         label: format!("{what} of {}", model.coordinates[index].shown),
         about: about.to_owned(),
         columns: vec![vec![channel]],
-        view: None,
-        over: Vec::new(),
+        ..Offer::default()
     };
     physics.positions().map(offer).collect()
 }

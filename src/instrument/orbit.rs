@@ -79,8 +79,7 @@ impl Instrument for OrbitPlot {
             label: format!("orbit: {} against {}", physics.shown(y), physics.shown(x)),
             about: "the periodic orbit near the motion: period, action, multipliers".to_owned(),
             columns: vec![vec![x], vec![y]],
-            view: None,
-            over: Vec::new(),
+            ..Offer::default()
         };
         pairs(physics).into_iter().map(offer).collect()
     }

@@ -79,8 +79,7 @@ impl Instrument for PathsPlot {
             label: format!("true paths of {}", physics.model.coordinates[index].shown),
             about: "all paths found between the ends of the motion, with their actions".to_owned(),
             columns: vec![vec![channel]],
-            view: None,
-            over: Vec::new(),
+            ..Offer::default()
         };
         physics.positions().map(offer).collect()
     }
@@ -104,11 +103,8 @@ impl Instrument for PathsPlot {
         Across::Named("t".to_owned(), range)
     }
 
-    fn picture(
-        &self,
-        PlotContext { plot, present, answer }: PlotContext<'_>,
-        _seen: [f64; 2],
-    ) -> Option<Picture> {
+    fn picture(&self, context: PlotContext<'_>, _seen: [f64; 2]) -> Option<Picture> {
+        let PlotContext { plot, present, answer } = context;
         let column = plot.column(0)?;
         let mut layers = Vec::new();
         let mut ends = [f64::INFINITY, f64::NEG_INFINITY];

@@ -62,8 +62,7 @@ impl Instrument for Phase {
                 label: channel.shown.clone(),
                 about: format!("{}{unit}", channel.name),
                 columns: vec![vec![index]],
-                view: None,
-                over: Vec::new(),
+                ..Offer::default()
             }
         };
         physics.named().map(offer).collect()

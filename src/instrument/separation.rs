@@ -35,8 +35,7 @@ impl Instrument for SeparationPlot {
             label: "separation".to_owned(),
             about: "ln of the distance from the motions beside this one, against time".to_owned(),
             columns: Columns::new(),
-            view: None,
-            over: Vec::new(),
+            ..Offer::default()
         }]
     }
 
@@ -68,11 +67,8 @@ impl Instrument for SeparationPlot {
         Across::Times(range(present, 0).unwrap_or([present.time, present.time + 1.0]))
     }
 
-    fn picture(
-        &self,
-        PlotContext { present, answer, .. }: PlotContext<'_>,
-        _seen: [f64; 2],
-    ) -> Option<Picture> {
+    fn picture(&self, context: PlotContext<'_>, _seen: [f64; 2]) -> Option<Picture> {
+        let PlotContext { present, answer, .. } = context;
         let mut layers = Vec::new();
         for (number, distances) in present.separations {
             let ink = Ink::Companion(*number);

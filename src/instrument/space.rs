@@ -26,8 +26,7 @@ impl Instrument for Space {
             label: "motion in space".to_owned(),
             about: "the system in space".to_owned(),
             columns,
-            view: None,
-            over: Vec::new(),
+            ..Offer::default()
         };
         self.opening(physics).into_iter().map(offer).collect()
     }
@@ -57,11 +56,7 @@ impl Instrument for Space {
         Across::Nothing
     }
 
-    fn picture(
-        &self,
-        PlotContext { plot, .. }: PlotContext<'_>,
-        _seen: [f64; 2],
-    ) -> Option<Picture> {
-        plot.eye().map(Picture::Scene)
+    fn picture(&self, context: PlotContext<'_>, _seen: [f64; 2]) -> Option<Picture> {
+        context.plot.eye().map(Picture::Scene)
     }
 }

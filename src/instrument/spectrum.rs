@@ -78,8 +78,7 @@ impl Instrument for SpectrumPlot {
             label: format!("spectrum of {}", channel.shown),
             about: "the frequencies of the motion, and what they are combinations of".to_owned(),
             columns: vec![vec![index]],
-            view: None,
-            over: Vec::new(),
+            ..Offer::default()
         };
         known.map(offer).collect()
     }
@@ -102,11 +101,8 @@ impl Instrument for SpectrumPlot {
         Across::Named("ω".to_owned(), [0.0, last])
     }
 
-    fn picture(
-        &self,
-        PlotContext { plot, present, answer }: PlotContext<'_>,
-        _seen: [f64; 2],
-    ) -> Option<Picture> {
+    fn picture(&self, context: PlotContext<'_>, _seen: [f64; 2]) -> Option<Picture> {
+        let PlotContext { plot, present, answer } = context;
         let name = present.physics.shown(plot.column(0)?);
         let axes = |range, layers| {
             let upwards = Upwards::Named(format!("lg amplitude of {name}"), range);

@@ -36,8 +36,7 @@ impl Instrument for Time {
             label: "t".to_owned(),
             about: "one or several quantities over time".to_owned(),
             columns: Columns::new(),
-            view: None,
-            over: Vec::new(),
+            ..Offer::default()
         }]
     }
 
@@ -58,11 +57,8 @@ impl Instrument for Time {
         Across::Time
     }
 
-    fn picture(
-        &self,
-        PlotContext { plot, present, .. }: PlotContext<'_>,
-        _seen: [f64; 2],
-    ) -> Option<Picture> {
+    fn picture(&self, context: PlotContext<'_>, _seen: [f64; 2]) -> Option<Picture> {
+        let PlotContext { plot, present, .. } = context;
         let channels = plot.columns.first()?;
         let curve = |(index, &channel): (usize, &usize)| {
             let level = (channels.len() - index).min(usize::from(CURVES)) as Level;

@@ -93,8 +93,7 @@ impl Instrument for TransformationPlot {
                     label: format!("{} against {}", upwards.shown, across.shown),
                     about: format!("the transformation {}, with the grid of (q, p)", law.name),
                     columns: vec![vec![x], vec![y]],
-                    view: None,
-                    over: Vec::new(),
+                    ..Offer::default()
                 })
             })
         });

@@ -240,6 +240,19 @@ pub enum Flow {
     },
 }
 
+impl Flow {
+    /// The expressions by which the motion is integrated.
+    pub fn expressions(&self) -> Vec<Expr> {
+        match self {
+            Flow::Lagrange { mass, force, .. } => [&mass.concat()[..], force].concat(),
+            Flow::Hamilton { velocities, momentum_rates } => {
+                [&velocities[..], momentum_rates].concat()
+            }
+            Flow::Poisson { rates } => rates.clone(),
+        }
+    }
+}
+
 /// The largest number of nodes at which a solved or transformed expression is still reported.
 pub const CLOSED_FORM_LIMIT: u64 = 10_000;
 

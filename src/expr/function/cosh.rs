@@ -1,6 +1,6 @@
 //! The hyperbolic cosine.
 
-use super::recurrence::{BilinearEquation, COMPANION, Convolution, FIRST, Recurrence, VALUE};
+use super::sinh::RECURRENCE;
 use super::{Function, FunctionId, Rule};
 use crate::expr::Expr;
 use crate::num::{Analytic, math};
@@ -10,13 +10,6 @@ pub(super) fn with_companion<R: Analytic>(u: [R; 2]) -> (R, R) {
     let (sinh, cosh) = u[0].sinh_cosh();
     (cosh, sinh)
 }
-
-/// y = cosh u, w = sinh u: y′ = w u′, w′ = y u′.
-const RECURRENCE: Recurrence = Recurrence {
-    companion_first: false,
-    value: BilinearEquation::over_order(&[Convolution::of_slope(1.0, FIRST, COMPANION)]),
-    companion: Some(BilinearEquation::over_order(&[Convolution::of_slope(1.0, FIRST, VALUE)])),
-};
 
 pub(super) const FUNCTION: Function = Function {
     id: FunctionId::Cosh,

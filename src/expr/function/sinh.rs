@@ -9,8 +9,8 @@ pub(super) fn with_companion<R: Analytic>(u: [R; 2]) -> (R, R) {
     u[0].sinh_cosh()
 }
 
-/// y = sinh u, w = cosh u: y′ = w u′, w′ = y u′.
-const RECURRENCE: Recurrence = Recurrence {
+/// y = sinh u, w = cosh u: y′ = w u′, w′ = y u′. The same with both exchanged.
+pub(super) const RECURRENCE: Recurrence = Recurrence {
     companion_first: false,
     value: BilinearEquation::over_order(&[Convolution::of_slope(1.0, FIRST, COMPANION)]),
     companion: Some(BilinearEquation::over_order(&[Convolution::of_slope(1.0, FIRST, VALUE)])),
