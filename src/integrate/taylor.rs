@@ -269,11 +269,12 @@ impl Stepper for Taylor {
             },
         };
         let Some(step) = longest else { return Ok(()) };
-        if self.cross_touch(step, limit)? {
+        if self.cross_near_touch(step, limit)? {
             return Ok(());
         }
         self.leapt = None;
         match self.end_of_step(step, left)? {
+            Some(end) if end.is_branch_point() && self.cross_touch(step, limit)? => Ok(()),
             Some(end) => self.go_to(end, step, (left.high, limit)),
             None => Ok(()),
         }

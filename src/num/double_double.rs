@@ -234,16 +234,8 @@ const FUSED: bool = cfg!(any(target_feature = "fma", target_arch = "aarch64"));
 impl DoubleDouble {
     #[inline(always)]
     fn times_double<const FUSED: bool>(self, other: DoubleDouble) -> DoubleDouble {
-        let parts = self.parts_of_product::<FUSED>(other);
-        DoubleDouble::ordered_sum(parts.high, parts.low)
-    }
-
-    /// The parts of a product that is not renormalized yet: it is to be added to something.
-    #[inline(always)]
-    fn parts_of_product<const FUSED: bool>(self, other: DoubleDouble) -> DoubleDouble {
         let p = DoubleDouble::product_by::<FUSED>(self.high, other.high);
-        let low = p.low + (self.high * other.low + self.low * other.high);
-        DoubleDouble { high: p.high, low }
+        DoubleDouble::ordered_sum(p.high, p.low + (self.high * other.low + self.low * other.high))
     }
 
     #[inline(always)]
@@ -303,6 +295,7 @@ impl Div<f64> for DoubleDouble {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::num::Analytic;
 
     #[test]
     fn a_fused_multiply_add_changes_no_bit() {
@@ -316,6 +309,32 @@ mod tests {
             assert_eq!(bits(a.quotient::<true>(b)), bits(a.quotient::<false>(b)));
             let rest = a.quotient::<true>(b) * b - a;
             assert!(rest.high.abs() <= 1e-30 * a.high.abs(), "{a:?} / {b:?}");
+            let quotient = a.divided_by_shared::<true>(b);
+            assert_eq!(bits(quotient), bits(a.divided_by_shared::<false>(b)));
+            let error = (quotient - a / b).high.abs();
+            assert!(error <= 1e-31 * (a / b).high.abs(), "{a:?} / {b:?}: {error:e}");
+        }
+    }
+
+    #[test]
+    fn a_reciprocal_has_all_digits_within_two_hundred_and_fifty_powers_of_ten() {
+        for (x, has) in [
+            (0.99e250, true),
+            (1.01e250, false),
+            (-1.01e-250, true),
+            (-0.99e-250, false),
+            (0.0, false),
+            (f64::INFINITY, false),
+            (f64::NAN, false),
+        ] {
+            assert_eq!(DoubleDouble::from(x).has_reciprocal(), has, "{x:e}");
+            // the quotient itself where it has none
+            let (one, x) = (DoubleDouble::from(3.0), DoubleDouble::from(x));
+            let bits = |x: DoubleDouble| (x.high.to_bits(), x.low.to_bits());
+            if !has {
+                let found = one.divided_by_shared::<true>(x);
+                assert_eq!(bits(found), bits(one.divided_by::<true>(x)));
+            }
         }
     }
 }

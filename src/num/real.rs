@@ -79,32 +79,6 @@ pub trait Analytic:
     fn divided_by_shared<const FUSED: bool>(self, divisor: Self) -> Self {
         self.divided_by::<FUSED>(divisor)
     }
-    /// The sum with a product, in a precision of two parts with one renormalization.
-    #[must_use]
-    #[inline(always)]
-    fn plus_product<const FUSED: bool>(self, a: Self, b: Self) -> Self {
-        self + a.times::<FUSED>(b)
-    }
-    /// The sum with two products, likewise; the products are added first.
-    #[must_use]
-    #[inline(always)]
-    fn plus_products<const FUSED: bool>(self, a: [Self; 2], b: [Self; 2]) -> Self {
-        self + (a[0].times::<FUSED>(a[1]) + b[0].times::<FUSED>(b[1]))
-    }
-    /// A sum of products from the first to the last, likewise; zero where there are none.
-    #[must_use]
-    #[inline(always)]
-    fn sum_of_products<const FUSED: bool>(terms: impl Iterator<Item = [Self; 2]>) -> Self {
-        let mut sum = None;
-        for [a, b] in terms {
-            let product = a.times::<FUSED>(b);
-            sum = Some(match sum {
-                Some(sum) => sum + product,
-                None => product,
-            });
-        }
-        sum.unwrap_or(Self::ZERO)
-    }
     /// Puts [`Analytic::SIDE`] numbers side by side.
     fn side_by_side(number: impl Fn(usize) -> Self) -> Self::Lanes;
     /// Writes `Σ_j a_j b_j` of each lane, for series of equal length. To be inlined into a

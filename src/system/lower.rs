@@ -315,6 +315,9 @@ impl Program {
     }
 }
 
+/// The series of a power with a larger exponent may be far off before its argument comes near zero.
+const STEEPEST_FOLLOWED: f64 = 4.0;
+
 /// The guard of an operation, if it needs one. No motion continues through the zero of an argument whose power is the
 /// inverse or a higher one: it meets a pole, or passes it closely.
 fn guard(program: &Program, r: Register) -> Option<Guard> {
@@ -324,9 +327,13 @@ fn guard(program: &Program, r: Register) -> Option<Guard> {
             Some(Guard { value: r, argument, under: argument, passes: true })
         }
         Op::Power(under, exponent) => {
-            let is_pole = program.constants[exponent as usize].high <= -1.0;
-            let argument = Some(under);
-            Some(Guard { value: r, argument, under: argument.filter(|_| !is_pole), passes: false })
+            let exponent = program.constants[exponent as usize].high;
+            Some(Guard {
+                value: r,
+                argument: Some(under).filter(|_| exponent.abs() <= STEEPEST_FOLLOWED),
+                under: Some(under).filter(|_| exponent > -1.0),
+                passes: false,
+            })
         }
         Op::Call(FunctionId::Asin | FunctionId::Acos, _) => {
             Some(Guard { value: r + 1, argument: None, under: None, passes: true })

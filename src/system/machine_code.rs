@@ -25,37 +25,9 @@
 #[cfg(not(target_arch = "x86_64"))]
 mod absent;
 #[cfg(target_arch = "x86_64")]
-mod allocation;
-#[cfg(target_arch = "x86_64")]
-mod arithmetic;
-#[cfg(target_arch = "x86_64")]
-mod basic_block;
-#[cfg(target_arch = "x86_64")]
-mod cache;
-#[cfg(target_arch = "x86_64")]
-mod compile;
-#[cfg(target_arch = "x86_64")]
-mod double;
-#[cfg(target_arch = "x86_64")]
-mod emitter;
-#[cfg(target_arch = "x86_64")]
-mod encoding;
-#[cfg(target_arch = "x86_64")]
-mod function;
-#[cfg(target_arch = "x86_64")]
-mod growth;
-#[cfg(target_arch = "x86_64")]
-mod lanes;
-#[cfg(target_arch = "x86_64")]
-mod layout;
-#[cfg(target_arch = "x86_64")]
-mod plain;
-#[cfg(target_arch = "x86_64")]
-mod solution;
+mod x86_64;
 
 #[cfg(not(target_arch = "x86_64"))]
 pub(super) use absent::{CodeCache, CompiledGrowth};
 #[cfg(target_arch = "x86_64")]
-pub(super) use cache::CodeCache;
-#[cfg(target_arch = "x86_64")]
-pub(super) use growth::CompiledGrowth;
+pub(super) use x86_64::{CodeCache, CompiledGrowth};

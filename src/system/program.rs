@@ -73,9 +73,9 @@ pub(super) struct Block {
 pub(super) struct Guard {
     /// A value that is positive on the intended branch.
     pub(super) value: Register,
-    /// The argument, where it is a root or a power.
+    /// The argument, where it is a root or a power that is not steep.
     pub(super) argument: Option<Register>,
-    /// The same if a motion may continue through its zero.
+    /// The argument of a root or power through whose zero a motion may continue.
     pub(super) under: Option<Register>,
     /// Whether the value itself passes zero where the branch is left.
     pub(super) passes: bool,

@@ -308,13 +308,13 @@ impl Series {
         &self.high.jet.series(register)[..self.high.order]
     }
 
-    /// The coefficients of its argument, where it is a root or a power.
+    /// The coefficients of its argument, where it is a root or a power that is not steep.
     pub fn guard_argument(&self, i: usize) -> Option<&[f64]> {
         let register = self.system.motion().native.guards[i].argument?;
         Some(&self.high.jet.series(register)[..self.high.order])
     }
 
-    /// The same if a motion may continue through its zero.
+    /// The coefficients of its argument, where that is a root's or a power's through whose zero a motion may continue.
     pub fn guard_under(&self, i: usize) -> Option<&[f64]> {
         let register = self.system.motion().native.guards[i].under?;
         Some(&self.high.jet.series(register)[..self.high.order])

@@ -3,6 +3,7 @@
 //! the intended branch.
 
 use super::super::roots::{first_crossing, value_and_slope};
+use super::last_orders::{BEFORE, FAINT, LAST};
 use crate::num::{DoubleDouble, square_root};
 use crate::system::{ExactRates, Series};
 
@@ -81,8 +82,9 @@ pub(super) fn may_stray(series: &Series, after: f64) -> bool {
     })
 }
 
-/// Whether a series has no zero up to this distance from the origin, in no direction of the complex plane: all its other
-/// terms together are less than the first. A root of it is the same branch there.
+/// Whether a series surely has no zero up to this distance from the origin, in any direction of the complex plane: all its
+/// other terms together are less than the first. A root of it is the same branch there. Nothing is known of a series whose
+/// last terms vanish, which may end before its first.
 fn keeps_off_zero(c: &[f64], distance: f64) -> bool {
     // four sums side by side, each in powers of the fourth power
     const LANES: usize = 4;
@@ -99,6 +101,10 @@ fn keeps_off_zero(c: &[f64], distance: f64) -> bool {
     }
     let [zeroth, first, second, third] = sums;
     let Some(own) = c.first().map(|c| c.abs()) else { return false };
+    let ends = c.iter().skip(1).rev().take(LAST + BEFORE).all(|c| c.abs() < FAINT);
+    if ends || own < FAINT {
+        return false;
+    }
     let rest = (zeroth - own) + distance * first + square * (second + distance * third);
     rest < OFF_ZERO * own
 }
@@ -161,14 +167,18 @@ mod tests {
         assert!(keeps_off_zero(&geometric, 18.0 / 19.0 - 1e-9));
         assert!(!keeps_off_zero(&geometric, 18.0 / 19.0 + 1e-9));
         // of any length and sign: 1 − t − t² − …
-        for length in 1..12 {
+        for length in 2..12 {
             let c: Vec<f64> = (0..length).map(|k| if k == 0 { 1.0 } else { -1.0 }).collect();
             let others = |t: f64| (1..length).map(|k| math::powi(t, k)).sum::<f64>();
             for t in [0.1, 0.3, 0.45, 0.5, 0.6, 0.89, 0.91] {
                 assert_eq!(keeps_off_zero(&c, t), others(t) < 0.9, "{length} {t}");
             }
         }
-        // what is not finite, or nothing, does not
+        // one that may go on where it is not known, or has lost digits, does not, nor what is not finite, or nothing
+        let ending: Vec<f64> =
+            (0..28).map(|k| if k < 18 { math::powi(0.1, k) } else { 0.0 }).collect();
+        assert!(!keeps_off_zero(&ending, 0.5) && keeps_off_zero(&ending[..27], 0.5));
+        assert!(!keeps_off_zero(&[1e-291, 1e-292], 0.1) && keeps_off_zero(&[1e-289, 1e-290], 0.1));
         assert!(!keeps_off_zero(&[1.0, f64::NAN], 0.1));
         assert!(!keeps_off_zero(&[0.0, 0.0], 0.1));
         assert!(!keeps_off_zero(&[], 0.1));

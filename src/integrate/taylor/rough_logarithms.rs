@@ -23,12 +23,12 @@ impl Kernel for Logarithms<'_> {
         let (places, _) = self.logs.as_chunks_mut::<LANES>();
         let (whole, behind) = places.split_at_mut(chunks.len());
         for i in 0..chunks.len() {
-            whole[i] = sizes_of(chunks[i], &mut finite);
+            whole[i] = logarithms_of(chunks[i], &mut finite);
         }
         if let Some(log) = behind.first_mut() {
             let mut last = [0.0; LANES];
             last[..rest.len()].copy_from_slice(rest);
-            *log = sizes_of(last, &mut finite);
+            *log = logarithms_of(last, &mut finite);
         }
         finite
     }
@@ -36,7 +36,7 @@ impl Kernel for Logarithms<'_> {
 
 /// The natural logarithms of absolute values. Notes whether all are finite.
 #[inline(always)]
-fn sizes_of(mut x: [f64; LANES], finite: &mut bool) -> [f64; LANES] {
+fn logarithms_of(mut x: [f64; LANES], finite: &mut bool) -> [f64; LANES] {
     for size in &mut x {
         *size = size.abs();
         *finite &= *size < f64::INFINITY;
@@ -70,8 +70,7 @@ pub(super) fn rough_logarithms<const N: usize>(x: [f64; N]) -> [f64; N] {
     logs
 }
 
-/// An exponential to eight digits or so: a power of two, and the power series of the rest. Infinite or zero beyond the range
-/// of normal numbers.
+/// An exponential to eight digits or so: a power of two, and the power series of the rest. Infinite or zero beyond ±709.
 #[inline(always)]
 pub(super) fn rough_exponential(x: f64) -> f64 {
     const MIDDLE: f64 = 1.5 * (1_u64 << 52) as f64;

@@ -69,6 +69,13 @@ pub(super) struct StepEnd {
     vanishing: bool,
 }
 
+impl StepEnd {
+    /// Whether it is a point from which no series continues, which the series here shows.
+    pub(super) fn is_branch_point(&self) -> bool {
+        self.landed && !self.vanishing
+    }
+}
+
 impl Taylor {
     /// Where a step ends that may be this long, with `left` to go; `None` if another kind of step was taken instead.
     pub(super) fn end_of_step(

@@ -1,8 +1,8 @@
-//! A test that a series allows a step, by multiplications alone: most series allow more than the one
-//! that allows the least, and need no logarithms.
+//! A test which of a series' last orders allow a step, by multiplications alone: most allow more than the one that allows the
+//! least, and need no logarithms.
 //!
-//! In: a series, the powers of a step. Out: whether the rule of [`step_size`](super::step_size) surely
-//! finds no shorter one; "no" decides nothing. Never here: the rule, its constants.
+//! In: a series, the powers of a step. Out: for which orders the rule of [`step_size`](super::step_size) surely
+//! finds no shorter one; "not surely" decides nothing. Never here: the rule, its constants.
 
 use super::last_orders::{FAINT, FIRST, LANES, ROOM, WIDTH, indulgence_of, lanes_of_last_orders};
 use crate::num::{Batch, math};
@@ -50,8 +50,8 @@ impl StepScreen {
         }
     }
 
-    /// One for each of the last orders of a series that surely allows a step, whose powers these are, else zero. May be
-    /// zero where one does.
+    /// For each of the last orders of a series: one if it surely allows the step whose powers are given, else zero, which
+    /// decides nothing.
     #[inline(always)]
     pub(super) fn passing(&self, coefficients: &[f64], powers: &[f64; ROOM]) -> Batch<WIDTH> {
         let last = powers[self.first..].first_chunk::<WIDTH>();

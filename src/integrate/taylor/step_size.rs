@@ -140,8 +140,8 @@ impl Shortest {
         Shortest { log: f64::INFINITY, powers: [f64::NAN; ROOM], lane }
     }
 
-    /// Takes another series into account. Returns whether it allows less than those before; `None` if a coefficient is
-    /// not finite.
+    /// Takes another series into account. Returns whether it allows less than those before; `None` if a coefficient that
+    /// was looked at is not finite.
     ///
     /// A test by multiplications tells which of its last orders surely allow the step found so far. Only the others are
     /// asked what they allow, which takes logarithms.

@@ -2,8 +2,9 @@
 //! acceleration, and the motion goes on the same way.
 //!
 //! There |v| ≈ j s²/2 a time s before and after, and friction −μ v/|v| holds the direction of so small a velocity with the
-//! rate μ/|v|, so that the steps of a series shrink with s² and end nowhere. The motion itself is smooth there, and its
-//! equations are solved over all of it, as those of an onset are.
+//! rate μ/|v|, so that the steps of a series shrink with s² and end nowhere; or one of them lands on the touch, where |v| has
+//! a zero beside rounding. The motion itself is smooth there, and its equations are solved over all of it, as those of an
+//! onset are.
 //!
 //! In: the series before the touch, the step it allows. Out: the motion across, or nothing where it does not touch rest.
 //! Never here: what comes to rest, or begins to move.
@@ -28,15 +29,23 @@ const TOUCHES: f64 = 0.05;
 const ACROSS: f64 = 3.0;
 
 impl Taylor {
-    /// Continues across a point in which the motion touches rest, where a step this long leads to one. Returns false
-    /// where it does not.
-    pub(super) fn cross_touch(&mut self, step: f64, limit: f64) -> Result<bool, MotionError> {
+    /// Continues across a point in which the motion touches rest, where steps as short as this lead to one. Returns false
+    /// where they do not.
+    pub(super) fn cross_near_touch(&mut self, step: f64, limit: f64) -> Result<bool, MotionError> {
         if step >= SHORT * self.stride {
             self.touch_tried = f64::INFINITY;
             return Ok(false);
         }
+        if step >= AGAIN * self.touch_tried {
+            return Ok(false);
+        }
+        self.cross_touch(step, limit)
+    }
+
+    /// The same by however long a step.
+    pub(super) fn cross_touch(&mut self, step: f64, limit: f64) -> Result<bool, MotionError> {
         let n = self.system.degrees();
-        let is_due = step < AGAIN * self.touch_tried && self.state.form != Form::Variables;
+        let is_due = self.state.form != Form::Variables;
         let Some(time) = is_due.then(|| self.time_to_touch(n)).flatten() else { return Ok(false) };
         self.touch_tried = step;
         let mut still = self.state.clone();

@@ -171,42 +171,6 @@ impl Analytic for DoubleDouble {
         }
     }
     #[inline(always)]
-    fn plus_product<const FUSED: bool>(self, a: DoubleDouble, b: DoubleDouble) -> DoubleDouble {
-        let product = a.parts_of_product::<FUSED>(b);
-        let sum = DoubleDouble::sum(self.high, product.high);
-        DoubleDouble::sum(sum.high, product.low + (self.low + sum.low))
-    }
-    #[inline(always)]
-    fn plus_products<const FUSED: bool>(
-        self,
-        a: [DoubleDouble; 2],
-        b: [DoubleDouble; 2],
-    ) -> DoubleDouble {
-        let first = a[0].parts_of_product::<FUSED>(a[1]);
-        let second = b[0].parts_of_product::<FUSED>(b[1]);
-        let products = DoubleDouble::sum(first.high, second.high);
-        let sum = DoubleDouble::sum(self.high, products.high);
-        let low = (first.low + second.low) + ((self.low + products.low) + sum.low);
-        DoubleDouble::sum(sum.high, low)
-    }
-    #[inline(always)]
-    fn sum_of_products<const FUSED: bool>(
-        terms: impl Iterator<Item = [DoubleDouble; 2]>,
-    ) -> DoubleDouble {
-        let mut total: Option<DoubleDouble> = None;
-        for [a, b] in terms {
-            let product = a.parts_of_product::<FUSED>(b);
-            total = Some(match total {
-                Some(total) => {
-                    let sum = DoubleDouble::sum(total.high, product.high);
-                    DoubleDouble { high: sum.high, low: total.low + (product.low + sum.low) }
-                }
-                None => product,
-            });
-        }
-        total.map_or(DoubleDouble::ZERO, |total| DoubleDouble::sum(total.high, total.low))
-    }
-    #[inline(always)]
     fn side_by_side(number: impl Fn(usize) -> DoubleDouble) -> DoubleLanes<LANES> {
         let mut numbers = [DoubleDouble::ZERO; LANES];
         for lane in 0..LANES {

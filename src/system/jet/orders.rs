@@ -145,9 +145,9 @@ impl<R: Coefficient> Orders<'_, R> {
                 }
                 OperationRun::Products(run) => {
                     for &Product { register, left, right, inner } in run {
-                        let first = [values[at(left)], now[at(right)]];
-                        let last = [now[at(left)], values[at(right)]];
-                        now[at(register)] = products[at(inner)].plus_products::<FUSED>(first, last);
+                        let ends = values[at(left)].times::<FUSED>(now[at(right)])
+                            + now[at(left)].times::<FUSED>(values[at(right)]);
+                        now[at(register)] = products[at(inner)] + ends;
                     }
                 }
                 OperationRun::Related(run) => {
@@ -175,8 +175,14 @@ impl<R: Coefficient> Orders<'_, R> {
                 OperationRun::Sums(run) => {
                     for &LinearSum { register, first, count } in run {
                         let terms = &terms[first as usize..][..count as usize];
-                        let terms = terms.iter().map(|&(term, factor)| [now[at(term)], factor]);
-                        now[at(register)] = R::sum_of_products::<FUSED>(terms);
+                        let multiple =
+                            |&(term, factor): &(Register, R)| now[at(term)].times::<FUSED>(factor);
+                        let Some((first, others)) = terms.split_first() else { continue };
+                        let mut sum = multiple(first);
+                        for term in others {
+                            sum = sum + multiple(term);
+                        }
+                        now[at(register)] = sum;
                     }
                 }
                 OperationRun::Solution(_) | OperationRun::Alone(_) => return Some(run),
@@ -206,9 +212,9 @@ impl<R: Coefficient> Orders<'_, R> {
         let entries = &schedule.entries[first as usize..][..count as usize];
         let products = &self.operands.products[inner as usize..][..entries.len()];
         for (entry, &product) in entries.iter().zip(products) {
-            let last = [now[entry.register as usize], unknowns[entry.column as usize]];
+            let last = now[entry.register as usize].times::<FUSED>(unknowns[entry.column as usize]);
             let sum = &mut sums[entry.row as usize];
-            *sum = *sum - product.plus_product::<FUSED>(last[0], last[1]);
+            *sum = *sum - (product + last);
         }
         self.blocks[block].solve_again::<FUSED>(sums);
         now[register as usize..][..sums.len()].copy_from_slice(sums);
@@ -352,13 +358,14 @@ fn related<R: Analytic, const FUSED: bool>(
         let product = summand.product.map_or(R::ZERO, |i| products[i as usize]);
         let whole = match summand.ends {
             Ends::None => product,
-            Ends::Last(a, b) => product.plus_product::<FUSED>(now[at(a)], values[at(b)]),
+            Ends::Last(a, b) => product + now[at(a)].times::<FUSED>(values[at(b)]),
             Ends::LastSlope(a, b) => {
                 product + now[at(a)].times::<FUSED>(values[at(b)]).multiple::<FUSED>(k)
             }
             Ends::Both(a, b) => {
-                let (first, last) = ([values[at(a)], now[at(b)]], [now[at(a)], values[at(b)]]);
-                product.plus_products::<FUSED>(first, last)
+                product
+                    + (values[at(a)].times::<FUSED>(now[at(b)])
+                        + now[at(a)].times::<FUSED>(values[at(b)]))
             }
         };
         let whole = times(summand.factor, whole);

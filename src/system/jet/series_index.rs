@@ -54,7 +54,7 @@ impl SeriesIndex {
         program.switches.iter().copied().for_each(&mut keep);
         for guard in &program.guards {
             keep(guard.value);
-            guard.argument.into_iter().for_each(&mut keep);
+            guard.argument.into_iter().chain(guard.under).for_each(&mut keep);
         }
         if outputs {
             program.outputs.iter().copied().for_each(&mut keep);

@@ -9,9 +9,8 @@ use super::basic_block::{BasicBlock, Instruction, Width};
 use super::double::Double;
 use super::emitter::Emitter;
 use super::function::{CompiledFunction, NotCompiled, Work};
-use super::lanes::Lanes;
 use super::layout::{Address, Area, FactoredPlace, Layout, Precision, SeriesPlaces};
-use super::plain::Plain;
+use super::plain::{Lanes, Plain};
 use crate::num::BATCH;
 use crate::system::jet::JetPlan;
 use crate::system::program::{Op, Register};
@@ -44,7 +43,8 @@ pub(super) struct Compiled {
     pub(super) exactly_factored: Vec<FactoredPlace>,
     /// The registers whose series would be compared with zero: the code takes it that their values are not zero.
     pub(super) vanishing: Vec<Register>,
-    /// The registers that are divided by: the code takes it that their values are finite and not zero.
+    /// The registers that are divided by: the code takes it that their values have
+    /// [reciprocals](crate::num::DoubleDouble::has_reciprocal).
     pub(super) divisors: Vec<Register>,
 }
 

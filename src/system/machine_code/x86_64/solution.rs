@@ -22,9 +22,9 @@ impl<A: Arithmetic> Emitter<'_, A> {
         let mut sums = right.map(|&r| self.now(r)).collect::<Result<Vec<_>, _>>()?;
         let entries = &plan.schedule.entries[first as usize..][..count as usize];
         for (i, entry) in (0..).zip(entries) {
-            let last = [self.now(entry.register)?, self.value(register + entry.column)];
+            let last = self.last(entry.register, register + entry.column)?;
             let product = self.product(inner + i);
-            let whole = A::plus_product(self.code, product, last);
+            let whole = A::sum(self.code, product, last);
             let sum = &mut sums[entry.row as usize];
             *sum = A::difference(self.code, *sum, whole);
         }

@@ -118,8 +118,9 @@ impl<'a, A: Arithmetic> Emitter<'a, A> {
                 }
                 OperationRun::Products(run) => {
                     for step in run {
+                        let ends = self.both_ends(step.left, step.right)?;
                         let inner = self.product(step.inner);
-                        let coefficient = self.plus_ends(inner, step.left, step.right)?;
+                        let coefficient = A::sum(self.code, inner, ends);
                         self.set(step.register, coefficient);
                     }
                 }
@@ -255,19 +256,16 @@ impl<'a, A: Arithmetic> Emitter<'a, A> {
                 Some(inner) => self.product(inner),
                 None => self.zero(),
             };
-            let whole = match summand.ends {
-                Ends::None => product,
-                Ends::Last(a, b) => {
-                    let last = [self.now(a)?, self.value(b)];
-                    A::plus_product(self.code, product, last)
-                }
+            let ends = match summand.ends {
+                Ends::None => None,
+                Ends::Last(a, b) => Some(self.last(a, b)?),
                 Ends::LastSlope(a, b) => {
                     let last = self.last(a, b)?;
-                    let last = self.multiple(last, k);
-                    A::sum(self.code, product, last)
+                    Some(self.multiple(last, k))
                 }
-                Ends::Both(a, b) => self.plus_ends(product, a, b)?,
+                Ends::Both(a, b) => Some(self.both_ends(a, b)?),
             };
+            let whole = ends.map_or(product, |ends| A::sum(self.code, product, ends));
             sum = Some(match (summand.factor, sum) {
                 (ConvolutionFactor::Minus, Some(sum)) => A::difference(self.code, sum, whole),
                 (factor, Some(sum)) => {
@@ -291,18 +289,19 @@ impl<'a, A: Arithmetic> Emitter<'a, A> {
                 A::over(self.code, quotient, k)
             }
             Denominator::Twice(a) => {
-                let twice = self.multiple(self.value(a), 2);
-                let divisor = self.shared(SharedDivisor::Twice(a), twice);
+                let divisor = self.shared(SharedDivisor::Twice(a), self.value(a));
                 A::over_shared(self.code, sum, divisor)
             }
         })
     }
 
-    /// What is divided by, as [`Arithmetic::over_shared`] takes it; computed once.
+    /// What is divided by, as [`Arithmetic::over_shared`] takes it; computed once, from a number that lies in memory.
     pub(super) fn shared(&mut self, divisor: SharedDivisor, number: A::Number) -> A::Number {
         if let Some(&(_, known)) = self.divisors.iter().find(|(known, _)| *known == divisor) {
             return known;
         }
+        let twice = matches!(divisor, SharedDivisor::Twice(_));
+        let number = if twice { self.multiple(number, 2) } else { number };
         let shared = A::shared(self.code, number);
         self.divisors.push((divisor, shared));
         shared
@@ -312,19 +311,30 @@ impl<'a, A: Arithmetic> Emitter<'a, A> {
     fn sum(&mut self, sum: &LinearSum) -> Result<A::Number, NotCompiled> {
         let program = self.plan.program;
         let terms = &program.terms[sum.first as usize..][..sum.count as usize];
-        let (mut zero, mut multiples) = (None, Vec::with_capacity(terms.len()));
-        for (i, term) in terms.iter().enumerate() {
-            let factor = term.coefficient;
-            if !program.fixed[term.register as usize] {
-                multiples.push((self.now(term.register)?, factor));
-            } else if !factor.is_finite() {
-                return Err(NotCompiled);
-            } else if i == 0 && factor.high > 0.0 {
-                // zero above order 0, which changes nothing but the sign of a zero that follows
-                zero = Some(self.zero());
-            }
+        // zeros above order 0: one that is not −0, wherever it is added, makes −0 to 0 and changes nothing else
+        let fixed = terms.iter().filter(|term| program.fixed[term.register as usize]);
+        if fixed.clone().any(|term| !term.coefficient.is_finite()) {
+            return Err(NotCompiled);
         }
-        Ok(A::sum_of_multiples(self.code, zero, &multiples))
+        let mut total = fixed.clone().any(|term| term.coefficient.high > 0.0).then(|| self.zero());
+        for term in terms.iter().filter(|term| !program.fixed[term.register as usize]) {
+            let factor = term.coefficient;
+            let number = self.now(term.register)?;
+            total = Some(match total {
+                Some(total) if factor == DoubleDouble::ONE => A::sum(self.code, total, number),
+                Some(total) if factor == -DoubleDouble::ONE => {
+                    A::difference(self.code, total, number)
+                }
+                Some(total) => {
+                    let multiple = A::times(self.code, number, factor);
+                    A::sum(self.code, total, multiple)
+                }
+                None if factor == DoubleDouble::ONE => number,
+                None if factor == -DoubleDouble::ONE => A::opposite(self.code, number),
+                None => A::times(self.code, number, factor),
+            });
+        }
+        Ok(total.unwrap_or_else(|| self.zero()))
     }
 
     /// An inner product of this order.
@@ -333,20 +343,18 @@ impl<'a, A: Arithmetic> Emitter<'a, A> {
         A::inner_product(self.places.products(group), lane)
     }
 
-    /// A number plus `a_0 b_k + a_k b_0`.
-    fn plus_ends(
-        &mut self,
-        number: A::Number,
-        a: Register,
-        b: Register,
-    ) -> Result<A::Number, NotCompiled> {
-        let first = [self.value(a), self.now(b)?];
-        let last = if a == b { None } else { Some([self.now(a)?, self.value(b)]) };
-        Ok(A::plus_products(self.code, number, first, last))
+    /// `a_0 b_k + a_k b_0`.
+    fn both_ends(&mut self, a: Register, b: Register) -> Result<A::Number, NotCompiled> {
+        let first = self.last(b, a)?;
+        if a == b {
+            return Ok(A::twice(self.code, first));
+        }
+        let last = self.last(a, b)?;
+        Ok(A::sum(self.code, first, last))
     }
 
     /// `a_k b_0`.
-    fn last(&mut self, a: Register, b: Register) -> Result<A::Number, NotCompiled> {
+    pub(super) fn last(&mut self, a: Register, b: Register) -> Result<A::Number, NotCompiled> {
         let a = self.now(a)?;
         Ok(A::product(self.code, a, self.value(b)))
     }
@@ -381,7 +389,7 @@ impl<'a, A: Arithmetic> Emitter<'a, A> {
     }
 
     /// A register at order 0.
-    pub(super) fn value(&self, register: Register) -> A::Number {
+    fn value(&self, register: Register) -> A::Number {
         A::at(self.places.value(register as usize))
     }
 }

@@ -1,6 +1,7 @@
 //! The arithmetic of double-double as instructions.
 //!
-//! In: numbers of two parts. Out: instructions whose results have the bits of [`DoubleDouble`]. Never here: which numbers.
+//! In: numbers of two parts. Out: instructions whose results have the bits of [`DoubleDouble`], but for the sign of a low part
+//! that is zero. Never here: which numbers.
 
 use super::arithmetic::{Arithmetic, Code, SIDE, four_of};
 use super::basic_block::{Operand, Operation, Width};
@@ -52,30 +53,6 @@ impl Code {
         (high.into(), low.into())
     }
 
-    /// [`DoubleDouble`]'s product, not renormalized yet.
-    fn parts_of_product(&mut self, a: Parts, b: Parts) -> Parts {
-        let (a, b) = (Double::held(self, a), Double::held(self, b));
-        let (high, low) = self.exact_product(Width::One, a.0, b.0);
-        let (first, second) = (Plain::product(self, a.0, b.1), Plain::product(self, a.1, b.0));
-        let mixed = Plain::sum(self, first, second);
-        (high, Plain::sum(self, low, mixed))
-    }
-
-    /// The same with a constant. A low part is never −0.
-    fn parts_of_multiple(&mut self, a: Parts, factor: DoubleDouble) -> Parts {
-        if factor == DoubleDouble::ONE {
-            return Double::held(self, a);
-        }
-        if is_power_of_two(factor) {
-            let factor = self.constant(factor.high);
-            let (high, low) = Double::scaled(self, a, factor);
-            let zero = self.constant(0.0);
-            return (high, Plain::sum(self, low, zero));
-        }
-        let factor = Double::constant(self, factor);
-        self.parts_of_product(a, factor)
-    }
-
     /// The product with an `f64`.
     fn exact_multiple(&mut self, a: Parts, factor: Operand) -> Parts {
         let (high, low) = self.exact_product(Width::One, a.0, factor);
@@ -99,7 +76,7 @@ impl Code {
         self.ordered_sum(high, low)
     }
 
-    /// The product with a power of two, which is exact. The sum of two parts is never −0.
+    /// The product with a power of two, which is exact. The high part of a product is never −0.
     fn by_power_of_two(&mut self, a: Parts, factor: f64) -> Parts {
         let factor = self.constant(factor);
         let (high, low) = Double::scaled(self, a, factor);
@@ -149,7 +126,11 @@ impl Arithmetic for Double {
     }
 
     fn product(code: &mut Code, a: Parts, b: Parts) -> Parts {
-        let (high, low) = code.parts_of_product(a, b);
+        let (a, b) = (Double::held(code, a), Double::held(code, b));
+        let (high, low) = code.exact_product(Width::One, a.0, b.0);
+        let (first, second) = (Plain::product(code, a.0, b.1), Plain::product(code, a.1, b.0));
+        let mixed = Plain::sum(code, first, second);
+        let low = Plain::sum(code, low, mixed);
         code.ordered_sum(high, low)
     }
 
@@ -175,62 +156,16 @@ impl Arithmetic for Double {
         Double::product(code, a, reciprocal)
     }
 
-    fn plus_product(code: &mut Code, sum: Parts, [a, b]: [Parts; 2]) -> Parts {
-        let product = code.parts_of_product(a, b);
-        let sum = Double::held(code, sum);
-        let (high, lost) = code.exact_sum(Width::One, sum.0, product.0);
-        let low = Plain::sum(code, sum.1, lost);
-        let low = Plain::sum(code, product.1, low);
-        code.exact_sum(Width::One, high, low)
-    }
-
-    fn plus_products(
-        code: &mut Code,
-        sum: Parts,
-        first: [Parts; 2],
-        second: Option<[Parts; 2]>,
-    ) -> Parts {
-        let first = code.parts_of_product(first[0], first[1]);
-        let second = second.map_or(first, |second| code.parts_of_product(second[0], second[1]));
-        let products = code.exact_sum(Width::One, first.0, second.0);
-        let sum = Double::held(code, sum);
-        let (high, lost) = code.exact_sum(Width::One, sum.0, products.0);
-        let lows = Plain::sum(code, first.1, second.1);
-        let low = Plain::sum(code, sum.1, products.1);
-        let low = Plain::sum(code, low, lost);
-        let low = Plain::sum(code, lows, low);
-        code.exact_sum(Width::One, high, low)
-    }
-
-    fn sum_of_multiples(
-        code: &mut Code,
-        _: Option<Parts>,
-        terms: &[(Parts, DoubleDouble)],
-    ) -> Parts {
-        let mut total: Option<Parts> = None;
-        for &(number, factor) in terms {
-            let multiple = code.parts_of_multiple(number, factor);
-            total = Some(match total {
-                Some(total) => {
-                    let (high, lost) = code.exact_sum(Width::One, total.0, multiple.0);
-                    let low = Plain::sum(code, multiple.1, lost);
-                    (high, Plain::sum(code, total.1, low))
-                }
-                None => multiple,
-            });
-        }
-        match total {
-            Some((high, low)) => code.exact_sum(Width::One, high, low),
-            None => Double::constant(code, DoubleDouble::ZERO),
-        }
-    }
-
     fn times(code: &mut Code, a: Parts, factor: DoubleDouble) -> Parts {
         if is_power_of_two(factor) {
             return code.by_power_of_two(a, factor.high);
         }
         let factor = Double::constant(code, factor);
         Double::product(code, a, factor)
+    }
+
+    fn twice(code: &mut Code, a: Parts) -> Parts {
+        code.by_power_of_two(a, 2.0)
     }
 
     fn over(code: &mut Code, a: Parts, n: usize) -> Parts {

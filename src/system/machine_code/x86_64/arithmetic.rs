@@ -91,10 +91,7 @@ pub(super) fn four_of<T: Copy>(numbers: &[T]) -> [T; SIDE] {
     std::array::from_fn(|lane| numbers[lane])
 }
 
-/// The factors of a product.
-pub(super) type Factors<A> = [<A as Arithmetic>::Number; 2];
-
-/// A precision. Its quotients assume finite divisors.
+/// A precision. Its quotients assume divisors that have reciprocals.
 pub(super) trait Arithmetic {
     /// A number.
     type Number: Copy;
@@ -126,45 +123,9 @@ pub(super) trait Arithmetic {
         let factor = Self::constant(code, factor);
         Self::product(code, a, factor)
     }
-    /// [`Analytic::plus_product`](crate::num::Analytic::plus_product).
-    fn plus_product(code: &mut Code, sum: Self::Number, factors: Factors<Self>) -> Self::Number {
-        let product = Self::product(code, factors[0], factors[1]);
-        Self::sum(code, sum, product)
-    }
-    /// [`Analytic::plus_products`](crate::num::Analytic::plus_products); with one pair the same product twice.
-    fn plus_products(
-        code: &mut Code,
-        sum: Self::Number,
-        first: Factors<Self>,
-        second: Option<Factors<Self>>,
-    ) -> Self::Number {
-        let first = Self::product(code, first[0], first[1]);
-        let second = second.map_or(first, |second| Self::product(code, second[0], second[1]));
-        let products = Self::sum(code, first, second);
-        Self::sum(code, sum, products)
-    }
-    /// [`Analytic::sum_of_products`](crate::num::Analytic::sum_of_products) of numbers by constants, on a zero where that
-    /// makes a difference to the sign of zero.
-    fn sum_of_multiples(
-        code: &mut Code,
-        zero: Option<Self::Number>,
-        terms: &[(Self::Number, DoubleDouble)],
-    ) -> Self::Number {
-        let mut sum = zero;
-        for &(number, factor) in terms {
-            sum = Some(match sum {
-                Some(sum) if factor == DoubleDouble::ONE => Self::sum(code, sum, number),
-                Some(sum) if factor == -DoubleDouble::ONE => Self::difference(code, sum, number),
-                Some(sum) => {
-                    let multiple = Self::times(code, number, factor);
-                    Self::sum(code, sum, multiple)
-                }
-                None if factor == DoubleDouble::ONE => number,
-                None if factor == -DoubleDouble::ONE => Self::opposite(code, number),
-                None => Self::times(code, number, factor),
-            });
-        }
-        sum.unwrap_or_else(|| Self::constant(code, DoubleDouble::ZERO))
+    /// Twice a number.
+    fn twice(code: &mut Code, a: Self::Number) -> Self::Number {
+        Self::sum(code, a, a)
     }
     /// The quotient by an integer.
     fn over(code: &mut Code, a: Self::Number, n: usize) -> Self::Number;
