@@ -171,7 +171,8 @@ fn result(
         growth,
         single_steps: course.single_steps(),
         largest: exponents.first().copied().unwrap_or(0.0),
-        pairing,
+        // under constraints they hold in the mean alone
+        pairing: pairing.filter(|_| !space.is_constrained()),
         jumps: space.has_jumps(),
     };
     let judged = judged(&followed, (&exponents, &uncertainty), megno);

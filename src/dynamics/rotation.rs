@@ -65,10 +65,8 @@ pub enum NoRotation {
     /// The orbit does not go once around.
     #[error("the orbit does not go once round its middle")]
     NotAround,
-    /// Turns do not average though the orbit is regular: its middle lies beside it.
-    #[error(
-        "the orbit is regular, but it does not enclose its middle, round which its turns are counted"
-    )]
+    /// Turns do not average though the orbit is regular: its middle lies beside it, or it is bent.
+    #[error("the orbit is regular, but its turns round its middle do not average")]
     NotEnclosing,
     /// Turns of all sizes occur.
     #[error("it does not converge: turns of all sizes occur, as in chaos")]
@@ -114,7 +112,9 @@ fn judged(
     if wandering.is_random {
         found
     } else if is_angle || wandering.apart * points.len() as f64 > CONVERGED {
-        Err(NoRotation::Undecided(wandering.apart))
+        let differ =
+            if let Err(NoRotation::Diverges(differ)) = found { differ } else { wandering.apart };
+        Err(NoRotation::Undecided(differ))
     } else {
         Err(NoRotation::NotEnclosing)
     }

@@ -18,7 +18,7 @@ pub(super) struct Followed<'a> {
     pub(super) single_steps: &'a StepGrowth,
     /// The largest exponent.
     pub(super) largest: f64,
-    /// The largest |λᵢ + λⱼ| of a pair, where pairs are expected.
+    /// The largest |λᵢ + λⱼ| of a pair, where pairs are expected at every time.
     pub(super) pairing: Option<f64>,
     /// Whether vectors grow at single times by nature, as at impulses.
     pub(super) jumps: bool,
@@ -34,9 +34,9 @@ impl Followed<'_> {
         {
             return Some(format!(
                 "the steps do not keep the areas that the motion keeps: exponents of a pair add up to {}, not to 0, as where \
-                 they lead past a pole of the coordinates, or are too coarse; other coordinates, the default method or a \
-                 smaller step may tell",
-                short(off)
+                 they lead past a pole of the coordinates, or are too coarse; {} may tell",
+                short(off),
+                self.remedy()
             ));
         }
         if !self.motion.fixed || self.jumps {
@@ -44,9 +44,19 @@ impl Followed<'_> {
         }
         let (parted, at) = self.single_steps.outstanding(self.motion.steps)?;
         Some(format!(
-            "within the one step before t = {} neighbouring motions part by e^{parted:.1}: it leads past a pole of the coordinates, \
-             or is too long; other coordinates, the default method or a smaller step may tell",
-            short(at)
+            "in the single step that ends at t = {} neighbouring motions part by e^{parted:.1}; the step leads past a pole of \
+             the coordinates, or is too long; {} may tell",
+            short(at),
+            self.remedy()
         ))
+    }
+
+    /// What may show more.
+    fn remedy(&self) -> &'static str {
+        if self.motion.fixed {
+            "other coordinates, the default method or a smaller step"
+        } else {
+            "other coordinates or a smaller tolerance"
+        }
     }
 }

@@ -61,7 +61,7 @@ impl ObservedMotion {
         self.log.turn_off();
     }
 
-    /// Another motion of the same system, to be [looked with](ObservedMotion::go_to).
+    /// Another motion of the same system, with which times of the past are [visited](ObservedMotion::go_to).
     pub(super) fn another(&self, parameters: &[f64]) -> Result<ObservedMotion, MethodError> {
         ObservedMotion::new(self.inner.whole(), self.method(), self.settings(), parameters)
     }

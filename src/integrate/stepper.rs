@@ -17,7 +17,7 @@ pub trait Stepper: DenseOutput + Send {
 
     /// Takes steps, each as [`Stepper::step`] towards `limit` does, until `time` is reached or passed
     /// or `budget` of them are taken, which are subtracted from it. Only the last step is available
-    /// afterwards. A method may take steps that nobody observes faster than others, with the same
+    /// afterwards. A method may take steps that are not observed faster than others, with the same
     /// result.
     fn steps(&mut self, time: f64, limit: f64, budget: &mut u64) -> Result<(), MotionError> {
         let forwards = time > self.time();

@@ -2,7 +2,7 @@
 //!
 //! In: a system, a start, an end in time. Out: the values of all columns there, those that a run of the same start has, and
 //! the drift of the energy on the way. Orbits that need nothing but steps are followed side by side, the others each as
-//! an experiment; which of the two depends on the orbit alone, and at which states the gauges are evaluated on the system alone. Never here:
+//! an experiment; which of the two depends on the orbit alone, and at which states the gauges are evaluated depends on the system alone. Never here:
 //! rows on the way, files.
 
 use std::sync::Arc;

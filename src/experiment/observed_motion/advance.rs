@@ -48,8 +48,8 @@ impl ObservedMotion {
         }
     }
 
-    /// Takes several steps at once until `time` is reached or passed, where nothing observes between them but the gauges,
-    /// which see the end of each. Returns their number.
+    /// Takes several steps at once until `time` is reached or passed, where only the gauges observe the states between
+    /// them. Returns their number.
     fn several_steps(&mut self, time: f64, budget: u64, gauges: &mut Gauges, spacing: f64) -> u64 {
         if self.inner.method().stepping != Stepping::Fixed {
             return 0;

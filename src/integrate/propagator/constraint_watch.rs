@@ -100,7 +100,7 @@ impl Propagator {
         }
         if step < SUDDEN * *regular_step
             && has_jumped((before, now), fastest)
-            && is_felt(&self.system, (&*was, state), &self.parameters)
+            && is_felt(&self.system, (&*was, state), (fastest, &self.parameters))
         {
             let kind = MotionErrorKind::SingularConstraints(None);
             return Err(self.system.fault(kind, begin, &was.values));
@@ -269,16 +269,21 @@ fn has_jumped((before, now): (&[f64], &[f64]), greatest: &[f64]) -> bool {
     was > 0.5 && change > 0.5 * was
 }
 
-/// Whether a change of velocities has a part in the kinetic energy: the velocity of a coordinate that is at rest is rounding noise,
-/// which changes by all of itself.
-fn is_felt(system: &System, (before, now): (&State, &State), parameters: &[f64]) -> bool {
+/// Whether the velocities that have changed by more than half of their own greatest have a part in the kinetic energy: the
+/// velocity of a coordinate that is at rest is rounding noise, which changes by all of itself.
+fn is_felt(
+    system: &System,
+    (before, now): (&State, &State),
+    (greatest, parameters): (&[f64], &[f64]),
+) -> bool {
     let n = system.degrees();
     let momenta = |state| system.convert(state, Form::Momentum, parameters);
     let (Ok(p), Ok(p_now)) = (momenta(before), momenta(now)) else { return true };
     let terms = |i: usize| {
         let (v, p) = (before.values[n + i], p.values[n + i]);
         let (dv, dp) = (now.values[n + i] - v, p_now.values[n + i] - p);
-        [(p * v).abs(), (dp * dv).abs()]
+        let jumps = dv.abs() > 0.5 * greatest[i];
+        [(p * v).abs(), if jumps { (dp * dv).abs() } else { 0.0 }]
     };
     let all =
         (0..n).map(terms).fold([0.0, 0.0], |sum, [of, change]| [sum[0] + of, sum[1] + change]);

@@ -50,7 +50,7 @@ fn tabs_of_a_frame_differ() {
     }
 }
 
-/// The names of gauges are those of the shipped presets that were once torn.
+/// The names of gauges are those that were once torn, some of them of shipped presets.
 #[test]
 fn names_of_gauges_end_with_a_word() {
     let mut app = opened("pendulum");
