@@ -306,7 +306,7 @@ pub const KEYS: &[Binding] = &[
     row(Place::Plot, &[c('n')], Action::AddOrbits, "", "add orbits to a section: the one through the cursor, or several over the visible part; start an ensemble there, and again to spread it over its energy shell"),
     row(Place::Plot, &[c('L')], Action::TypeSurface, "", "type the surface of a section: x = 0, rising; every 2*pi/w; event NAME; a plot without one becomes a section"),
     row(Place::Plot, &[c('|')], Action::TurnDirection, "", "the direction in which a section is crossed: rising, falling, either"),
-    row(Place::Plot, &[c('G')], Action::FillSection, "", "fill the visible part of a section: a hundred orbits of a hundred crossings each"),
+    row(Place::Plot, &[c('G')], Action::FillSection, "", "fill the visible part of a section: a hundred orbits of 120 crossings each"),
     row(Place::Plot, &[c('N')], Action::ClearOrbits, "", "clear a section: the orbits added to it, and the past crossings of the motion"),
     row(Place::Plot, &[c('+'), c('=')], Action::Closer(AxisChoice::Both), "closer", "look closer"),
     row(Place::Plot, &[c('-')], Action::Farther(AxisChoice::Both), "", "look from further away"),
