@@ -39,7 +39,7 @@ pub use eigenvalues::eigenvalues;
 pub use extended_range::ExtendedRange;
 pub use finite::all_finite;
 pub use format::{short, significant, to_its_error};
-pub use horner::{Polynomial, polynomial, slope_tails, tails};
+pub use horner::{Polynomial, padded, polynomial, tail, tails};
 pub use instruction_set::{Kernel, vectorized};
 pub use number::Number;
 pub use polytope::OrientationPolytope;

@@ -97,6 +97,17 @@ impl<const N: usize> Batch<N> {
         least
     }
 
+    /// The first lane of the least number.
+    #[inline(always)]
+    pub fn place_of_least(self) -> usize {
+        let (mut least, mut place) = (self.0[0], 0);
+        for lane in 1..N {
+            (least, place) =
+                if self.0[lane] < least { (self.0[lane], lane) } else { (least, place) };
+        }
+        place
+    }
+
     /// The largest number.
     #[inline(always)]
     pub fn largest(self) -> f64 {

@@ -2,10 +2,13 @@
 //!
 //! Source: S. Graillat, P. Langlois, N. Louvet, Japan J. Indust. Appl. Math. 26 (2009) 191,
 //! algorithm 4 (the compensated scheme of Horner): the rounding errors of all products and sums are
-//! a polynomial themselves, which is evaluated beside the first.
+//! a polynomial themselves, which is evaluated beside the first. In long series the terms of high order are summed four apart, as in
+//! G. Estrin, Proc. Western Joint Computer Conference (1960) 33.
 
+use super::batch::Batch;
 use super::double_double::DoubleDouble;
 use super::instruction_set::{Kernel, vectorized};
+use super::real::Analytic;
 
 /// `Σ_j low_j x^j + Σ_j high_j x^{j + n}`, where n is the number of `low`. The terms of `low` are as
 /// exact as double-double, those of `high` as `f64`.
@@ -23,70 +26,55 @@ pub struct Polynomial<'a> {
     pub x: DoubleDouble,
 }
 
-/// The sums of the terms after those of low order of several polynomials of the same length, each
-/// over the power of the first of them. None waits for another.
+/// The number of sums that are kept apart: four, each of every fourth term, none of which waits for another.
+const APART: usize = 4;
+
+/// The sum of the terms after those of low order, over the power of the first of them.
 #[inline(always)]
-pub fn tails<const N: usize>(high: [&[f64]; N], x: f64) -> [f64; N] {
-    let (high, length) = of_one_length(high);
-    let mut sums = [0.0; N];
-    for j in (0..length).rev() {
-        for lane in 0..N {
-            sums[lane] = sums[lane] * x + high[lane][j];
-        }
+pub fn tail(high: &[f64], x: f64) -> f64 {
+    let square = x * x;
+    let fourth = Batch::splat(square * square);
+    let (chunks, rest) = high.as_chunks::<APART>();
+    let mut sums = Batch(padded(rest, 0.0));
+    for chunk in chunks.iter().rev() {
+        sums = sums * fourth + Batch(*chunk);
     }
-    sums
+    let [first, second, third, last] = sums.0;
+    (third * square + first) + (last * square + second) * x
 }
 
-/// The same of the slopes of these polynomials, whose term of order `first` is the first of `high`.
+/// The same of several orbits, with the bits of each alone.
 #[inline(always)]
-pub fn slope_tails<const N: usize>(high: [&[f64]; N], first: usize, x: f64) -> [f64; N] {
-    let (high, length) = of_one_length(high);
-    let mut sums = [0.0; N];
-    for j in (0..length).rev() {
-        let order = (first + j) as f64;
-        for lane in 0..N {
-            sums[lane] = sums[lane] * x + high[lane][j] * order;
+pub fn tails(high: &[Batch], x: Batch) -> Batch {
+    let square = x * x;
+    let fourth = square * square;
+    let (chunks, rest) = high.as_chunks::<APART>();
+    let mut sums = padded(rest, Batch::ZERO);
+    for chunk in chunks.iter().rev() {
+        for place in 0..APART {
+            sums[place] = sums[place] * fourth + chunk[place];
         }
     }
-    sums
+    let [first, second, third, last] = sums;
+    (third * square + first) + (last * square + second) * x
 }
 
-/// Series cut to their common length, and that.
+/// Up to three numbers, and zeros behind them.
 #[inline(always)]
-fn of_one_length<const N: usize>(mut series: [&[f64]; N]) -> ([&[f64]; N], usize) {
-    let mut length = usize::MAX;
-    for lane in 0..N {
-        length = length.min(series[lane].len());
+pub fn padded<T: Copy>(rest: &[T], zero: T) -> [T; APART] {
+    match *rest {
+        [a] => [a, zero, zero, zero],
+        [a, b] => [a, b, zero, zero],
+        [a, b, c] => [a, b, c, zero],
+        _ => [zero; APART],
     }
-    for lane in 0..N {
-        series[lane] = &series[lane][..length];
-    }
-    (series, length)
 }
 
 impl Polynomial<'_> {
-    /// The sum of the terms after those of low order, over the power of the first of them.
-    #[inline(always)]
-    fn tail(&self) -> f64 {
-        let [tail] = tails([self.high], self.x.high);
-        tail
-    }
-
-    /// The polynomial, from that sum. `high` is read only where the argument is no `f64`.
+    /// The polynomial, from the sum of the terms after those of low order over the power of the first of them. `high` is read
+    /// only where the argument is no `f64`.
     #[inline(always)]
     pub fn with_tail<const FUSED: bool>(self, tail: f64) -> DoubleDouble {
-        let [slope] = if self.x.low == 0.0 {
-            [0.0]
-        } else {
-            slope_tails([self.high], self.low.len(), self.x.high)
-        };
-        self.with_tails::<FUSED>(tail, slope)
-    }
-
-    /// The polynomial, from that sum and the one of its slope, which is read only where the argument
-    /// is no `f64`.
-    #[inline(always)]
-    pub fn with_tails<const FUSED: bool>(self, tail: f64, slope: f64) -> DoubleDouble {
         let x = self.x.high;
         let (mut sum, mut errors) = (tail, 0.0);
         for c in self.low.iter().rev() {
@@ -96,8 +84,10 @@ impl Polynomial<'_> {
             errors = errors * x + (product.low + next.low + c.low);
         }
         if self.x.low != 0.0 {
-            let low = self.low.iter().enumerate().skip(1).rev();
-            let slope = low.fold(slope, |sum, (j, c)| sum * x + c.high * j as f64);
+            let low = self.low.iter().map(|c| c.high);
+            let terms = low.chain(self.high.iter().copied()).enumerate().skip(1);
+            let (slope, _) = terms
+                .fold((0.0, 1.0), |(sum, power), (j, c)| (sum + c * j as f64 * power, power * x));
             errors += self.x.low * slope;
         }
         DoubleDouble::sum(sum, errors)
@@ -109,7 +99,7 @@ impl Kernel for Polynomial<'_> {
 
     #[inline(always)]
     fn run<const FUSED: bool>(self) -> DoubleDouble {
-        let tail = self.tail();
+        let tail = self.high.iter().rev().fold(0.0, |sum, c| sum * self.x.high + c);
         self.with_tail::<FUSED>(tail)
     }
 }
@@ -138,6 +128,30 @@ mod tests {
                 let high = [1e-6, -2e-6, 1e-7];
                 let off = polynomial(&low, &high, x) - direct(&low, &high, x);
                 assert!(off.high.abs() < 1e-19, "{x:?} {off:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn several_tails_have_the_bits_of_each_alone() {
+        for length in 0..31 {
+            let high: Vec<Batch> = (0..length)
+                .map(|j| {
+                    Batch(std::array::from_fn(|lane| {
+                        1.0 / (0.7 - f64::from(j) * (lane + 1) as f64)
+                    }))
+                })
+                .collect();
+            let x = Batch(std::array::from_fn(|lane| 1.9 - 0.5 * lane as f64));
+            let all = tails(&high, x);
+            for lane in 0..all.0.len() {
+                let alone: Vec<f64> = high.iter().map(|c| c.0[lane]).collect();
+                let own = tail(&alone, x.0[lane]);
+                assert_eq!(all.0[lane].to_bits(), own.to_bits(), "{length}");
+                let direct = alone.iter().rev().fold(0.0, |sum, c| sum * x.0[lane] + c);
+                let powers = std::iter::successors(Some(1.0), |p| Some(p * x.0[lane].abs()));
+                let size: f64 = alone.iter().zip(powers).map(|(c, p)| c.abs() * p).sum();
+                assert!((own - direct).abs() <= 1e-14 * size, "{length} {own} {direct}");
             }
         }
     }

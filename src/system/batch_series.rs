@@ -16,7 +16,9 @@ use super::series::unit_below;
 use super::state::State;
 use super::underflow;
 use crate::expr::FunctionId;
-use crate::num::{Analytic, BATCH, Batch, DoubleDouble, Kernel, Polynomial, vectorized};
+use crate::num::{
+    Analytic, BATCH, Batch, DoubleDouble, Kernel, Polynomial, tail, tails, vectorized,
+};
 
 /// The series of all numbers of the states of several orbits.
 #[derive(Clone, Debug)]
@@ -186,7 +188,9 @@ impl BatchSeries {
         for i in 0..self.origins.len() {
             self.gather(i, lane);
             let low = &self.origins[i][lane..=lane];
-            out.set(i, vectorized(Polynomial { low, high: &self.gathered, x }));
+            let tail = tail(&self.gathered, x.high);
+            let polynomial = Polynomial { low, high: &self.gathered, x };
+            out.set(i, polynomial.with_tail::<false>(tail));
         }
         let time = self.times[lane] + after;
         (out.time, out.time_carry) = (time.high, time.low);
@@ -235,10 +239,7 @@ impl Kernel for States<'_> {
             std::array::from_fn(|lane| after[lane] * series.scale.0[lane].recip());
         let high = Batch(x.map(|x| x.high));
         for i in 0..series.origins.len() {
-            let mut tail = Batch::ZERO;
-            for &c in series.builder.series(i)[1..].iter().rev() {
-                tail = tail * high + c;
-            }
+            let tail = tails(&series.builder.series(i)[1..], high);
             let sums = plus_origin::<FUSED>(tail, high, &series.origins[i]);
             for (lane, out) in out.iter_mut().enumerate() {
                 let Some(out) = out else { continue };

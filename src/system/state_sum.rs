@@ -3,10 +3,7 @@
 //! In: the coefficients of each number, in its unit, and a time. Out: the state then. Never here: how coefficients are computed.
 
 use super::state::State;
-use crate::num::{Analytic, DoubleDouble, Kernel, Polynomial, slope_tails, tails};
-
-/// The number of polynomials that are summed side by side.
-const TOGETHER: usize = 4;
+use crate::num::{Analytic, DoubleDouble, Kernel, Polynomial, tail};
 
 /// The polynomials of a state, at a time in the unit of the series.
 pub(super) struct StateSum<'a, Low, High> {
@@ -29,24 +26,11 @@ where
     #[inline(always)]
     fn run<const FUSED: bool>(self) {
         let StateSum { low, high, units, x, out } = self;
-        let (count, first) = (units.len(), low(0).len());
-        for group in (0..count).step_by(TOGETHER) {
-            // the last group is filled up with its last number
-            let of = |lane: usize| &high((group + lane).min(count - 1))[first..];
-            let mut series = [of(0); TOGETHER];
-            for lane in 1..TOGETHER {
-                series[lane] = of(lane);
-            }
-            let tails = tails(series, x.high);
-            let exact = x.low == 0.0;
-            let slopes = if exact { [0.0; TOGETHER] } else { slope_tails(series, first, x.high) };
-            for (lane, (&tail, &slope)) in (0..count - group).zip(tails.iter().zip(&slopes)) {
-                let i = group + lane;
-                let polynomial = Polynomial { low: low(i), high: series[lane], x };
-                let number = polynomial.with_tails::<FUSED>(tail, slope);
-                let unit = units[i];
-                out.set(i, if unit == 1.0 { number } else { in_unit(number, unit) });
-            }
+        for (i, &unit) in units.iter().enumerate() {
+            let low = low(i);
+            let high = &high(i)[low.len()..];
+            let number = Polynomial { low, high, x }.with_tail::<FUSED>(tail(high, x.high));
+            out.set(i, if unit == 1.0 { number } else { in_unit(number, unit) });
         }
     }
 }

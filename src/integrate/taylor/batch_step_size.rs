@@ -7,9 +7,9 @@ use super::argument_step::{
     FARTHEST_ARGUMENT, before_pole, may_pass_pole, of_argument, of_steep_pole,
 };
 use super::last_orders::{FIRST, ROOM, last_orders};
-use super::rough_logarithms::rough_logarithms;
+use super::rough_logarithms::{rough_exponential, rough_logarithms};
 use super::step_size::{Shares, reciprocals};
-use crate::num::{Analytic, BATCH, Batch, Kernel, math, vectorized};
+use crate::num::{Analytic, BATCH, Batch, Kernel, vectorized};
 use crate::system::BatchSeries;
 
 /// The rule for several orbits at once.
@@ -75,7 +75,10 @@ impl BatchStepSize {
             let shares = if i < series.inputs() { &*motion } else { &*integrals };
             shortest = of_one(coefficients, shares, shortest, logs);
         }
-        Batch(shortest.0.map(math::exp)) + finite
+        for log in &mut shortest.0 {
+            *log = rough_exponential(*log);
+        }
+        shortest + finite
     }
 }
 

@@ -25,6 +25,9 @@ pub(super) const LANES: usize = 4;
 /// The number of lowest orders that are looked at first.
 pub(super) const FIRST: usize = 3;
 
+/// The ratio by which terms must differ to do so beyond the errors of rough logarithms.
+pub(super) const CLEARLY: f64 = 1.001;
+
 /// The number of lanes for the last orders, in whole chunks. The highest order is in the last lane.
 pub(super) const WIDTH: usize = (LAST + BEFORE).next_multiple_of(LANES);
 

@@ -1,7 +1,7 @@
 //! The steps that the last orders of a series allow, each by itself.
 //!
 //! In: the logarithms of the sizes of a series' coefficients. Out: the logarithm of the step that one of its last orders
-//! allows. Never here: coefficients, the constants of the rule, which orders are asked.
+//! allows. Never here: the constants of the rule, which orders are asked.
 //!
 //! ```text
 //!   order k:    j = 0   1   2   3  │  4   5   6   7  │  …  k − 1     four lower orders at once
@@ -9,9 +9,13 @@
 //!               (ln |c_j| − ln |c_k|)/(k − j) + ln of the part of    the largest of these, 2 ≤ j < k − 1
 //!                                             the radius
 //! ```
+//!
+//! The four lowest orders mostly decide. What they allow is found for all of the last orders at once, and that no other one
+//! allows more is seen by multiplications.
 
-use super::last_orders::{LANES, ROOM, WIDTH, last_orders};
-use crate::num::Batch;
+use super::last_orders::{CLEARLY, LANES, ROOM, WIDTH, lanes_of_last_orders, last_orders};
+use super::rough_logarithms::rough_logarithms;
+use crate::num::{Batch, math, padded};
 
 /// What the lower orders enter with for one of the last, four at once.
 #[derive(Clone, Debug)]
@@ -30,12 +34,35 @@ struct BoundChunk {
     by_tolerance: Batch<LANES>,
     /// What is added for the radius of convergence; −∞ where the order gives none.
     by_radius: Batch<LANES>,
+    /// With the terms a_j = |c_j| h^j at a step h, the j-th order may allow more than h only where a_j times this is no less
+    /// than a_k: by the tolerance, …
+    tolerance_factors: Batch<LANES>,
+    /// … and by the radius of convergence.
+    radius_factors: Batch<LANES>,
+}
+
+/// One of the lowest orders, for all of the last at once.
+#[derive(Clone, Copy, Debug)]
+struct LowOrder {
+    reciprocals: Batch<WIDTH>,
+    by_tolerance: Batch<WIDTH>,
+    by_radius: Batch<WIDTH>,
+}
+
+/// The logarithms of the steps that the lowest orders allow, one for each of the last orders. Other orders may allow more.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LowestBounds {
+    by_tolerance: Batch<WIDTH>,
+    /// By the tolerance and by the radius of convergence.
+    pub(super) logs: Batch<WIDTH>,
 }
 
 /// The bounds at one tolerance and order.
 #[derive(Clone, Debug)]
 pub(super) struct OrderBounds {
     bounds: Vec<OrderBound>,
+    lowest: [LowOrder; LANES],
+    indulgences: Batch<WIDTH>,
 }
 
 impl OrderBounds {
@@ -50,7 +77,12 @@ impl OrderBounds {
         let only = |known: bool, x: f64| if known { x } else { f64::NEG_INFINITY };
         let chunk = |k: usize, first: usize| {
             let lanes = |of: &dyn Fn(usize) -> f64| Batch(std::array::from_fn(|i| of(first + i)));
+            let factor = |j: usize, log: f64| {
+                CLEARLY * math::exp(k.saturating_sub(j).max(1) as f64 * (log + indulgence(k)))
+            };
             BoundChunk {
+                tolerance_factors: lanes(&|j| factor(j, only(j < k, table[j]))),
+                radius_factors: lanes(&|j| factor(j, only((2..k - 1).contains(&j), log_part))),
                 reciprocals: lanes(&|j| if j < k { 1.0 / (k - j) as f64 } else { 1.0 }),
                 by_tolerance: lanes(&|j| only(j < k, table[j])),
                 by_radius: lanes(&|j| only((2..k - 1).contains(&j), log_part)),
@@ -61,15 +93,76 @@ impl OrderBounds {
             chunks: (0..k).step_by(LANES).map(|first| chunk(k, first)).collect(),
             indulgence: indulgence(k),
         };
-        OrderBounds { bounds: last_orders(order).map(bound).collect() }
+        let bounds: Vec<OrderBound> = last_orders(order).map(bound).collect();
+        let first = |k: usize| &bounds[k - *last_orders(order).start()].chunks[0];
+        // an order that does not enter allows anything
+        let low = |j: usize, of: fn(&BoundChunk) -> &Batch<LANES>, otherwise: f64| {
+            Batch(lanes_of_last_orders(order, otherwise, |k| of(first(k)).0[j]))
+        };
+        let lowest = std::array::from_fn(|j| LowOrder {
+            reciprocals: low(j, |chunk| &chunk.reciprocals, 0.0),
+            by_tolerance: low(j, |chunk| &chunk.by_tolerance, f64::INFINITY),
+            by_radius: low(j, |chunk| &chunk.by_radius, f64::INFINITY),
+        });
+        let indulgences = Batch(lanes_of_last_orders(order, 0.0, indulgence));
+        OrderBounds { bounds, lowest, indulgences }
+    }
+
+    /// What the lowest orders of a series allow.
+    #[inline(always)]
+    pub(super) fn of_lowest(&self, coefficients: &[f64]) -> Option<LowestBounds> {
+        let low = Batch(*coefficients.first_chunk::<LANES>()?).abs();
+        let own = Batch(*coefficients.last_chunk::<WIDTH>()?).abs();
+        let (low, own) = (rough_logarithms(low.0), Batch(rough_logarithms(own.0)));
+        let mut by_tolerance = Batch([f64::NEG_INFINITY; WIDTH]);
+        let mut by_radius = by_tolerance;
+        for (order, &log) in self.lowest.iter().zip(&low) {
+            let root = (Batch::splat(log) - own) * order.reciprocals;
+            by_tolerance = by_tolerance.larger(root + order.by_tolerance);
+            by_radius = by_radius.larger(root + order.by_radius);
+        }
+        // a coefficient that vanishes allows anything
+        let any = Batch([f64::INFINITY; WIDTH]);
+        let logs = by_tolerance.smaller(by_radius) + self.indulgences;
+        let logs = own.where_equal(f64::NEG_INFINITY, any, logs);
+        Some(LowestBounds { by_tolerance: by_tolerance + self.indulgences, logs })
+    }
+
+    /// Whether the least of these bounds is the step that all orders allow, whose powers are given.
+    #[inline(always)]
+    pub(super) fn is_decided(
+        &self,
+        lowest: &LowestBounds,
+        coefficients: &[f64],
+        powers: &[f64; ROOM],
+    ) -> bool {
+        let lane = lowest.logs.place_of_least();
+        let Some(bound) = self.in_lane(lane) else { return false };
+        let own = coefficients[bound.order].abs() * powers[bound.order];
+        let by_tolerance = lowest.logs.0[lane] == lowest.by_tolerance.0[lane];
+        let (chunks, rest) = coefficients.as_chunks::<LANES>();
+        let last = padded(rest, 0.0);
+        let powers = powers.as_chunks::<LANES>().0;
+        let mut smaller = Batch([1.0; LANES]);
+        for i in 1..bound.chunks.len() {
+            let (chunk, lower) = (&bound.chunks[i], chunks.get(i).unwrap_or(&last));
+            let factors = if by_tolerance { chunk.tolerance_factors } else { chunk.radius_factors };
+            let terms = Batch(*lower).abs() * Batch(powers[i]) * factors;
+            smaller = smaller.smaller(Batch::splat(own).is_above(terms));
+        }
+        own.is_normal() && smaller.least() > 0.0
+    }
+
+    #[inline(always)]
+    fn in_lane(&self, lane: usize) -> Option<&OrderBound> {
+        self.bounds.get((lane + self.bounds.len()).checked_sub(WIDTH)?)
     }
 
     /// The logarithm of the step that the order in a lane of [`lanes_of_last_orders`](super::last_orders::lanes_of_last_orders)
     /// allows, infinite for one that does not enter. A coefficient that vanishes has the logarithm −∞.
     #[inline(always)]
     pub(super) fn of_lane(&self, lane: usize, logs: &[f64; ROOM]) -> f64 {
-        let place = (lane + self.bounds.len()).checked_sub(WIDTH);
-        let Some(bound) = place.and_then(|i| self.bounds.get(i)) else { return f64::INFINITY };
+        let Some(bound) = self.in_lane(lane) else { return f64::INFINITY };
         let own = logs[bound.order];
         if own == f64::NEG_INFINITY {
             // a coefficient that vanishes allows anything

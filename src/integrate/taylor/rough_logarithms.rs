@@ -4,44 +4,20 @@
 //! here: the rule that reads them.
 
 use super::last_orders::{FAINT, LANES, ROOM};
-use crate::num::Kernel;
+use crate::num::{Batch, padded};
 
-/// The natural logarithms of the absolute values, to four digits or so. Returns whether all are
-/// finite.
-pub(super) struct Logarithms<'a> {
-    pub(super) of: &'a [f64],
-    pub(super) logs: &'a mut [f64; ROOM],
-}
-
-impl Kernel for Logarithms<'_> {
-    type Output = bool;
-
-    #[inline(always)]
-    fn run<const FUSED: bool>(self) -> bool {
-        let mut finite = true;
-        let (chunks, rest) = self.of.as_chunks::<LANES>();
-        let (places, _) = self.logs.as_chunks_mut::<LANES>();
-        let (whole, behind) = places.split_at_mut(chunks.len());
-        for i in 0..chunks.len() {
-            whole[i] = logarithms_of(chunks[i], &mut finite);
-        }
-        if let Some(log) = behind.first_mut() {
-            let mut last = [0.0; LANES];
-            last[..rest.len()].copy_from_slice(rest);
-            *log = logarithms_of(last, &mut finite);
-        }
-        finite
-    }
-}
-
-/// The natural logarithms of absolute values. Notes whether all are finite.
+/// The natural logarithms of the absolute values, to four digits or so.
 #[inline(always)]
-fn logarithms_of(mut x: [f64; LANES], finite: &mut bool) -> [f64; LANES] {
-    for size in &mut x {
-        *size = size.abs();
-        *finite &= *size < f64::INFINITY;
+pub(super) fn logarithms(of: &[f64], logs: &mut [f64; ROOM]) {
+    let (chunks, rest) = of.as_chunks::<LANES>();
+    let (places, _) = logs.as_chunks_mut::<LANES>();
+    let (whole, behind) = places.split_at_mut(chunks.len());
+    for (log, chunk) in whole.iter_mut().zip(chunks) {
+        *log = rough_logarithms(Batch(*chunk).abs().0);
     }
-    rough_logarithms(x)
+    if let Some(log) = behind.first_mut() {
+        *log = rough_logarithms(Batch(padded(rest, 0.0)).abs().0);
+    }
 }
 
 /// The natural logarithms of positive numbers to four digits or so, by their exponents and a power

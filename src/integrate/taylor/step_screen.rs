@@ -1,10 +1,12 @@
 //! A test which of a series' last orders allow a step, by multiplications alone: most allow more than the one that allows the
 //! least, and need no logarithms.
 //!
-//! In: a series, the powers of a step. Out: for which orders the rule of [`step_size`](super::step_size) surely
+//! In: a series, the powers of a step. Out: whether the rule of [`step_size`](super::step_size) surely
 //! finds no shorter one; "not surely" decides nothing. Never here: the rule, its constants.
 
-use super::last_orders::{FAINT, FIRST, LANES, ROOM, WIDTH, indulgence_of, lanes_of_last_orders};
+use super::last_orders::{
+    CLEARLY, FAINT, FIRST, LANES, ROOM, WIDTH, indulgence_of, lanes_of_last_orders,
+};
 use crate::num::{Batch, math};
 
 /// With the terms a_j = |c_j| h^j at a step h, the bound of the j-th order on the k-th is no shorter
@@ -20,9 +22,6 @@ pub(super) struct StepScreen {
     /// Zero for an order that does not enter, else one.
     entering: Batch<WIDTH>,
 }
-
-/// The ratio by which terms must differ to do so beyond the errors of rough logarithms.
-const CLEARLY: f64 = 1.001;
 
 impl StepScreen {
     pub(super) fn new(
@@ -50,13 +49,12 @@ impl StepScreen {
         }
     }
 
-    /// For each of the last orders of a series: one if it surely allows the step whose powers are given, else zero, which
-    /// decides nothing.
+    /// Whether all of the last orders of a series surely allow the step whose powers are given.
     #[inline(always)]
-    pub(super) fn passing(&self, coefficients: &[f64], powers: &[f64; ROOM]) -> Batch<WIDTH> {
+    pub(super) fn passes(&self, coefficients: &[f64], powers: &[f64; ROOM]) -> bool {
         let last = powers[self.first..].first_chunk::<WIDTH>();
         let (Some(&own), Some(&powers_of_last)) = (coefficients.last_chunk::<WIDTH>(), last) else {
-            return Batch([0.0; WIDTH]);
+            return false;
         };
         let low = |j: usize| {
             let c = coefficients[j].abs();
@@ -71,7 +69,7 @@ impl StepScreen {
         let bound = by_tolerance.smaller(by_radius);
         // a coefficient that vanishes allows anything
         let (passes, terms) = (Batch([1.0; WIDTH]), own * Batch(powers_of_last));
-        own.where_below(FAINT, passes, bound.is_above(terms))
+        own.where_below(FAINT, passes, bound.is_above(terms)).least() > 0.0
     }
 }
 
