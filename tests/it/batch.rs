@@ -106,17 +106,15 @@ fn every_orbit_by_equal_steps_too() {
     for entry in catalog().entries() {
         let ready = Prepared::of(&entry.document().unwrap()).unwrap();
         let unit = Some(ready.model.run.speed).filter(|s| s.is_finite()).unwrap_or(1.0);
+        // the default step takes far longer to find than the motion to follow
+        let is_found = ["henon-heiles", "pendulum"].contains(&entry.name.as_str());
         for (name, step) in [
-            ("leapfrog", None),
+            ("leapfrog", (!is_found).then_some(0.02 * unit)),
             ("yoshida6", Some(0.05 * unit)),
             ("symplectic-euler", Some(0.01 * unit)),
             ("rk4", Some(0.05 * unit)),
         ] {
             let method = method_named(name).unwrap();
-            // the default step of many bodies takes long to find
-            if step.is_none() && ready.system.degrees() > 2 {
-                continue;
-            }
             let settings = Settings { step, tolerance: None };
             let system = ready.system.without_marks();
             if BatchPropagator::new(&system, method, settings).is_none() {
@@ -140,6 +138,8 @@ fn every_orbit_by_equal_steps_too() {
     // with the time in the rates, with equations to be solved, with rates of velocities
     let some = [
         "henon-heiles leapfrog",
+        "pendulum leapfrog",
+        "solar-system leapfrog",
         "pendulum yoshida6",
         "solar-system yoshida6",
         "henon-heiles symplectic-euler",
