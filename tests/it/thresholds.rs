@@ -500,6 +500,20 @@ fn a_multiplier_is_zero_below_sixty_four_units_of_what_constraints_balance() {
     }
 }
 
+/// The rate of a cyclic coordinate is its momentum, and one of 64 ε is rounding of a unit.
+#[test]
+fn a_rate_is_zero_below_sixty_four_units_of_what_it_is_made_of() {
+    for (momentum, is_zero) in [(1.3e-14, true), (1.5e-14, false)] {
+        let text = format!(
+            "title = \"Slow\"\n[coordinates]\nf = {{ initial = 0, momentum = {momentum:e} }}\nx = {{ initial = 0 }}\n\
+             [hamiltonian]\nH = \"1/2*(p_f^2 + p_x^2 + x^2)\"\n"
+        );
+        let found = with_file(&text, &["equilibria", "system.toml", "--format=json"]).json();
+        let rate = &found["equilibria"][0]["rates"]["f'"];
+        assert_eq!(rate.as_f64(), Some(if is_zero { 0.0 } else { momentum }), "{found}");
+    }
+}
+
 /// In the variables of a rotation every term of H has some twenty nodes.
 #[test]
 fn a_new_hamiltonian_is_written_up_to_ten_thousand_nodes() {

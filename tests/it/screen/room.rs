@@ -8,7 +8,7 @@ use phaselab::system::InitialOverride::Position;
 
 use super::{find, rich, rows, screen};
 use crate::app::real::Real;
-use crate::hand::{catalog, gauge, lab, press, snapshot};
+use crate::hand::{begun, catalog, gauge, lab, press, snapshot};
 
 /// In 80 columns a long title takes the room of the last page, which help names, and of the gaps between the others.
 #[test]
@@ -159,4 +159,20 @@ fn definitions_too_long_to_be_read_are_named() {
     assert!(text.contains("V_eff = "), "{text}");
     let named = "u_angle, u_upper, u_lower: too long when written out";
     assert!(text.contains(named) && !text.contains("arccos"), "{text}");
+}
+
+/// A sum of x and a parameter, with three characters between them.
+#[test]
+fn a_definition_is_written_out_up_to_two_hundred_characters() {
+    for (length, is_written) in [(200, true), (201, false)] {
+        let parameter = "p".repeat(length - "x + ".len());
+        let mut app = begun(&format!(
+            "title = \"Long\"\n[parameters]\n{parameter} = {{ value = 1 }}\n[coordinates]\nx = {{ initial = 0.3 }}\n\
+             [definitions]\nD = \"x + {parameter}\"\n[lagrangian]\nL = \"1/2*x'^2 - 1/2*x^2\"\n"
+        ));
+        press(&mut app, "2");
+        let text = rows(&screen(&app, &rich(), (120, 60))).join("\n");
+        assert!(text.contains("Definitions of the file"), "{text}");
+        assert_eq!(!text.contains("D: too long when written out"), is_written, "{text}");
+    }
 }
