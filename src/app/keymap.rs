@@ -415,18 +415,3 @@ pub fn action(key: KeyEvent, places: &[Place]) -> Option<Action> {
     let holds = |row: &&Binding| places.contains(&row.place) && row.keys.contains(&key);
     KEYS.iter().find(holds).map(|row| row.action)
 }
-
-/// Returns the ambiguous keys: those bound by two rows that can be active together.
-pub fn duplicates() -> Vec<(KeyEvent, &'static Binding, &'static Binding)> {
-    let mut found = Vec::new();
-    for chain in CHAINS {
-        let rows: Vec<_> = KEYS.iter().filter(|row| chain.contains(&row.place)).collect();
-        for (index, first) in rows.iter().enumerate() {
-            for second in &rows[index + 1..] {
-                let shared = first.keys.iter().filter(|key| second.keys.contains(key));
-                found.extend(shared.map(|key| (*key, *first, *second)));
-            }
-        }
-    }
-    found
-}

@@ -36,8 +36,8 @@ pub struct Lagrangian {
     /// What its expansions took, see [`Lagrangian::work`], and when a search ends.
     work: f64,
     most_work: f64,
-    /// What searches beside the first may take.
-    budget: f64,
+    /// The operations that a search may take which begins elsewhere than at the straight line.
+    pub budget: f64,
 }
 
 /// A path: q and q̇ at a time from its beginning.
@@ -147,12 +147,6 @@ impl Lagrangian {
     #[must_use]
     pub fn with_cancel(self, cancel: Cancel) -> Lagrangian {
         Lagrangian { cancel, ..self }
-    }
-
-    /// The same with another budget for the searches that begin elsewhere than at the straight line, in operations.
-    #[must_use]
-    pub fn with_budget(self, budget: f64) -> Lagrangian {
-        Lagrangian { budget, ..self }
     }
 
     /// A search that ends when it has taken the budget.

@@ -3,7 +3,7 @@
 //! In: points with z up, angles, zoom. Out: horizontal and vertical coordinates in the units of the scene, and the
 //! depth. Never here: shapes, or hidden surfaces.
 
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f64::consts::{FRAC_PI_2, TAU};
 
 use ratatui::layout::Rect;
 
@@ -29,10 +29,6 @@ impl Camera {
     /// The view for plane systems: the x–y plane seen face on, y up.
     pub const FACE_ON: Self =
         Self { yaw: 0.0, pitch: FRAC_PI_2, zoom: 1.0, pan: [0.0, 0.0], distance: None };
-
-    /// The view for systems in space: from the front, a little from the right and from above, z up.
-    pub const IN_SPACE: Self =
-        Self { yaw: PI / 6.0, pitch: PI / 9.0, zoom: 1.0, pan: [0.0, 0.0], distance: None };
 
     /// Rotates the camera by angles in radians; the pitch stops at the poles.
     #[must_use]

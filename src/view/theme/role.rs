@@ -52,11 +52,6 @@ impl Role {
         Self::Separatrix,
         Self::Level,
     ];
-
-    /// Whether the role is used for text, which needs a contrast of 4.5 to 1; lines need 3 to 1.
-    pub fn is_text(self) -> bool {
-        !matches!(self, Self::Border | Self::Level)
-    }
 }
 
 /// One colour of a palette: in 24 bits, among the sixteen, and its substitute without colour.

@@ -291,21 +291,22 @@ fn searches_beside_the_straight_line_end_with_their_budget() {
     let mut line = lagrangian();
     let why =
         stationary_path(&mut line, &|_| vec![0.0], 2.0).expect_err("there is none").to_string();
-    let search = |mut own: Lagrangian| {
+    let search = |mut own: Lagrangian, budget: Option<f64>| {
+        own.budget = budget.unwrap_or(own.budget);
         let found = stationary_path_between(&mut own, [&[0.0], &[0.0]], 2.0);
         (found, own.work() - line.work())
     };
-    let (found, needed) = search(lagrangian());
+    let (found, needed) = search(lagrangian(), None);
     let path = found.expect("a path");
     // the deflection is about that of an impulse, h³ = π/20
     let height = path.at(1.0)[0].abs();
     assert!((height - (PI / 20.0).cbrt()).abs() < 0.1, "{height}");
     // one expansion of the highest degree goes beyond
     let within = |taken: f64, part: f64| taken >= part * needed && taken <= part * needed + 5e6;
-    let (found, taken) = search(lagrangian().with_budget(0.0));
+    let (found, taken) = search(lagrangian(), Some(0.0));
     let said = found.map(|path| path.action).expect_err("nothing was searched").to_string();
     assert!(said == why && within(taken, 0.0), "{said} {taken:e}");
-    let (found, taken) = search(lagrangian().with_budget(0.1 * needed));
+    let (found, taken) = search(lagrangian(), Some(0.1 * needed));
     assert!((found.expect("a path").action - path.action).abs() < 1e-12);
     assert!(within(taken, 0.1), "{taken:e} {needed:e}");
 }

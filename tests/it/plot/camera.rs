@@ -6,6 +6,9 @@ use phaselab::view::plot::{Bounds, Camera, Extent};
 use proptest::prelude::*;
 use ratatui::layout::Rect;
 
+/// From the front, a little from the right and from above, z up.
+pub(super) const IN_SPACE: Camera = Camera { yaw: PI / 6.0, pitch: PI / 9.0, ..Camera::FACE_ON };
+
 fn close(found: [f64; 3], expected: [f64; 3]) {
     let near = found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-12);
     assert!(near, "{found:?} is not {expected:?}");
@@ -18,7 +21,7 @@ fn a_plane_system_is_seen_face_on_with_y_up() {
 
 #[test]
 fn from_the_front_z_is_up_and_what_is_behind_is_deeper() {
-    let front = Camera { yaw: 0.0, pitch: 0.0, ..Camera::IN_SPACE };
+    let front = Camera { yaw: 0.0, pitch: 0.0, ..IN_SPACE };
     close(front.project([1.0, 0.0, 0.0]), [1.0, 0.0, 0.0]);
     close(front.project([0.0, 0.0, 1.0]), [0.0, 1.0, 0.0]);
     close(front.project([0.0, 1.0, 0.0]), [0.0, 0.0, -1.0]);
@@ -29,7 +32,7 @@ fn from_the_front_z_is_up_and_what_is_behind_is_deeper() {
 
 #[test]
 fn perspective_makes_near_things_larger_and_is_safe_behind_the_eye() {
-    let camera = Camera { yaw: 0.0, pitch: 0.0, distance: Some(10.0), ..Camera::IN_SPACE };
+    let camera = Camera { yaw: 0.0, pitch: 0.0, distance: Some(10.0), ..IN_SPACE };
     let [near, ..] = camera.project([1.0, -2.0, 0.0]);
     let [far, ..] = camera.project([1.0, 2.0, 0.0]);
     assert!((near - 1.25).abs() < 1e-12 && (far - 10.0 / 12.0).abs() < 1e-12);
@@ -38,7 +41,7 @@ fn perspective_makes_near_things_larger_and_is_safe_behind_the_eye() {
 
 #[test]
 fn pitch_stops_at_the_poles_and_zoom_within_reason() {
-    let camera = Camera::IN_SPACE.turned(100.0, 100.0).zoomed(1e9);
+    let camera = IN_SPACE.turned(100.0, 100.0).zoomed(1e9);
     assert_eq!(camera.pitch, FRAC_PI_2);
     assert_eq!(camera.zoom, 100.0);
     assert_eq!(camera.turned(f64::NAN, f64::NAN).zoomed(f64::NAN), camera);
@@ -77,7 +80,7 @@ fn a_scene_fills_its_area_in_one_direction_from_everywhere() {
     let rod = ends.map(|point| Extent { low: point, high: point, radius: 0.0, hull: None });
     for (wide, high) in [(40, 20), (80, 12), (20, 40)] {
         for turn in 0..24 {
-            let camera = Camera::IN_SPACE.turned(f64::from(turn) * PI / 12.0, 0.0);
+            let camera = IN_SPACE.turned(f64::from(turn) * PI / 12.0, 0.0);
             let [x, y] = filled(camera, &rod, &ends, Rect::new(0, 0, wide, high));
             assert!((x.max(y) * 1.05 - 1.0).abs() < 1e-9, "{wide}×{high}, {turn}: {x} by {y}");
         }
@@ -89,7 +92,7 @@ fn a_ball_is_as_large_from_everywhere_and_whole() {
     let ball = [Extent { low: [1.0, 2.0, 3.0], high: [1.0, 2.0, 3.0], radius: 0.5, hull: None }];
     let area = Rect::new(0, 0, 40, 20);
     for turn in 0..24 {
-        let camera = Camera::IN_SPACE.turned(f64::from(turn) * PI / 12.0, f64::from(turn) / 24.0);
+        let camera = IN_SPACE.turned(f64::from(turn) * PI / 12.0, f64::from(turn) / 24.0);
         let frame = camera.frame_around(&ball, area);
         let [x, y, _] = camera.project([1.0, 2.0, 3.0]);
         assert!((frame.x.hi - frame.x.lo - 1.05).abs() < 1e-12);
@@ -111,7 +114,7 @@ proptest! {
     ) {
         let high_corner = std::array::from_fn(|i| low[i] + size[i]);
         let bounds = Bounds::around([low, high_corner]);
-        let camera = Camera { yaw, pitch, ..Camera::IN_SPACE };
+        let camera = Camera { yaw, pitch, ..IN_SPACE };
         let frame = camera.frame(&bounds, Rect::new(0, 0, wide, high));
         for corner in 0..8 {
             let point = std::array::from_fn(|i| if corner >> i & 1 == 0 { low[i] } else { high_corner[i] });
@@ -126,7 +129,7 @@ proptest! {
 
     #[test]
     fn a_turn_keeps_lengths(point in prop::array::uniform3(-5.0..5.0_f64), yaw in -PI..PI, pitch in -1.5..1.5_f64) {
-        let seen = Camera { yaw, pitch, ..Camera::IN_SPACE }.project(point);
+        let seen = Camera { yaw, pitch, ..IN_SPACE }.project(point);
         let length = |p: [f64; 3]| p.iter().map(|v| v * v).sum::<f64>();
         prop_assert!((length(seen) - length(point)).abs() < 1e-12 * (1.0 + length(point)));
     }

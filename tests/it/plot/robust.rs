@@ -117,7 +117,7 @@ proptest! {
         angles in [number(), number(), number(), number()],
         (_, area) in screen(),
     ) {
-        let camera = Camera::IN_SPACE
+        let camera = super::camera::IN_SPACE
             .turned(angles[0], angles[1])
             .zoomed(angles[2])
             .panned(angles[3], angles[0]);
