@@ -55,7 +55,7 @@ impl AngleMoment {
         AngleMoment { angle: self.angle + (expected - self.angle).round(), ..self }
     }
 
-    /// The angle at a time of a motion that goes on evenly from here, w + ν (t − t₀).
+    /// The angle at a time of a motion that continues evenly from here, w + ν (t − t₀).
     pub fn even(&self, time: f64) -> f64 {
         self.angle + self.frequency * (time - self.time)
     }

@@ -2,7 +2,7 @@
 //!
 //! It is a weighted Birkhoff average, which converges faster than any power of the number of crossings where the orbit is
 //! quasi-periodic, and as slowly as the mean of random numbers where it is chaotic (E. Sander and J. D. Meiss, Physica D
-//! 411 (2020) 132569); how far the averages of parts of the orbit differ tells one from the other. Where an axis is an angle
+//! 411 (2020) 132569); how far the averages of parts of the orbit differ distinguishes one from the other. Where an axis is an angle
 //! that goes round, its turns are counted; else those around the middle of the orbit, from the vertical axis towards
 //! the horizontal one, as a point of (q, p) moves. The turn between two crossings is known but for whole ones: they are cut
 //! where no turn of the orbit lies, so that number is in [0, 1).

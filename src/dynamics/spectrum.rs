@@ -25,7 +25,7 @@ const FAINTEST: f64 = 1e-12;
 /// Lines closer than this many turns in the whole time are one that is not a line.
 const APART: f64 = 1.5;
 
-/// So many times as many lines as are wanted are tried: some are not told apart from others.
+/// So many times as many lines as are wanted are tried: some are not resolved from others.
 const TRIES: usize = 2;
 
 /// Where what is left beside a line is evaluated, as parts of that.

@@ -11,7 +11,7 @@ const LOBE: f64 = 3.0;
 /// … and what is left there, a wave that changes in the time, has skirts that are larger by this factor than those of a line.
 const SKIRTS: f64 = 100.0;
 
-/// The places of lines that are not told apart.
+/// The places of lines that are not resolved.
 #[derive(Debug, Default)]
 pub(super) struct UnresolvedLines {
     /// The frequency of what is left there, and its amplitude.

@@ -1,7 +1,7 @@
 //! Whether tangent vectors were carried as the motion carries its neighbours: steps of a method lead past a pole of the coordinates
-//! with vectors that mean nothing beyond it, while the motion itself goes on.
+//! with vectors that mean nothing beyond it, while the motion itself continues.
 //!
-//! In: the growth of the vectors, how they were carried. Out: why it tells nothing, if so. Never here: where the pole lies.
+//! In: the growth of the vectors, how they were carried. Out: why it shows nothing, if so. Never here: where the pole lies.
 
 use super::lyapunov_course::CarriedMotion;
 use super::step_growth::StepGrowth;
@@ -25,7 +25,7 @@ pub(super) struct Followed<'a> {
 }
 
 impl Followed<'_> {
-    /// Why the growth of the vectors tells nothing of the motion.
+    /// Why the growth of the vectors shows nothing of the motion.
     pub(super) fn doubt(&self) -> Option<String> {
         let lasted = self.growth.end() - self.growth.begin();
         if let Some(off) = self.pairing.filter(|_| !self.jumps)

@@ -39,7 +39,7 @@ pub(super) struct StepLog {
     impulses: u64,
     /// The run to which the states belong.
     run: RunToken,
-    /// The states of runs before that may be taken up again, the oldest first.
+    /// The states of runs before that may be resumed, the oldest first.
     earlier: VecDeque<(ReleasedToken, VecDeque<LoggedState>)>,
 }
 

@@ -6,7 +6,7 @@
 use super::node::{Expr, Node};
 use super::symbol::Symbol;
 
-/// The number of symbols that a [`SymbolSet`] tells apart.
+/// The number of symbols that a [`SymbolSet`] distinguishes.
 pub(super) const DISTINCT: usize = u128::BITS as usize;
 
 /// A set of symbols, one bit each. From the symbol [`DISTINCT`] on several share a bit: what is not

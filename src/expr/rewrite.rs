@@ -1,7 +1,7 @@
 //! Rewriting an expression from its parts upwards.
 //!
 //! A pass gives every node one result, whatever the node is a part of; what was rewritten once is
-//! not looked at again. In: an expression, and what a pass does with one node. Out: an expression.
+//! not visited again. In: an expression, and what a pass does with one node. Out: an expression.
 //! Never here: the passes.
 
 use rustc_hash::FxHashMap;

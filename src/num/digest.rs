@@ -1,6 +1,6 @@
 //! A digest of bytes.
 
-/// The hash of Fowler, Noll and Vo, FNV-1a with 64 bits: it tells accidents apart, not forgeries.
+/// The hash of Fowler, Noll and Vo, FNV-1a with 64 bits: it distinguishes accidents, not forgeries.
 pub fn digest(bytes: &[u8]) -> u64 {
     let step = |hash: u64, &byte: &u8| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
     bytes.iter().fold(0xcbf2_9ce4_8422_2325, step)

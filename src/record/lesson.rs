@@ -434,7 +434,7 @@ impl Lesson {
     }
 }
 
-/// Whether a line asks for something, so that what was predicted before is no longer looked at.
+/// Whether a line asks for something, so that what was predicted before no longer counts.
 fn asks_anew(step: &LessonStep) -> bool {
     matches!(
         step,

@@ -14,7 +14,7 @@ use crate::view::colour::Rgb;
 pub struct Questions {
     /// The colour of its background.
     pub background: bool,
-    /// Whether it knows the keyboard protocol of kitty, which tells apart keys that have the same bytes otherwise, such as
+    /// Whether it knows the keyboard protocol of kitty, which distinguishes keys that have the same bytes otherwise, such as
     /// Enter and Shift-Enter.
     pub keyboard: bool,
 }

@@ -185,7 +185,7 @@ impl Expansion {
     }
 
     /// Series beyond whose first zero other branches of the functions apply: those of the switches, of the roots, of which √(y²)
-    /// goes on as y where y changes its sign, of arctangents, and of the angles of points.
+    /// continues as y where y changes its sign, of arctangents, and of the angles of points.
     pub(super) fn branch_signs(&self) -> impl Iterator<Item = Cow<'_, [f64]>> {
         let switches = (0..self.jet.switches()).map(|i| Cow::Borrowed(self.jet.switch(i)));
         let roots = self.guards.iter().filter_map(|guard| self.root(guard));

@@ -5,7 +5,7 @@
 //!
 //! The relations are solved by Newton's method from the last image. At a caustic, det ∂²F/∂old∂new = 0, the branch ends;
 //! the state after the first one without an image may take another branch. Where the relations only break down at a place, as
-//! ½ q² cot Q does at q = 0, the image goes on as it went before.
+//! ½ q² cot Q does at q = 0, the image continues as before.
 //! Source: *The Principles of Dynamics*, § 3.2.1.
 
 use std::sync::Arc;
@@ -105,7 +105,7 @@ struct Known {
 }
 
 impl Known {
-    /// The image at a time if it goes on evenly.
+    /// The image at a time if it continues at the same rate.
     fn extrapolated(&self, time: DoubleDouble) -> Vec<DoubleDouble> {
         let gone = time - self.time;
         self.image.iter().zip(&self.rate).map(|(&x, &rate)| x + rate * gone).collect()

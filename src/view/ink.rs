@@ -1,6 +1,6 @@
 //! Inks: the colours of a picture by their purpose, in those of the theme.
 //!
-//! In: an ink, a layer. Out: a pen, or the marker that tells it from others where there is no colour. Never here: what is drawn
+//! In: an ink, a layer. Out: a pen, or the marker that distinguishes it from others where there is no colour. Never here: what is drawn
 //! with it.
 
 use super::canvas::Canvas;
@@ -33,7 +33,7 @@ pub(super) fn marker(shape: MarkerShape) -> Marker {
     }
 }
 
-/// The marker that tells points of a verdict from others where there is no colour: crosses for what calls for attention, rings
+/// The marker that distinguishes points of a verdict from others where there is no colour: crosses for what calls for attention, rings
 /// for what is plain, and dots for the rest.
 pub(super) fn colourless_mark(canvas: &Canvas<'_>, ink: Ink) -> Option<MarkerShape> {
     match ink {

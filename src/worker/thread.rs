@@ -152,7 +152,7 @@ impl WorkerLoop<'_> {
         Ok(())
     }
 
-    /// The inputs of the pace: whether time runs, the current time, and the speed.
+    /// The inputs of the pacing: whether time runs, the current time, and the speed.
     fn pace_inputs(&self) -> Option<(bool, f64, f64)> {
         let subject = self.subject.as_deref()?;
         Some((subject.status() == Status::Running, subject.time(), subject.speed()))

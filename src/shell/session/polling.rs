@@ -1,4 +1,4 @@
-//! What is looked at between frames: the file on the disk, the checker's answer, background jobs, errors of the motion.
+//! What is polled between frames: the file on the disk, the checker's answer, background jobs, errors of the motion.
 //!
 //! In: the time that has passed. Out: events for the application. Never here: frames, keys.
 
