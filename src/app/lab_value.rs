@@ -63,7 +63,7 @@ impl Lab {
                     name: info.name.clone(),
                     shown: info.unicode.clone(),
                     unit,
-                    about: format!("initial {what}; a change starts the motion again"),
+                    about: format!("initial {what}; a change restarts the motion"),
                     range: None,
                 })
             }

@@ -99,7 +99,7 @@ impl Instrument for ActionPlot {
                 Entry::Words(self.0.integral().to_owned()),
                 Entry::Key(Ink::Curve(0), format!("{name} + ε sin πs")),
                 Entry::Key(Ink::Curve(1), "p + ε c cos πs".to_owned()),
-                Entry::Key(Ink::Curve(2), format!("{name}, p = ∂L/∂q̇ with it")),
+                Entry::Key(Ink::Curve(2), format!("{name}, p = ∂L/∂q̇")),
             ],
         };
         let kind = match self.0 {

@@ -28,14 +28,14 @@ pub(super) fn footer(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
     }
     let ended = app.snapshot().filter(|_| app.page == Page::Lab).and_then(ended);
     let meaning = match (&app.overlay, &app.lab, app.page) {
-        (None, _, Page::Lab) if ended.is_some() => ended.clone().unwrap_or_default(),
+        (None, _, Page::Lab) if ended.is_some() => [ended.clone().unwrap_or_default()].into(),
         (None, Some(lab), Page::Lab) => meaning(canvas, lab),
-        _ => String::new(),
+        _ => Vec::new(),
     };
     let role = if ended.is_some() { Role::Warn } else { Role::Text };
     // The plain page has no room for a notification above the footer.
     let (meaning, role) = match current_notification(app).filter(|_| reads(app)) {
-        Some((text, role)) => (canvas.text(&text), role),
+        Some((text, role)) => (vec![canvas.text(&text)], role),
         None => (meaning, role),
     };
     let mut hints = match app.footer.hints {
@@ -48,8 +48,10 @@ pub(super) fn footer(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
     let room = usize::from(area.width);
     // If its pane is small, a gauge's reason appears in full nowhere else.
     let gauge = app.lab.as_ref().is_some_and(|lab| lab.focus.pane == Pane::Gauges);
-    let most = if gauge { room } else { room * 2 / 3 };
-    let meant = if meaning.is_empty() { 0 } else { meaning.width().min(most) + 2 };
+    let last: usize = hints.iter().rev().take(2).map(|hint| long(hint) + 3).sum();
+    let whole = room.saturating_sub(last.saturating_sub(3) + 2);
+    let meaning = fitting(&meaning, [if gauge { whole } else { room * 2 / 3 }, whole]);
+    let meant = if meaning.is_empty() { 0 } else { meaning.width().min(whole) + 2 };
     while hints.len() > 2 && meant + wide > room + 3 {
         wide -= long(&hints.remove(hints.len() - 3)) + 3;
     }
@@ -62,6 +64,13 @@ pub(super) fn footer(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
         canvas.target(columns(place, 0, used), HitTarget::Hint(hint.action));
         start += used + 3;
     }
+}
+
+/// The first of some texts, from the longest, that fits into a width, or else into one with fewer keys beside it. What the
+/// shorter ones leave out stands in the list, too.
+fn fitting(texts: &[String], widths: [usize; 2]) -> String {
+    let fits = |width| texts.iter().find(move |text| text.width() <= width);
+    widths.into_iter().find_map(fits).or(texts.last()).cloned().unwrap_or_default()
 }
 
 /// Whether the plain-text page is open, on which nothing may cover the text.
@@ -156,31 +165,32 @@ fn ended(snapshot: &Snapshot) -> Option<String> {
     Some(format!("ended at: {event}; r restarts"))
 }
 
-/// The meaning, unit and range of the selected item.
-fn meaning(canvas: &Canvas<'_>, lab: &Lab) -> String {
+/// The meaning, unit and range of the selected item, and the same with less of what its list says already.
+fn meaning(canvas: &Canvas<'_>, lab: &Lab) -> Vec<String> {
     let glyphs = canvas.look.glyphs;
     if lab.focus.pane == Pane::Gauges {
         let gauge = lab.snapshot.as_ref().and_then(|s| s.gauges.get(lab.selection.gauge));
-        return gauge.map_or_else(String::new, |gauge| {
+        return gauge.map_or_else(Vec::new, |gauge| {
             let name = glyphs.pick(&gauge.shown, &gauge.name);
-            format!("{name} ({}): {}", gauge.reason, finding(gauge, canvas.look.glyphs))
+            let named = format!("{name} ({})", gauge.reason);
+            let found = format!("{named}: {}", finding(gauge, canvas.look.glyphs));
+            [found, named, gauge.reason.clone()].map(|text| canvas.text(&text)).into()
         });
     }
     let Some(facts) = lab.selected().and_then(|target| lab.value_info(target)) else {
-        return String::new();
+        return Vec::new();
     };
     let name = glyphs.pick(&facts.shown, &facts.name);
     // the keys have precedence over what the list itself says
-    let about = if facts.about.is_empty() || canvas.explained {
-        String::new()
-    } else {
-        format!(": {}", facts.about)
-    };
+    let explained = facts.about.is_empty() || canvas.explained;
+    let about = if explained { String::new() } else { format!(": {}", facts.about) };
     let unit = if facts.unit.is_empty() { String::new() } else { format!(" [{}]", facts.unit) };
     let range = facts.range.map_or_else(String::new, |(min, max, _)| {
         format!(", {} to {}", brief(min, 4, glyphs), brief(max, 4, glyphs))
     });
-    canvas.text(&format!("{name}{unit}{about}{range}"))
+    let named = format!("{name}{unit}{about}");
+    let alone = if explained { named.clone() } else { facts.about };
+    [format!("{named}{range}"), named, alone].map(|text| canvas.text(&text)).into()
 }
 
 /// A key and a word for its action.

@@ -138,6 +138,12 @@ fn whole_words(line: &str, room: usize, mark: &str) -> String {
         }
     }
     let kept = line[..end].trim_end_matches(['+', '−', '-', '·', '*', '/', ',', ';', ' ']);
+    // The beginning of a product is no value: where the value stands before it, it is left out.
+    let is_product = line[kept.len()..].trim_start().starts_with(['·', '×', '*', '/']);
+    let kept = match kept.rsplit_once(" = ") {
+        Some((before, _)) if is_product && before.contains(" = ") => before,
+        _ => kept,
+    };
     if kept.is_empty() { shortened(line, room, mark) } else { format!("{kept} {mark}") }
 }
 
@@ -229,6 +235,9 @@ mod tests {
         let long = "not canonical: [Q, P] = m ω + (p_q² + m² ω² q²)/c ≠ 1";
         let cut = "not canonical: [Q, P] = m ω … ≠ 1|z shows more";
         assert_eq!(written(&[long, k], true), lines_of(cut));
+        // a second way to write a value, cut inside its product
+        let long = "libration: J = 0.27817 = 2π · 0.044272";
+        assert_eq!(written(&[long, k], true)[0], "libration: J = 0.27817 …");
         let layers = [(0, Layer::Legend(lines.map(str::to_owned).to_vec()))];
         let heights = |height, zoomable| {
             let (axes, words) = beside(Rect::new(0, 0, 38, height), (&layers, zoomable), &look);

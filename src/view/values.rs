@@ -12,7 +12,7 @@ use super::plot::Scale;
 use super::region::ScreenRegion;
 use super::sparkline::RangeBar;
 use super::theme::Role;
-use super::wrap::{words, words_in};
+use super::wrap::words;
 use crate::app::{HitTarget, InputField, Lab, Purpose, ValueId, ValueInfo};
 use crate::model;
 use crate::num::significant;
@@ -66,7 +66,7 @@ impl ValueList<'_> {
         }
     }
 
-    /// The meaning of the selected value, as far as there are rows left.
+    /// The meaning of the selected value, whole or not at all: the line below the panes has it too.
     fn about(&self, area: Rect, count: usize) -> Vec<String> {
         let spare = usize::from(area.height).saturating_sub(count);
         let target = (self.kind)(self.selected);
@@ -76,11 +76,9 @@ impl ValueList<'_> {
             _ => facts.about,
         });
         let width = usize::from(area.width.saturating_sub(3));
-        let all = words(&text, width);
-        let rows = spare.saturating_sub(usize::from(spare > all.len()));
-        let mut lines = if all.len() <= rows { all } else { words_in(&text, width, rows) };
+        let mut lines = words(&text, width);
         lines.retain(|line| !line.is_empty());
-        lines
+        if lines.len() > spare { Vec::new() } else { lines }
     }
 
     /// The bars have what names, numbers and units leave.

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use phaselab::app::{App, Event, Guide, GuideKind, LessonTaken};
+use phaselab::app::{App, Event, Guide, GuideKind, LessonTaken, Pane};
 use phaselab::experiment::{Growth, Verdict};
 use phaselab::instrument::Sight;
 use phaselab::view::number::rounded;
@@ -10,6 +10,7 @@ use phaselab::view::number::rounded;
 use super::{find, rich, rows, screen};
 use crate::app::real::Real;
 use crate::hand::{catalog, gauge, lab, loaded, press, snapshot};
+use crate::nonempty;
 
 /// A preset in the lab, with a snapshot of its first second.
 fn opened(name: &str) -> App {
@@ -47,6 +48,42 @@ fn tabs_of_a_frame_differ() {
         for tab in two {
             assert!(tabs[0].iter().any(|other| other == tab), "{name}: {tab} in {tabs:?}");
         }
+    }
+}
+
+/// What a parameter of a shipped file means is read as a whole in 80 columns, below the panes or in its list.
+#[test]
+fn meanings_of_parameters_are_whole() {
+    let mut cut = Vec::new();
+    let mut read = 0;
+    for entry in nonempty(catalog().entries()) {
+        let (mut app, _) = App::new(catalog(), Some(&entry.name));
+        app.update(Event::Loaded(Ok(loaded(&entry.name, 1))));
+        let count = app.lab.as_ref().map_or(0, |lab| lab.loaded.model.parameters.len());
+        for _ in 0..count {
+            let rows = rows(&screen(&app, &rich(), (80, 24)));
+            // the list has the left half below the pictures
+            let list = rows[14..22].iter().map(|row| row.chars().take(40).collect::<String>());
+            let cells = list.chain(rows.last().cloned());
+            cut.extend(cells.filter(|row| row.contains('…')).map(|row| (&entry.name, row)));
+            read += 1;
+            press(&mut app, "Down");
+        }
+    }
+    assert!(cut.is_empty() && read > 300, "{read}: {cut:#?}");
+}
+
+/// A gauge whose reason is long leaves its verdict and its name to the list.
+#[test]
+fn reasons_of_gauges_are_whole() {
+    let mut app = opened("solar-system");
+    app.lab.as_mut().expect("a lab").focus.pane = Pane::Gauges;
+    let gauges = app.lab.as_ref().and_then(|lab| Some(lab.snapshot.as_ref()?.gauges.len()));
+    for _ in 0..gauges.expect("gauges") {
+        let rows = rows(&screen(&app, &rich(), (80, 24)));
+        let last = rows.last().expect("a row");
+        assert!(last.contains("? help") && !last.contains('…'), "{last}");
+        press(&mut app, "Down");
     }
 }
 
