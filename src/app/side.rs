@@ -61,7 +61,7 @@ impl Lab {
                 answer: answer.as_ref(),
             }) {
                 Need::Nothing => continue,
-                Need::Addition(_) if !jobs.in_background || !is_drawn => None,
+                Need::Addition(_) if !is_drawn || !jobs.adds_to(place) => None,
                 Need::Valid => None,
                 Need::Job(job) | Need::Addition(job) => {
                     let computation = jobs.request(Asker::Plot(place), job);

@@ -21,7 +21,7 @@ pub enum Need {
     Valid,
     /// This job is needed. The last result stays until it has finished.
     Job(Job<Answer>),
-    /// This job adds to the picture and may take long: where there is no background it is left out.
+    /// This job adds to the picture and may take long: without a background it is left out, or done in parts, one in a frame.
     Addition(Job<Answer>),
 }
 

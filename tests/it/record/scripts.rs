@@ -37,6 +37,14 @@ fn a_demo_is_shown_without_the_footer() {
     }
 }
 
+/// What a picture of the file computes beside the motion is there without a key, in parts, one in a frame.
+#[test]
+fn sections_and_ensembles_fill_in_a_recording() {
+    played("henon-heiles", "Size 120x40\nWait 0.5s\nAssert section.orbits > 15\n");
+    let cloud = "Size 120x40\nWait 0.5s\nAssert ensemble.points > 100\n";
+    played("damped-oscillator", cloud);
+}
+
 #[test]
 fn errors_stand_in_their_places() {
     let check = |text: &str, expected: &[&str]| assert_eq!(diagnostics(text), expected, "{text}");
