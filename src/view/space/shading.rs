@@ -12,11 +12,12 @@ use ratatui::symbols::pixel::QUADRANTS;
 use crate::view::glyphs::Glyphs;
 use crate::view::theme::{Theme, Tones};
 
-/// A cell in which something is drawn has the background of a surface that covers this many of its quarters
-/// if blocks are its edges, and this many …
+/// A cell in which something is written has the background of a surface that covers this many of its quarters. Where a line
+/// crosses the edge of a surface it yields to the block from this many on: a background would square the edge.
 const HALF: usize = 2;
 
-/// … if lines are, outside of which there should be none of it.
+/// Where lines are the edges of a surface, a cell they cross has its background if it covers this many quarters: outside
+/// of them there should be none of it.
 const MOST: usize = 3;
 
 /// A quarter of a cell: the number of its dots that are covered, their light, and the tones of the last of them.
@@ -128,11 +129,14 @@ impl Shading {
             let at = (self.area.x + column as u16, self.area.y + row as u16);
             let Some(cell) = buffer.cell_mut(at) else { continue };
             let colours = self.colours(quarters);
-            if cell.symbol() != " " || is_written(at.into()) {
-                let lined = |k: usize| self.tones[usize::from(quarters[k].tones)].1;
-                let lined = (0..4).filter(|&k| quarters[k].count > 0).all(lined);
-                let covered = colours.iter().flatten().count() >= if lined { MOST } else { HALF };
-                if let Some(background) = most(&colours, None).filter(|_| covered) {
+            let written = is_written(at.into());
+            let lined = |k: usize| self.tones[usize::from(quarters[k].tones)].1;
+            let lined = (0..4).filter(|&k| quarters[k].count > 0).all(lined);
+            let covered = colours.iter().flatten().count();
+            let is_edge = !lined && (HALF..4).contains(&covered) && is_of_dots(cell.symbol());
+            if written || cell.symbol() != " " && !is_edge {
+                let least = if lined { MOST } else { HALF };
+                if let Some(background) = most(&colours, None).filter(|_| covered >= least) {
                     let style = theme.legible(cell.style(), background);
                     cell.set_style(style.bg(background));
                 }
@@ -185,6 +189,16 @@ impl Shading {
         let (last, light) = (tones.len() - 1, quarter.light / f32::from(quarter.count.max(1)));
         ((light * last as f32).round() as usize).min(last)
     }
+}
+
+/// Whether a cell holds dots of lines: braille, or blocks of a half, a quarter, a sixth or an eighth of it. Anything else is a mark,
+/// such as that of a mass, which stays.
+fn is_of_dots(symbol: &str) -> bool {
+    let of_dots = |c| {
+        let blocks = matches!(c, '\u{2580}'..='\u{259f}' | '\u{1cd00}'..='\u{1cde5}');
+        blocks || matches!(c, '\u{2800}'..='\u{28ff}' | '\u{1fb00}'..='\u{1fbaf}')
+    };
+    symbol.chars().all(of_dots)
 }
 
 /// Whether nothing of a cell is covered.
@@ -242,5 +256,20 @@ mod tests {
         assert_eq!((buffer[(1, 0)].symbol(), buffer[(1, 0)].bg), (" ", Color::Blue));
         assert_eq!((buffer[(3, 0)].symbol(), buffer[(3, 0)].fg), ("▌", Color::Blue));
         assert_eq!(buffer[(3, 0)].bg, Color::Reset);
+    }
+
+    /// A background would square the edge: a line leaves its cells to the block, and a mark keeps them.
+    #[test]
+    fn lines_yield_to_an_edge_and_marks_do_not() {
+        let shading = row(1, 2);
+        let mut buffer = Buffer::empty(Rect::new(0, 0, 3, 1));
+        for (x, symbol) in ["⠉", "⠉", "●"].into_iter().enumerate() {
+            buffer[(x as u16, 0)].set_symbol(symbol);
+        }
+        let theme = Theme::dark(crate::view::colour::ColourDepth::True);
+        shading.draw(&mut buffer, &theme, |_| false);
+        let cells: Vec<_> = buffer.content.iter().map(|cell| (cell.symbol(), cell.bg)).collect();
+        let expected = [("⠉", Color::Blue), ("▌", Color::Reset), ("●", Color::Blue)];
+        assert_eq!(cells, expected);
     }
 }
