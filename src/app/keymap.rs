@@ -298,6 +298,7 @@ pub const KEYS: &[Binding] = &[
     row(Place::Space, &[c('+'), c('=')], Action::Closer(AxisChoice::Both), "closer", "look closer"),
     row(Place::Space, &[c('-')], Action::Farther(AxisChoice::Both), "", "look from further away"),
     row(Place::Space, &[HOME, c('0')], Action::Home, "", "the initial view"),
+    row(Place::Space, &[c('c')], Action::Cursor, "", "the cursor of the nearest plot, which gets the focus"),
     row(Place::Space, &[ENTER, c('v')], Action::ChooseAxes, "view", "choose what this pane shows"),
 
     row(Place::Plot, &[c('v')], Action::ChooseAxes, "axes", "choose what this pane shows: which variable on which axis"),
@@ -336,7 +337,8 @@ pub const KEYS: &[Binding] = &[
     row(Place::Values, &[SHIFT_RIGHT, c('L'), c('+'), c('=')], change(1, true), "", "more, by a coarse step"),
     row(Place::Values, &[ENTER], Action::TypeValue, "type", "type the value: a number or an expression, such as pi, sqrt(2) or 2*l"),
     row(Place::Values, &[c('v')], Action::Diagram, "", "show how the motion depends on this parameter or initial value: a bifurcation diagram where the file has a surface of section, otherwise the Lyapunov exponent; the frequency where a single coordinate keeps its energy"),
-    row(Place::Values, &[c('c')], Action::Ramp, "", "ramp this parameter from now on, to another value in a given time; a slow ramp conserves J, which is shown"),
+    row(Place::Values, &[c('g')], Action::Ramp, "", "go gradually: ramp this parameter from now on, to another value in a given time; a slow ramp conserves J, which is shown"),
+    row(Place::Values, &[c('c')], Action::Cursor, "", "the cursor of the nearest plot, which gets the focus"),
     row(Place::Values, &[BACKSPACE, DELETE], Action::Restore, "", "the value of the file"),
 
     row(Place::Gauges, &[UP, c('k')], Action::Move(ArrowDirection::Up), "", "the gauge above"),
@@ -345,6 +347,7 @@ pub const KEYS: &[Binding] = &[
     row(Place::Gauges, &[PAGE_DOWN], Action::PageDown, "", "ten gauges down"),
     row(Place::Gauges, &[HOME], Action::First, "", "the first gauge"),
     row(Place::Gauges, &[END], Action::Last, "", "the last gauge"),
+    row(Place::Gauges, &[c('c')], Action::Cursor, "", "the cursor of the nearest plot, which gets the focus"),
 
     row(Place::Law, &[UP, c('k')], Action::Move(ArrowDirection::Up), "", "a line up"),
     row(Place::Law, &[DOWN, c('j')], Action::Move(ArrowDirection::Down), "scroll", "a line down"),
@@ -352,6 +355,7 @@ pub const KEYS: &[Binding] = &[
     row(Place::Law, &[PAGE_DOWN], Action::PageDown, "", "ten lines down"),
     row(Place::Law, &[HOME], Action::First, "", "to the beginning"),
     row(Place::Law, &[END], Action::Last, "", "to the end"),
+    row(Place::Law, &[c('c')], Action::Cursor, "", "the cursor of the nearest plot, which gets the focus"),
 
     row(Place::Equations, &[c('y')], Action::CopyLatex, "copy", "copy the equations as LaTeX, or write them into a file where the terminal has no clipboard"),
 

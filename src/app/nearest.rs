@@ -38,6 +38,20 @@ impl App {
     }
 }
 
+impl App {
+    /// Shows or hides the cursor of the focused plot; elsewhere goes to that of the nearest one.
+    pub(super) fn toggle_cursor(&mut self) -> Vec<Effect> {
+        let focused = self.lab.as_ref().map(|lab| lab.focus.pane);
+        match self.nearest(Place::Plot) {
+            None => self.notify("No plot here has a cursor: v on a pane chooses one."),
+            near if near == focused => self.with_viewport(|viewport| {
+                viewport.cursor = if viewport.cursor.is_some() { None } else { Some([0.5, 0.5]) };
+            }),
+            Some(_) => self.perform_at(Place::Plot, Action::Cursor),
+        }
+    }
+}
+
 /// Pictures chosen by name.
 impl App {
     /// Shows the offer of this index in the nearest plot, or in that of the motion if there is no other.

@@ -24,12 +24,16 @@ impl App {
             let inner = places.iter().filter(|place| !OUTER.contains(place)).rev();
             let places = inner.chain(outer);
             places.flat_map(move |place| {
-                KEYS.iter().filter(move |row| row.place == *place && wanted(row))
+                let of_place = KEYS.iter().filter(move |row| row.place == *place && !repeats(row));
+                of_place.filter(move |row| wanted(row))
             })
         };
         let often = rows(|row| !row.hint.is_empty() && !moves(row.action));
         let seldom = rows(|row| row.hint.is_empty() && !moves(row.action));
-        let elsewhere = || KEYS.iter().filter(|row| !places.contains(&row.place));
+        let elsewhere = || {
+            let rows = KEYS.iter().filter(|row| !places.contains(&row.place));
+            rows.filter(|row| !repeats(row))
+        };
         let near = |row: &&Binding| self.nearest(row.place).is_some();
         let line = |row: &Binding| self.line_of(row, None);
         let (mut items, refused): (Vec<Item>, Vec<Item>) =
@@ -188,6 +192,11 @@ const OUTER: [Place; 2] = [Place::Anywhere, Place::Always];
 fn moves(action: Action) -> bool {
     use Action::{Change, First, Last, Move, PageDown, PageUp};
     matches!(action, Move(_) | First | Last | PageUp | PageDown | Change { .. })
+}
+
+/// Whether a row does what that of plots does, to the nearest of them.
+fn repeats(row: &Binding) -> bool {
+    row.action == Action::Cursor && row.place != Place::Plot
 }
 
 /// Returns where the keys of a place are active, as a hint to a user who is elsewhere.

@@ -193,9 +193,7 @@ impl App {
                 }
                 _ => self.notify("Only a section colours its orbits; v chooses one."),
             },
-            Action::Cursor => self.with_viewport(|viewport| {
-                viewport.cursor = if viewport.cursor.is_some() { None } else { Some([0.5, 0.5]) };
-            }),
+            Action::Cursor => self.toggle_cursor(),
             Action::NextFrame => self.next_frame(),
             Action::Home => self.with_plot(|plot, loaded| plot.home(&loaded.model)),
             _ => Vec::new(),
@@ -260,7 +258,7 @@ impl App {
         Vec::new()
     }
 
-    fn with_viewport(&mut self, change: impl FnOnce(&mut Viewport)) -> Vec<Effect> {
+    pub(super) fn with_viewport(&mut self, change: impl FnOnce(&mut Viewport)) -> Vec<Effect> {
         self.with_plot(|plot, _| {
             if let Some(viewport) = plot.viewport_mut() {
                 change(viewport);

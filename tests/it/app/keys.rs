@@ -5,10 +5,10 @@ use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
 use crossterm::event::KeyEvent;
-use phaselab::app::keymap::{CHAINS, KEYS, Place};
+use phaselab::app::keymap::{Binding, CHAINS, KEYS, Place};
 use phaselab::app::{
-    App, Choice, Drawn, DrawnPanes, Effect, Event, LawInView, LoadError, Menu, Overlay, Page, Pane,
-    ValueId,
+    Action, App, Choice, Drawn, DrawnPanes, Effect, Event, LawInView, LoadError, Menu, Overlay,
+    Page, Pane, ValueId,
 };
 use phaselab::experiment::{Command, Status};
 use phaselab::instrument::Sight;
@@ -275,7 +275,9 @@ fn the_palette_lists_every_row_and_does_what_its_key_does() {
             app.jobs.in_background = true;
             let (open, menu) = palette(&app);
             let places = app.places();
-            for row in KEYS {
+            // the cursor of the nearest plot is listed once, as that of plots
+            let repeats = |row: &&Binding| row.action == Action::Cursor && row.place != Place::Plot;
+            for row in KEYS.iter().filter(|row| !repeats(row)) {
                 let line = menu.items.iter().position(|item| {
                     let near = Choice::ActionAt(row.place, row.action);
                     (item.choice == Choice::Action(row.action) || item.choice == near)
@@ -393,6 +395,24 @@ fn lists_have_ends_and_pages() {
         press(&mut app, "PgDn");
         assert_eq!(line(&app), last.min(10), "{keys}");
     }
+}
+
+/// `c` is a cursor wherever one is in the lab: on a list of values, too.
+#[test]
+fn the_cursor_is_reached_from_every_pane() {
+    let mut lists = 0;
+    for tabs in 0..in_lab().lab.expect("a lab").panes().count() {
+        let mut app = in_lab();
+        (0..tabs).for_each(|_| drop(press(&mut app, "Tab")));
+        let before = app.lab.as_ref().unwrap().focus.pane;
+        lists += usize::from(!matches!(before, Pane::Plot(_)));
+        press(&mut app, "c");
+        let lab = app.lab.as_ref().unwrap();
+        let Pane::Plot(index) = lab.focus.pane else { panic!("{before:?}: {:?}", lab.focus.pane) };
+        let cursor = lab.plots[index].viewport().and_then(|viewport| viewport.cursor);
+        assert_eq!(cursor, Some([0.5, 0.5]), "{before:?}");
+    }
+    assert!(lists >= 3, "{lists}");
 }
 
 /// An action for plots goes to the nearest one, and the focus with it, whatever has the focus and whichever page is

@@ -18,7 +18,7 @@ fn ask(real: &mut Real, typed: &str) {
     while real.lab().focus.pane != Pane::Parameters {
         real.press("Tab");
     }
-    real.press("c");
+    real.press("g");
     for c in typed.chars() {
         let name = if c == ' ' { "Space".to_owned() } else { c.to_string() };
         real.press(&name);
@@ -71,7 +71,7 @@ fn a_ramp_that_is_typed_is_a_part_of_the_text() {
     assert_eq!(real.lab().focus.pane, Pane::Parameters);
     let front = *real.lab().focus.recent.first().expect("a picture in front");
     assert_eq!(real.lab().plots[front].kind.name(), "actions");
-    real.press("c");
+    real.press("g");
     assert!(matches!(&real.app.overlay, Some(Overlay::Field(_))), "{:?}", real.app.overlay);
 }
 
@@ -170,8 +170,8 @@ fn what_is_no_ramp_is_refused() {
 #[test]
 fn a_second_ramp_by_the_key_keeps_what_the_first_has_changed() {
     // a mass that is changed fast changes J, and one that goes to where it is does not
-    let text = "Open slow-oscillator\nSize 120x40\nPress c\nType \"4 in 1\"\nPress Enter\nWait 3s\nAssert actions.change > 2\n\
-                Press c\nType \"4 in 1\"\nPress Enter\nWait 2s\nAssert actions.change > 2\n\
+    let text = "Open slow-oscillator\nSize 120x40\nPress g\nType \"4 in 1\"\nPress Enter\nWait 3s\nAssert actions.change > 2\n\
+                Press g\nType \"4 in 1\"\nPress Enter\nWait 2s\nAssert actions.change > 2\n\
                 Assert actions.last_change < 0.01\nAssert actions.last_change > -0.01\n";
     crate::record::played("slow-oscillator", text);
 }
