@@ -7,7 +7,7 @@ use ratatui::layout::Rect;
 
 use super::cache::{self, Track, TrailKey};
 use super::canvas::{Canvas, Span, row, wide};
-use super::ink::{colourless_mark, is_colourless, marker, pen};
+use super::ink::{colourless_mark, marker, pen};
 use super::marks::Marks;
 use super::names;
 use super::number::with_powers;
@@ -273,10 +273,8 @@ fn draw_layer(
         }
         Layer::Line(points, stroke) => {
             let pen = match stroke.ink {
-                // Without colour a curve differs from the trail below it by its dashes.
-                Ink::Curve(index) if is_colourless(canvas) => {
-                    Pen::shaded(canvas.look.theme.series(index), level)
-                }
+                // Without colour, or where colours repeat, a curve differs from others by its dashes.
+                Ink::Curve(index) => Pen::shaded(canvas.look.theme.series(index), level),
                 ink => pen(canvas, ink, level),
             };
             let pen = match stroke.covering {

@@ -9,7 +9,7 @@ use super::ink::{colourless_mark, is_colourless, marker};
 use super::marks;
 use super::number::{readable, with_powers};
 use super::quantity::Quantities;
-use super::theme::Role;
+use super::theme::{Dash, Role};
 use crate::instrument::{Entry, Heading, Ink, Plot};
 
 /// Builds the heading: what is shown, as many current values as fit, and what is being computed.
@@ -112,10 +112,11 @@ fn keys(
 /// A sample of a curve's line, and its name.
 fn key(canvas: &Canvas<'_>, q: &Quantities<'_>, index: usize, channel: usize) -> Vec<Span> {
     let theme = &canvas.look.theme;
-    let [unicode, ascii] = theme.series(index).dash.sample();
+    let dash = theme.series(index).dash;
+    let [unicode, ascii] = dash.sample();
     let sample = canvas.look.glyphs.pick(unicode, ascii);
     // A colour is visible on one character; a pattern needs three.
-    let plain = theme.depth() != ColourDepth::None;
+    let plain = theme.depth() != ColourDepth::None && dash == Dash::Full;
     let mark = if plain { canvas.look.glyphs.pick("━", "-") } else { sample };
     vec![(format!("  {mark} "), theme.curve(index)), canvas.span(Role::Dim, q.name(channel))]
 }

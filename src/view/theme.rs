@@ -124,11 +124,12 @@ impl Theme {
         self.curves[series % CURVES]
     }
 
-    /// The style of the line of the n-th series; without colour each series has its own dash pattern.
+    /// The style of the line of the n-th series: where the colours repeat, with the next dash pattern; without colour each series
+    /// has its own.
     pub fn series(&self, series: usize) -> Shade {
         let dash = match self.depth {
             ColourDepth::None => Dash::ALL[series % Dash::ALL.len()],
-            _ => Dash::Full,
+            _ => Dash::ALL[series / CURVES % Dash::ALL.len()],
         };
         Shade { style: self.curve(series), coverage: 1.0, dash }
     }

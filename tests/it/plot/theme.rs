@@ -1,7 +1,7 @@
 //! Themes: legible, distinguishable, and colourless if requested.
 
 use phaselab::view::colour::{ColourDepth, Rgb};
-use phaselab::view::theme::{CURVES, PALETTES, Palette, Role, Shade, Theme};
+use phaselab::view::theme::{CURVES, Dash, PALETTES, Palette, Role, Shade, Theme};
 use ratatui::style::{Color, Style};
 
 use crate::nonempty;
@@ -271,4 +271,19 @@ fn colour_arithmetic_agrees_with_its_sources() {
     }
     assert_eq!(Rgb(200, 10, 60).mix(white, 0.0), Rgb(200, 10, 60));
     assert_eq!(Rgb(200, 10, 60).mix(white, 1.0), white);
+}
+
+/// Where the seven colours are used up a line has the next pattern.
+#[test]
+fn more_curves_than_colours_differ_by_their_dashes() {
+    let themes = PALETTES.iter().flat_map(|p| COLOURFUL.map(|depth| Theme::new(p, depth)));
+    for theme in nonempty(themes.filter(|theme| theme.depth() != ColourDepth::None)) {
+        for series in 0..CURVES {
+            let [first, second, third] = [0, 1, 2].map(|n| theme.series(series + n * CURVES));
+            assert_eq!((first.style, first.style), (second.style, third.style));
+            assert_eq!(first.dash, Dash::Full, "{} {series}", theme.palette().name);
+            assert!(first.dash != second.dash && second.dash != third.dash);
+            assert_ne!(first.dash, third.dash);
+        }
+    }
 }
