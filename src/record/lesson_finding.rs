@@ -35,7 +35,7 @@ pub(super) fn in_words(claim: &Assert, app: &App) -> Option<String> {
         Comparator::Equal if left == right => format!("{what} is {}{when}", short(left)),
         Comparator::Equal => {
             let off = significant((left - right).abs(), 2, 1e-3..1e4);
-            format!("{what} is {}, to within {off}{when}", short(right))
+            format!("{what} is {}{when}, to within {off}", short(right))
         }
         Comparator::Less => format!("{what} is {}, below {}", short(left), short(right)),
         Comparator::More => format!("{what} is {}, above {}", short(left), short(right)),

@@ -34,19 +34,19 @@ impl Lesson {
         let own = letter(chosen, &options[chosen].text);
         let mut said = vec![match (right, &options[chosen].why) {
             (true, _) => paragraph(ParagraphKind::Right, format!("Right: {own}")),
-            (false, None) => paragraph(ParagraphKind::Wrong, format!("Not so: {own}")),
-            (false, Some(why)) => paragraph(ParagraphKind::Wrong, format!("Not so: {own}. {why}")),
+            (false, None) => paragraph(ParagraphKind::Wrong, format!("Wrong: {own}")),
+            (false, Some(why)) => paragraph(ParagraphKind::Wrong, format!("Wrong: {own}. {why}")),
         }];
         if let (false, Some(other)) = (right, holds.iter().position(|holds| *holds)) {
             let other = letter(other, &options[other].text);
-            said.push(paragraph(ParagraphKind::Text, format!("It is {other}")));
+            said.push(paragraph(ParagraphKind::Text, format!("The answer is {other}")));
         }
         let holding =
             options.iter().zip(&holds).find_map(|(option, holds)| holds.then_some(option));
         if let Some(found) =
             holding.and_then(|option| in_words(&option.claim, &self.runner.lab.app))
         {
-            said.push(paragraph(ParagraphKind::Quiet, format!("Found: {found}.")));
+            said.push(paragraph(ParagraphKind::Quiet, format!("Measured: {found}.")));
         }
         Ok((said, (right, Truth::Options(holds))))
     }
@@ -193,7 +193,7 @@ impl Lesson {
 }
 
 fn spoken(right: bool) -> (ParagraphKind, &'static str) {
-    if right { (ParagraphKind::Right, "Right") } else { (ParagraphKind::Wrong, "Not so") }
+    if right { (ParagraphKind::Right, "Right") } else { (ParagraphKind::Wrong, "Wrong") }
 }
 
 /// An option with its letter.

@@ -135,9 +135,9 @@ fn spoken(script: &Script) -> impl Iterator<Item = (&(SourceRange, ScriptStep), 
             }
             // what is said of it once it was chosen wrongly, with the right one of the same length
             LessonStep::Option { text: option, why, .. } => vec![
-                text(&format!("Not so: a) {option}. {}", why.as_deref().unwrap_or_default())),
-                text(&format!("It is a) {option}")),
-                text("Found: the number that was found, with all of its digits, and what it is near to."),
+                text(&format!("Wrong: a) {option}. {}", why.as_deref().unwrap_or_default())),
+                text(&format!("The answer is a) {option}")),
+                text("Measured: the number that was found, with all of its digits, and what it is near to."),
             ],
             LessonStep::Outcome | LessonStep::Solution(_) => return None,
         };

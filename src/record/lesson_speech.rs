@@ -86,7 +86,7 @@ impl Lesson {
                 said.push(paragraph(ParagraphKind::Selected, self.pointed()));
                 said.extend(wrong.iter().map(|why| paragraph(ParagraphKind::Wrong, why.clone())));
                 if question.is_some_and(Question::is_curve) {
-                    "arrows, mouse · Space sets a point · Enter commits · Backspace · q leaves"
+                    "arrows or mouse · Space sets, Backspace removes · Enter commits · q leaves"
                 } else {
                     "arrows or mouse · Enter commits · q leaves"
                 }
@@ -125,8 +125,10 @@ impl Lesson {
     fn pointed(&self) -> String {
         let app = &self.runner.lab.app;
         let prediction = app.lab.as_ref().and_then(|lab| lab.prediction.as_ref());
-        let (Some(prediction), Some(at)) = (prediction, app.cursor_reading()) else {
-            return String::new();
+        let Some(prediction) = prediction else { return String::new() };
+        let Some(at) = app.cursor_reading() else {
+            let none = if prediction.is_curve { "no point is set yet" } else { "" };
+            return none.to_owned();
         };
         let [x, y] = self.names(prediction);
         let cursor = format!("{x} = {}, {y} = {}", short(at[0]), short(at[1]));

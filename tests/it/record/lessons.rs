@@ -130,7 +130,7 @@ fn an_answer_is_committed_before_the_outcome_and_shown_beside_it() {
     // at the aphelion r = a (1 + e) = 1.6
     for (typed, verdict) in [
         ("1.55", "+ Right: you predicted 1.55; it is 1.6"),
-        ("2", "x Not so: you predicted 2; it is 1.6"),
+        ("2", "x Wrong: you predicted 2; it is 1.6"),
     ] {
         let mut lesson = taken(HALF);
         pass(&mut lesson, 9.0);
@@ -161,8 +161,11 @@ fn a_wrong_option_says_why_and_which_is_right() {
     keys(&mut lesson, "a\n");
     pass(&mut lesson, 4.0);
     let wrong = shown(&mut lesson);
-    assert!(wrong.contains("Not so: a) near. It moves away."), "{wrong}");
-    assert!(wrong.contains("It is b) far") && wrong.contains("Found: r is 1.6"), "{wrong}");
+    assert!(wrong.contains("Wrong: a) near. It moves away."), "{wrong}");
+    assert!(
+        wrong.contains("The answer is b) far") && wrong.contains("Measured: r is 1.6"),
+        "{wrong}"
+    );
     let mut lesson = taken(ask);
     pass(&mut lesson, 1.0);
     keys(&mut lesson, "b\n");
