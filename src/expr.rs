@@ -58,7 +58,7 @@ pub use node::{Expr, FunctionId, Node};
 pub use notation::{
     latex_name, latex_of_unicode, plain_name, subscripts, unicode_name, without_dots,
 };
-pub use parse::{parse, parse_all};
+pub use parse::{LEFT_TO_RIGHT, parse, parse_all};
 pub use plain::EULER;
 pub use pool::{NODE_LIMIT, Pool};
 pub use range::is_never_negative;

@@ -47,8 +47,7 @@ pub fn parse_all(text: &str) -> (Option<Syntax>, Vec<SyntaxError>) {
                     syntax.plain(text, &|name, primes| format!("{name}{}", "'".repeat(primes)));
                 if line.len() <= LONGEST_LINE {
                     let help = last.help.take().unwrap_or_default();
-                    last.help =
-                        Some(format!("{help}; read from left to right, all of it is `{line}`"));
+                    last.help = Some(format!("{help}{LEFT_TO_RIGHT}`{line}`"));
                 }
             }
             (Some(syntax), doubts)
@@ -59,6 +58,9 @@ pub fn parse_all(text: &str) -> (Option<Syntax>, Vec<SyntaxError>) {
         }
     }
 }
+
+/// What stands between the last of several doubts and the whole line.
+pub const LEFT_TO_RIGHT: &str = "; read from left to right, all of it is ";
 
 /// The most doubts that are collected in one expression.
 const MOST_DOUBTS: usize = 100;

@@ -196,6 +196,31 @@ fn all_doubts_are_told_at_once_with_the_line() {
     assert!(errors[3].starts_with("unknown name `q`"), "{errors:?}");
 }
 
+/// The line has to be right as it is printed: what is run together stands apart in it, too.
+#[test]
+fn the_line_of_doubts_has_what_is_run_together_apart() {
+    let model = model();
+    let mut pool = model.pool.clone();
+    let errors =
+        typed(&model, &mut pool, "1/2 (m + l)x'^2 + 1/2 ml^2 theta'^2 + mgl x").unwrap_err();
+    assert_eq!(errors.len(), 4, "{errors:?}");
+    let line = "1/2*(m + l)*x'^2 + 1/2*m*l^2*theta'^2 + m*g*l*x";
+    let told = format!("read from left to right, all of it is `{line}`");
+    assert!(errors[3].ends_with(&told), "{errors:?}");
+    assert_eq!(errors.iter().filter(|error| error.contains("all of it")).count(), 1, "{errors:?}");
+    assert!(typed(&model, &mut pool, line).is_ok());
+}
+
+/// `T` is an energy or a period, and not a slip for the time.
+#[test]
+fn an_energy_is_not_taken_for_the_time() {
+    let model = model();
+    let mut pool = model.pool.clone();
+    let errors = typed(&model, &mut pool, "T + x").unwrap_err();
+    let help = "give it a value in [parameters], or define it in [definitions]";
+    assert_eq!(errors, [format!("unknown name `T`; {help}")]);
+}
+
 /// One letter for two names is an error, unless only one of them may stand there.
 #[test]
 fn a_letter_shown_for_two_names_is_refused() {

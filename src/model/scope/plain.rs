@@ -4,7 +4,7 @@
 
 use super::Scope;
 use super::meaning::Meaning;
-use crate::expr::{EULER, FUNCTIONS, Span, Syntax, SyntaxError, parse_all};
+use crate::expr::{EULER, FUNCTIONS, LEFT_TO_RIGHT, Span, Syntax, SyntaxError, parse_all};
 
 /// The longest unknown name that is taken apart.
 const LONGEST_APART: usize = 40;
@@ -104,19 +104,32 @@ impl Scope {
     /// Says how a whole text reads in which several products are run together, after what is said of each of them. Its errors
     /// are those at `from` and after.
     pub(super) fn add_corrected_line(&mut self, text: &str, from: usize) {
-        let Some(line) = self.corrected_line(text, from) else { return };
+        let Some((words, line)) = self.corrected_line(text, from) else { return };
+        for error in &mut self.diagnostics[from..] {
+            // the line of the doubts alone still has what is run together
+            if let Some((help, _)) =
+                error.help.as_ref().and_then(|help| help.split_once(LEFT_TO_RIGHT))
+            {
+                error.help = Some(help.to_owned());
+            }
+        }
         let last = self.diagnostics.last_mut().and_then(|last| last.help.as_mut());
         if let Some(help) = last {
-            help.push_str(&format!("; all of it: `{line}`"));
+            help.push_str(&format!("{words}`{line}`"));
         }
     }
 
-    /// A text with its products written apart, if those are all its errors and there are several.
-    fn corrected_line(&self, text: &str, from: usize) -> Option<String> {
+    /// A text with its products written apart, and the words before it, if those and what can be read in two ways are all
+    /// its errors and there are several.
+    fn corrected_line(&self, text: &str, from: usize) -> Option<(&'static str, String)> {
         let errors = self.diagnostics.get(from..)?;
         if errors.len() < 2 || text.len() > LONGEST_LINE {
             return None;
         }
+        let (_, doubts) = parse_all(text);
+        let is_doubt = |error: &SyntaxError| {
+            doubts.iter().any(|doubt| doubt.span == error.span && doubt.message == error.message)
+        };
         let apart = |error: &SyntaxError| {
             let written = text.get(error.span.start..error.span.end)?;
             let bare = written.trim_end_matches(['\'', '′']);
@@ -125,8 +138,12 @@ impl Scope {
             let said = error.help.as_ref().is_some_and(|help| help.contains(&apart));
             said.then_some((error.span, apart))
         };
-        let mut pieces: Vec<(Span, String)> = errors.iter().map(apart).collect::<Option<_>>()?;
+        let run_together = errors.iter().filter(|error| !is_doubt(error));
+        let mut pieces: Vec<(Span, String)> = run_together.map(apart).collect::<Option<_>>()?;
         pieces.sort_by_key(|(span, _)| span.start);
+        if pieces.is_empty() {
+            return None;
+        }
         let with = |enclosed: bool| {
             let (mut line, mut end) = (String::new(), 0);
             for (span, apart) in &pieces {
@@ -135,8 +152,15 @@ impl Scope {
                 end = span.end;
             }
             line.push_str(text.get(end..)?);
-            let (_, errors) = parse_all(&line);
-            errors.is_empty().then_some(line)
+            let (syntax, left) = parse_all(&line);
+            match (syntax, left.is_empty()) {
+                (_, true) => Some(("; all of it: ", line)),
+                (Some(syntax), false) if left.len() == doubts.len() => {
+                    let name = |name: &str, primes| format!("{name}{}", "'".repeat(primes));
+                    Some((LEFT_TO_RIGHT, syntax.plain(&line, &name)))
+                }
+                _ => None,
+            }
         };
         // `x/m l` can be read in two ways
         with(false).or_else(|| with(true))

@@ -6,7 +6,7 @@ use super::allowed::{Allowed, SymbolRole};
 use super::meaning::Meaning;
 use super::{MOST_ERRORS, Scope, notations};
 use crate::diagnostic::{nearest, with_index};
-use crate::expr::{FUNCTIONS, Span, SyntaxError};
+use crate::expr::{FUNCTIONS, Span, SyntaxError, plain_name};
 use crate::model::{Attitude, BodyNames};
 
 impl Scope {
@@ -69,15 +69,22 @@ impl Scope {
         if let Some(names) = with_index(name, &known).filter(|_| primes == 0) {
             return error.with_help(format!("did you mean {names}?"));
         }
-        match nearest(name, known) {
+        // a table takes ASCII names only
+        let plain = plain_name(name).filter(|_| !name.is_ascii());
+        let shown = plain.as_deref().unwrap_or("it");
+        // T is an energy or a period
+        let near = nearest(name, known).filter(|near| (name, *near) != ("T", "t"));
+        match near {
             Some(near) => error.with_help(format!("did you mean `{near}{}`?", "'".repeat(primes))),
             None if primes > 0 => error.with_help("only coordinates have velocities"),
             None if name.starts_with("lambda_") => error.with_help(self.multipliers()),
             None if self.allowed == Allowed::Parameters => {
-                error.with_help("give it a value in [parameters]")
+                error.with_help(format!("give {shown} a value in [parameters]"))
             }
             None => {
-                error.with_help("give it a value in [parameters], or define it in [definitions]")
+                let help =
+                    format!("give {shown} a value in [parameters], or define it in [definitions]");
+                error.with_help(help)
             }
         }
     }
