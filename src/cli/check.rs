@@ -13,7 +13,7 @@ use super::{open, stderr};
 use crate::claims::false_claims;
 use crate::diagnostic::{Diagnostic, Document, Severity};
 use crate::experiment::Derived;
-use crate::mechanics::{ConservedKind, Report};
+use crate::mechanics::{ConservedKind, Reason, Report};
 use crate::preset::is_path;
 use crate::printable;
 
@@ -116,15 +116,23 @@ fn description(derived: &Derived) -> String {
         ConservedKind::Energy => "E".to_owned(),
         ConservedKind::Casimir(name) | ConservedKind::Other(name) => (*name).to_owned(),
     };
-    let conserved: Vec<String> = report.conserved.iter().map(|kept| name(&kept.constant)).collect();
+    let names = |wanted: bool| {
+        let among = |reason: &Reason| matches!(reason, Reason::BetweenImpulses(_)) == wanted;
+        let kept = report.conserved.iter().filter(|kept| among(kept.reason));
+        kept.map(|kept| name(&kept.constant)).collect::<Vec<_>>().join(", ")
+    };
+    let (always, between) = (names(false), names(true));
     let coordinates = match derived.model.coordinates.len() {
         1 => "1 coordinate".to_owned(),
         count => format!("{count} coordinates"),
     };
-    if conserved.is_empty() {
-        format!("{coordinates}, nothing conserved that could be found")
-    } else {
-        format!("{coordinates}, conserved: {}", conserved.join(", "))
+    match (always.is_empty(), between.is_empty()) {
+        (true, true) => format!("{coordinates}, nothing conserved that could be found"),
+        (false, true) => format!("{coordinates}, conserved: {always}"),
+        (true, false) => format!("{coordinates}, conserved between impulses: {between}"),
+        (false, false) => {
+            format!("{coordinates}, conserved: {always}, and between impulses: {between}")
+        }
     }
 }
 

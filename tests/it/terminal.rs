@@ -1,6 +1,7 @@
 //! The program on a pseudo-terminal: the state in which it leaves the terminal on every exit, its input and output.
 
 mod background;
+mod check;
 mod decoder;
 mod endings;
 mod governor;
