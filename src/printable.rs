@@ -180,6 +180,14 @@ pub fn number(x: f64) -> String {
     }
 }
 
+/// As [`why`], of a file that could not be written: what is not found is its folder.
+pub fn why_unwritten(error: &io::Error) -> String {
+    match error.kind() {
+        ErrorKind::NotFound if error.get_ref().is_none() => "its folder does not exist".to_owned(),
+        _ => why(error),
+    }
+}
+
 /// Describes an error of a file or a stream in words, without the system's error number.
 pub fn why(error: &io::Error) -> String {
     if error.get_ref().is_some() {
@@ -196,7 +204,7 @@ pub fn why(error: &io::Error) -> String {
         ErrorKind::QuotaExceeded => "no space left within the quota",
         ErrorKind::FileTooLarge => "it would be too large",
         ErrorKind::InvalidFilename => "no file can have that name",
-        ErrorKind::BrokenPipe => "nobody reads any more",
+        ErrorKind::BrokenPipe => "its reader has closed it",
         ErrorKind::OutOfMemory => "no memory is left",
         ErrorKind::TimedOut => "it takes too long",
         // in the system's words, without its number

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use serde_json::{Value, json};
 
 use self::own::{containing, own_start};
-use super::assignment::number;
+use super::assignment::{number, whole};
 use super::cells::{self, TableCell, TableFormat};
 use super::crowd;
 use super::failure::CommandError;
@@ -71,7 +71,7 @@ pub(super) struct Arguments {
         default_value_t = 24,
         requires = "until"
     )]
-    #[arg(value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    #[arg(value_parser = whole::<u32>(1, 100_000))]
     count: u32,
     /// How the table is written.
     #[arg(long, value_enum, default_value_t = TableFormat::Text)]
@@ -144,7 +144,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         let why = if arguments.energy.is_none() && is_below {
             "has less energy at the start than at rest there: its motion follows from no effective potential"
         } else {
-            "cannot move at that energy"
+            "cannot move at the energies given"
         };
         return Err(could_not(format!("{name} {why}")));
     }
@@ -304,10 +304,8 @@ fn coordinate(model: &Model, wanted: Option<&str>) -> Result<usize, CommandError
         if let [_] = model.coordinates.as_slice() {
             return Ok(0);
         }
-        let names = names.collect::<Vec<_>>().join(", ");
-        return wrong(format!(
-            "there are several coordinates: choose one with --coordinate, {names}"
-        ));
+        let names = names.collect::<Vec<_>>().join(" or ");
+        return wrong(format!("there are several coordinates: give --coordinate {names}"));
     };
     match model.coordinate(wanted) {
         Some(index) => Ok(index),

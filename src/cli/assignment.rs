@@ -79,6 +79,27 @@ pub(super) fn number(text: &str) -> Result<f64, String> {
     if value.is_finite() { Ok(value) } else { Err("it is not finite".to_owned()) }
 }
 
+/// Reads a time in seconds on the command line that may be spent.
+pub(super) fn seconds(text: &str) -> Result<f64, String> {
+    match number(text)? {
+        seconds if seconds < 0.0 => Err("a time cannot be negative".to_owned()),
+        seconds => Ok(seconds),
+    }
+}
+
+/// A reader of whole numbers on the command line.
+pub(super) fn whole<T: TryFrom<u64> + 'static>(
+    least: u64,
+    most: u64,
+) -> impl Fn(&str) -> Result<T, String> + Clone + Send + Sync + 'static {
+    move |text| {
+        let number = text.trim().parse::<u64>().ok();
+        let number = number.filter(|number| (least..=most).contains(number));
+        let number = number.and_then(|number| T::try_from(number).ok());
+        number.ok_or_else(|| format!("not a whole number from {least} to {most}"))
+    }
+}
+
 fn first_error(scope: &Scope) -> String {
     let Some(diagnostic) = scope.diagnostics.first() else {
         return "it is not a number".to_owned();
@@ -238,15 +259,29 @@ pub(super) fn place(
     let primed = || Some(InitialOverride::Velocity(find(name.strip_suffix('\'')?)?, value));
     let momentum = || Some(InitialOverride::Momentum(find(name.strip_prefix("p_")?)?, value));
     plain.or_else(primed).or_else(momentum).ok_or_else(|| {
-        let names: Vec<String> = model
-            .coordinates
-            .iter()
-            .flat_map(|c| [c.name.clone(), format!("{}'", c.name), format!("p_{}", c.name)])
-            .filter(|written| !model.is_poisson() || coordinate(written).is_some())
-            .chain(["t".to_owned()])
-            .collect();
+        let names = initial_names(model);
         unknown("initial value", name, &names.iter().map(String::as_str).collect::<Vec<_>>())
     })
+}
+
+fn initial_names(model: &Model) -> Vec<String> {
+    let names = model.coordinates.iter();
+    names
+        .flat_map(|c| [c.name.clone(), format!("{}'", c.name), format!("p_{}", c.name)])
+        .filter(|written| !model.is_poisson() || model.coordinate(written).is_some())
+        .chain(["t".to_owned()])
+        .collect()
+}
+
+/// Refuses a name that is neither a parameter nor an initial value.
+pub(super) fn settable(model: &Model, name: &str) -> Result<(), CommandError> {
+    if name == "t" || model.parameter(name).is_some() || place(model, name, 0.0).is_ok() {
+        return Ok(());
+    }
+    let initial = initial_names(model);
+    let parameters = model.parameters.iter().map(|parameter| parameter.name.as_str());
+    let names: Vec<&str> = parameters.chain(initial.iter().map(String::as_str)).collect();
+    Err(unknown("parameter or initial value", name, &names))
 }
 
 /// The name as it is written before the `=`.
@@ -335,7 +370,8 @@ fn wrong(assignment: &Assignment, why: &str) -> CommandError {
     CommandError::WrongUse(format!("{name}={value}: {why}"))
 }
 
-fn unknown(kind: &str, name: &str, names: &[&str]) -> CommandError {
+/// The error of a name that is none of these.
+pub(super) fn unknown(kind: &str, name: &str, names: &[&str]) -> CommandError {
     let shown = printable::quoted(name);
     let help = match nearest(name, names.iter().copied()) {
         Some(near) => format!("did you mean `{near}`?"),

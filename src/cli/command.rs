@@ -410,7 +410,7 @@ fn unknown(word: &str) -> Option<String> {
         (Some(file), _) => format!("did you mean the file `{}`?", printable::quoted(&file)),
         (None, Some(near)) => format!("did you mean `{}`?", printable::line(near)),
         (None, None) => {
-            format!("the commands are {}; `phaselab list` has the presets", commands.join(", "))
+            "`phaselab list` has the presets, `phaselab --help` the commands".to_owned()
         }
     };
     Some(format!("there is no command or preset `{}`; {help}", printable::quoted(word)))

@@ -22,8 +22,12 @@ use crate::printable;
 #[derive(Debug, clap::Args)]
 pub(super) struct Crowd {
     /// The number of threads; by default all cores; the output is the same.
-    #[arg(long, allow_hyphen_values = true, value_name = "N")]
+    #[arg(long, allow_hyphen_values = true, value_name = "N", value_parser = threads)]
     threads: Option<NonZeroUsize>,
+}
+
+fn threads(text: &str) -> Result<NonZeroUsize, String> {
+    text.trim().parse().map_err(|_| "not a whole number from 1 on".to_owned())
 }
 
 impl Crowd {

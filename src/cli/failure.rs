@@ -30,7 +30,10 @@ impl CommandError {
         if error.kind() == io::ErrorKind::BrokenPipe {
             return CommandError::NobodyReads;
         }
-        CommandError::CouldNotWrite(format!("cannot write {what}: {}", printable::why(error)))
+        CommandError::CouldNotWrite(format!(
+            "cannot write {what}: {}",
+            printable::why_unwritten(error)
+        ))
     }
 
     /// A file that cannot be read.

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use std::str::FromStr;
 use std::time::Instant;
 
-use super::assignment::{self, Assignment, number};
+use super::assignment::{self, Assignment, number, seconds, whole};
 use super::failure::CommandError;
 use super::format::Format;
 use super::open;
@@ -39,11 +39,11 @@ pub(super) struct Arguments {
     #[arg(value_name = "PRESET|FILE")]
     name: OsString,
     /// The greatest degree in the momenta; 6 by default.
-    #[arg(long, allow_hyphen_values = true, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=12))]
+    #[arg(long, allow_hyphen_values = true, value_name = "N", value_parser = whole::<u32>(1, 12))]
     degree: Option<u32>,
     /// The seconds the search may take; 1 by default, and no limit where a degree is
     /// given.
-    #[arg(long, allow_hyphen_values = true, value_name = "S", value_parser = number)]
+    #[arg(long, allow_hyphen_values = true, value_name = "S", value_parser = seconds)]
     budget: Option<f64>,
     /// Adds the brackets of all constants: which commute, and what the others are.
     #[arg(long)]

@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
-use super::assignment::number;
+use super::assignment::{number, whole};
 use super::failure::CommandError;
 use super::interrupt::Interrupt;
 use super::run::progress::Bar;
@@ -35,7 +35,7 @@ pub(super) struct Arguments {
     #[arg(long, allow_hyphen_values = true, value_name = "K|all", default_value = "all", value_parser = count)]
     exponents: Count,
     /// Measures GALI2 to GALIK too: the volumes that tangent vectors span, which fall exponentially in chaos.
-    #[arg(long, allow_hyphen_values = true, value_name = "K", value_parser = clap::value_parser!(u8).range(2..=64))]
+    #[arg(long, allow_hyphen_values = true, value_name = "K", value_parser = whole::<u8>(2, 64))]
     gali: Option<u8>,
 }
 

@@ -47,7 +47,9 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     Output::print(OutputForm::Text, &text)
 }
 
-/// A path as an argument that is taken for a file, not for a preset.
+/// A path as an argument that is taken for a file, not for a preset, in quotation marks where a shell needs them.
 fn as_argument(path: &str) -> String {
-    if path.contains('/') { path.to_owned() } else { format!("./{path}") }
+    let path = if path.contains('/') { path.to_owned() } else { format!("./{path}") };
+    let is_plain = |c: char| c.is_alphanumeric() || "/._-+,:@%=".contains(c);
+    if path.chars().all(is_plain) { path } else { format!("'{}'", path.replace('\'', r"'\''")) }
 }

@@ -4,7 +4,7 @@ use std::str::FromStr;
 
 use serde_json::{Map, Value, json};
 
-use super::assignment::number;
+use super::assignment::{self, number};
 use super::decimal;
 use super::failure::CommandError;
 use super::interrupt::Interrupt;
@@ -14,7 +14,6 @@ use crate::dynamics::{
     Along, Bifurcation, Family, Fixed, NOT_ISOLATED, Orbit, OrbitStability, drive_period,
     driven_family, driven_orbit, family, periodic_orbit,
 };
-use crate::printable;
 
 /// Find the periodic orbit near the start.
 ///
@@ -146,10 +145,11 @@ fn along(values: &Values, study: &Study) -> Result<Along, CommandError> {
         "period" => Ok(Along::Period),
         name => match study.model.parameter(name) {
             Some(index) => Ok(Along::Parameter(index)),
-            None => Err(CommandError::WrongUse(format!(
-                "--along: there is no parameter `{}`; it may also be energy or period",
-                printable::quoted(name)
-            ))),
+            None => {
+                let parameters = study.model.parameters.iter().map(|p| p.name.as_str());
+                let names: Vec<&str> = parameters.chain(["energy", "period"]).collect();
+                Err(assignment::unknown("parameter", name, &names))
+            }
         },
     }
 }

@@ -16,7 +16,7 @@ use crate::preset::{demo, demos};
 use crate::printable;
 use crate::record::cast_writer::{self, Version};
 use crate::record::screenshot::{self, ImageFormat};
-use crate::record::script::read_size;
+use crate::record::script::{ScriptStep, read_size};
 use crate::record::{Recording, Script, called, play, transcript};
 
 /// Record a demo: a script of keys, waits and captions becomes a cast, the same on every machine.
@@ -76,12 +76,24 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     };
     let script = Script::read(&source).map_err(|diagnostics| located(&source, &diagnostics))?;
     let name = printable::os(&arguments.name);
+    // what cannot be drawn is told before a minute of recording
+    let still = match &arguments.still {
+        Some(path) => Some((path, still_format(path)?)),
+        None => None,
+    };
+    if let Some(at) = &arguments.at {
+        let markers = script.steps.iter().filter_map(|(_, step)| match step {
+            ScriptStep::Marker(name) => Some(name.as_str()),
+            _ => None,
+        });
+        find_marker(markers, at)?;
+    }
     let recording = recorded(&script, &source, &system, &name, arguments.size)?;
     if arguments.format != CastFormat::Account {
         check_claims(&source, &recording)?;
     }
-    if let Some(path) = &arguments.still {
-        take_still(&recording, path, arguments.at.as_deref())?;
+    if let Some((path, form)) = still {
+        take_still(&recording, path, form, arguments.at.as_deref())?;
         // without a destination, a cast would flood the terminal
         if arguments.output.is_none() {
             return check_claims(&source, &recording);
@@ -102,25 +114,42 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     check_claims(&source, &recording)
 }
 
+/// The format that the name of a still asks for.
+fn still_format(path: &Path) -> Result<ImageFormat, CommandError> {
+    let wrong =
+        |why: String| CommandError::WrongUse(format!("--still {}: {why}", printable::path(path)));
+    path.to_string_lossy().parse().map_err(wrong)
+}
+
+/// The index of the marker of this name.
+fn find_marker<'a>(
+    names: impl Iterator<Item = &'a str>,
+    wanted: &str,
+) -> Result<usize, CommandError> {
+    let names: Vec<&str> = names.collect();
+    names.iter().position(|name| *name == wanted).ok_or_else(|| {
+        let help = match nearest(wanted, names.iter().copied()) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None if names.is_empty() => "the script has none".to_owned(),
+            None => format!("there are {}", names.join(", ")),
+        };
+        let wanted = printable::quoted(wanted);
+        CommandError::WrongUse(format!("there is no marker `{wanted}`; {help}"))
+    })
+}
+
 /// Writes a still of the end, or of the beginning of a chapter.
-fn take_still(recording: &Recording, path: &Path, at: Option<&str>) -> Result<(), CommandError> {
-    let form: ImageFormat = path.to_string_lossy().parse().map_err(|why| {
-        CommandError::WrongUse(format!("--still {}: {why}", printable::path(path)))
-    })?;
+fn take_still(
+    recording: &Recording,
+    path: &Path,
+    form: ImageFormat,
+    at: Option<&str>,
+) -> Result<(), CommandError> {
     let (screen, colourless) = match at {
         None => (&recording.last, &recording.last_colourless),
         Some(name) => {
-            let marker = recording.markers.iter().find(|marker| marker.name == name);
-            let names = || recording.markers.iter().map(|marker| marker.name.as_str());
-            let help = || match nearest(name, names()) {
-                Some(near) => format!("did you mean `{near}`?"),
-                None => format!("there are {}", names().collect::<Vec<_>>().join(", ")),
-            };
-            let unknown = || {
-                let name = printable::quoted(name);
-                CommandError::WrongUse(format!("there is no marker `{name}`; {}", help()))
-            };
-            let marker = marker.ok_or_else(unknown)?;
+            let names = recording.markers.iter().map(|marker| marker.name.as_str());
+            let marker = &recording.markers[find_marker(names, name)?];
             (&marker.screen, &marker.colourless)
         }
     };

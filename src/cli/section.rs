@@ -8,7 +8,7 @@ use std::path::PathBuf;
 
 use self::report::{SectionReport, ShownColumn};
 use self::rotation_columns::RotationColumns;
-use super::assignment::{self, number};
+use super::assignment::{self, number, whole};
 use super::cells::TableFormat;
 use super::crowd::{self, Crowd};
 use super::failure::CommandError;
@@ -52,7 +52,7 @@ pub(super) struct Arguments {
     #[arg(long, value_enum)]
     direction: Option<Sense>,
     /// The number of crossings after which an orbit ends; 100 where there is no --until either.
-    #[arg(long, allow_hyphen_values = true, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=MOST))]
+    #[arg(long, allow_hyphen_values = true, value_name = "N", value_parser = whole::<u64>(1, MOST))]
     count: Option<u64>,
     /// The time at which an orbit ends.
     #[arg(long, value_name = "T", allow_hyphen_values = true, value_parser = number)]

@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
-use super::assignment::number;
+use super::assignment::{number, whole};
 use super::failure::CommandError;
 use super::interrupt::Interrupt;
 use super::motion_options::Laid;
@@ -47,10 +47,10 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "T", allow_hyphen_values = true, value_parser = number)]
     until: Option<f64>,
     /// How many samples are taken, at equal intervals; by default 2048, or as many more as the motion needs.
-    #[arg(long, allow_hyphen_values = true, value_name = "N", value_parser = clap::value_parser!(u32).range(64..=65_536))]
+    #[arg(long, allow_hyphen_values = true, value_name = "N", value_parser = whole::<u32>(64, 65_536))]
     count: Option<u32>,
     /// How many lines to search for.
-    #[arg(long, allow_hyphen_values = true, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..=64))]
+    #[arg(long, allow_hyphen_values = true, value_name = "N", default_value_t = 10, value_parser = whole::<u32>(1, 64))]
     lines: u32,
 }
 

@@ -136,7 +136,10 @@ impl Starts {
         let mut starts = Vec::with_capacity(self.rows.len());
         for (i, row) in self.rows.iter().enumerate() {
             starts.push(self.start(model, base, row).map_err(|why| {
-                CommandError::WrongUse(format!("row {} of the table: {}", i + 1, why.message()))
+                let mut names = self.names.iter().zip(row).filter(|(_, cell)| !cell.is_empty());
+                let unknown = names.find_map(|(name, _)| assignment::settable(model, name).err());
+                let row = |why: &CommandError| format!("row {}: {}", i + 1, why.message());
+                unknown.unwrap_or_else(|| CommandError::WrongUse(row(&why)))
             })?);
         }
         Ok(starts)

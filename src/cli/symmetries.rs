@@ -10,7 +10,7 @@ use std::time::Instant;
 use serde_json::{Map, Value, json};
 
 use self::similar::Others;
-use super::assignment::{self, Assignment, number};
+use super::assignment::{self, Assignment, seconds};
 use super::failure::CommandError;
 use super::format::Format;
 use super::open;
@@ -38,7 +38,7 @@ pub(super) struct Arguments {
     #[arg(value_name = "PRESET|FILE")]
     name: OsString,
     /// The seconds the search may take; 10 by default.
-    #[arg(long, allow_hyphen_values = true, value_name = "S", value_parser = number)]
+    #[arg(long, allow_hyphen_values = true, value_name = "S", value_parser = seconds)]
     budget: Option<f64>,
     /// Sets a parameter.
     #[arg(long, value_name = "NAME=VALUE", allow_hyphen_values = true)]

@@ -185,7 +185,8 @@ fn followed(place: &Path) -> PathBuf {
 
 /// Adds the file's name to an error.
 pub(super) fn named(path: &Path, why: &io::Error) -> io::Error {
-    let message = format!("cannot write {}: {}", printable::path(path), printable::why(why));
+    let reason = printable::why_unwritten(why);
+    let message = format!("cannot write {}: {reason}", printable::path(path));
     io::Error::new(why.kind(), message)
 }
 

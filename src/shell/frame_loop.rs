@@ -23,7 +23,7 @@ use super::panic;
 use super::question::{Questions, TerminalReply};
 use super::queue::Queue;
 use super::signals::Signals;
-use super::terminal::{Ready, Terminal, TerminalError, TerminalMode};
+use super::terminal::{HEADLESS, Ready, Terminal, TerminalError, TerminalMode};
 use crate::view::Detail;
 use crate::view::colour::Rgb;
 use crate::view::frame::Frames;
@@ -125,7 +125,7 @@ const FAILURES: u32 = 20;
 /// # Errors
 /// Returns an error if there is no terminal, or if it can no longer be used.
 pub fn perform(page: &mut impl Screen, pace: FramePace) -> Result<Ending, LabError> {
-    TerminalError::check()?;
+    TerminalError::check(HEADLESS)?;
     let terminal = Arc::new(Terminal::open()?);
     panic::guard(&terminal);
     let signals = Signals::watch(Arc::clone(&terminal))?;

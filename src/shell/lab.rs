@@ -20,7 +20,7 @@ use super::request::Request;
 use super::session::{ExitResult, Session};
 use super::session_file;
 use super::store::Store;
-use super::terminal::TerminalError;
+use super::terminal::{HEADLESS, RECORDED, TerminalError};
 use crate::diagnostic::Diagnostic;
 use crate::preset::Catalog;
 use crate::record::{Lesson, RecordedCast, Recording, ScriptRunner, screenshot};
@@ -31,7 +31,7 @@ use crate::record::{Lesson, RecordedCast, Recording, ScriptRunner, screenshot};
 /// Returns an error, before the screen is touched, if there is no terminal, no session or nothing of that name; and
 /// afterwards if the session could not be saved.
 pub fn run(request: &Request) -> Result<Ending, LabError> {
-    TerminalError::check()?;
+    TerminalError::check(HEADLESS)?;
     let catalog = Catalog::load();
     let mut request = request.clone();
     let saved = if request.resume { Some(session_file::read()?) } else { None };
@@ -98,7 +98,7 @@ pub fn run(request: &Request) -> Result<Ending, LabError> {
 /// # Errors
 /// Returns an error, before the screen is touched, if there is no terminal.
 pub fn show(cast: RecordedCast, request: &Request) -> Result<Ending, LabError> {
-    TerminalError::check()?;
+    TerminalError::check(RECORDED)?;
     let variable = |name: &str| std::env::var(name).ok();
     // Nothing in a cast can be clicked, and its text can be selected.
     let pace = FramePace { mouse: false, ..request.pace(&variable) };
@@ -114,7 +114,7 @@ pub fn show_ahead(
     begin: impl FnOnce() -> RecordingAhead,
     request: &Request,
 ) -> Result<(Ending, Option<Result<Recording, NotRecorded>>), LabError> {
-    TerminalError::check()?;
+    TerminalError::check(RECORDED)?;
     let variable = |name: &str| std::env::var(name).ok();
     let pace = FramePace { mouse: false, ..request.pace(&variable) };
     let mut player = CastPlayer::following(begin(), request.render_style(&variable));
@@ -131,7 +131,7 @@ pub fn perform_demo(
     performance: ScriptRunner,
     request: &Request,
 ) -> Result<(Ending, Result<Option<String>, Diagnostic>), LabError> {
-    TerminalError::check()?;
+    TerminalError::check(RECORDED)?;
     let variable = |name: &str| std::env::var(name).ok();
     let look = request.render_style(&variable);
     let palette = look.theme.palette();
@@ -150,7 +150,7 @@ pub fn take_lesson(
     lesson: &mut Lesson,
     request: &Request,
 ) -> Result<(Ending, Result<(), Diagnostic>), LabError> {
-    TerminalError::check()?;
+    TerminalError::check("")?;
     let variable = |name: &str| std::env::var(name).ok();
     let mut screen = LessonScreen::new(lesson, request.render_style(&variable));
     let ending = perform(&mut screen, request.pace(&variable))?;

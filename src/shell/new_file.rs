@@ -187,7 +187,7 @@ mod tests {
             write_new(Path::new("/nowhere/at/all"), "top", "svg", b"").expect_err("no folder");
         assert_eq!(
             error.to_string(),
-            "cannot write /nowhere/at/all/top.svg: no such file or folder"
+            "cannot write /nowhere/at/all/top.svg: its folder does not exist"
         );
     }
 

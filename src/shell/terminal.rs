@@ -43,26 +43,27 @@ const USUAL: (u16, u16) = (80, 24);
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum TerminalError {
     /// Standard input or output is a file or a pipe.
-    #[error("the laboratory needs a terminal for its input and output; {HEADLESS}")]
-    Redirected,
+    #[error("the laboratory needs a terminal for its input and output{0}")]
+    Redirected(&'static str),
     /// `TERM=dumb`.
-    #[error(
-        "the laboratory needs a terminal that can place its cursor, and TERM is `dumb`; {HEADLESS}"
-    )]
-    Dumb,
+    #[error("the laboratory needs a terminal that can place its cursor, and TERM is `dumb`{0}")]
+    Dumb(&'static str),
 }
 
-/// An alternative that needs no terminal.
-const HEADLESS: &str = "`phaselab run PRESET` integrates without one";
+/// What integrates without a terminal.
+pub(super) const HEADLESS: &str = "; `phaselab run PRESET` integrates without one";
+/// What shows a demo without a terminal.
+pub(super) const RECORDED: &str =
+    "; `phaselab record PRESET --format account` tells a demo without one";
 
 impl TerminalError {
-    /// Checks that there is a usable terminal.
-    pub(super) fn check() -> Result<(), TerminalError> {
+    /// Checks that there is a usable terminal; `instead` ends the sentence with what needs none.
+    pub(super) fn check(instead: &'static str) -> Result<(), TerminalError> {
         if !isatty(rustix::stdio::stdin()) || !isatty(rustix::stdio::stdout()) {
-            return Err(TerminalError::Redirected);
+            return Err(TerminalError::Redirected(instead));
         }
         let dumb = env::var_os("TERM").as_deref() == Some(OsStr::new("dumb"));
-        if dumb { Err(TerminalError::Dumb) } else { Ok(()) }
+        if dumb { Err(TerminalError::Dumb(instead)) } else { Ok(()) }
     }
 }
 

@@ -32,6 +32,7 @@ mod transformations_beside;
 mod transformations_composed;
 mod transformations_made;
 mod transformations_nearest;
+mod wording;
 mod write;
 
 use std::path::Path;

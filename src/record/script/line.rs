@@ -164,7 +164,7 @@ impl<'a> ScriptLine<'a> {
         let wrong = |message: String| Diagnostic::error(word.place.clone(), message);
         let seconds: f64 =
             number.parse().ok().filter(|n: &f64| n.is_finite()).ok_or_else(|| {
-                wrong(format!("`{}` is no time", word.text))
+                wrong(format!("`{}` is not a time", word.text))
                     .with_help("write it as 2s, 0.5s or 150ms")
             })?;
         if number.len() == word.text.len() {
@@ -172,7 +172,7 @@ impl<'a> ScriptLine<'a> {
             return Err(wrong(format!("is {number} in seconds or milliseconds?")).with_help(help));
         }
         if seconds < 0.0 {
-            return Err(wrong("time does not run backwards".to_owned()));
+            return Err(wrong("a time cannot be negative".to_owned()));
         }
         Ok((seconds * unit as f64).round() as Micros)
     }

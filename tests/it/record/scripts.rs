@@ -56,7 +56,7 @@ fn errors_stand_in_their_places() {
     check("\u{feff}Wait 1s\nWiat 2s", &["2:1 there is no command `Wiat`; did you mean `Wait`?"]);
     check("Wait", &["1:5 here a time is missing"]);
     check("Wait 2", &["1:6 is 2 in seconds or milliseconds?; write 2s or 2ms"]);
-    check("Wait soon", &["1:6 `soon` is no time; write it as 2s, 0.5s or 150ms"]);
+    check("Wait soon", &["1:6 `soon` is not a time; write it as 2s, 0.5s or 150ms"]);
     check("Wait 1s 2s", &["1:9 `2s` is too much here; it is written Wait 2s"]);
     check("Wait 1s\nWait 9999999s", &["2:14 a demo may last an hour; this one lasts 10000000 s"]);
     check("Press Tba\nWait 1s", &["1:7 there is no key `Tba`; did you mean `Tab`?"]);
