@@ -28,6 +28,13 @@ pub(super) const RESUMES: f64 = 4.0;
 /// The bound of a number that has not come to rest.
 pub(super) const MOVING: f64 = -1.0;
 
+/// The size of a number beside which its movements are judged. Numbers below the range of `f64` have digits of the same size
+/// as those at its edge.
+#[inline(always)]
+pub(super) const fn size_of(magnitude: f64) -> f64 {
+    magnitude.max(f64::MIN_POSITIVE)
+}
+
 /// The bound of a number after a pass in which it `moved`: the movement up to which it has come to rest, or [`MOVING`].
 /// `before` is its movement two passes before, as positions and momenta may shrink alternately; infinite where there was
 /// none. `small` is a movement that may be rounding, `size` that of the number.

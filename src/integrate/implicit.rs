@@ -13,7 +13,9 @@
 //! Sources: E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration, II.1.3, VI.1.1,
 //! VIII.6; E. Hairer, R. McLachlan, A. Razakarivony, BIT Numerical Mathematics 48 (2008) 231.
 
-use super::convergence::{MOVING, PASSES, PATIENCE, RESUMES, ROUNDINGS, SMALL, bound_after};
+use super::convergence::{
+    MOVING, PASSES, PATIENCE, RESUMES, ROUNDINGS, SMALL, bound_after, size_of,
+};
 use super::fixed::Scheme;
 use super::method::{Method, MethodError};
 use super::roundoff;
@@ -334,7 +336,7 @@ impl Kernel for Movements<'_> {
             let noise = &scheme.noise[..n];
             for i in 0..n {
                 let moved = (stage[i] - old[i]).abs();
-                let size = stage[i].abs().max((step * slope[i]).abs());
+                let size = size_of(stage[i].abs().max((step * slope[i]).abs()));
                 let small = SMALL * size + ROUNDINGS * step.abs() * noise[i];
                 let earlier = if count >= 2 { before[i] } else { f64::INFINITY };
                 resting[i] = bound_after(resting[i], moved, earlier, small, size);

@@ -4,7 +4,7 @@
 //! computes stage by stage, to the last bit. Never here: programs that cannot be written as a list, numbers that leave
 //! the range of `f64`, iterations that do not converge: these are detected and left to the stages one by one.
 
-use super::convergence::{MOVING, PATIENCE, RESUMES, ROUNDINGS, SMALL, bound_after};
+use super::convergence::{MOVING, PATIENCE, RESUMES, ROUNDINGS, SMALL, bound_after, size_of};
 use super::tableau::Tableau;
 use crate::num::{Analytic, Batch, BatchDouble, Kernel, vectorized};
 use crate::system::{Rates, STAGES, StageRates, Stages, State};
@@ -225,6 +225,7 @@ impl Kernel for Passes<'_> {
     fn run<const FUSED: bool>(self) -> bool {
         let Passes { lanes, first, step, state, noise } = self;
         let StageLanes { rates, places, matrix, held, iteration, .. } = lanes;
+        let least = Stages::splat(size_of(0.0));
         for count in first..first + PATIENCE {
             rates.evaluate();
             let (numbers, slopes) = rates.moving();
@@ -236,7 +237,7 @@ impl Kernel for Passes<'_> {
                     *number = stages_of(combine(matrix, leading, slopes[k]), step, state, i);
                 }
                 let moved = (*number - old).abs();
-                let size = number.abs().larger((slopes[k] * step).abs());
+                let size = number.abs().larger((slopes[k] * step).abs()).larger(least);
                 let small = size * SMALL + ROUNDINGS * step.abs() * noise[i];
                 let Iteration { moved: before, resting } = &mut iteration[k];
                 let before = &mut before[count % 2];

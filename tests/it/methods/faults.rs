@@ -5,6 +5,7 @@ use phaselab::system::{Form, MotionErrorKind};
 
 use crate::build::{dissipative, hamiltonian, lagrangian};
 use crate::nonempty;
+use crate::system::compile;
 
 use super::{Case, case, double_pendulum, fixed, named, pendulum, quartic};
 
@@ -225,5 +226,20 @@ fn a_number_that_begins_to_move_at_a_kink_does_not_stop_an_adaptive_method() {
         for (found, expected) in state.values.iter().zip(expected) {
             assert!((found - expected).abs() < within, "{name}: {found}, not {expected}");
         }
+    }
+}
+
+/// A number that decays below the range of `f64`, where its digits no longer follow its size, is solved for all the same: x'' = −x − x'
+/// is e^{−t/2} in size.
+#[test]
+fn implicit_methods_follow_a_decay_to_zero() {
+    let text = "title = \"Damped\"\n[coordinates]\nx = { initial = 1 }\n[lagrangian]\nL = \"1/2*x'^2 - 1/2*x^2\"\n\
+                dissipation = \"x'^2/2\"\n";
+    let (model, system) = compile(text);
+    let start = system.initial(0.0, &model.parameter_values(), &[]).unwrap();
+    let case = Case { system, start, parameters: model.parameter_values() };
+    for name in ["gauss4", "gauss6"] {
+        let state = case.run(named(name), 0.1, 1600.0);
+        assert!(state.values[..2].iter().all(|x| x.abs() < 1e-300), "{name}: {:?}", state.values);
     }
 }
