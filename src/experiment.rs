@@ -53,7 +53,7 @@ mod trail;
 
 pub use crate::analysis::{Growth, Verdict};
 pub use advance::AdvanceOutcome;
-pub use checkpoint::{Changed, Checkpoint, MotionState};
+pub use checkpoint::{Changed, Checkpoint, ChosenStep, MotionState};
 pub use command::Command;
 pub use companion::{Companion, CompanionOrigin};
 pub use companions::MOST_COMPANIONS;

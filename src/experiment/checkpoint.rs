@@ -13,7 +13,8 @@ use super::exact_state::{exact_numbers, exact_state};
 use super::last_change::SavedChange;
 use super::named::{Named, named};
 use super::reference::Reference;
-use super::{Past, SavedCompanion, Setup, Snapshot, Status};
+use super::{MethodFact, Past, SavedCompanion, Setup, Snapshot, Status};
+use crate::integrate::{METHODS, Stepping};
 use crate::model::Model;
 use crate::system::{ChannelKind, Form, InitialOverride, State, System};
 
@@ -90,11 +91,32 @@ pub struct MotionState {
     pub ended: Option<String>,
     /// The number of steps since the last restart.
     pub steps: u64,
+    /// The step that the method has chosen for equal steps.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub chosen_step: Option<ChosenStep>,
     /// The references of the gauges.
     pub references: Vec<Reference>,
     /// Where the law was changed last, if it was since the start.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub changed: Option<SavedChange>,
+}
+
+/// A step that a method has chosen where none was set.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+pub struct ChosenStep {
+    /// The name of the method.
+    pub method: String,
+    /// The step.
+    pub size: f64,
+}
+
+impl ChosenStep {
+    fn of(snapshot: &Snapshot) -> Option<ChosenStep> {
+        let MethodFact { name, step, .. } = snapshot.method;
+        let is_fixed = METHODS.iter().any(|m| m.name == name && m.stepping == Stepping::Fixed);
+        let chosen = is_fixed && snapshot.setup.settings.step.is_none() && step != 0.0;
+        chosen.then(|| ChosenStep { method: name.to_owned(), size: step.abs() })
+    }
 }
 
 impl Checkpoint {
@@ -158,7 +180,9 @@ impl Checkpoint {
     /// Lets the law be another one from here on, because this was changed.
     #[must_use]
     pub fn with_another_law(self, what: &str) -> Checkpoint {
-        Checkpoint { changed: Some(what.to_owned()), ..self }
+        // a step suits the law for which it was chosen
+        let present = self.present.map(|present| MotionState { chosen_step: None, ..present });
+        Checkpoint { changed: Some(what.to_owned()), present, ..self }
     }
 }
 
@@ -196,6 +220,7 @@ impl MotionState {
                 _ => None,
             },
             steps: snapshot.method.steps,
+            chosen_step: ChosenStep::of(snapshot),
             references: snapshot.gauges.iter().map(reference).collect(),
             changed: snapshot.recorded.changed.as_deref().and_then(SavedChange::of),
         })

@@ -85,16 +85,19 @@ impl ObservedMotion {
         self.observe()
     }
 
-    /// Resumes a motion that began at `start` from this state.
+    /// Resumes a motion that began at `start` from this state, with these constraints released and, if steps are fixed and it
+    /// is known, with this step.
     pub(super) fn restore(
         &mut self,
-        state: &State,
+        (state, step): (&State, Option<f64>),
         parameters: &[f64],
-        start: f64,
-        released: &[usize],
+        (start, released): (f64, &[usize]),
     ) -> Result<(), MotionError> {
         self.log.clear();
         self.inner.restore(state, parameters, start, released)?;
+        if let Some(step) = step {
+            self.inner.restore_with_step(state, step, (start, released))?;
+        }
         self.observer = self.inner.system().observer(parameters);
         self.watch = StepSampler::of(self.inner.system(), parameters);
         self.log.push(self.inner.state(), self.inner.steps());

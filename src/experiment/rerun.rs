@@ -86,7 +86,7 @@ impl Experiment {
             return false;
         };
         let (state, start) = (Arc::clone(&change.state), self.setup.start);
-        if self.motion.restore(&state, &self.setup.parameters, start, &[]).is_err() {
+        if self.motion.restore((&state, None), &self.setup.parameters, (start, &[])).is_err() {
             return false;
         }
         self.changed = Some(Arc::new(change));

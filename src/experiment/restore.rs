@@ -6,7 +6,7 @@
 use std::sync::Arc;
 
 use super::Experiment;
-use super::checkpoint::{Checkpoint, MotionState};
+use super::checkpoint::{Checkpoint, ChosenStep, MotionState};
 use super::gauges::Gauges;
 use super::named::given;
 use super::rerun::Rerun;
@@ -167,7 +167,13 @@ impl Experiment {
         let released: Vec<usize> =
             present.released.iter().filter_map(|name| self.constraint(name)).collect();
         let Setup { parameters, start, .. } = &self.setup;
-        let taken = self.motion.restore(&present.exact(), parameters, *start, &released);
+        // under another method, or with a step that was set meanwhile, it is none of this motion
+        let same = |chosen: &&ChosenStep| {
+            chosen.method == self.motion.method().name && self.motion.settings().step.is_none()
+        };
+        let step = present.chosen_step.as_ref().filter(same).map(|chosen| chosen.size);
+        let state = present.exact();
+        let taken = self.motion.restore((&state, step), parameters, (*start, &released));
         let satisfied = |(k, residual): (usize, &[f64; 2])| {
             released.contains(&k) || residual.iter().all(|r| *r <= RESIDUAL_LIMIT)
         };

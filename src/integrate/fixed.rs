@@ -233,6 +233,18 @@ impl<S: Scheme> Stepper for FixedStep<S> {
         Ok(())
     }
 
+    fn start_with_step(
+        &mut self,
+        state: &State,
+        parameters: &[f64],
+        step: f64,
+    ) -> Result<(), MotionError> {
+        let asked = self.asked.replace(step);
+        let outcome = self.start(state, parameters);
+        self.asked = asked;
+        outcome
+    }
+
     fn step(&mut self, limit: f64) -> Result<(), MotionError> {
         if self.state.time == limit {
             return Ok(());

@@ -15,7 +15,7 @@ mod singular_mass;
 mod singularity_record;
 mod trial;
 
-use super::{Method, MethodError, Settings, Stepper, Stepping, Unstable};
+use super::{Method, MethodError, Settings, Stepper, Unstable};
 use crate::num::DoubleDouble;
 use crate::system::{Branch, ConstraintProjector, Form, Logarithms, MotionError, State, System};
 pub use occurrence::{Occurrence, OccurrenceKind};
@@ -192,7 +192,8 @@ impl Propagator {
         self.restore_with_step(state, step, (start, released))
     }
 
-    /// Restores a motion that began at `start` and was left at this state, with this step if steps are fixed.
+    /// Restores a motion that began at `start` and was left at this state, with this step if steps are fixed: until the next
+    /// impulse, after which a step that was not set is chosen as it always is.
     ///
     /// # Errors
     /// Returns an error if the motion cannot continue from there.
@@ -202,14 +203,9 @@ impl Propagator {
         step: f64,
         (start, released): (f64, &[usize]),
     ) -> Result<(), MotionError> {
-        let settings = self.settings;
-        if self.method.stepping == Stepping::Fixed {
-            self.settings.step = Some(step);
-        }
         let parameters = self.parameters.clone();
-        let outcome = self.restore(state, &parameters, start, released);
-        self.settings = settings;
-        outcome
+        self.restore(state, &parameters, start, released)?;
+        self.stepper.start_with_step(state, &self.parameters, step)
     }
 
     /// Changes the method or its settings, and continues from the current state.

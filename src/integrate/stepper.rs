@@ -9,6 +9,17 @@ pub trait Stepper: DenseOutput + Send {
     /// Begins at a state, which may have either form, at these parameters. Forgets all steps taken.
     fn start(&mut self, state: &State, parameters: &[f64]) -> Result<(), MotionError>;
 
+    /// The same with this step, if steps are equal. It is the step of this start only: one that the method chooses is chosen anew
+    /// at the next.
+    fn start_with_step(
+        &mut self,
+        state: &State,
+        parameters: &[f64],
+        _step: f64,
+    ) -> Result<(), MotionError> {
+        self.start(state, parameters)
+    }
+
     /// Takes one step towards `limit`, which lies before or after the current time. A method of
     /// variable step never passes the limit and ends its last step exactly on it. A method of fixed
     /// step keeps its step and so may pass it; [`DenseOutput::at`] gives the states between. Does

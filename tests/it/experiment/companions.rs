@@ -5,7 +5,7 @@ use phaselab::experiment::{
 };
 use phaselab::system::InitialOverride::{Momentum, Position};
 
-use super::{PLENTY, run, shipped};
+use super::{PLENTY, build, run, shipped};
 use crate::hand::loaded;
 
 /// An experiment of a preset that begins elsewhere, with other parameters.
@@ -306,4 +306,34 @@ fn a_pinned_run_keeps_its_step_when_it_is_restored() {
     let [one, other] = [&pendulum, &taken].map(|motion| motion.snapshot().companions[0].clone());
     assert!(one.fixed_step.is_some() && one.settings.step.is_none());
     assert_eq!((one.fixed_step, one.settings), (other.fixed_step, other.settings));
+}
+
+/// The step that a method has chosen at the last impulse is that of the resumed motion and of a pinned run beside it, up to the next
+/// impulse, at which both choose as a motion does that was not interrupted.
+#[test]
+fn a_chosen_step_lasts_until_the_next_impulse_when_a_motion_is_restored() {
+    let text = "title = \"Struck\"\n[coordinates]\nx = { initial = 2 }\n[lagrangian]\nL = \"1/2*x'^2 - 1/4*x^4\"\n\
+                [[impulses]]\nname = \"strike\"\nevery = 3\nchange = { p_x = \"5*(t - 3)\" }\n";
+    let begun = || build(text, |setup| setup.method = "rk4".into());
+    let mut left = begun();
+    run(&mut left, 4.1);
+    left.execute(Command::Pin);
+    let seen = left.snapshot();
+    // with its past it is not computed once more
+    let checkpoint = Checkpoint::of(left.model(), left.system(), &seen);
+    let checkpoint = checkpoint.with_past(left.system(), &seen);
+    let mut taken = begun();
+    taken.execute(Command::Restore(Box::new(checkpoint)));
+    let steps = |motion: &Experiment| {
+        let seen = motion.snapshot();
+        (seen.method.step, seen.companions[0].fixed_step)
+    };
+    let before = steps(&left);
+    assert_eq!(steps(&taken), before);
+    for time in [5.9, 7.0] {
+        run(&mut left, time);
+        run(&mut taken, time);
+        assert_eq!(steps(&taken), steps(&left), "{time}");
+    }
+    assert!(steps(&left).0 != before.0 && steps(&left).1 != before.1, "{before:?}");
 }
