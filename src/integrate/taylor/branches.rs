@@ -27,6 +27,24 @@ pub(super) struct Passing {
     pub(super) after: DoubleDouble,
 }
 
+impl Passing {
+    /// The same at another time.
+    pub(super) fn at(&self, after: DoubleDouble) -> Passing {
+        Passing { guard: self.guard, after }
+    }
+}
+
+/// The first of the other roots that passes zero behind one, and before `end`.
+pub(super) fn first_behind(series: &Series, one: &Passing, end: f64) -> Option<Passing> {
+    let passes_behind = |guard: usize| {
+        let after = polish(series, guard, passes(series.guard(guard), end)?);
+        (after.high > one.after.high).then_some(Passing { guard, after })
+    };
+    let others = (0..series.guards()).filter(|&i| i != one.guard && series.guard_passes(i));
+    let found = others.filter_map(passes_behind);
+    found.min_by(|a, b| a.after.high.total_cmp(&b.after.high))
+}
+
 /// The first root that passes zero before `end`.
 pub(super) fn first(series: &Series, end: f64) -> Option<Passing> {
     let mut found: Option<(usize, f64)> = None;

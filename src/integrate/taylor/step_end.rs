@@ -4,6 +4,7 @@
 //! In: the series at the current state, the longest step that it allows, the time to go. Out: where the step ends, and
 //! the state there. Never here: building series, and what continues from a point without one.
 
+use super::branches::Passing;
 use super::kinks::KinkCrossing;
 use super::{Taylor, branches, steep};
 use crate::num::DoubleDouble;
@@ -48,6 +49,10 @@ const BEYOND: f64 = 8.0;
 
 /// The part of the time to a point that is stepped if a motion passes it closely.
 const NEARER: f64 = 0.5;
+
+/// The zero of a root that only touches zero is known to some of its digits; a kink, or another root's zero, this close behind, in
+/// parts of the time to it, may be where it is.
+const BEHIND: f64 = 1e-3;
 
 /// The maximal number of halvings of a step that has left a branch.
 const HALVINGS: u32 = 60;
@@ -140,16 +145,50 @@ impl Taylor {
             reach = reach.min(end.after.high.abs() / scale.abs());
         }
         let Some(passing) = branches::first(&self.series, reach) else { return };
-        let origin = self.state.clone();
-        let there = passing.after * scale;
-        self.series.state_after(there, &mut self.state);
-        let known = self.evaluate_rates().is_ok();
         let within = TOUCHING * self.stride / scale.abs();
-        end.landed = (known && branches::is_exact(&self.series, &passing, &self.rates, within))
+        let behind = self.behind(&passing, end.crossing.take(), within);
+        let (passing, crossing) = behind.unwrap_or((passing, None));
+        if let Some(crossing) = crossing {
+            (end.last, end.landed, end.after) = (false, false, crossing.after * scale);
+            end.crossing = Some(crossing);
+            return;
+        }
+        let there = passing.after * scale;
+        end.landed = self.is_zero_at(&passing, passing.after, within) == Some(true)
             || there.high.abs() < TOUCHING * self.stride;
         (end.last, end.crossing) = (false, None);
         end.after = if end.landed { there } else { there * NEARER };
+    }
+
+    /// Where a root is zero that passes or touches zero near a point: at a kink close behind it, of which one is known already, or at
+    /// the zero of another root, if it is zero there as well.
+    fn behind(
+        &mut self,
+        passing: &Passing,
+        known: Option<KinkCrossing>,
+        within: f64,
+    ) -> Option<(Passing, Option<KinkCrossing>)> {
+        let end = passing.after.high * (1.0 + BEHIND);
+        let crossing = known.or_else(|| self.kinks.first(&self.series, end, self.stride));
+        let crossing = crossing.filter(|crossing| crossing.after.high <= end);
+        if let Some(crossing) = crossing
+            && self.is_zero_at(passing, crossing.after, within) != Some(false)
+        {
+            return Some((passing.at(crossing.after), Some(crossing)));
+        }
+        let other = branches::first_behind(&self.series, passing, end)?;
+        let coincide = self.is_zero_at(passing, other.after, within) != Some(false);
+        coincide.then_some((other, None))
+    }
+
+    /// Whether the root that passes or touches zero is zero at a time after the origin of the series, in its unit; `None` where
+    /// the rates have no value.
+    fn is_zero_at(&mut self, passing: &Passing, after: DoubleDouble, within: f64) -> Option<bool> {
+        let origin = self.state.clone();
+        self.series.state_after(after * self.series.scale(), &mut self.state);
+        let known = self.evaluate_rates().is_ok();
         self.state = origin;
+        known.then(|| branches::is_exact(&self.series, &passing.at(after), &self.rates, within))
     }
 
     /// Takes a step that could be this long to its end, with `left` to go to the limit.

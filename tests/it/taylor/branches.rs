@@ -291,3 +291,35 @@ fn a_tangent_passes_its_poles_one_by_one() {
         near(&run.to(time), &[x, s * s / 2.0], 4e-12);
     }
 }
+
+/// Along y = 0 the root of y² + x^{2k} is |x|^k, which only touches zero for k > 1, so that its zero is known to some digits only. The
+/// kink that lies there as well is where the step ends: the motion is that with |x|^k written out.
+#[test]
+fn a_kink_where_a_root_touches_zero() {
+    let mut passed = 0;
+    for (kinks, root, power) in [
+        ("tanh(x)^2 + abs(x)", "sqrt(y^2 + x^4)", "x^2"),
+        ("abs(x)", "sqrt(y^2 + x^4)", "x^2"),
+        ("sqrt(x^2 + y^2)", "sqrt(y^2 + x^4)", "x^2"),
+        ("3*abs(x)", "sqrt(4*y^2 + x^6)", "abs(x)^3"),
+        ("max(x, -2*x)", "2*sqrt(y^2 + x^4)", "2*x^2"),
+        ("abs(sin(x))^1.5", "acos(cos(x))/5", "abs(x)/5"),
+    ] {
+        let begun = |v: &str| {
+            let l = format!("L = \"1/2*(x'^2 + y'^2) - 1/2*y^2 - ({kinks} + {v})\"");
+            plane([0.7, 0.0], [0.0, 0.0], &l)
+        };
+        let (mut run, mut plain) = (begun(root), begun(power));
+        let energy = plain.columns()[6];
+        let mut side = true;
+        for k in 1..=120 {
+            let time = 0.25 * f64::from(k);
+            let (there, here) = (plain.to(time), run.to(time));
+            near(&here, &there, 2e-13);
+            near(&run.columns()[6..7], &[energy], 2e-14);
+            passed += u32::from((here[0] > 0.0) != side);
+            side = here[0] > 0.0;
+        }
+    }
+    assert!(passed > 100, "{passed}");
+}
