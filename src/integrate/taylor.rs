@@ -269,7 +269,7 @@ impl Stepper for Taylor {
             },
         };
         let Some(step) = longest else { return Ok(()) };
-        if self.cross_near_touch(step, limit)? {
+        if self.cross_near_touch(step, limit)? || self.rest_nearby(step)? {
             return Ok(());
         }
         self.leapt = None;

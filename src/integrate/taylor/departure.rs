@@ -14,6 +14,10 @@ const LEAST: f64 = 1e-15;
 /// On a surface, a step this short relative to those before it is no better than none.
 const HOPELESS: f64 = 1e-9;
 
+/// A step this short relative to those before it may be that of a motion next to rest: friction turns so small a velocity at a rate
+/// that no series follows for long.
+const IDLE: f64 = 1e-6;
+
 impl Taylor {
     /// On a surface: takes the first choice of sides that continues the motion, and returns the
     /// step there, or `None` if the surface was left without a series.
@@ -47,6 +51,25 @@ impl Taylor {
         }
         let kind = if rough { MotionErrorKind::Rough } else { MotionErrorKind::NoSide };
         Err(self.system.fault(kind, self.state.time, &self.state.values))
+    }
+
+    /// Comes to rest where friction holds a motion that is next to rest, whose steps are so short that it would take ever so many of
+    /// them to arrive. Returns false elsewhere.
+    pub(super) fn rest_nearby(&mut self, step: f64) -> Result<bool, MotionError> {
+        if step >= IDLE * self.stride {
+            return Ok(false);
+        }
+        let (rates, from, stride) = (&mut self.rates, &self.state, self.stride);
+        let Sticking::Stays(still) =
+            sticking::of(&self.system, rates, &self.parameters, from, stride)?
+        else {
+            return Ok(false);
+        };
+        self.begin = self.state.time;
+        self.state = still.at(&mut self.rates, self.state.exact_time())?;
+        self.leapt = None;
+        self.resting = Some(still);
+        Ok(true)
     }
 
     /// Builds the series at a state on a surface. Where the motion begins there, what is certain of the switches is found
@@ -84,8 +107,10 @@ impl Taylor {
         let mut toward = None;
         let rates = &mut self.rates;
         let mut found = self.bridge.cross(rates, &from, (wanted, least), None, &mut self.state)?;
-        if found.is_none() {
+        // next to rest, friction leaves steps that lead nowhere
+        if found.is_none_or(|step| step.abs() < HOPELESS * stride) {
             match sticking::of(&self.system, rates, &self.parameters, &from, stride)? {
+                Sticking::Unknown | Sticking::SetsOut(..) if found.is_some() => {}
                 Sticking::Unknown => return Ok(false),
                 Sticking::Stays(still) => {
                     self.state = still.at(rates, from.exact_time())?;
