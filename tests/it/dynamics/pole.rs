@@ -153,3 +153,69 @@ fn exponents_of_steps_beyond_a_pole_tell_nothing() {
         assert_eq!(found.verdict, Chaos::Regular, "{name}: {}", found.reason);
     }
 }
+
+/// Neither impulses nor friction hide it: the volume that all vectors span changes as the law says, at impulses by the determinant of
+/// their derivative, and this at any time.
+#[test]
+fn impulses_and_friction_hide_no_pole() {
+    let kick =
+        "[[impulses]]\nname = \"kick\"\nevery = 0.7\nchange = { p_theta = \"0.02*sin(theta)\" }\n";
+    let friction = "dissipation = \"0.01*theta'^2 + 0.02*sin(theta)^2*phi'^2\"\n";
+    for more in [kick, friction] {
+        let said = |text: &str, (name, step): (&str, Option<f64>), until: f64| {
+            let case = impulses::file(text);
+            let method = (method_named(name).unwrap(), Settings { step, tolerance: None });
+            lyapunov(&case.space, method, &case.start, until, &mut |_| {}).unwrap()
+        };
+        for by in [("dop853", None), ("gauss6", Some(0.005))] {
+            let found = said(&sphere(2.0, 1.0, more), by, 7.0);
+            assert_eq!(found.verdict, Chaos::Undecided, "{by:?} {more}: {}", found.reason);
+            let says = found.reason.contains("pole") || found.reason.contains("no limit");
+            assert!(says, "{by:?} {more}: {}", found.reason);
+        }
+        // beside the poles nothing is said of them
+        let around = sphere(2.0, 0.3, more)
+            .replace("phi = { initial = 0 }", "phi = { initial = 0, velocity = 1.5 }");
+        for by in [("taylor", None), ("dop853", None), ("gauss6", Some(0.02))] {
+            let found = said(&around, by, 40.0);
+            assert!(!found.reason.contains("pole"), "{by:?} {more}: {}", found.reason);
+        }
+    }
+}
+
+/// Fixed steps past the centre of polar coordinates: a single step stands out under a method that keeps areas, and areas change under
+/// one that does not; farther away neither is so. Where neighbours part by more than e in every step alike, none stands out.
+#[test]
+fn single_steps_stand_out_next_to_the_centre_of_polar_coordinates() {
+    let by = |name: &str, step: f64| {
+        (method_named(name).unwrap(), Settings { step: Some(step), tolerance: None })
+    };
+    for kinetic in
+        ["1/2*(r'^2 + r^2*phi'^2) - 1/2*r^2", "1/2*((1 + 4*r^2)*r'^2 + r^2*phi'^2) - r^2"]
+    {
+        for (velocity, known) in [(0.03, false), (0.1, true), (0.3, true)] {
+            let text = format!(
+                "title = \"t\"\n[coordinates]\nr = {{ initial = 1 }}\nphi = {{ initial = 0, velocity = {velocity} }}\n\
+                 [lagrangian]\nL = \"{kinetic}\"\n"
+            );
+            let case = file(&text, &[]);
+            for (name, word) in [("gauss4", "single step"), ("rk4", "areas")] {
+                let found =
+                    lyapunov(&case.space, by(name, 0.02), &case.start, 60.0, &mut |_| {}).unwrap();
+                let regular = found.verdict == Chaos::Regular;
+                assert_eq!(regular, known, "{name} {velocity}: {}", found.reason);
+                assert_eq!(found.reason.contains(word), !known, "{name}: {}", found.reason);
+            }
+        }
+    }
+    // x = 0 is unstable, and stays exactly so
+    let text = "title = \"t\"\n[coordinates]\nx = { initial = 0 }\ny = { initial = 1 }\n\
+                [lagrangian]\nL = \"1/2*(x'^2 + y'^2) + 1/2*x^2 - 1/2*y^2\"\n";
+    let case = file(text, &[]);
+    for (name, step) in [("leapfrog", 1.5), ("rk4", 1.2), ("gauss4", 1.2)] {
+        let found =
+            lyapunov(&case.space, by(name, step), &case.start, 2000.0, &mut |_| {}).unwrap();
+        assert_eq!(found.failure, None, "{name}");
+        assert_eq!(found.verdict, Chaos::Chaotic, "{name}: {}", found.reason);
+    }
+}
