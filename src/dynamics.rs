@@ -76,7 +76,6 @@ mod unresolved_lines;
 mod variation;
 mod vector_fidelity;
 mod virtual_work;
-mod volume_change;
 mod wandering;
 
 pub use action::{Lagrangian, Path};

@@ -372,14 +372,6 @@ impl TangentStep for Carrier {
     fn awaits_occurrence(&self) -> bool {
         Carrier::awaits_occurrence(self)
     }
-
-    fn is_cut(&self) -> bool {
-        self.jumping.as_ref().is_some_and(|jumping| jumping.is_cut)
-    }
-
-    fn impulse_determinant(&self) -> f64 {
-        self.jump_determinant()
-    }
 }
 
 impl Jumping {

@@ -173,7 +173,6 @@ fn result(
         largest: exponents.first().copied().unwrap_or(0.0),
         // under constraints they hold in the mean alone
         pairing: pairing.filter(|_| !space.is_constrained()),
-        volumes: course.volumes(),
         jumps: space.has_jumps(),
     };
     let judged = judged(&followed, (&exponents, &uncertainty), megno);

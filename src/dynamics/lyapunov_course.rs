@@ -17,7 +17,6 @@ use super::step_growth::StepGrowth;
 use super::tangent_growth::TangentGrowth;
 use super::tangent_step::TangentStep;
 use super::transverse::{self, Removed};
-use super::volume_change::VolumeChange;
 use crate::integrate::Settings;
 use crate::num::math;
 use crate::system::State;
@@ -53,8 +52,6 @@ pub(super) struct LyapunovCourse {
     growth: TangentGrowth,
     megno: Megno,
     single_steps: StepGrowth,
-    /// The change of volumes, where the vectors span one, and its logarithm at the end of `growth`.
-    volumes: Option<(VolumeChange, f64)>,
 }
 
 impl LyapunovCourse {
@@ -88,7 +85,6 @@ impl LyapunovCourse {
             transverse::frame(&rates, what, space.is_hamiltonian())
         };
         let count = frame.ncols();
-        let pairs_hold = space.is_hamiltonian() && !space.has_jumps();
         // one more vector, in general position, that is never turned: for MEGNO
         let free = DVector::from_fn(n, |i, _| 0.5 + math::sin(2.4 * (i as f64 + 1.0)).abs());
         let free = allowed * free;
@@ -106,8 +102,6 @@ impl LyapunovCourse {
             growth: TangentGrowth { times: vec![start.time], logarithms: vec![vec![0.0; count]] },
             megno: Megno::new(start.time),
             single_steps: StepGrowth::default(),
-            // pairs of exponents tell more where there are any
-            volumes: (count == n && !pairs_hold).then(|| (VolumeChange::new(space), 0.0)),
         };
         Ok((course, vectors))
     }
@@ -128,13 +122,6 @@ impl LyapunovCourse {
 
     pub(super) fn single_steps(&self) -> &StepGrowth {
         &self.single_steps
-    }
-
-    /// The logarithm of the volume that the vectors span, and what it is by the law of motion.
-    pub(super) fn volumes(&self) -> Option<(f64, f64)> {
-        let (_, by_law) = self.volumes.as_ref()?;
-        let spanned = self.growth.logarithms.last()?.iter().sum();
-        Some((spanned, *by_law))
     }
 
     pub(super) fn megno(&self) -> &Megno {
@@ -162,14 +149,9 @@ impl LyapunovCourse {
             };
             let size = math::ln(free.component_mul(&self.in_units).norm());
             self.megno.add(now, size);
-            if part == MEGNO_PARTS && step.is_cut() {
-                self.single_steps.pass(size);
-            } else if part == MEGNO_PARTS {
+            if part == MEGNO_PARTS {
                 self.single_steps.reach(end, size);
             }
-        }
-        if let Some((volumes, _)) = &mut self.volumes {
-            volumes.follow(space, step)?;
         }
         let (state, vectors) = match at_end {
             Some(found) => found,
@@ -197,9 +179,6 @@ impl LyapunovCourse {
         };
         let sums = self.growth.logarithms[last].iter().zip(&lengths);
         let now = sums.map(|(sum, x)| sum + math::ln(*x)).collect();
-        if let Some((volumes, known)) = &mut self.volumes {
-            *known = volumes.logarithm(step.impulse_determinant());
-        }
         self.growth.times.push(end);
         self.growth.logarithms.push(now);
         vectors.columns_mut(0, self.count).copy_from(&turned);

@@ -27,16 +27,6 @@ pub(super) trait TangentStep {
 
     /// Whether something is to happen where it ended, so that the motion cannot be started again from there.
     fn awaits_occurrence(&self) -> bool;
-
-    /// Whether something has happened where it ended, after which the vectors may be others.
-    fn is_cut(&self) -> bool {
-        false
-    }
-
-    /// The product of the determinants of the derivatives of all impulses until then.
-    fn impulse_determinant(&self) -> f64 {
-        1.0
-    }
 }
 
 /// Reads and writes states with tangent vectors.
