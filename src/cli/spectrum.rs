@@ -43,7 +43,7 @@ pub(super) struct Arguments {
     /// The quantity: a coordinate, an observable, any expression; by default the first coordinate.
     #[arg(long, value_name = "EXPR", allow_hyphen_values = true)]
     of: Option<String>,
-    /// When to end; by default after 90 seconds of the lab at the file's own speed.
+    /// When to end; by default as the file says, but not before 90 seconds of the lab at the file's own speed.
     #[arg(long, value_name = "T", allow_hyphen_values = true, value_parser = number)]
     until: Option<f64>,
     /// How many samples are taken, at equal intervals; by default 2048, or as many more as the motion needs.
@@ -80,7 +80,8 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let channel =
         channel.ok_or_else(|| CommandError::CouldNot("there is no such quantity".to_owned()))?;
     let speed = Some(model.run.speed).filter(|s| s.is_finite() && *s > 0.0).unwrap_or(1.0);
-    let until = arguments.until.unwrap_or(start.time + SECONDS * speed);
+    let least = start.time + SECONDS * speed;
+    let until = arguments.until.or(model.run.until.filter(|&until| until > least)).unwrap_or(least);
     if until <= start.time {
         let why = format!("--until: it has to be after the start, t = {:?}", start.time);
         return Err(CommandError::WrongUse(why));

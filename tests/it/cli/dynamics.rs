@@ -185,6 +185,23 @@ fn a_spectrum_has_lines_that_are_named() {
     assert!(ended.stderr.contains("the motion ends before t = 1.11"), "{}", ended.stderr);
 }
 
+/// A galaxy's file says how long its motion is: ninety of its seconds are nothing.
+#[test]
+fn a_spectrum_ends_as_the_file_says_if_that_is_long() {
+    let text = "title = \"t\"\n[coordinates]\nz = { initial = 3e18 }\n[lagrangian]\nL = \"1/2*z'^2 - 1/2*4e-30*z^2\"\n";
+    for (run, until) in
+        [("", 90.0), ("[run]\nuntil = 20.0\n", 90.0), ("[run]\nuntil = 1e18\n", 1e18)]
+    {
+        let words = ["spectrum", "./system.toml", "--format", "json"];
+        let found = with_file(&format!("{text}{run}"), &words).json();
+        assert_eq!(found["until"], until, "{found}");
+        if until > 90.0 {
+            let frequency = found["lines"][0]["frequency"].as_f64().unwrap();
+            assert!((frequency / 2e-15 - 1.0).abs() < 1e-9, "{found}");
+        }
+    }
+}
+
 /// Of cos t + b cos 7t, at intervals of 1, the second line has its image at 7 − 2π.
 #[test]
 fn a_spectrum_of_few_values_names_the_images_it_leaves_out() {
