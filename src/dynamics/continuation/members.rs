@@ -148,10 +148,17 @@ impl Continuation<'_> {
             let unit = value.abs().max(1e-2);
             let close = |point: &FamilyPoint, _: f64| (point.value - value).abs() <= 1e-12 * unit;
             let off = |point: &FamilyPoint| Ok(point.value - value);
-            let located = self.located((from, to, step), &off, &close)?;
+            let has_value = |point: &FamilyPoint| (point.value - value).abs() <= 1e-9 * unit;
+            let mut located = self.located((from, to, step), &off, &close)?;
+            // where an orbit has neighbours in many directions, rounding may leave this method no such digits
+            if let Some(exact) = self.exact()
+                && !located.as_ref().is_some_and(|(_, point)| has_value(point))
+            {
+                located = exact.located((from, to, step), &off, &close)?;
+            }
             let (part, point) = located.unwrap_or_else(|| (step, to.clone()));
             // a member that was not found is left out
-            if (point.value - value).abs() > 1e-9 * unit {
+            if !has_value(&point) {
                 continue;
             }
             let orbit = self.member(from, point)?;
