@@ -94,9 +94,9 @@ impl ObservedMotion {
         (start, released): (f64, &[usize]),
     ) -> Result<(), MotionError> {
         self.log.clear();
-        self.inner.restore(state, parameters, start, released)?;
-        if let Some(step) = step {
-            self.inner.restore_with_step(state, step, (start, released))?;
+        match step {
+            Some(step) => self.inner.restore_all((state, step), parameters, (start, released))?,
+            None => self.inner.restore(state, parameters, start, released)?,
         }
         self.observer = self.inner.system().observer(parameters);
         self.watch = StepSampler::of(self.inner.system(), parameters);

@@ -15,7 +15,7 @@ mod singular_mass;
 mod singularity_record;
 mod trial;
 
-use super::{Method, MethodError, Settings, Stepper, Unstable};
+use super::{Method, MethodError, Settings, Stepper, Stepping, Unstable};
 use crate::num::DoubleDouble;
 use crate::system::{Branch, ConstraintProjector, Form, Logarithms, MotionError, State, System};
 pub use occurrence::{Occurrence, OccurrenceKind};
@@ -204,8 +204,34 @@ impl Propagator {
         (start, released): (f64, &[usize]),
     ) -> Result<(), MotionError> {
         let parameters = self.parameters.clone();
-        self.restore(state, &parameters, start, released)?;
-        self.stepper.start_with_step(state, &self.parameters, step)
+        self.restore_all((state, step), &parameters, (start, released))
+    }
+
+    /// The same at these parameters.
+    ///
+    /// # Errors
+    /// Returns an error if the motion cannot continue from there.
+    pub fn restore_all(
+        &mut self,
+        (state, step): (&State, f64),
+        parameters: &[f64],
+        (start, released): (f64, &[usize]),
+    ) -> Result<(), MotionError> {
+        let settings = self.settings;
+        if self.method.stepping == Stepping::Fixed {
+            // as if it were set: no other is searched for
+            self.settings.step = Some(step);
+        }
+        let outcome = self.restore(state, parameters, start, released);
+        self.settings = settings;
+        outcome?;
+        if self.method.stepping == Stepping::Fixed && settings.step.is_none() {
+            if let Ok(stepper) = (self.method.make)(&self.system, &settings) {
+                self.stepper = stepper;
+            }
+            self.stepper.start_with_step(state, &self.parameters, step)?;
+        }
+        Ok(())
     }
 
     /// Changes the method or its settings, and continues from the current state.

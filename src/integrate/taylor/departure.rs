@@ -60,7 +60,7 @@ impl Taylor {
             return Ok(false);
         }
         let (rates, from, stride) = (&mut self.rates, &self.state, self.stride);
-        let Sticking::Stays(still) =
+        let Sticking::Stays { still, dry: true } =
             sticking::of(&self.system, rates, &self.parameters, from, stride)?
         else {
             return Ok(false);
@@ -107,12 +107,14 @@ impl Taylor {
         let mut toward = None;
         let rates = &mut self.rates;
         let mut found = self.bridge.cross(rates, &from, (wanted, least), None, &mut self.state)?;
-        // next to rest, friction leaves steps that lead nowhere
-        if found.is_none_or(|step| step.abs() < HOPELESS * stride) {
+        // next to rest, dry friction leaves steps that lead nowhere; at the start of a motion no step has shown what is short
+        let is_hopeless = |step: f64| self.stride > 0.0 && step.abs() < HOPELESS * stride;
+        if found.is_none_or(is_hopeless) {
             match sticking::of(&self.system, rates, &self.parameters, &from, stride)? {
-                Sticking::Unknown | Sticking::SetsOut(..) if found.is_some() => {}
+                Sticking::Unknown | Sticking::SetsOut(..) | Sticking::Stays { dry: false, .. }
+                    if found.is_some() => {}
                 Sticking::Unknown => return Ok(false),
-                Sticking::Stays(still) => {
+                Sticking::Stays { still, .. } => {
                     self.state = still.at(rates, from.exact_time())?;
                     self.begin = self.state.time;
                     self.resting = Some(still);

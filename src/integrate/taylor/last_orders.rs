@@ -37,6 +37,12 @@ pub(super) fn indulgence_of(log_indulgence: f64, k: usize, p: usize) -> f64 {
     if k + LAST <= p { log_indulgence } else { 0.0 }
 }
 
+/// Whether lower orders say of the k-th what the radius of convergence allows: the j-th does for 2 ≤ j < k − 1.
+#[inline(always)]
+pub(super) fn has_radius(k: usize) -> bool {
+    k > 3
+}
+
 /// The orders up to p that enter.
 #[inline(always)]
 pub(super) fn last_orders(p: usize) -> RangeInclusive<usize> {

@@ -1,6 +1,6 @@
 //! The steps that the last orders of a series allow, each by itself.
 //!
-//! In: the logarithms of the sizes of a series' coefficients. Out: the logarithm of the step that one of its last orders
+//! In: the coefficients of a series, or the logarithms of their sizes. Out: the logarithm of the step that one of its last orders
 //! allows. Never here: the constants of the rule, which orders are asked.
 //!
 //! ```text
@@ -13,7 +13,9 @@
 //! The four lowest orders mostly decide. What they allow is found for all of the last orders at once, and that no other one
 //! allows more is seen by multiplications.
 
-use super::last_orders::{CLEARLY, LANES, ROOM, WIDTH, lanes_of_last_orders, last_orders};
+use super::last_orders::{
+    CLEARLY, LANES, ROOM, WIDTH, has_radius, lanes_of_last_orders, last_orders,
+};
 use super::rough_logarithms::rough_logarithms;
 use crate::num::{Batch, math, padded};
 
@@ -95,14 +97,16 @@ impl OrderBounds {
         };
         let bounds: Vec<OrderBound> = last_orders(order).map(bound).collect();
         let first = |k: usize| &bounds[k - *last_orders(order).start()].chunks[0];
-        // an order that does not enter allows anything
-        let low = |j: usize, of: fn(&BoundChunk) -> &Batch<LANES>, otherwise: f64| {
-            Batch(lanes_of_last_orders(order, otherwise, |k| of(first(k)).0[j]))
+        let low = |otherwise: f64, of: &dyn Fn(usize) -> f64| {
+            Batch(lanes_of_last_orders(order, otherwise, of))
         };
+        // an order that does not enter, and a radius that is not known, allow anything
+        let any = f64::INFINITY;
+        let radius = |j: usize, k: usize| if has_radius(k) { first(k).by_radius.0[j] } else { any };
         let lowest = std::array::from_fn(|j| LowOrder {
-            reciprocals: low(j, |chunk| &chunk.reciprocals, 0.0),
-            by_tolerance: low(j, |chunk| &chunk.by_tolerance, f64::INFINITY),
-            by_radius: low(j, |chunk| &chunk.by_radius, f64::INFINITY),
+            reciprocals: low(0.0, &|k| first(k).reciprocals.0[j]),
+            by_tolerance: low(any, &|k| first(k).by_tolerance.0[j]),
+            by_radius: low(any, &|k| radius(j, k)),
         });
         let indulgences = Batch(lanes_of_last_orders(order, 0.0, indulgence));
         OrderBounds { bounds, lowest, indulgences }

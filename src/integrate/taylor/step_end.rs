@@ -132,21 +132,22 @@ impl Taylor {
         if !(end_of_step.landed || approaching) {
             // near a branch point rounding alone makes steps short
             let reach = if vanishing { 2.0 * step } else { step };
-            self.end_at_branch_point(&mut end_of_step, reach.min(left.high.abs()));
+            self.end_at_branch_point(&mut end_of_step, reach, left.high.abs());
         }
         Ok(Some(end_of_step))
     }
 
-    /// Ends a step at a branch point within `reach`, or nearer if the motion only passes it.
-    fn end_at_branch_point(&mut self, end: &mut StepEnd, reach: f64) {
+    /// Ends a step at a branch point within `reach`, or nearer if the motion only passes it, with `left` to go to the limit.
+    fn end_at_branch_point(&mut self, end: &mut StepEnd, reach: f64, left: f64) {
         let scale = self.series.scale();
-        let mut reach = reach / scale.abs();
+        let left = left / scale.abs();
+        let mut reach = (reach / scale.abs()).min(left);
         if end.crossing.is_some() {
             reach = reach.min(end.after.high.abs() / scale.abs());
         }
         let Some(passing) = branches::first(&self.series, reach) else { return };
         let within = TOUCHING * self.stride / scale.abs();
-        let behind = self.behind(&passing, end.crossing.take(), within);
+        let behind = self.behind(&passing, end.crossing.take(), (within, left));
         let (passing, crossing) = behind.unwrap_or((passing, None));
         if let Some(crossing) = crossing {
             (end.last, end.landed, end.after) = (false, false, crossing.after * scale);
@@ -166,9 +167,9 @@ impl Taylor {
         &mut self,
         passing: &Passing,
         known: Option<KinkCrossing>,
-        within: f64,
+        (within, left): (f64, f64),
     ) -> Option<(Passing, Option<KinkCrossing>)> {
-        let end = passing.after.high * (1.0 + BEHIND);
+        let end = (passing.after.high * (1.0 + BEHIND)).min(left);
         let crossing = known.or_else(|| self.kinks.first(&self.series, end, self.stride));
         let crossing = crossing.filter(|crossing| crossing.after.high <= end);
         if let Some(crossing) = crossing

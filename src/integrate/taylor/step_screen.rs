@@ -5,7 +5,7 @@
 //! finds no shorter one; "not surely" decides nothing. Never here: the rule, its constants.
 
 use super::last_orders::{
-    CLEARLY, FAINT, FIRST, LANES, ROOM, WIDTH, indulgence_of, lanes_of_last_orders,
+    CLEARLY, FAINT, FIRST, LANES, ROOM, WIDTH, has_radius, indulgence_of, lanes_of_last_orders,
 };
 use crate::num::{Batch, math};
 
@@ -34,8 +34,10 @@ impl StepScreen {
             let log = log + indulgence_of(log_indulgence, k, order);
             math::exp((k - j) as f64 * log) / CLEARLY
         };
-        let by_radius = |j: usize, k: usize| {
-            if j < k - 1 { constant(j, k, log_part) } else { 0.0 }
+        let by_radius = |j: usize, k: usize| match j < k - 1 {
+            true => constant(j, k, log_part),
+            false if has_radius(k) => 0.0,
+            false => f64::INFINITY,
         };
         StepScreen {
             first: order + 1 - WIDTH,

@@ -28,13 +28,16 @@ const SMALLER: f64 = 1e-3;
 /// strength holds a motion there.
 const POLE: f64 = 2.0;
 
+/// Friction that is more than this part of the first at the second is dry: a drag is not, which shrinks as the velocity does.
+const DRY: f64 = 0.5;
+
 /// The maximal number of degrees of freedom that are tested in all directions.
 const MOST: usize = 12;
 
 /// The result of the test.
 pub(super) enum Sticking {
-    /// The motion stays at rest.
-    Stays(Still),
+    /// The motion stays at rest: it is held by dry friction, or by a force that vanishes with the velocity.
+    Stays { still: Still, dry: bool },
     /// The motion starts from this state, with these rates.
     SetsOut(State, Vec<DoubleDouble>),
     /// The motion is not at rest, or the test is inconclusive.
@@ -154,5 +157,7 @@ fn carried(
     let known = rates.iter().all(|x| x.is_finite());
     let (from, degrees) = (trial.still, trial.n);
     let still = Still::new(from, rates, (degrees, moving), (size, stride));
-    Ok(if known { Sticking::Stays(still) } else { Sticking::Unknown })
+    // a drag proportional to the velocity vanishes with it
+    let dry = nearer > DRY * strength;
+    Ok(if known { Sticking::Stays { still, dry } } else { Sticking::Unknown })
 }
