@@ -34,36 +34,11 @@ pub enum Asker {
 pub struct Jobs {
     /// Whether jobs are sent out by [`Effect::Compute`](super::Effect::Compute), so that no frame waits for them; otherwise they run at once.
     pub in_background: bool,
-    /// Whether, without a background, each picture in view is added to by one part in a frame, as in a recording; otherwise
-    /// additions are left out.
-    pub adds_in_frames: bool,
-    /// The plots that were added to in this frame, and whether one of them is not complete.
-    added: Vec<usize>,
-    incomplete: bool,
     /// The number requested so far.
     count: u64,
 }
 
 impl Jobs {
-    /// Begins a frame. Returns whether a picture is to be added to in it.
-    pub(super) fn begin_frame(&mut self) -> bool {
-        self.added.clear();
-        std::mem::take(&mut self.incomplete)
-    }
-
-    /// Whether the picture in view of this place may be added to now.
-    pub(super) fn adds_to(&mut self, place: usize) -> bool {
-        if self.in_background {
-            return true;
-        }
-        let due = self.adds_in_frames && !self.added.contains(&place);
-        if due {
-            self.added.push(place);
-        }
-        self.incomplete = self.adds_in_frames;
-        due
-    }
-
     /// Creates a job with a new ticket.
     pub(super) fn request(&mut self, asker: Asker, job: Job<Answer>) -> Computation {
         self.count += 1;

@@ -110,7 +110,7 @@ pub(super) fn number(model: &Model, parameters: &[f64], text: &str) -> Result<f6
         let diagnostic = scope.diagnostics.first();
         let what = diagnostic.map_or("it cannot be read".to_owned(), ToString::to_string);
         let help = diagnostic.and_then(|m| m.help.clone());
-        let help = help.map_or(String::new(), |help| format!(": {help}"));
+        let help = help.map_or(String::new(), |help| format!("; {help}"));
         let sentence = format!("`{}` is not a number: {what}{help}", text.trim());
         let end = if sentence.ends_with('?') { "" } else { "." };
         return Err(sentence + end);

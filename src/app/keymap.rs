@@ -337,7 +337,7 @@ pub const KEYS: &[Binding] = &[
     row(Place::Values, &[SHIFT_RIGHT, c('L'), c('+'), c('=')], change(1, true), "", "more, by a coarse step"),
     row(Place::Values, &[ENTER], Action::TypeValue, "type", "type the value: a number or an expression, such as pi, sqrt(2) or 2*l"),
     row(Place::Values, &[c('v')], Action::Diagram, "", "show how the motion depends on this parameter or initial value: a bifurcation diagram where the file has a surface of section, otherwise the Lyapunov exponent; the frequency where a single coordinate keeps its energy"),
-    row(Place::Values, &[c('g')], Action::Ramp, "", "go gradually: ramp this parameter from now on, to another value in a given time; a slow ramp conserves J, which is shown"),
+    row(Place::Values, &[c('g')], Action::Ramp, "", "ramp this parameter gradually to another value in a given time; a slow ramp conserves J, which is shown"),
     row(Place::Values, &[c('c')], Action::Cursor, "", "the cursor of the nearest plot, which gets the focus"),
     row(Place::Values, &[BACKSPACE, DELETE], Action::Restore, "", "the value of the file"),
 

@@ -42,12 +42,25 @@ impl App {
     /// Shows or hides the cursor of the focused plot; elsewhere goes to that of the nearest one.
     pub(super) fn toggle_cursor(&mut self) -> Vec<Effect> {
         let focused = self.lab.as_ref().map(|lab| lab.focus.pane);
-        match self.nearest(Place::Plot) {
+        let near = self.nearest(Place::Plot);
+        let shown = match (near, &self.lab) {
+            (Some(Pane::Plot(i)), Some(lab)) => lab.plots.get(i).and_then(Plot::viewport),
+            _ => None,
+        };
+        let shown = shown.and_then(|viewport| viewport.cursor);
+        match near {
             None => self.notify("No plot here has a cursor: v on a pane chooses one."),
             near if near == focused => self.with_viewport(|viewport| {
                 viewport.cursor = if viewport.cursor.is_some() { None } else { Some([0.5, 0.5]) };
             }),
-            Some(_) => self.perform_at(Place::Plot, Action::Cursor),
+            Some(_) => {
+                let mut effects = self.perform_at(Place::Plot, Action::Cursor);
+                // one that was shown stays
+                effects.extend(self.with_viewport(|viewport| {
+                    viewport.cursor = shown.or(viewport.cursor);
+                }));
+                effects
+            }
         }
     }
 }

@@ -78,10 +78,8 @@ impl App {
                 self.meter.tick(elapsed);
                 self.reading.tick(elapsed);
                 self.tick_notifications(elapsed);
-                let incomplete = self.jobs.begin_frame();
                 if let Some(lab) = &mut self.lab {
                     lab.tick(elapsed);
-                    lab.answers.stale |= incomplete;
                 }
                 if let Some(Overlay::Prompt(prompt)) = &mut self.overlay {
                     prompt.tick(elapsed);

@@ -27,7 +27,7 @@ pub(super) struct Crowd {
 }
 
 fn threads(text: &str) -> Result<NonZeroUsize, String> {
-    text.trim().parse().map_err(|_| "not a whole number from 1 on".to_owned())
+    text.trim().parse().map_err(|_| "not a positive whole number".to_owned())
 }
 
 impl Crowd {

@@ -42,3 +42,39 @@ impl StepGrowth {
         (grown > PARTED && grown > OUTSTANDING * mean).then_some(self.greatest)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::StepGrowth;
+
+    /// Whether a step in which the vector grows by `one` stands out among 99 of this growth.
+    fn stands_out(one: f64, others: f64) -> bool {
+        let (mut growth, mut size) = (StepGrowth::default(), 0.0);
+        for k in 0..100_u32 {
+            size += if k == 40 { one } else { others };
+            growth.reach(f64::from(k), size);
+        }
+        let found = growth.outstanding(100);
+        assert!(found.is_none_or(|(grown, time)| (grown - one).abs() < 1e-12 && time == 40.0));
+        found.is_some()
+    }
+
+    #[test]
+    fn a_step_stands_out_by_more_than_e_and_twenty_times_the_mean() {
+        for (one, others, expected) in [
+            (1.01, 0.0, true),
+            (0.99, 0.0, false),
+            (1.01, 0.03, true),
+            (0.99, 0.03, false),
+            // 20 (99 a + 3)/100 is 3 for a = 4/33
+            (3.0, 0.1212, true),
+            (3.0, 0.1213, false),
+            (50.0, 2.02, true),
+            (50.0, 2.03, false),
+            // what shrinks counts in the mean
+            (3.0, -0.1213, false),
+        ] {
+            assert_eq!(stands_out(one, others), expected, "{one} among {others}");
+        }
+    }
+}

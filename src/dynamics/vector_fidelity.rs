@@ -60,3 +60,38 @@ impl Followed<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{CarriedMotion, Followed, StepGrowth, TangentGrowth};
+    use crate::integrate::Settings;
+
+    /// Whether there is a doubt after so long.
+    fn is_doubted(lasted: f64, largest: f64, pairing: Option<f64>) -> bool {
+        let motion = CarriedMotion { settings: Settings::default(), fixed: false, steps: 1000 };
+        let growth =
+            TangentGrowth { times: vec![3.0, 3.0 + lasted], logarithms: vec![vec![0.0; 4]; 2] };
+        let single_steps = &StepGrowth::default();
+        let (motion, growth) = (&motion, &growth);
+        let followed = Followed { motion, growth, single_steps, largest, pairing, jumps: false };
+        followed.doubt().is_some()
+    }
+
+    /// A pair is none where its sum is a tenth of the largest exponent and areas have changed by a factor of e.
+    #[test]
+    fn areas_change_by_a_factor_of_e_and_a_tenth_of_the_largest_exponent() {
+        for (lasted, largest, off, doubted) in [
+            (10.0, 0.05, 0.101, true),
+            (10.0, 0.05, 0.099, false),
+            (100.0, 1.0, 0.101, true),
+            (100.0, 1.0, 0.099, false),
+            (100.0, -1.0, 0.099, false),
+            (1e-9, 2.0, 1.01e9, true),
+            (1e-9, 2.0, 0.99e9, false),
+        ] {
+            let case = format!("{off} of {largest} after {lasted}");
+            assert_eq!(is_doubted(lasted, largest, Some(off)), doubted, "{case}");
+        }
+        assert!(!is_doubted(100.0, 1.0, None));
+    }
+}

@@ -21,7 +21,9 @@ pub enum Need {
     Valid,
     /// This job is needed. The last result stays until it has finished.
     Job(Job<Answer>),
-    /// This job adds to the picture and may take long: without a background it is left out, or done in parts, one in a frame.
+    /// This job is needed where the picture is in view, and is soon done.
+    InView(Job<Answer>),
+    /// This job adds to the picture and may take long: where there is no background it is left out.
     Addition(Job<Answer>),
 }
 

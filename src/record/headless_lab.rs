@@ -61,9 +61,7 @@ impl HeadlessLab {
     pub(super) fn open(document: &Document, called: &str, fps: u32, budget: Budget) -> HeadlessLab {
         // the user's own presets are excluded, so that a demo is the same everywhere
         let catalog = Catalog::with_folder(None);
-        let (mut app, effects) = App::new(&catalog, Some(called));
-        // a picture fills while one looks, as it does beside a background
-        app.jobs.adds_in_frames = true;
+        let (app, effects) = App::new(&catalog, Some(called));
         let mut laboratory = HeadlessLab {
             app,
             clock: Clock::new(fps),

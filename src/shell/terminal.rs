@@ -54,7 +54,7 @@ pub enum TerminalError {
 pub(super) const HEADLESS: &str = "; `phaselab run PRESET` integrates without one";
 /// What shows a demo without a terminal.
 pub(super) const RECORDED: &str =
-    "; `phaselab record PRESET --format account` tells a demo without one";
+    "; `phaselab record PRESET --format account` describes a demo without one";
 
 impl TerminalError {
     /// Checks that there is a usable terminal; `instead` ends the sentence with what needs none.

@@ -11,7 +11,7 @@ use super::glyphs::TextWidth;
 use super::help::keys;
 use super::number::brief;
 use super::theme::Role;
-use super::values::typing;
+use super::values::{meaning as value_meaning, typing};
 use super::wrap::words_in;
 use crate::app::keymap::{Binding, KEYS, Place};
 use crate::app::{
@@ -177,19 +177,19 @@ fn meaning(canvas: &Canvas<'_>, lab: &Lab) -> Vec<String> {
             [found, named, gauge.reason.clone()].map(|text| canvas.text(&text)).into()
         });
     }
-    let Some(facts) = lab.selected().and_then(|target| lab.value_info(target)) else {
-        return Vec::new();
-    };
+    let selected = lab.selected().and_then(|target| Some((target, lab.value_info(target)?)));
+    let Some((target, facts)) = selected else { return Vec::new() };
+    let text = value_meaning(lab, target, &facts);
     let name = glyphs.pick(&facts.shown, &facts.name);
     // the keys have precedence over what the list itself says
-    let explained = facts.about.is_empty() || canvas.explained;
-    let about = if explained { String::new() } else { format!(": {}", facts.about) };
+    let explained = text.is_empty() || canvas.explained;
+    let about = if explained { String::new() } else { format!(": {text}") };
     let unit = if facts.unit.is_empty() { String::new() } else { format!(" [{}]", facts.unit) };
     let range = facts.range.map_or_else(String::new, |(min, max, _)| {
         format!(", {} to {}", brief(min, 4, glyphs), brief(max, 4, glyphs))
     });
     let named = format!("{name}{unit}{about}");
-    let alone = if explained { named.clone() } else { facts.about };
+    let alone = if explained { named.clone() } else { text };
     [format!("{named}{range}"), named, alone].map(|text| canvas.text(&text)).into()
 }
 

@@ -137,7 +137,7 @@ fn whole_words(line: &str, room: usize, mark: &str) -> String {
             _ => {}
         }
     }
-    let kept = line[..end].trim_end_matches(['+', '−', '-', '·', '*', '/', ',', ';', ' ']);
+    let kept = line[..end].trim_end_matches(['+', '−', '-', '·', '*', '/', ',', ';', '=', ' ']);
     // The beginning of a product is no value: where the value stands before it, it is left out.
     let is_product = line[kept.len()..].trim_start().starts_with(['·', '×', '*', '/']);
     let kept = match kept.rsplit_once(" = ") {

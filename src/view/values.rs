@@ -71,10 +71,7 @@ impl ValueList<'_> {
         let spare = usize::from(area.height).saturating_sub(count);
         let target = (self.kind)(self.selected);
         let facts = self.lab.value_info(target);
-        let text = facts.map_or_else(String::new, |facts| match self.lab.value(target) {
-            Some(before) if facts.ramped => ramped_in_words(&facts.about, before),
-            _ => facts.about,
-        });
+        let text = facts.map_or_else(String::new, |facts| meaning(self.lab, target, &facts));
         let width = usize::from(area.width.saturating_sub(3));
         let mut lines = words(&text, width);
         lines.retain(|line| !line.is_empty());
@@ -136,6 +133,14 @@ fn unit(facts: &ValueInfo) -> String {
         .filter(|part| !part.is_empty())
         .collect::<Vec<_>>()
         .join(", ")
+}
+
+/// What a value means, and whether it is ramped.
+pub(super) fn meaning(lab: &Lab, target: ValueId, facts: &ValueInfo) -> String {
+    match lab.value(target) {
+        Some(before) if facts.ramped => ramped_in_words(&facts.about, before),
+        _ => facts.about.clone(),
+    }
 }
 
 /// The meaning of a value that changes with the time, and what it was before.

@@ -13,7 +13,7 @@ fn a_number_out_of_range_names_the_range() {
     refused(&["lyapunov", "pendulum", "--gali", "1"], "not a whole number from 2 to 64");
     refused(&["spectrum", "pendulum", "--count", "2"], "not a whole number from 64 to 65536");
     refused(&["spectrum", "pendulum", "--lines", "x"], "not a whole number from 1 to 64");
-    refused(&["section", "henon-heiles", "--threads", "0"], "not a whole number from 1 on");
+    refused(&["section", "henon-heiles", "--threads", "0"], "not a positive whole number");
     refused(&["section", "henon-heiles", "--count=-4"], "not a whole number from 1 to 100000000");
 }
 
