@@ -411,6 +411,17 @@ fn the_cursor_is_reached_from_every_pane() {
         let Pane::Plot(index) = lab.focus.pane else { panic!("{before:?}: {:?}", lab.focus.pane) };
         let cursor = lab.plots[index].viewport().and_then(|viewport| viewport.cursor);
         assert_eq!(cursor, Some([0.5, 0.5]), "{before:?}");
+        // from elsewhere it stays where it is
+        if !matches!(before, Pane::Plot(_)) {
+            press(&mut app, "Right");
+            let moved = app.lab.as_ref().unwrap().plots[index].viewport().unwrap().cursor;
+            assert_ne!(moved, cursor, "{before:?}");
+            app.lab.as_mut().unwrap().focus.pane = before;
+            press(&mut app, "c");
+            let lab = app.lab.as_ref().unwrap();
+            assert_eq!(lab.focus.pane, Pane::Plot(index));
+            assert_eq!(lab.plots[index].viewport().unwrap().cursor, moved, "{before:?}");
+        }
     }
     assert!(lists >= 3, "{lists}");
 }

@@ -32,10 +32,22 @@ fn a_name_that_is_not_there_is_told_with_those_that_are() {
 /// Before a demo is recorded, which takes a while, and not after it.
 #[test]
 fn a_still_that_cannot_be_drawn_is_told_at_once() {
-    phaselab(&["record", "pendulum", "--still", "a.png"])
-        .fails(2, &["a still ends in .svg, .txt or .ans"]);
-    phaselab(&["record", "pendulum", "--still", "a.svg", "--at", "Nowhere"])
-        .fails(2, &["there is no marker `Nowhere`"]);
+    let home = tempfile::tempdir().unwrap();
+    // recorded first, its claim would be found false
+    std::fs::write(home.path().join("false.demo"), "Wait 0.1s\nAssert t > 1000\n").unwrap();
+    let record = |still: &[&str]| {
+        let words = [&["record", "pendulum", "--script", "false.demo"], still].concat();
+        done(program(home.path()).args(words))
+    };
+    assert_eq!(record(&[]).code, 65);
+    for (still, told) in [
+        (&["--still", "a.png"][..], "a still ends in .svg, .txt or .ans"),
+        (&["--still", "a.svg", "--at", "Nowhere"], "there is no marker `Nowhere`"),
+    ] {
+        let refused = record(still);
+        assert_eq!(refused.code, 2, "{}", refused.stderr);
+        assert!(refused.stderr.contains(told), "{}", refused.stderr);
+    }
 }
 
 #[test]
