@@ -6,7 +6,7 @@
 //! In: a start, then each step of the motion from there with its vectors. Out: the vectors to begin with, after a step those
 //! to continue with where they are renewed, at last the growth. Never here: steps, verdicts.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DMatrixView, DVector};
 
 use super::direction::{FlowDirection, basis_of_range};
 use super::displacement_units::{displacement_units, scaled};
@@ -23,6 +23,10 @@ use crate::system::State;
 
 /// Vectors are made orthonormal where one has grown or shrunk by this factor, …
 const GROWN: f64 = 8.0;
+
+/// … where the part of one across those before it is less than this of its length: on a limit cycle all keep their lengths and turn
+/// into the direction of the flow, …
+const FLAT: f64 = 1e-4;
 
 /// … and at least so often on the way.
 const LEAST_ROUNDS: f64 = 256.0;
@@ -162,6 +166,7 @@ impl LyapunovCourse {
         let due = end - self.growth.times[last] >= self.round || end >= self.until;
         let sizes = vectors.column_iter().map(|v| v.norm());
         let due = due || sizes.into_iter().any(|size| !(1.0 / GROWN..GROWN).contains(&size));
+        let due = due || self.count > 1 && is_flat(&vectors.columns(0, self.count));
         if !due || step.awaits_occurrence() {
             return Ok(None);
         }
@@ -185,6 +190,15 @@ impl LyapunovCourse {
         vectors.set_column(self.count, &free.normalize());
         Ok(Some((state, scaled(&vectors, &self.units))))
     }
+}
+
+/// Whether one of some vectors lies nearly in the space of those before it.
+fn is_flat(vectors: &DMatrixView<'_, f64>) -> bool {
+    let across = vectors.clone_owned().qr().unpack_r();
+    vectors.column_iter().enumerate().any(|(i, vector)| {
+        let part = across.get((i, i)).map_or(0.0, |x| x.abs());
+        part < FLAT * vector.norm()
+    })
 }
 
 /// Which directions are taken out.

@@ -137,12 +137,13 @@ fn whole_words(line: &str, room: usize, mark: &str) -> String {
             _ => {}
         }
     }
-    let kept = line[..end].trim_end_matches(['+', '−', '-', '·', '*', '/', ',', ';', '=', ' ']);
+    let kept = line[..end].trim_end_matches(['+', '−', '-', '·', '*', '/', ',', ';', ' ']);
     // The beginning of a product is no value: where the value stands before it, it is left out.
     let is_product = line[kept.len()..].trim_start().starts_with(['·', '×', '*', '/']);
     let kept = match kept.rsplit_once(" = ") {
         Some((before, _)) if is_product && before.contains(" = ") => before,
-        _ => kept,
+        // nor is an equals sign behind a value
+        _ => kept.strip_suffix(" =").filter(|before| before.contains(" = ")).unwrap_or(kept),
     };
     if kept.is_empty() { shortened(line, room, mark) } else { format!("{kept} {mark}") }
 }
@@ -238,6 +239,8 @@ mod tests {
         // a second way to write a value, cut inside its product
         let long = "libration: J = 0.27817 = 2π · 0.044272";
         assert_eq!(written(&[long, k], true)[0], "libration: J = 0.27817 …");
+        let long = "libration: period J = 0.27817 = 0.2781 + 1e-4";
+        assert_eq!(written(&[long, k], true)[0], "libration: period J = 0.27817 …");
         let layers = [(0, Layer::Legend(lines.map(str::to_owned).to_vec()))];
         let heights = |height, zoomable| {
             let (axes, words) = beside(Rect::new(0, 0, 38, height), (&layers, zoomable), &look);

@@ -80,6 +80,36 @@ fn friction_gives_the_exponents_of_the_linear_system() {
     assert_eq!(found.verdict, Chaos::Regular);
 }
 
+/// On the limit cycle of van der Pol all vectors keep their lengths and turn into the direction of the flow: e^{−7.06} of the area
+/// is left after a period. The exponents add up to the mean of 1 − x² over it, here by equal intervals of a period of
+/// 6.66328685932313 (C. M. Andersen & J. F. Geer, SIAM J. Appl. Math. 42 (1982) 678).
+#[test]
+fn exponents_of_a_limit_cycle_hold_for_many_periods() {
+    const PERIOD: f64 = 6.663_286_859_323_13;
+    let text = "title = \"t\"\n[coordinates]\nx = { initial = 2.0, velocity = 0.0 }\n[lagrangian]\n\
+                L = \"1/2*x'^2 - 1/2*x^2\"\nforces = { x = \"(1 - x^2)*x'\" }\n";
+    let mut motion = crate::experiment::build(text, |_| {});
+    let (settled, count) = (20.0 * PERIOD, 256);
+    let divergence: f64 = (0..count)
+        .map(|k| {
+            crate::experiment::run(&mut motion, settled + PERIOD * f64::from(k) / f64::from(count));
+            1.0 - crate::experiment::value(&motion, "x").powi(2)
+        })
+        .sum();
+    let mean = divergence / f64::from(count);
+    let case = file(text, &[]);
+    for tolerance in [1e-10, 1e-15] {
+        let (kind, settings) = method("taylor", None);
+        let settings = phaselab::integrate::Settings { tolerance: Some(tolerance), ..settings };
+        let found =
+            lyapunov(&case.space, (kind, settings), &case.start, 3000.0, &mut |_| {}).unwrap();
+        let [along, across] = found.exponents[..] else { panic!("{found:?}") };
+        assert!(along.abs() < 1e-4, "{along}");
+        assert!((across - mean).abs() < 1e-3, "{across} {mean}");
+        assert_eq!(found.verdict, Chaos::Regular, "{}", found.reason);
+    }
+}
+
 #[test]
 fn an_unstable_equilibrium_has_the_exponents_of_its_eigenvalues() {
     let text = "title = \"t\"\n[coordinates]\nx = { initial = 0, momentum = 0 }\n\
