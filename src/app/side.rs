@@ -62,9 +62,8 @@ impl Lab {
             }) {
                 Need::Nothing => continue,
                 Need::Addition(_) if !jobs.in_background || !is_drawn => None,
-                Need::InView(_) if !is_drawn => None,
                 Need::Valid => None,
-                Need::Job(job) | Need::InView(job) | Need::Addition(job) => {
+                Need::Job(job) | Need::Addition(job) => {
                     let computation = jobs.request(Asker::Plot(place), job);
                     let under_way = UnderWay::new(&computation);
                     wanted.push(computation);

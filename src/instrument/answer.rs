@@ -21,8 +21,6 @@ pub enum Need {
     Valid,
     /// This job is needed. The last result stays until it has finished.
     Job(Job<Answer>),
-    /// This job is needed where the picture is in view, and is soon done.
-    InView(Job<Answer>),
     /// This job adds to the picture and may take long: where there is no background it is left out.
     Addition(Job<Answer>),
 }

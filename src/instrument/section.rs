@@ -234,7 +234,7 @@ impl Instrument for SectionPlot {
         };
         let job = Job::new("orbits", move |progress| Answer::new(task.portrait(progress)));
         // what a person asks for is computed in any case
-        if plot.seeds.is_empty() { Need::InView(job) } else { Need::Job(job) }
+        if plot.seeds.is_empty() { Need::Addition(job) } else { Need::Job(job) }
     }
 
     fn table(&self, PlotContext { plot, present, answer }: PlotContext<'_>) -> Option<PlotTable> {

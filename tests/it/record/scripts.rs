@@ -37,13 +37,6 @@ fn a_demo_is_shown_without_the_footer() {
     }
 }
 
-/// The other orbits of a section are there without a key, sixteen and no more; what may take long is left out.
-#[test]
-fn a_section_in_a_recording_has_its_orbits() {
-    let orbits = "Assert section.orbits > 15\nAssert section.orbits < 17\n";
-    played("henon-heiles", &format!("Size 120x40\nWait 0.5s\n{orbits}Wait 2s\n{orbits}"));
-}
-
 #[test]
 fn errors_stand_in_their_places() {
     let check = |text: &str, expected: &[&str]| assert_eq!(diagnostics(text), expected, "{text}");
