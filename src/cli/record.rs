@@ -76,7 +76,7 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     };
     let script = Script::read(&source).map_err(|diagnostics| located(&source, &diagnostics))?;
     let name = printable::os(&arguments.name);
-    // what cannot be drawn is told before a minute of recording
+    // what cannot be drawn is refused before a minute of recording
     let still = match &arguments.still {
         Some(path) => Some((path, still_format(path)?)),
         None => None,

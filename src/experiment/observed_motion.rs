@@ -95,7 +95,10 @@ impl ObservedMotion {
     ) -> Result<(), MotionError> {
         self.log.clear();
         match step {
-            Some(step) => self.inner.restore_all((state, step), parameters, (start, released))?,
+            Some(step) => {
+                let begun = (start, released);
+                self.inner.restore_with_step_and_parameters((state, step), parameters, begun)?;
+            }
             None => self.inner.restore(state, parameters, start, released)?,
         }
         self.observer = self.inner.system().observer(parameters);

@@ -204,14 +204,14 @@ impl Propagator {
         (start, released): (f64, &[usize]),
     ) -> Result<(), MotionError> {
         let parameters = self.parameters.clone();
-        self.restore_all((state, step), &parameters, (start, released))
+        self.restore_with_step_and_parameters((state, step), &parameters, (start, released))
     }
 
     /// The same at these parameters.
     ///
     /// # Errors
     /// Returns an error if the motion cannot continue from there.
-    pub fn restore_all(
+    pub fn restore_with_step_and_parameters(
         &mut self,
         (state, step): (&State, f64),
         parameters: &[f64],

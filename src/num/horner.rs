@@ -32,12 +32,25 @@ const APART: usize = 4;
 /// The sum of the terms after those of low order, over the power of the first of them.
 #[inline(always)]
 pub fn tail(high: &[f64], x: f64) -> f64 {
+    summed_apart(high, x, |_, terms| terms)
+}
+
+/// The same of x times the slope, where the first of `high` has this order.
+#[inline(always)]
+fn slope_tail(high: &[f64], order: usize, x: f64) -> f64 {
+    const ORDERS: Batch<APART> = Batch([0.0, 1.0, 2.0, 3.0]);
+    summed_apart(high, x, |place, terms| terms * (Batch::splat((order + place) as f64) + ORDERS))
+}
+
+/// A sum of terms, of which every four from a place on are changed by `made`.
+#[inline(always)]
+fn summed_apart(high: &[f64], x: f64, made: impl Fn(usize, Batch<APART>) -> Batch<APART>) -> f64 {
     let square = x * x;
     let fourth = Batch::splat(square * square);
     let (chunks, rest) = high.as_chunks::<APART>();
-    let mut sums = Batch(padded(rest, 0.0));
-    for chunk in chunks.iter().rev() {
-        sums = sums * fourth + Batch(*chunk);
+    let mut sums = made(APART * chunks.len(), Batch(padded(rest, 0.0)));
+    for (i, chunk) in chunks.iter().enumerate().rev() {
+        sums = sums * fourth + made(APART * i, Batch(*chunk));
     }
     let [first, second, third, last] = sums.0;
     (third * square + first) + (last * square + second) * x
@@ -84,10 +97,9 @@ impl Polynomial<'_> {
             errors = errors * x + (product.low + next.low + c.low);
         }
         if self.x.low != 0.0 {
-            let low = self.low.iter().map(|c| c.high);
-            let terms = low.chain(self.high.iter().copied()).enumerate().skip(1);
-            let (slope, _) = terms
-                .fold((0.0, 1.0), |(sum, power), (j, c)| (sum + c * j as f64 * power, power * x));
+            let tail = slope_tail(self.high, self.low.len(), x);
+            let low = self.low.iter().enumerate().skip(1).rev();
+            let slope = low.fold(tail, |sum, (j, c)| sum * x + c.high * j as f64);
             errors += self.x.low * slope;
         }
         DoubleDouble::sum(sum, errors)
@@ -107,6 +119,7 @@ impl Kernel for Polynomial<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::num::math;
 
     /// By Horner's scheme in double-double throughout.
     fn direct(low: &[DoubleDouble], high: &[f64], x: DoubleDouble) -> DoubleDouble {
@@ -152,6 +165,22 @@ mod tests {
                 let powers = std::iter::successors(Some(1.0), |p| Some(p * x.0[lane].abs()));
                 let size: f64 = alone.iter().zip(powers).map(|(c, p)| c.abs() * p).sum();
                 assert!((own - direct).abs() <= 1e-14 * size, "{length} {own} {direct}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_slope_has_each_term_times_its_order() {
+        let high: Vec<f64> = (0..31).map(|j| 1.0 / (0.7 - f64::from(j))).collect();
+        for (length, order) in (0..31).flat_map(|length| [(length, 1), (length, 8)]) {
+            for x in [-1.6, 0.0, 0.4, 1.9] {
+                let terms: Vec<f64> = (0..length)
+                    .map(|j| (order + j) as f64 * high[j] * math::powi(x, j as i32))
+                    .collect();
+                let (sum, size): (f64, f64) =
+                    (terms.iter().sum(), terms.iter().map(|term| term.abs()).sum());
+                let off = slope_tail(&high[..length], order, x) - sum;
+                assert!(off.abs() <= 1e-14 * size, "{length} {order} {x}: {off:e}");
             }
         }
     }

@@ -98,7 +98,7 @@ pub fn run(request: &Request) -> Result<Ending, LabError> {
 /// # Errors
 /// Returns an error, before the screen is touched, if there is no terminal.
 pub fn show(cast: RecordedCast, request: &Request) -> Result<Ending, LabError> {
-    TerminalError::check(RECORDED)?;
+    TerminalError::check("")?;
     let variable = |name: &str| std::env::var(name).ok();
     // Nothing in a cast can be clicked, and its text can be selected.
     let pace = FramePace { mouse: false, ..request.pace(&variable) };

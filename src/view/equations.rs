@@ -317,8 +317,8 @@ impl EquationRows<'_> {
             }
             if !long.is_empty() {
                 let names = long.join(", ");
-                let told = format!("{names}: too long when written out; E shows the file.");
-                self.page.words(Role::Dim, told);
+                let sentence = format!("{names}: too long when written out; E shows the file.");
+                self.page.words(Role::Dim, sentence);
             }
         }
     }

@@ -59,6 +59,14 @@ pub(super) struct LowestBounds {
     pub(super) logs: Batch<WIDTH>,
 }
 
+impl LowestBounds {
+    /// Those of a series too short to have these orders: nothing is known to be allowed.
+    const NOTHING: LowestBounds = LowestBounds {
+        by_tolerance: Batch([f64::NEG_INFINITY; WIDTH]),
+        logs: Batch([f64::NEG_INFINITY; WIDTH]),
+    };
+}
+
 /// The bounds at one tolerance and order.
 #[derive(Clone, Debug)]
 pub(super) struct OrderBounds {
@@ -114,9 +122,10 @@ impl OrderBounds {
 
     /// What the lowest orders of a series allow.
     #[inline(always)]
-    pub(super) fn of_lowest(&self, coefficients: &[f64]) -> Option<LowestBounds> {
-        let low = Batch(*coefficients.first_chunk::<LANES>()?).abs();
-        let own = Batch(*coefficients.last_chunk::<WIDTH>()?).abs();
+    pub(super) fn of_lowest(&self, coefficients: &[f64]) -> LowestBounds {
+        let (low, own) = (coefficients.first_chunk::<LANES>(), coefficients.last_chunk::<WIDTH>());
+        let (Some(low), Some(own)) = (low, own) else { return LowestBounds::NOTHING };
+        let (low, own) = (Batch(*low).abs(), Batch(*own).abs());
         let (low, own) = (rough_logarithms(low.0), Batch(rough_logarithms(own.0)));
         let mut by_tolerance = Batch([f64::NEG_INFINITY; WIDTH]);
         let mut by_radius = by_tolerance;
@@ -129,7 +138,7 @@ impl OrderBounds {
         let any = Batch([f64::INFINITY; WIDTH]);
         let logs = by_tolerance.smaller(by_radius) + self.indulgences;
         let logs = own.where_equal(f64::NEG_INFINITY, any, logs);
-        Some(LowestBounds { by_tolerance: by_tolerance + self.indulgences, logs })
+        LowestBounds { by_tolerance: by_tolerance + self.indulgences, logs }
     }
 
     /// Whether the least of these bounds is the step that all orders allow, whose powers are given.

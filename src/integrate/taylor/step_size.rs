@@ -150,7 +150,7 @@ impl ShortestStep {
         if self.log < f64::INFINITY && shares.screen.passes(coefficients, &self.powers) {
             return false;
         }
-        let Some(lowest) = shares.bounds.of_lowest(coefficients) else { return false };
+        let lowest = shares.bounds.of_lowest(coefficients);
         let log = lowest.logs.least();
         if log >= self.log {
             return false;
@@ -311,7 +311,7 @@ mod tests {
                         assert_eq!(shorter, found < without, "{series:?}");
                         without = without.min(found);
                         passed += usize::from(shares.screen.passes(&series, &with.powers));
-                        let lowest = shares.bounds.of_lowest(&series).expect("enough orders");
+                        let lowest = shares.bounds.of_lowest(&series);
                         let log = lowest.logs.least();
                         assert!(log <= found, "{series:?}");
                         let mut powers = [f64::NAN; ROOM];
