@@ -82,8 +82,10 @@ struct DormandPrince {
     last: Vec<Vec<f64>>,
     has_interpolant: bool,
     numbers: Vec<f64>,
-    /// The effect of rounding on each rate, as measured where steps failed.
+    /// The effect of rounding on each rate in the attempted step, and what is kept of it from the steps before. That of an attempt
+    /// that failed is not: it may have led far from the motion.
     noise: Vec<f64>,
+    kept_noise: Vec<f64>,
     fresh: Vec<f64>,
     /// The size of each number within the current step.
     sizes: Vec<f64>,
@@ -120,6 +122,7 @@ impl DormandPrince {
             has_interpolant: false,
             numbers: zeros.clone(),
             noise: zeros.clone(),
+            kept_noise: zeros.clone(),
             fresh: zeros.clone(),
             sizes: zeros,
             stale: false,
@@ -305,11 +308,12 @@ impl Stepper for DormandPrince {
             self.rates.evaluate(time.high, &self.state.values, &mut self.slopes[0])?;
             self.stale = false;
         }
-        for noise in &mut self.noise {
-            *noise *= FORGETTING;
+        for (kept, noise) in self.kept_noise.iter_mut().zip(&self.noise) {
+            *kept = FORGETTING * noise;
         }
         let mut failures = 0;
         loop {
+            self.noise.copy_from_slice(&self.kept_noise);
             // take a last step that is a little longer rather than another tiny one
             let last = 1.01 * self.size >= left.high.abs();
             let step = if last { left.high } else { self.size.copysign(left.high) };

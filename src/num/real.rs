@@ -89,6 +89,12 @@ pub trait Analytic:
         out: &mut [Self],
     );
 
+    /// The same numbers as `f64`, where they are.
+    #[inline(always)]
+    fn floats(_: &mut [Self]) -> Option<&mut [f64]> {
+        None
+    }
+
     /// `a` where this number is positive, else `b`.
     #[must_use]
     fn where_positive(self, a: Self, b: Self) -> Self;
@@ -201,6 +207,10 @@ impl Analytic for f64 {
         }
     }
 
+    #[inline(always)]
+    fn floats(numbers: &mut [f64]) -> Option<&mut [f64]> {
+        Some(numbers)
+    }
     #[inline(always)]
     fn where_positive(self, a: f64, b: f64) -> f64 {
         if self.value() > 0.0 { a } else { b }

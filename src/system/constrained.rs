@@ -66,7 +66,8 @@ impl System {
     #[must_use]
     pub fn hold_better(&self, state: &State, parameters: &[f64]) -> Option<System> {
         let ActiveSet { active, enforced } = self.holding();
-        if active == enforced {
+        // most systems have no constraints; this is asked before every step
+        if active.is_empty() || active == enforced {
             return None;
         }
         let conditions = self.conditions(parameters, state)?;

@@ -19,6 +19,7 @@ mod tables;
 use std::ops::{Range, RangeInclusive};
 use std::sync::Arc;
 
+use super::machine_code::CompiledValues;
 use super::program::{Op, Program, Register, Singular};
 use super::schedule::Schedule;
 use crate::expr::FunctionId;
@@ -36,6 +37,8 @@ pub struct Jet<R: Coefficient> {
     program: Arc<Program>,
     schedule: Arc<Schedule>,
     tables: Tables<R>,
+    /// The machine code of order 0, if there is any.
+    values: CompiledValues,
 }
 
 impl<R: Coefficient> Jet<R> {
@@ -69,7 +72,7 @@ impl<R: Coefficient> Jet<R> {
         order: usize,
     ) -> Jet<R> {
         let tables = Tables::new(&program, &schedule, index, order);
-        Jet { program, schedule, tables }
+        Jet { program, schedule, tables, values: CompiledValues::default() }
     }
 
     /// The highest order there is room for.
@@ -144,7 +147,7 @@ impl<R: Coefficient> Jet<R> {
         if k == 0 {
             self.begin(time)?;
         } else {
-            let Jet { program, schedule, tables } = self;
+            let Jet { program, schedule, tables, .. } = self;
             tables.orders().advance::<FUSED>(program, schedule, k, scale);
         }
         Ok(())
@@ -153,7 +156,13 @@ impl<R: Coefficient> Jet<R> {
     /// Evaluates all registers at order 0.
     #[inline(always)]
     pub(super) fn begin(&mut self, time: R) -> Result<(), Singular> {
-        self.tables.begin(&self.program, time)?;
+        let Jet { program, tables, values, .. } = self;
+        values.evaluate(
+            program,
+            tables,
+            |tables| R::floats(&mut tables.rows[..program.ops.len()]),
+            |tables, range| tables.begin(program, time, range),
+        )?;
         self.tables.orders().keep(0);
         Ok(())
     }
@@ -174,7 +183,7 @@ impl<R: Coefficient> Jet<R> {
         if next == 0 && orders.end > 0 && !ends() {
             self.begin(time)?;
         }
-        let Jet { program, schedule, tables } = self;
+        let Jet { program, schedule, tables, .. } = self;
         let mut tables = tables.orders();
         while next < orders.end {
             if ends() {

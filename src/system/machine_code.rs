@@ -1,7 +1,8 @@
-//! The Taylor series of one orbit or of several by machine code, which is generated while the program runs.
+//! The Taylor series of one orbit or of several by machine code, which is generated while the program runs, and the values of a
+//! program at one point.
 //!
 //! In: a program with its schedule, the orders that are wanted. Out: a function that computes them, with the bits of
-//! [`Jet`](super::Jet); nothing where there is none, and the jet computes them itself. Never here: numbers at order 0,
+//! [`Jet`](super::Jet); nothing where there is none, and the jet computes them itself. Never here: functions at order 0,
 //! the widest precision, kinks and powers with a live exponent, events.
 //!
 //! ```text
@@ -19,7 +20,8 @@
 //!                         cache: one function for a system and its orders
 //! ```
 //!
-//! The lowest orders are computed in double-double, those above in `f64`, by one function. On processors other than
+//! The lowest orders are computed in double-double, those above in `f64`, by one function. What is arithmetic of order 0 in `f64`,
+//! and of the terms of conserved quantities after each step, is a function as well (`values`). On processors other than
 //! x86-64 nothing is generated (`absent`), nor where there is no AVX2.
 
 #[cfg(not(target_arch = "x86_64"))]
@@ -28,6 +30,6 @@ mod absent;
 mod x86_64;
 
 #[cfg(not(target_arch = "x86_64"))]
-pub(super) use absent::{CodeCache, CompiledGrowth};
+pub(super) use absent::{CodeCache, CompiledGrowth, CompiledValues, ValuesCache};
 #[cfg(target_arch = "x86_64")]
-pub(super) use x86_64::{CodeCache, CompiledGrowth};
+pub(super) use x86_64::{CodeCache, CompiledGrowth, CompiledValues, ValuesCache};

@@ -66,8 +66,12 @@ impl NativeStates {
         state: &State,
         inputs: &mut [R],
     ) -> Result<(), MotionError> {
-        let native = self.of(state)?;
-        self.system.inputs_of(&native, inputs);
+        if state.form == self.system.form() && !self.system.has_branches() {
+            self.system.inputs_of(state, inputs);
+        } else {
+            let native = self.of(state)?;
+            self.system.inputs_of(&native, inputs);
+        }
         Ok(())
     }
 }

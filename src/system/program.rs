@@ -2,6 +2,7 @@
 //! register and reads earlier ones only. Two evaluators run it: [`Evaluator`](super::Evaluator) and
 //! [`Jet`](super::Jet).
 
+use super::machine_code::ValuesCache;
 use crate::expr::FunctionId;
 use crate::num::DoubleDouble;
 
@@ -108,6 +109,8 @@ pub struct Program {
     pub(super) steep: bool,
     pub(super) inputs: Vec<Register>,
     pub(super) outputs: Vec<Register>,
+    /// The machine code of its values, if there is any.
+    pub(super) values: ValuesCache,
 }
 
 /// A matrix in the program is singular.

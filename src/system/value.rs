@@ -4,9 +4,11 @@
 //! for large x or `x^20` in `1e298*x^20` for small ones, the program is evaluated once more in
 //! [`ExtendedRange`].
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use super::kink_sides::KinkSides;
+use super::machine_code::CompiledValues;
 use super::program::{Block, Op, Program, Register, Singular};
 use super::solve::Factored;
 use super::underflow;
@@ -22,6 +24,8 @@ pub struct Evaluator<R> {
     registers: Vec<R>,
     blocks: Vec<Factored<R>>,
     right: Vec<R>,
+    /// The machine code of its body, if there is any.
+    code: CompiledValues,
     parameters: Vec<DoubleDouble>,
     underflow_may_count: bool,
     /// The same in a wider range, once it was needed.
@@ -37,7 +41,16 @@ impl<R: Real> Evaluator<R> {
         let right = vec![R::ZERO; widest];
         let parameters = Vec::new();
         let underflow_may_count = underflow::may_count(&program, &parameters, |_| 0.0);
-        Evaluator { program, registers, blocks, right, parameters, underflow_may_count, wide: None }
+        Evaluator {
+            program,
+            registers,
+            blocks,
+            right,
+            code: CompiledValues::default(),
+            parameters,
+            underflow_may_count,
+            wide: None,
+        }
     }
 
     /// The number of operations of an evaluation.
@@ -117,23 +130,17 @@ impl<R: Real> Evaluator<R> {
     }
 
     fn evaluate_here(&mut self, time: R, inputs: &[R]) -> Result<(), Singular> {
-        let Evaluator { program, registers, blocks, right, .. } = self;
+        let Evaluator { program, registers, blocks, right, code, .. } = self;
         for (&r, &x) in program.inputs.iter().zip(inputs) {
             registers[r as usize] = x;
         }
-        for &r in &program.body {
-            match program.ops[r as usize] {
-                Op::Time => registers[r as usize] = time,
-                Op::Solve(at) => {
-                    let block = &program.blocks[at as usize];
-                    if !solve(block, &mut blocks[at as usize], registers, right, r) {
-                        return Err(Singular { block: at });
-                    }
-                }
-                op => run(program, registers, r, op),
-            }
-        }
-        Ok(())
+        let mut memory = Memory { registers, blocks, right };
+        code.evaluate(
+            program,
+            &mut memory,
+            |memory| R::floats(memory.registers),
+            |memory, range| memory.interpret(program, time, range),
+        )
     }
 
     /// The value of an output.
@@ -177,6 +184,39 @@ impl<R: Real> Evaluator<R> {
         let guards = self.program.guards.iter();
         let roots = guards.map(|guard| value(guard.under.unwrap_or(guard.value)));
         KinkSides::new(self.program.switches.iter().map(|&r| value(r)), roots)
+    }
+}
+
+/// What an evaluator works with.
+struct Memory<'a, R> {
+    registers: &'a mut [R],
+    blocks: &'a mut [Factored<R>],
+    right: &'a mut [R],
+}
+
+impl<R: Real> Memory<'_, R> {
+    /// Evaluates a range of the body of a program.
+    #[inline]
+    fn interpret(
+        &mut self,
+        program: &Program,
+        time: R,
+        range: Range<usize>,
+    ) -> Result<(), Singular> {
+        let Memory { registers, blocks, right } = self;
+        for &r in &program.body[range] {
+            match program.ops[r as usize] {
+                Op::Time => registers[r as usize] = time,
+                Op::Solve(at) => {
+                    let block = &program.blocks[at as usize];
+                    if !solve(block, &mut blocks[at as usize], registers, right, r) {
+                        return Err(Singular { block: at });
+                    }
+                }
+                op => run(program, registers, r, op),
+            }
+        }
+        Ok(())
     }
 }
 

@@ -156,14 +156,14 @@ impl OrderBounds {
         let (chunks, rest) = coefficients.as_chunks::<LANES>();
         let last = padded(rest, 0.0);
         let powers = powers.as_chunks::<LANES>().0;
-        let mut smaller = Batch([1.0; LANES]);
+        let mut are_smaller = true;
         for i in 1..bound.chunks.len() {
             let (chunk, lower) = (&bound.chunks[i], chunks.get(i).unwrap_or(&last));
             let factors = if by_tolerance { chunk.tolerance_factors } else { chunk.radius_factors };
             let terms = Batch(*lower).abs() * Batch(powers[i]) * factors;
-            smaller = smaller.smaller(Batch::splat(own).is_above(terms));
+            are_smaller &= Batch::splat(own).all_above(terms);
         }
-        own.is_normal() && smaller.least() > 0.0
+        own.is_normal() && are_smaller
     }
 
     #[inline(always)]

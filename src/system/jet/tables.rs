@@ -2,6 +2,7 @@
 //!
 //! In: a program, the inputs at order 0. Out: all registers at that order. Never here: the orders above.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use super::operands::Operands;
@@ -83,9 +84,14 @@ impl<R: Coefficient> Tables<R> {
         }
     }
 
-    /// Evaluates order 0.
-    pub(super) fn begin(&mut self, program: &Program, time: R) -> Result<(), Singular> {
-        for &r in &program.body {
+    /// Evaluates a range of the body of a program at order 0.
+    pub(super) fn begin(
+        &mut self,
+        program: &Program,
+        time: R,
+        range: Range<usize>,
+    ) -> Result<(), Singular> {
+        for &r in &program.body[range] {
             match program.ops[r as usize] {
                 Op::Time => self.rows[r as usize] = time,
                 Op::Solve(block) => {

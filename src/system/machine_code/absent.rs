@@ -6,9 +6,11 @@
     reason = "has the form of what it stands for"
 )]
 
+use std::ops::Range;
+
 use crate::num::{Batch, DoubleDouble};
 use crate::system::growth::{SeriesBuilder, SeriesClock};
-use crate::system::program::Singular;
+use crate::system::program::{Program, Singular};
 
 /// No functions.
 #[derive(Clone, Debug)]
@@ -53,5 +55,26 @@ impl CompiledGrowth {
         _: SeriesClock<Batch>,
     ) -> Result<bool, Singular> {
         Ok(false)
+    }
+}
+
+/// No functions.
+#[derive(Clone, Debug, Default)]
+pub(in crate::system) struct ValuesCache;
+
+/// No parts.
+#[derive(Clone, Debug, Default)]
+pub(in crate::system) struct CompiledValues;
+
+impl CompiledValues {
+    /// Has the whole body interpreted.
+    pub(in crate::system) fn evaluate<S, E>(
+        &mut self,
+        program: &Program,
+        memory: &mut S,
+        _: impl Fn(&mut S) -> Option<&mut [f64]>,
+        interpret: impl Fn(&mut S, Range<usize>) -> Result<(), E>,
+    ) -> Result<(), E> {
+        interpret(memory, 0..program.body.len())
     }
 }

@@ -15,6 +15,8 @@ mod growth;
 mod layout;
 mod plain;
 mod solution;
+mod values;
 
 pub(in crate::system) use cache::CodeCache;
 pub(in crate::system) use growth::CompiledGrowth;
+pub(in crate::system) use values::{CompiledValues, ValuesCache};

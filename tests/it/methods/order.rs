@@ -166,3 +166,41 @@ fn dop853_leaves_a_kink_at_its_tolerance() {
         }
     }
 }
+
+/// A ball between soft walls, x″ = ∓ω² times how deep it is in one: a free flight, half a period of the oscillator, and back. The
+/// first tries at a wall lead far beyond it; what rounding does there must not count where the motion is.
+#[test]
+fn dop853_keeps_to_its_tolerance_at_a_steep_wall() {
+    for (strength, v) in [(1e6_f64, 1.3), (1e8, 1.1)] {
+        let omega = (2.0 * strength).sqrt();
+        let exact = |t: f64| {
+            let (flight, contact) = (2.0 / v, std::f64::consts::PI / omega);
+            let since = t - 1.0 / v;
+            let contacts = (since / (flight + contact)).floor();
+            let after = since - contacts * (flight + contact);
+            let side = if contacts % 2.0 == 0.0 { 1.0 } else { -1.0 };
+            match after < contact {
+                true => side * (1.0 + v / omega * (omega * after).sin()),
+                false => side * (1.0 - v * (after - contact)),
+            }
+        };
+        let l = format!("1/2*x'^2 - {strength:e}*max(0, abs(x) - 1)^2");
+        let case = case(lagrangian(&["x"], &[], &l), Form::Velocity, &[0.0, v]);
+        for tolerance in [1e-4, 1e-6, 1e-9, 1e-12] {
+            let settings = Settings { step: None, tolerance: Some(tolerance) };
+            let mut stepper = case.stepper_with(named("dop853"), settings);
+            let (mut steps, mut worst) = (0, 0.0_f64);
+            for t in (1..=30).map(f64::from) {
+                while stepper.time() != t {
+                    stepper.step(t).expect("goes on");
+                    steps += 1;
+                }
+                worst = worst.max((stepper.state().values[0] - exact(t)).abs());
+            }
+            // below that the last digits of |x| − 1, which are multiplied by ω², decide
+            let reached = tolerance.max(1e-11);
+            assert!(worst < 3e4 * reached, "{strength:e} at {tolerance:e}: {worst:e}");
+            assert!(steps < 20_000, "{strength:e} at {tolerance:e}: {steps} steps");
+        }
+    }
+}

@@ -52,6 +52,8 @@ pub(super) enum Operation {
     Subtract,
     Multiply,
     Divide,
+    /// The square root of the right operand, of one number.
+    Root,
     /// Exclusive or of the bits.
     Xor,
     /// The first number of each operand, side by side.

@@ -69,6 +69,7 @@ impl Bytes {
             Operation::Multiply => arithmetic(0x59),
             Operation::Subtract => arithmetic(0x5C),
             Operation::Divide => arithmetic(0x5E),
+            Operation::Root => arithmetic(0x51),
             Operation::Xor => (MAP_0F, PACKED, 0x57),
             Operation::Pair => match right {
                 // vunpcklpd

@@ -182,7 +182,7 @@ impl CompiledFunction {
         let (exact_series_len, exact_state_len) = (2 * exact_series.len(), 2 * exact_state.len());
         let lengths =
             [count, work.length, series.len(), state.len(), exact_series_len, exact_state_len];
-        assert_eq!(lengths, self.lengths);
+        self.assert_lengths(lengths);
         // SAFETY: the code stays within these lengths; a `DoubleDouble` is two `f64`
         unsafe {
             self.enter(
@@ -206,7 +206,7 @@ impl CompiledFunction {
         let BatchStretches { values, work, series, state } = memory;
         let lengths = [values.len(), series.len(), state.len()].map(|length| BATCH * length);
         let [values_len, series_len, state_len] = lengths;
-        assert_eq!([values_len, work.length, series_len, state_len, 0, 0], self.lengths);
+        self.assert_lengths([values_len, work.length, series_len, state_len, 0, 0]);
         for first in (0..BATCH).step_by(self.lanes) {
             // SAFETY: the code stays within these lengths where it begins with the first orbit, and is as far from their
             // ends as from these beginnings where it begins with another
@@ -224,6 +224,14 @@ impl CompiledFunction {
                 );
             }
         }
+    }
+
+    /// Panics unless these are the lengths of the layout. One by one: they were just put side by side, and wider loads would
+    /// wait for that.
+    #[inline]
+    fn assert_lengths(&self, lengths: [usize; 6]) {
+        let equal = lengths.iter().zip(&self.lengths).all(|(a, b)| a == b);
+        assert!(equal, "{lengths:?} instead of {:?}", self.lengths);
     }
 
     /// Calls the code.

@@ -1,0 +1,423 @@
+//! The values of a program at one point by machine code, as far as they are arithmetic.
+//!
+//! In: a program, its registers in `f64` with the inputs. Out: parts of its body, in order: functions that write the registers of
+//! theirs, and operations that are left to the interpreter. Never here: functions of analysis, matrices, choices, series.
+
+use std::ops::Range;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, OnceLock};
+
+use super::allocation::assemble;
+use super::arithmetic::{Arithmetic, Code};
+use super::basic_block::{BasicBlock, Instruction, Operand, Operation, Width};
+use super::function::{CompiledFunction, NotCompiled, Stretches, Values, Work};
+use super::layout::{Address, Area, Layout};
+use super::plain::Plain;
+use crate::num::DoubleDouble;
+use crate::system::program::{Op, Program, Register};
+
+/// A program is compiled when its values are wanted so often: short motions end before it pays.
+const PATIENCE: usize = 64;
+
+/// Fewer operations than this in a row are left to the interpreter.
+const FEWEST: usize = 3;
+
+/// More operations than this in a row are not one function.
+const MOST: usize = 4096;
+
+/// Exponents beyond this are left to the interpreter.
+const GREATEST_EXPONENT: f64 = 64.0;
+
+/// The functions of one program, which its evaluators share. A copy of a program has none yet.
+#[derive(Debug, Default)]
+pub(in crate::system) struct ValuesCache {
+    wanted: AtomicUsize,
+    parts: Arc<OnceLock<Arc<[Part]>>>,
+}
+
+impl Clone for ValuesCache {
+    fn clone(&self) -> ValuesCache {
+        ValuesCache::default()
+    }
+}
+
+impl ValuesCache {
+    /// The parts of the program that this belongs to, once they are wanted often enough.
+    fn parts(&self, program: &Program) -> Option<Arc<[Part]>> {
+        if self.parts.get().is_none() && self.wanted.fetch_add(1, Ordering::Relaxed) < PATIENCE {
+            return None;
+        }
+        Some(Arc::clone(self.parts.get_or_init(|| parts_of(program))))
+    }
+}
+
+/// A part of a program's body.
+#[derive(Debug)]
+enum Part {
+    Compiled {
+        function: CompiledFunction,
+        work: Work,
+    },
+    /// Operations of the body by their places.
+    Interpreted(Range<usize>),
+}
+
+/// The parts of one evaluator, with the memory that they work with.
+#[derive(Clone, Debug, Default)]
+pub(in crate::system) struct CompiledValues {
+    parts: Option<Arc<[Part]>>,
+    work: Vec<Work>,
+}
+
+impl CompiledValues {
+    /// Evaluates the body of a program: `interpret` evaluates a range of it.
+    ///
+    /// # Errors
+    /// Those of `interpret`.
+    #[inline]
+    pub(in crate::system) fn evaluate<S, E>(
+        &mut self,
+        program: &Program,
+        memory: &mut S,
+        registers: impl Fn(&mut S) -> Option<&mut [f64]>,
+        interpret: impl Fn(&mut S, Range<usize>) -> Result<(), E>,
+    ) -> Result<(), E> {
+        if self.parts.is_none() && registers(memory).is_some() {
+            self.ask(program);
+        }
+        let Some(parts) = &self.parts else { return interpret(memory, 0..program.body.len()) };
+        let mut work = self.work.iter_mut();
+        for part in parts.iter() {
+            match part {
+                Part::Interpreted(range) => interpret(memory, range.clone())?,
+                Part::Compiled { function, .. } => {
+                    if let (Some(registers), Some(work)) = (registers(memory), work.next()) {
+                        let (values, series) = (Values::Plain(&[]), &mut [][..]);
+                        let (exact_series, exact_state) = (&mut [][..], &mut [][..]);
+                        let state = registers;
+                        let memory =
+                            Stretches { values, work, series, state, exact_series, exact_state };
+                        function.call(memory);
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    #[cold]
+    fn ask(&mut self, program: &Program) {
+        self.parts = program.values.parts(program);
+        let parts = self.parts.iter().flat_map(|parts| parts.iter());
+        let works = parts.filter_map(|part| match part {
+            Part::Compiled { work, .. } => Some(work.clone()),
+            Part::Interpreted(_) => None,
+        });
+        self.work = works.collect();
+    }
+}
+
+/// The body of a program in parts.
+fn parts_of(program: &Program) -> Arc<[Part]> {
+    let mut parts = Vec::new();
+    let mut interpreted = 0;
+    let mut next = 0;
+    while next < program.body.len() {
+        let first = next;
+        let compilable = |&r: &Register| is_arithmetic(program, program.ops[r as usize]);
+        next += program.body[first..].iter().take(MOST).take_while(|r| compilable(r)).count();
+        let compiled =
+            if next - first < FEWEST { None } else { compile(program, first..next).ok() };
+        if let Some(compiled) = compiled {
+            if interpreted < first {
+                parts.push(Part::Interpreted(interpreted..first));
+            }
+            parts.push(compiled);
+            interpreted = next;
+        } else {
+            next = next.max(first + 1);
+        }
+    }
+    if interpreted < program.body.len() {
+        parts.push(Part::Interpreted(interpreted..program.body.len()));
+    }
+    parts.into()
+}
+
+/// Whether an operation is arithmetic alone.
+fn is_arithmetic(program: &Program, op: Op) -> bool {
+    match op {
+        Op::Linear { .. }
+        | Op::Scale(..)
+        | Op::Multiply(..)
+        | Op::Square(_)
+        | Op::Divide(..)
+        | Op::Root(_)
+        // were written before
+        | Op::Input(_)
+        | Op::Written => true,
+        Op::Power(_, exponent) => HalfInteger::of(program.constants[exponent as usize]).is_some(),
+        Op::Constant(_)
+        | Op::Parameter(_)
+        | Op::Time
+        | Op::ParametricPower(..)
+        | Op::Call(..)
+        | Op::Select { .. }
+        | Op::Solve(_) => false,
+    }
+}
+
+/// The function of operations of a body.
+fn compile(program: &Program, range: Range<usize>) -> Result<Part, NotCompiled> {
+    let block = BasicBlock::default();
+    let code = Code { block, layout: Layout::new(), lanes: Width::One };
+    let mut writer = ValueWriter { program, code, now: vec![None; program.ops.len()] };
+    for &register in &program.body[range] {
+        if let Some(value) = writer.value(program.ops[register as usize])? {
+            let value = Plain::held(&mut writer.code, value);
+            Plain::store(&mut writer.code, value, place(register));
+            writer.now[register as usize] = Some(value);
+        }
+    }
+    let Code { block, layout, .. } = writer.code;
+    let mut first_work = layout.first_work();
+    let (bytes, work) = assemble(&block, first_work.len(), 1);
+    first_work.resize(work, 0.0);
+    let length = |area| match area {
+        Area::State => program.ops.len(),
+        Area::Work => work,
+        Area::Values | Area::Series | Area::ExactSeries | Area::ExactState => 0,
+    };
+    let mut accesses = block.instructions.iter().flat_map(Instruction::memory).flatten();
+    if accesses.any(|(at, count)| at.offset + count > length(at.area)) {
+        return Err(NotCompiled);
+    }
+    let function = CompiledFunction::of(&bytes, Width::One, length)?;
+    Ok(Part::Compiled { function, work: Work::of(&first_work) })
+}
+
+/// Where a register lies.
+fn place(register: Register) -> Address {
+    Address { area: Area::State, offset: register as usize }
+}
+
+/// Operations as instructions whose results have the bits of [`value_of`](crate::system::value).
+struct ValueWriter<'a> {
+    program: &'a Program,
+    code: Code,
+    /// The registers that were written here.
+    now: Vec<Option<Operand>>,
+}
+
+impl ValueWriter<'_> {
+    fn get(&self, register: Register) -> Operand {
+        self.now[register as usize].unwrap_or(Operand::At(place(register)))
+    }
+
+    /// The value of an operation; `None` where it is known.
+    fn value(&mut self, op: Op) -> Result<Option<Operand>, NotCompiled> {
+        let program = self.program;
+        Ok(Some(match op {
+            Op::Linear { constant, first, count } => {
+                let terms = &program.terms[first as usize..(first + count) as usize];
+                let constant = program.constants[constant as usize];
+                let mut sum = Plain::constant(&mut self.code, constant);
+                for term in terms {
+                    let number = self.get(term.register);
+                    let coefficient = DoubleDouble::from(term.coefficient.high);
+                    sum = if coefficient == DoubleDouble::ONE {
+                        Plain::sum(&mut self.code, sum, number)
+                    } else if coefficient == -DoubleDouble::ONE {
+                        Plain::difference(&mut self.code, sum, number)
+                    } else {
+                        let multiple = Plain::times(&mut self.code, number, coefficient);
+                        Plain::sum(&mut self.code, sum, multiple)
+                    };
+                }
+                sum
+            }
+            Op::Scale(a, b) | Op::Multiply(a, b) => {
+                let (a, b) = (self.get(a), self.get(b));
+                Plain::product(&mut self.code, a, b)
+            }
+            Op::Square(a) => {
+                let a = self.held(a);
+                Plain::product(&mut self.code, a, a)
+            }
+            Op::Divide(a, b) => {
+                let (a, b) = (self.get(a), self.get(b));
+                Plain::over_shared(&mut self.code, a, b)
+            }
+            Op::Root(a) => {
+                let a = self.held(a);
+                self.root(a)
+            }
+            Op::Power(a, exponent) => {
+                let exponent = HalfInteger::of(program.constants[exponent as usize]);
+                let a = self.held(a);
+                self.power(a, exponent.ok_or(NotCompiled)?)
+            }
+            Op::Input(_) | Op::Written => return Ok(None),
+            _ => return Err(NotCompiled),
+        }))
+    }
+
+    fn held(&mut self, register: Register) -> Operand {
+        let number = self.get(register);
+        Plain::held(&mut self.code, number)
+    }
+
+    fn root(&mut self, a: Operand) -> Operand {
+        self.code.binary(Operation::Root, Width::One, a, a)
+    }
+
+    /// A power as [`Analytic::power`](crate::num::Analytic::power) multiplies it.
+    fn power(
+        &mut self,
+        a: Operand,
+        HalfInteger { whole, root, reciprocal }: HalfInteger,
+    ) -> Operand {
+        let mut power = (whole > 0).then(|| self.whole_power(a, whole));
+        if root {
+            let root = self.root(a);
+            power = Some(match power {
+                Some(power) => Plain::product(&mut self.code, root, power),
+                None => root,
+            });
+        }
+        let one = Plain::constant(&mut self.code, DoubleDouble::ONE);
+        match power {
+            Some(power) if reciprocal => Plain::over_shared(&mut self.code, one, power),
+            Some(power) => power,
+            None => one,
+        }
+    }
+
+    /// A power as [`powi`](crate::num::math::powi) multiplies it.
+    fn whole_power(&mut self, a: Operand, exponent: u32) -> Operand {
+        let (mut power, mut square, mut left) = (None, a, exponent);
+        loop {
+            if left & 1 == 1 {
+                power = Some(match power {
+                    Some(power) => Plain::product(&mut self.code, power, square),
+                    None => square,
+                });
+            }
+            left >>= 1;
+            if left == 0 {
+                return power.unwrap_or(square);
+            }
+            square = Plain::product(&mut self.code, square, square);
+        }
+    }
+}
+
+/// An exponent: `whole`, and one half where there is a `root`, of the reciprocal.
+#[derive(Clone, Copy, Debug)]
+struct HalfInteger {
+    whole: u32,
+    root: bool,
+    reciprocal: bool,
+}
+
+impl HalfInteger {
+    fn of(exponent: DoubleDouble) -> Option<HalfInteger> {
+        let size = exponent.high.abs();
+        let is_half_integer = exponent.low == 0.0 && (2.0 * size).fract() == 0.0;
+        (is_half_integer && size <= GREATEST_EXPONENT).then_some(HalfInteger {
+            whole: size as u32,
+            root: size.fract() != 0.0,
+            reciprocal: exponent.high < 0.0,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::expr::{Expr, FunctionId, Pool};
+    use crate::num::Number;
+    use crate::system::value::Evaluator;
+
+    /// Everything that is compiled, with what is not in the middle: a function, a choice, a live exponent.
+    fn program() -> Arc<Program> {
+        let mut pool = Pool::new();
+        let [x, y, t, n] = ["x", "y", "t", "n"].map(|name| pool.symbol(name));
+        let [a, b, time, exponent] = [x, y, t, n].map(|symbol| pool.variable(symbol));
+        let mut outputs = Vec::new();
+        for (numerator, denominator) in [
+            (2, 1),
+            (3, 1),
+            (7, 1),
+            (-1, 1),
+            (-5, 1),
+            (1, 2),
+            (3, 2),
+            (5, 2),
+            (-1, 2),
+            (-7, 2),
+            (1, 3),
+        ] {
+            let exponent = pool.number(Number::ratio(numerator, denominator));
+            let base = pool.add(a, exponent);
+            let base = pool.mul(base, base);
+            outputs.push(pool.pow(base, exponent));
+        }
+        let sine = pool.call(FunctionId::Sin, &[b]);
+        let (product, fading) = (pool.mul(a, b), pool.mul(b, time));
+        let sum = pool.linear(
+            Number::ratio(1, 3),
+            &[(Number::ONE, product), (-Number::ONE, fading), (Number::ratio(2, 7), sine)],
+        );
+        let quotient = pool.div(sum, b);
+        let size = pool.call(FunctionId::Abs, &[quotient]);
+        let live = pool.pow(size, exponent);
+        let rest = pool.mul(live, sum);
+        outputs.extend([sum, quotient, size, rest]);
+        let all = outputs.iter().map(|&e| (Number::ONE, e)).collect::<Vec<(Number, Expr)>>();
+        outputs.push(pool.linear(Number::ZERO, &all));
+        Program::compile(&mut pool, &[n], t, &[x, y], &outputs).expect("all are inputs")
+    }
+
+    #[test]
+    fn values_have_the_bits_of_the_interpreter() {
+        let program = program();
+        let exponent = [DoubleDouble::from(1.25)];
+        let evaluator = || {
+            let mut evaluator: Evaluator<f64> = Evaluator::new(Arc::clone(&program));
+            evaluator.set_parameters(&exponent);
+            evaluator
+        };
+        let bits = |evaluator: &Evaluator<f64>| -> Vec<u64> {
+            (0..program.ops.len() as u32).map(|r| evaluator.register(r).to_bits()).collect()
+        };
+        let points = [[0.7, 0.3], [-2.5, 1e-3], [1e5, -4.0], [0.5, f64::INFINITY], [0.25, 0.0]];
+        let at = |evaluator: &mut Evaluator<f64>, [x, y]: [f64; 2]| {
+            evaluator.evaluate(0.9, &[x, y]).expect("no matrix is singular");
+            bits(evaluator)
+        };
+        let interpreted: Vec<_> = points.iter().map(|&point| at(&mut evaluator(), point)).collect();
+        let mut compiled = evaluator();
+        for _ in 0..2 * PATIENCE {
+            at(&mut compiled, points[0]);
+        }
+        let parts = program.values.parts.get().expect("it was wanted often enough");
+        let count = parts.iter().filter(|part| matches!(part, Part::Compiled { .. })).count();
+        assert!((2..parts.len()).contains(&count), "{parts:?}");
+        for (&point, interpreted) in points.iter().zip(&interpreted) {
+            assert_eq!(at(&mut compiled, point), *interpreted, "{point:?}");
+        }
+    }
+
+    #[test]
+    fn half_integers_are_compiled_up_to_sixty_four() {
+        let of = |x: f64| {
+            HalfInteger::of(DoubleDouble::from(x)).map(|e| (e.whole, e.root, e.reciprocal))
+        };
+        assert_eq!(of(-3.5), Some((3, true, true)));
+        assert_eq!(of(64.0), Some((64, false, false)));
+        assert_eq!(of(64.5), None);
+        assert_eq!(of(0.25), None);
+        assert!(HalfInteger::of(DoubleDouble { high: 2.0, low: 1e-20 }).is_none());
+    }
+}
