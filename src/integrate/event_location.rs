@@ -270,8 +270,13 @@ impl EventLocator {
             if doubtful || polynomial.begins_at_zero() {
                 // the series has only the digits of an `f64`, which where its terms cancel (sin θ at π, slowly passed) may
                 // be too few for the sign
-                let exact = self.probe.exactly_at(motion, event, piece.from)?;
-                polynomial.coefficients[0] = exact.high;
+                let exact = self.probe.exactly_at(motion, event, piece.from)?.high;
+                let jumps = self.probe.event_functions().may_jump()
+                    && (exact - polynomial.coefficients[0]).abs() > VANISHES * polynomial.size();
+                // on a jump itself it has neither the value before nor that after it, which the series has
+                if !jumps {
+                    polynomial.coefficients[0] = exact;
+                }
             }
             let crossings = self.follow(motion, event, &polynomial, piece, to, is_last)?;
             if self.probe.event_functions().has_branches() {

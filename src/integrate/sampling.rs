@@ -43,6 +43,9 @@ const ROUNDING: f64 = 1e-13;
 /// Beside a pole at the end of a step the function falls to this part of its value next to the pole.
 const ONE_SIDED: f64 = 0.5;
 
+/// Beside a pole the function falls by more than this factor over [`ASIDE`] times the distance, be it that of a small root.
+const POLE_FALLS: f64 = 0.9;
+
 /// The sign of a value below this part of those beside it is not trusted.
 pub(super) const SIGNLESS: f64 = 1e-13;
 
@@ -347,7 +350,8 @@ impl Sampling<'_> {
 
     /// Whether a function that changes its sign between two neighbouring times is smaller farther
     /// from them: beside a zero its size grows with distance, beside a pole it falls, and beside the cut of an angle. How
-    /// far it must be sampled depends on how slowly an angle turns.
+    /// far it must be sampled depends on how slowly an angle turns. Beside another jump through zero its size is finite: that
+    /// is a crossing, whichever way it changes there.
     fn is_pole(
         &mut self,
         event: usize,
@@ -357,10 +361,14 @@ impl Sampling<'_> {
         let (begin, end) = self.motion.interval();
         let (begin, end) = (begin.min(self.whole.0), end.max(self.whole.1));
         let mut aside = ASIDE * (right - left);
+        let have_cuts = self.probe.event_functions().have_cuts();
         loop {
             let (before, after) = ((left - aside).max(begin), (right + aside).min(end));
             let earlier = self.probe.exactly(self.motion, event, before)?.high.abs();
             let later = self.probe.exactly(self.motion, event, after)?.high.abs();
+            if !have_cuts && before < left && after > right {
+                return Ok(earlier < POLE_FALLS * low.abs() && later < POLE_FALLS * high.abs());
+            }
             if before == left || after == right {
                 // one side alone does not distinguish the cut of an angle from another jump
                 return Ok(earlier < ONE_SIDED * low.abs() || later < ONE_SIDED * high.abs());

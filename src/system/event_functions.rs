@@ -9,10 +9,12 @@ use std::sync::Arc;
 use super::discontinuities::CompiledEvent;
 use super::expansion::Expansion;
 use super::native_states::NativeStates;
+use super::program::Op;
 use super::resolution::Resolution;
 use super::step_series::StepSeries;
 use super::value::Evaluator;
 use super::{MotionError, State, System};
+use crate::expr::FunctionId;
 use crate::model::EventAction;
 use crate::num::DoubleDouble;
 
@@ -46,6 +48,17 @@ impl EventFunctions {
     pub fn may_cross(&self, event: usize) -> bool {
         let is_active = |constraint: usize| !self.system.is_released(constraint);
         self.system.discontinuities().events[event].may_cross(is_active)
+    }
+
+    /// Whether the functions have branches that a switch chooses, as `sign` does: they may jump from one to the other.
+    pub fn may_jump(&self) -> bool {
+        self.system.discontinuities().variation.switches() > 0
+    }
+
+    /// Whether there are angles in the functions, which jump at their cuts.
+    pub fn have_cuts(&self) -> bool {
+        let is_angle = |op: &Op| matches!(op, Op::Call(FunctionId::Atan | FunctionId::Atan2, _));
+        self.quick.program().ops.iter().any(is_angle)
     }
 
     /// Expands the functions along a step whose series is known, about a time `x` after the series'

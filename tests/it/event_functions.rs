@@ -212,3 +212,41 @@ fn what_a_constraint_keeps_at_zero_is_no_event_before_its_release() {
         assert!(right, "{method}: {found:?}, not {flight} apart");
     }
 }
+
+/// A function that jumps through zero crosses it there, whichever way its size changes beside the jump, and at one of the kinks of the
+/// motion, where it has a third value, as elsewhere.
+#[test]
+fn a_jump_through_zero_is_a_crossing_at_its_time() {
+    let bounces = |first: f64| -> Vec<f64> {
+        (0..6).map(|k| first * f64::from(2 * k + 1)).filter(|t| *t < 16.0).collect()
+    };
+    let root = std::f64::consts::SQRT_2;
+    let kinked = "1/2*x'^2 - abs(x)";
+    let dry = "-0.2*sign(x')";
+    let pushed = "-1 + 3*max(0, sign(t - 2))";
+    let cases = [
+        (FREE, "initial = 0, velocity = 1", "0", "sign(x - 1)", vec![1.0]),
+        (FREE, "initial = 0, velocity = 1", "0", "x - 3 + 5*sign(x - 2)", vec![2.0]),
+        (FREE, "initial = 0, velocity = 1", "0", "(x - 3)*sign(x - 2)", vec![2.0, 3.0]),
+        (FREE, "initial = 0", pushed, "x'' - 0.5", vec![2.0]),
+        (OSCILLATOR, "initial = 3", dry, "x'' + x", vec![PI, TAU, 3.0 * PI]),
+        (kinked, "initial = 1", "0", "x''", bounces(root)),
+        (kinked, "initial = 1", "0", "x'' + 0.1*x", bounces(root)),
+        (kinked, "initial = 2", "0", "x''", bounces(2.0)),
+        (kinked, "initial = 2", "0", "sign(x) - x/10", bounces(2.0)),
+    ];
+    for (law, initial, force, when, expected) in &cases {
+        let until = if *force == dry { 10.0 } else { 16.0 };
+        let text = format!(
+            "title = \"Jumps\"\n[coordinates]\nx = {{ {initial} }}\n[lagrangian]\nL = \"{law}\"\nforces = {{ x = \"{force}\" }}\n\
+             [[events]]\nname = \"jump\"\nwhen = \"{when}\"\n[[events]]\nname = \"other\"\nwhen = \"x*x'' + 0.5\"\n"
+        );
+        for method in ["taylor", "dop853"] {
+            let mut experiment = build(&text, |setup| method.clone_into(&mut setup.method));
+            run(&mut experiment, until);
+            let jumps = experiment.occurrences().iter().filter(|h| h.name == "jump");
+            let found: Vec<f64> = jumps.map(|h| h.time).collect();
+            assert!(near(&found, expected, 1e-9), "{law}, {when}, {method}: {found:?}");
+        }
+    }
+}
