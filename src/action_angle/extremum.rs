@@ -61,3 +61,21 @@ pub(super) fn turns(nodes: &[[f64; 2]]) -> Vec<[f64; 3]> {
     };
     runs.windows(3).filter_map(turn).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::turns;
+
+    /// A hill of this height on a plain of this level.
+    fn tops(level: f64, height: f64) -> usize {
+        turns(&[[0.0, level], [1.0, level * (1.0 + height)], [2.0, level]]).len()
+    }
+
+    #[test]
+    fn a_top_rises_by_more_than_a_hundred_billionth() {
+        for level in [1e-200, 1.0, -3.0, 1e200] {
+            assert_eq!(tops(level, 2e-11), 1, "{level}");
+            assert_eq!(tops(level, 0.5e-11), 0, "{level}");
+        }
+    }
+}

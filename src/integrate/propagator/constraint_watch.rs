@@ -287,7 +287,12 @@ fn is_felt(
     };
     let all =
         (0..n).map(terms).fold([0.0, 0.0], |sum, [of, change]| [sum[0] + of, sum[1] + change]);
-    all[1] > NOISE * all[0]
+    is_above_noise(all)
+}
+
+/// Whether what has changed of an energy is more than the rounding noise of velocities makes.
+fn is_above_noise([energy, change]: [f64; 2]) -> bool {
+    change > NOISE * energy
 }
 
 /// Samples the directions within a step.
@@ -330,7 +335,7 @@ impl DirectionSampler<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::has_jumped;
+    use super::{has_jumped, is_above_noise};
 
     /// A velocity of metres a second and one of radians a second, in these units and in others.
     #[test]
@@ -347,5 +352,16 @@ mod tests {
             assert!(!jumped([0.1, 0.2], [-0.1, -0.2]), "{unit}");
         }
         assert!(!has_jumped((&[0.0], &[0.0]), &[0.0]) && !has_jumped((&[1.0], &[3.0]), &[]));
+    }
+
+    /// The energy goes with the square of the velocity.
+    #[test]
+    fn a_change_is_felt_beyond_a_ten_billionth_of_the_velocities() {
+        for energy in [1e-30, 1.0, 1e30] {
+            let felt = |part: f64| is_above_noise([energy, energy * part * part]);
+            assert!(felt(2e-10), "{energy}");
+            assert!(!felt(0.5e-10), "{energy}");
+        }
+        assert!(!is_above_noise([0.0, 0.0]));
     }
 }
