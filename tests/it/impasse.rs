@@ -772,6 +772,38 @@ fn a_pole_of_friction_ends_the_motion() {
     }
 }
 
+/// An oscillator under a force 0.3 sign(sin(ωt)), from x = 1 at rest, at a time: an arc of a circle about ±0.3 between one jump and
+/// the next.
+fn pushed(omega: f64, time: f64) -> f64 {
+    let (mut x, mut v, mut begin, mut centre) = (1.0_f64, 0.0_f64, 0.0_f64, 0.3_f64);
+    let mut jumps = 0_u32;
+    while begin < time {
+        jumps += 1;
+        let end = (f64::from(jumps) * std::f64::consts::PI / omega).min(time);
+        let (sin, cos) = (end - begin).sin_cos();
+        (x, v) = (centre + (x - centre) * cos + v * sin, v * cos - (x - centre) * sin);
+        (begin, centre) = (end, -centre);
+    }
+    x
+}
+
+/// A force that jumps at times leads nowhere back: no motion sticks there, however the last digits of these times are rounded.
+#[test]
+fn no_motion_sticks_where_a_force_jumps_at_a_time() {
+    for omega in [0.5, 1.0, 3.5, 6.9, 8.4, 10.0] {
+        let text = format!(
+            "[coordinates]\nx = {{ initial = 1.0, velocity = 0.0 }}\n[lagrangian]\nL = \"1/2*x'^2 - 1/2*x^2\"\n\
+             forces = {{ x = \"0.3*sign(sin({omega}*t))\" }}\n"
+        );
+        for method in ["dop853", "taylor"] {
+            let mut motion = by(method, None, &text);
+            run(&mut motion, 100.0);
+            let off = value(&motion, "x") - pushed(omega, 100.0);
+            assert!(off.abs() < 1e-9, "{method} at {omega}: {off:e}");
+        }
+    }
+}
+
 /// What jumps at times that a law is written with is seen by every method, as the same events.
 #[test]
 fn jumps_are_the_same_events_for_every_method() {

@@ -8,7 +8,7 @@
 
 use super::{DormandPrince, SHORTEST};
 use crate::num::DoubleDouble;
-use crate::system::{ExactRates, MotionError, MotionErrorKind, State};
+use crate::system::{MotionError, MotionErrorKind, State};
 
 /// A kink may lie within a step that is this many times as long as the shortest one: it moves nothing but by rounding,
 /// whatever jumps within it.
@@ -63,41 +63,72 @@ impl DormandPrince {
         if self.crossings <= MOST_CROSSINGS { Ok(()) } else { Err(self.sticks()) }
     }
 
-    /// Returns an error if the laws at both ends of a step lead towards a kink between them.
+    /// Returns an error if the laws at both ends of a step lead towards a kink between them. That it lies between them is seen in
+    /// double-double: to the rates, which round the time and the numbers, a kink may seem to lie within a step that ends before it.
     fn refuse_to_slide(&mut self, step: f64) -> Result<(), MotionError> {
-        let before = self.approach(&self.state.clone(), step);
-        let time = self.state.exact_time() + DoubleDouble::from(step);
-        let mut end = self.next.clone();
-        (end.time, end.time_carry) = (time.high, time.low);
-        let after = self.approach(&end, step);
-        let slides = before.iter().zip(&after).any(|(before, after)| *before && *after);
-        if slides { Err(self.sticks()) } else { Ok(()) }
+        let before = self.state.clone();
+        let mut after = self.next.clone();
+        after.set_time(before.exact_time() + DoubleDouble::from(step));
+        let lies_between = self.lies_between(&before, &after);
+        let towards = [self.approach(&before, step), self.approach(&after, step)];
+        let slides = |k: usize| lies_between[k] && towards.iter().all(|towards| towards[k]);
+        if (0..lies_between.len()).any(slides) { Err(self.sticks()) } else { Ok(()) }
     }
 
     fn sticks(&self) -> MotionError {
         self.system.fault(MotionErrorKind::Sticks, self.state.time, &self.state.values)
     }
 
+    /// Whether each of the kinks that the attempted step seems to cross lies between its ends: a switch has another sign there, and
+    /// a root is left by who goes on in a straight line.
+    fn lies_between(&mut self, before: &State, after: &State) -> Vec<bool> {
+        let on =
+            |from: DoubleDouble, to: DoubleDouble| to + (to - from) * DoubleDouble::from(AHEAD);
+        let ends = [numbers_of(before), numbers_of(after)];
+        let beyond: Vec<DoubleDouble> =
+            ends[0].iter().zip(&ends[1]).map(|(&from, &to)| on(from, to)).collect();
+        let times = [before.exact_time(), after.exact_time()];
+        let seen = [
+            self.kinks_at(times[0], &ends[0]),
+            self.kinks_at(times[1], &ends[1]),
+            self.kinks_at(on(times[0], times[1]), &beyond),
+        ];
+        let [Some(before), Some(after), Some(beyond)] = seen else {
+            return vec![false; self.parted.0.len() + self.parted.1.len()];
+        };
+        let is_switch = |k: usize| k < self.parted.0.len();
+        let parts = |k: usize| {
+            if is_switch(k) {
+                before[k] * after[k].signum() < 0.0
+            } else {
+                beyond[k].abs() > after[k].abs()
+            }
+        };
+        (0..before.len()).map(parts).collect()
+    }
+
     /// Whether the law at a state leads towards each of the kinks that the attempted step crosses.
     fn approach(&mut self, from: &State, step: f64) -> Vec<bool> {
-        let (switches, roots) = &self.parted;
-        let count = switches.len() + roots.len();
         let after = DoubleDouble::from(AHEAD * step);
-        let numbers: Vec<DoubleDouble> = (0..from.values.len()).map(|i| from.exact(i)).collect();
-        let distances = |exact: &ExactRates| -> Vec<f64> {
-            let switches = switches.iter().map(|&i| exact.switch(i).abs());
-            switches.chain(roots.iter().map(|&i| exact.guard(i).abs())).collect()
-        };
-        if self.exact.evaluate(from.exact_time(), &numbers).is_err() {
-            return vec![false; count];
-        }
-        let here = distances(&self.exact);
+        let numbers = numbers_of(from);
+        let nowhere = vec![false; self.parted.0.len() + self.parted.1.len()];
+        let Some(here) = self.kinks_at(from.exact_time(), &numbers) else { return nowhere };
         let rates = (0..numbers.len()).map(|i| self.exact.rate(i));
         let ahead: Vec<DoubleDouble> =
             numbers.iter().zip(rates).map(|(&x, rate)| x + rate * after).collect();
-        if self.exact.evaluate(from.exact_time() + after, &ahead).is_err() {
-            return vec![false; count];
-        }
-        here.iter().zip(distances(&self.exact)).map(|(here, ahead)| ahead < *here).collect()
+        let Some(ahead) = self.kinks_at(from.exact_time() + after, &ahead) else { return nowhere };
+        here.iter().zip(ahead).map(|(here, ahead)| ahead.abs() < here.abs()).collect()
     }
+
+    /// The values of the switches, and of the functions under roots, whose kinks the attempted step seems to cross.
+    fn kinks_at(&mut self, time: DoubleDouble, numbers: &[DoubleDouble]) -> Option<Vec<f64>> {
+        self.exact.evaluate(time, numbers).ok()?;
+        let (switches, roots) = &self.parted;
+        let switches = switches.iter().map(|&i| self.exact.switch(i));
+        Some(switches.chain(roots.iter().map(|&i| self.exact.guard(i))).collect())
+    }
+}
+
+fn numbers_of(state: &State) -> Vec<DoubleDouble> {
+    (0..state.values.len()).map(|i| state.exact(i)).collect()
 }
