@@ -94,6 +94,12 @@ impl DistanceHistory {
         }
     }
 
+    /// Forgets what came after a time.
+    pub fn rewind(&mut self, time: f64) {
+        self.points.retain(|point| point[0] <= time);
+        self.small = self.small.filter(|count| *count < self.points.len());
+    }
+
     /// The times and ln d, the oldest first.
     pub fn points(&self) -> &[[f64; 2]] {
         &self.points

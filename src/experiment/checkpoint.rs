@@ -182,7 +182,9 @@ impl Checkpoint {
     pub fn with_another_law(self, what: &str) -> Checkpoint {
         // a step suits the law for which it was chosen
         let present = self.present.map(|present| MotionState { chosen_step: None, ..present });
-        Checkpoint { changed: Some(what.to_owned()), present, ..self }
+        let anew = |one| SavedCompanion { fixed_step: None, ..one };
+        let companions = self.companions.into_iter().map(anew).collect();
+        Checkpoint { changed: Some(what.to_owned()), present, companions, ..self }
     }
 }
 

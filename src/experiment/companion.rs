@@ -8,8 +8,10 @@ use std::sync::Arc;
 
 use super::Trail;
 use super::recorder::Recorder;
+use super::step_log::{LoggedState, StepLog};
 use crate::analysis::{CrossingLog, DistanceHistory};
 use crate::integrate::{Method, OccurrenceKind, Propagator, Reached, Settings, Stepping};
+use crate::num::short;
 use crate::system::{InitialOverride, MotionError, Observer, State, System};
 
 /// What a companion is.
@@ -84,8 +86,28 @@ pub struct Companion {
 /// The most rows of the main motion that a companion may be behind; beyond it, it skips every second one.
 const MOST_DUE: usize = 16_384;
 
+/// The most steps from a row to a time before the next one.
+const MOST_STEPS_BACK: u64 = 100_000;
+
 /// A row of the main motion that a companion has yet to reach: its time, and the canonical variables.
 pub(super) type Due = (f64, Arc<[f64]>);
+
+/// What a companion has yet to meet on its way, at a time of the main motion.
+enum Ahead {
+    /// A row of the main motion.
+    Row(Due),
+    /// Another law or method.
+    Change(f64, Change),
+}
+
+/// What of the main motion a companion takes over, if it follows it.
+#[derive(Clone)]
+pub(super) enum Change {
+    /// Other parameters; q and p stay.
+    Parameters(Vec<f64>),
+    /// Another method, which suits the system because the main motion has it.
+    Method(&'static Method, Settings),
+}
 
 /// A companion in motion.
 pub(super) struct CompanionMotion {
@@ -99,12 +121,15 @@ pub(super) struct CompanionMotion {
     recorder: Recorder,
     crossings: CrossingLog,
     separation: Arc<DistanceHistory>,
-    due: VecDeque<Due>,
+    due: VecDeque<Ahead>,
+    /// Where it was at the rows of the main motion, so that it can be carried back.
+    log: StepLog,
     message: Option<String>,
 }
 
 impl CompanionMotion {
-    /// A companion that has yet to [begin](CompanionMotion::begin); its rows take at most `numbers` numbers.
+    /// A companion that has yet to [begin](CompanionMotion::begin); its rows take at most `numbers` numbers, and so do its states
+    /// at their times.
     ///
     /// # Errors
     /// Returns an error if the method does not suit the system.
@@ -131,31 +156,42 @@ impl CompanionMotion {
             crossings: CrossingLog::new(surfaces.count()),
             separation: Arc::default(),
             due: VecDeque::new(),
+            log: StepLog::bounded(numbers),
             message: None,
         })
     }
 
     /// Begins at a state. Nothing of what was recorded remains.
     pub(super) fn begin(&mut self, state: Result<State, MotionError>) {
+        for ahead in std::mem::take(&mut self.due) {
+            if let Ahead::Change(_, Change::Method(method, settings)) = ahead {
+                let suits = self.motion.change_method(method, settings).is_ok();
+                debug_assert!(suits, "the main motion has it");
+            }
+        }
         self.clear(state.as_ref().map_or(0.0, |state| state.time));
         self.carry_on_from(state, true);
     }
 
     /// Begins on the way: at a state of a motion that began at `start`, from which impulses are counted, with these constraints
-    /// released and, if steps are fixed, with this step.
+    /// released and, if steps are fixed and it is known, with this step.
     pub(super) fn begin_underway(
         &mut self,
-        state: &State,
-        step: f64,
+        (state, step): (&State, Option<f64>),
         (start, released): (f64, &[usize]),
     ) {
         self.clear(state.time);
-        let begun = if step == 0.0 {
-            self.motion.restore(state, &self.parameters, start, released)
-        } else {
-            self.motion.restore_with_step(state, step, (start, released))
+        let begun = match step {
+            Some(step) => self.motion.restore_with_step(state, step, (start, released)),
+            None => self.motion.restore(state, &self.parameters, start, released),
         };
         self.note_begun(begun);
+    }
+
+    /// Whether a step that a method of this name has chosen is one of this motion: none was set, and the method is the same.
+    pub(super) fn may_have_chosen(&self, method: Option<&str>) -> bool {
+        let own = self.motion.method().name;
+        self.motion.settings().step.is_none() && method.is_none_or(|method| method == own)
     }
 
     fn clear(&mut self, time: f64) {
@@ -163,11 +199,13 @@ impl CompanionMotion {
         self.crossings.clear();
         self.separation = Arc::default();
         self.due.clear();
+        self.log.clear();
     }
 
     fn note_begun(&mut self, begun: Result<(), MotionError>) {
         self.take_observer();
         self.message = begun.and_then(|()| self.observe()).err().map(|fault| fault.to_string());
+        self.log_state();
     }
 
     /// Goes on from a state, with its parameters.
@@ -182,23 +220,87 @@ impl CompanionMotion {
         self.note_begun(begun);
     }
 
-    /// Takes other parameters; q and p stay.
-    pub(super) fn take_parameters(&mut self, parameters: &[f64]) {
-        let old = std::mem::replace(&mut self.parameters, parameters.to_vec());
-        self.crossings.clear();
+    fn log_state(&mut self) {
+        let (steps, step) = (self.motion.steps(), self.motion.step_size().abs());
+        self.log.push(self.motion.state(), steps, step);
+    }
+
+    /// The main motion has changed at a time, where this one does as well once it is there.
+    pub(super) fn expect_change(&mut self, time: f64, change: Change) {
+        let is_there = self.due.is_empty() && self.motion.state().time >= time;
+        if is_there || self.message.is_some() {
+            self.take(change);
+        } else {
+            self.due.push_back(Ahead::Change(time, change));
+        }
+    }
+
+    fn take(&mut self, change: Change) {
+        let state = match change {
+            Change::Parameters(parameters) => {
+                let old = std::mem::replace(&mut self.parameters, parameters);
+                self.crossings.clear();
+                let system = self.motion.system();
+                system.change_parameters(self.motion.state(), &old, &self.parameters)
+            }
+            Change::Method(method, settings) => {
+                if self.motion.change_method(method, settings).is_err() {
+                    return;
+                }
+                Ok(self.motion.state().clone())
+            }
+        };
         if self.message.is_none() {
-            let system = self.motion.system();
-            let state = system.change_parameters(self.motion.state(), &old, parameters);
+            // what came before has another law
+            self.log.clear();
             self.carry_on_from(state, false);
         }
     }
 
-    /// Takes another method, which suits the system because the main motion has it.
-    pub(super) fn take_method(&mut self, method: &'static Method, settings: Settings) {
-        if self.motion.change_method(method, settings).is_ok() && self.message.is_none() {
-            let state = self.motion.state().clone();
-            self.carry_on_from(Ok(state), false);
+    /// The main motion was carried back to a time: rows after it are yet to come.
+    pub(super) fn forget_rows_after(&mut self, time: f64) {
+        self.due.retain(|ahead| match ahead {
+            Ahead::Row((row, _)) => *row <= time,
+            Ahead::Change(..) => true,
+        });
+    }
+
+    /// From a time on, at which it was before, the main motion is another one: the distances after it are gone.
+    pub(super) fn forget_distances_after(&mut self, time: f64) {
+        Arc::make_mut(&mut self.separation).rewind(time);
+    }
+
+    /// Carries it back to a time at which it was before, of a motion that began at `start`. What was recorded after that time is
+    /// gone.
+    pub(super) fn go_back(&mut self, time: f64, start: f64) {
+        if self.motion.state().time <= time {
+            return;
         }
+        self.recorder.rewind(time);
+        self.crossings.rewind(time, 1.0, self.values.len());
+        self.due.clear();
+        let Some(LoggedState { state, steps, step, .. }) = self.log.back_to(time) else {
+            let first = self.log.first().unwrap_or(f64::NAN);
+            self.message = Some(format!("nothing is known of it before t = {}", short(first)));
+            return;
+        };
+        let begun = self.retrace((&state, step, steps), time, start);
+        self.note_begun(begun);
+    }
+
+    /// Goes from a state of before to a time after it.
+    fn retrace(
+        &mut self,
+        (state, step, steps): (&State, f64, u64),
+        time: f64,
+        start: f64,
+    ) -> Result<(), MotionError> {
+        let released = self.released();
+        self.motion.restore_with_step(state, step, (start, &released))?;
+        self.motion.set_steps(steps);
+        let mut budget = MOST_STEPS_BACK;
+        while let Reached::Happened(_) = self.motion.reach(time, time, &mut budget)? {}
+        Ok(())
     }
 
     /// Forgets the crossings of surfaces of section.
@@ -217,14 +319,14 @@ impl CompanionMotion {
         if self.message.is_some() || due.0 < self.motion.state().time {
             return;
         }
-        if self.due.len() == MOST_DUE {
+        if self.due.len() >= MOST_DUE {
             let mut index = 0;
-            self.due.retain(|_| {
+            self.due.retain(|ahead| {
                 index += 1;
-                index % 2 == 0
+                index % 2 == 0 || matches!(ahead, Ahead::Change(..))
             });
         }
-        self.due.push_back(due);
+        self.due.push_back(Ahead::Row(due));
     }
 
     /// Whether it has not yet reached a time.
@@ -242,7 +344,10 @@ impl CompanionMotion {
         (variables, periods): (&[usize], &[Option<f64>]),
     ) {
         while *budget > 0 && self.is_behind(time) {
-            let next = self.due.front().map_or(time, |(time, _)| *time);
+            let next = match self.due.front() {
+                Some(Ahead::Row((time, _)) | Ahead::Change(time, _)) => *time,
+                None => time,
+            };
             let outcome = if next <= self.motion.state().time {
                 Ok(true)
             } else {
@@ -251,10 +356,15 @@ impl CompanionMotion {
             match outcome {
                 Ok(true) => {
                     *budget = budget.saturating_sub(1);
-                    if let Some((time, main)) = self.due.pop_front() {
-                        self.recorder.insert(time, &self.values);
-                        let own: Vec<f64> = variables.iter().map(|&i| self.values[i]).collect();
-                        Arc::make_mut(&mut self.separation).add(time, &main, &own, periods);
+                    match self.due.pop_front() {
+                        Some(Ahead::Row((time, main))) => {
+                            self.recorder.insert(time, &self.values);
+                            let own: Vec<f64> = variables.iter().map(|&i| self.values[i]).collect();
+                            Arc::make_mut(&mut self.separation).add(time, &main, &own, periods);
+                            self.log_state();
+                        }
+                        Some(Ahead::Change(_, change)) => self.take(change),
+                        None => {}
                     }
                 }
                 Ok(false) => return,
@@ -281,8 +391,16 @@ impl CompanionMotion {
                 Reached::Ended => return Err("an event has ended it".to_owned()),
                 Reached::Happened(occurrence) => {
                     self.observe().map_err(|why| why.to_string())?;
-                    if let OccurrenceKind::Crossing(surface) = occurrence.kind {
-                        self.crossings.push(surface, occurrence.time, &self.values);
+                    match occurrence.kind {
+                        OccurrenceKind::Crossing(surface) => {
+                            self.crossings.push(surface, occurrence.time, &self.values);
+                        }
+                        // what came before has other constraints
+                        OccurrenceKind::Release(_) => {
+                            self.log.clear();
+                            self.log_state();
+                        }
+                        _ => {}
                     }
                 }
             }

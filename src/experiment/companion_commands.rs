@@ -3,6 +3,7 @@
 //! In: commands. Out: an experiment with other companions, or a notice why not. Never here: how they are carried along.
 
 use super::advance::HORIZON;
+use super::companion::Change;
 use super::companion::CompanionMotion;
 use super::companions::MOST_COMPANIONS;
 use super::recorder::NUMBERS;
@@ -61,7 +62,8 @@ impl Experiment {
         let origin = CompanionOrigin::Neighbour(sizes.iter().map(displaced).collect());
         let Some(mut one) = self.companion(origin) else { return };
         let state = Self::beside(&one.origin, self.motion.state());
-        one.begin_underway(&state, self.motion.step_size(), (self.setup.start, &[]));
+        let step = Some(self.motion.step_size().abs());
+        one.begin_underway((&state, step), (self.setup.start, &[]));
         one.expect(self.companions.due(self.time(), self.motion.values()));
         self.companions.all.push(one);
     }
@@ -76,7 +78,8 @@ impl Experiment {
             return;
         };
         let underway = (self.setup.start, &self.motion.released()[..]);
-        one.begin_underway(self.motion.state(), self.motion.step_size(), underway);
+        let step = Some(self.motion.step_size().abs());
+        one.begin_underway((self.motion.state(), step), underway);
         one.precede(&self.recorder.trail());
         self.companions.all.push(one);
     }
@@ -172,20 +175,25 @@ impl Experiment {
 
     /// The parameters of the main motion have changed.
     pub(super) fn pass_parameters(&mut self) {
-        let follows =
-            |one: &&mut CompanionMotion| !matches!(one.origin, CompanionOrigin::Pinned(_));
-        for one in self.companions.all.iter_mut().filter(follows) {
-            one.take_parameters(&self.setup.parameters);
-        }
+        self.pass(&Change::Parameters(self.setup.parameters.clone()));
     }
 
     /// The method of the main motion has changed.
     pub(super) fn pass_method(&mut self) {
-        let (method, settings) = (self.motion.method(), self.motion.settings());
-        let follows =
-            |one: &&mut CompanionMotion| !matches!(one.origin, CompanionOrigin::Pinned(_));
-        for one in self.companions.all.iter_mut().filter(follows) {
-            one.take_method(method, settings);
+        self.pass(&Change::Method(self.motion.method(), self.motion.settings()));
+    }
+
+    /// Lets all meet a change of the main motion where that is: those that were farther, as they are where it was carried back,
+    /// go back, and those that are behind change once they are there. Of a pinned run nothing changes but the distances.
+    fn pass(&mut self, change: &Change) {
+        let (time, start) = (self.time(), self.setup.start);
+        for one in &mut self.companions.all {
+            one.forget_rows_after(time);
+            one.forget_distances_after(time);
+            if !matches!(one.origin, CompanionOrigin::Pinned(_)) {
+                one.go_back(time, start);
+                one.expect_change(time, change.clone());
+            }
         }
     }
 

@@ -76,6 +76,11 @@ impl Companions {
         self.all.clear();
     }
 
+    /// The main motion was carried back to a time.
+    pub(super) fn forget_rows_after(&mut self, time: f64) {
+        self.all.iter_mut().for_each(|one| one.forget_rows_after(time));
+    }
+
     pub(super) fn forget_crossings(&mut self) {
         self.all.iter_mut().for_each(CompanionMotion::forget_crossings);
     }

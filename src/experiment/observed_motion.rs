@@ -81,7 +81,7 @@ impl ObservedMotion {
         self.inner.begin(state, parameters)?;
         self.observer = self.inner.system().observer(parameters);
         self.watch = StepSampler::of(self.inner.system(), parameters);
-        self.log.push(self.inner.state(), self.inner.steps());
+        self.log_state();
         self.observe()
     }
 
@@ -103,7 +103,7 @@ impl ObservedMotion {
         }
         self.observer = self.inner.system().observer(parameters);
         self.watch = StepSampler::of(self.inner.system(), parameters);
-        self.log.push(self.inner.state(), self.inner.steps());
+        self.log_state();
         self.observe()
     }
 
@@ -119,7 +119,7 @@ impl ObservedMotion {
         self.inner.restore_with_step(state, step, (state.time, released))?;
         self.watch.pending = false;
         self.take_observer();
-        self.log.push(self.inner.state(), self.inner.steps());
+        self.log_state();
         self.observe()
     }
 
@@ -137,10 +137,16 @@ impl ObservedMotion {
         self.log.clear();
         self.inner.continue_from(state, parameters)?;
         self.watch.pending = false;
-        self.log.push(self.inner.state(), self.inner.steps());
+        self.log_state();
         self.observer.set_parameters(parameters);
         self.watch.set_parameters(parameters);
         self.observe()
+    }
+
+    /// Logs the current state, from which the next step begins.
+    pub(super) fn log_state(&mut self) {
+        let (steps, step) = (self.inner.steps(), self.inner.step_size().abs());
+        self.log.push(self.inner.state(), steps, step);
     }
 
     /// The number of impulses so far.
@@ -160,11 +166,11 @@ impl ObservedMotion {
             OccurrenceKind::Release(_) => {
                 self.take_observer();
                 self.log.clear();
-                self.log.push(self.inner.state(), self.inner.steps());
+                self.log_state();
             }
             OccurrenceKind::Impulse { .. } => {
                 self.log.note_impulse();
-                self.log.push(self.inner.state(), self.inner.steps());
+                self.log_state();
             }
             OccurrenceKind::Mark | OccurrenceKind::Crossing(_) | OccurrenceKind::Stop => {}
         }

@@ -29,7 +29,7 @@ impl ObservedMotion {
         let first = self.log.first().unwrap_or(f64::NAN);
         let Some(known) = self.log.back_to(time) else { return Ok(Some(first)) };
         let released = self.released();
-        self.inner.go_back(&known.state, start, &released)?;
+        self.inner.restore_with_step(&known.state, known.step, (start, &released))?;
         self.watch.pending = false;
         self.inner.set_steps(known.steps);
         self.take_observer();
@@ -56,14 +56,14 @@ impl ObservedMotion {
         if !self.log.resume(run) {
             return Ok(false);
         }
-        let steps = self.inner.steps();
+        let (steps, step) = (self.inner.steps(), self.inner.step_size().abs());
         let taken = matches!(self.back_to(times, start), Ok(None));
         if !taken {
             let released = self.released();
             self.log.clear();
-            self.inner.go_back(&here, start, &released)?;
+            self.inner.restore_with_step(&here, step, (start, &released))?;
             self.inner.set_steps(steps);
-            self.log.push(&here, steps);
+            self.log_state();
         }
         Ok(taken)
     }
@@ -96,8 +96,8 @@ impl ObservedMotion {
 
     /// What is needed to show a time in the past of a motion that began at `start` of its clock.
     pub(super) fn known_at(&self, time: f64, start: f64) -> Option<KnownStep> {
-        let LoggedState { state, steps, .. } = self.log.at(self.sign * time)?.clone();
-        let (step, released) = (self.inner.step_size().abs(), self.released());
+        let LoggedState { state, steps, step, .. } = self.log.at(self.sign * time)?.clone();
+        let released = self.released();
         Some(KnownStep { state, steps, step, released, start })
     }
 

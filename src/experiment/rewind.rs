@@ -56,6 +56,9 @@ impl Experiment {
         self.fault = None;
         self.ended = None;
         self.recorder.rewind(time);
+        if sign > 0.0 {
+            self.companions.forget_rows_after(time);
+        }
         self.log.rewind(sign * time, sign, self.motion.values().len());
         // an impulse has shifted what the gauges measure from
         if self.motion.impulses() == impulses {

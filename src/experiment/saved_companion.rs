@@ -32,13 +32,13 @@ pub struct SavedCompanion {
     /// The parameters of a pinned run.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub parameters: Vec<Named>,
-    /// The method of a pinned run.
+    /// The method of a pinned run, and of any other that has chosen its step.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub method: Option<String>,
     /// Its step, if it was set.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub step: Option<f64>,
-    /// The step in use, set or chosen, if all steps are equal.
+    /// The step that its method has chosen, if all steps are equal and none was set.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fixed_step: Option<f64>,
     /// The constraints that were released.
@@ -83,6 +83,7 @@ impl SavedCompanion {
         let parameters =
             parameters.map(|(p, &value)| Named { name: p.name.clone(), value }).collect();
         let released = one.released.iter().filter_map(|&k| model.constraints.get(k));
+        let chosen_step = one.fixed_step.filter(|_| one.settings.step.is_none());
         let continues = one.message.is_none() && one.state.is_finite();
         Some(SavedCompanion {
             number: one.number,
@@ -90,9 +91,9 @@ impl SavedCompanion {
             initial: given.iter().filter_map(|given| named(model, *given)).collect(),
             displaced,
             parameters: if pinned { parameters } else { Vec::new() },
-            method: pinned.then(|| one.method.to_owned()),
+            method: (pinned || chosen_step.is_some()).then(|| one.method.to_owned()),
             step: one.settings.step.filter(|_| pinned),
-            fixed_step: one.fixed_step,
+            fixed_step: chosen_step,
             released: released.map(|constraint| constraint.name.clone()).collect(),
             tolerance: one.settings.tolerance.filter(|_| pinned),
             time: [one.state.time, one.state.time_carry],
@@ -134,8 +135,8 @@ impl Experiment {
             let released = one.released.iter().map(|name| self.constraint(name));
             let released: Option<Vec<usize>> = released.collect();
             if let Some(released) = released.filter(|_| fits) {
-                let step = one.fixed_step.unwrap_or(0.0);
-                motion.begin_underway(&state, step, (self.setup.start, &released));
+                let step = one.fixed_step.filter(|_| motion.may_have_chosen(one.method.as_deref()));
+                motion.begin_underway((&state, step), (self.setup.start, &released));
             } else {
                 motion.begin(self.origin_state(&motion));
             }
@@ -163,11 +164,11 @@ impl Experiment {
         }
         let system = self.motion.whole().clone();
         let (method, settings) = match &one.method {
-            Some(name) => (
+            Some(name) if one.origin == OriginKind::Pinned => (
                 choose_method(&system, name).ok()?,
                 Settings { step: one.step, tolerance: one.tolerance },
             ),
-            None => (self.motion.method(), self.motion.settings()),
+            _ => (self.motion.method(), self.motion.settings()),
         };
         self.name_variables();
         let numbers = NUMBERS / MOST_COMPANIONS;

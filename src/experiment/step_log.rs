@@ -22,6 +22,8 @@ pub(super) struct LoggedState {
     /// The steps taken, and the impulses applied up to it.
     pub(super) steps: u64,
     pub(super) impulses: u64,
+    /// The size of the next step, if steps are equal: a step that was not set is chosen anew at each impulse.
+    pub(super) step: f64,
 }
 
 /// The numbers of a logged state.
@@ -33,6 +35,8 @@ fn size(logged: &LoggedState) -> usize {
 #[derive(Default)]
 pub(super) struct StepLog {
     known: VecDeque<LoggedState>,
+    /// The most numbers that are stored, if others than of the main motion.
+    numbers: Option<usize>,
     /// Whether nobody will take the motion back.
     off: bool,
     /// The number of impulses so far.
@@ -44,6 +48,11 @@ pub(super) struct StepLog {
 }
 
 impl StepLog {
+    /// An empty log that stores at most so many numbers.
+    pub(super) fn bounded(numbers: usize) -> StepLog {
+        StepLog { numbers: Some(numbers), ..StepLog::default() }
+    }
+
     /// Begins anew: what comes has another law or other constraints. The states so far are kept while somebody holds
     /// the token of their run.
     pub(super) fn clear(&mut self) {
@@ -92,21 +101,22 @@ impl StepLog {
         if self.off { u64::MAX } else { apart - steps % apart }
     }
 
-    /// Adds the state at the end of a step.
-    pub(super) fn push(&mut self, state: &State, steps: u64) {
+    /// Adds the state at the end of a step, from which steps of this size lead on if they are equal.
+    pub(super) fn push(&mut self, state: &State, steps: u64, step: f64) {
         if state.values.is_empty() || self.off {
             return;
         }
         let impulses = self.impulses;
-        let most = (NUMBERS / (2 * state.values.len())).clamp(64, STATES);
+        let numbers = self.numbers.unwrap_or(NUMBERS);
+        let most = (numbers / (2 * state.values.len())).clamp(64, STATES);
         let oldest = if self.known.len() >= most { self.known.pop_front() } else { None };
         let logged = match oldest {
             // the oldest gives way to the newest
             Some(mut oldest) => {
                 oldest.state.copy_from(state);
-                LoggedState { steps, impulses, ..oldest }
+                LoggedState { steps, impulses, step, ..oldest }
             }
-            None => LoggedState { state: state.clone(), steps, impulses },
+            None => LoggedState { state: state.clone(), steps, impulses, step },
         };
         self.known.push_back(logged);
     }

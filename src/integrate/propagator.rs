@@ -177,21 +177,6 @@ impl Propagator {
         self.stepper.start(state, &self.parameters)
     }
 
-    /// Restores an earlier state of this motion, with the step of now if that is fixed: a step that was chosen at the
-    /// beginning is not chosen anew.
-    ///
-    /// # Errors
-    /// Returns an error if the motion cannot continue from there.
-    pub fn go_back(
-        &mut self,
-        state: &State,
-        start: f64,
-        released: &[usize],
-    ) -> Result<(), MotionError> {
-        let step = self.stepper.step_size().abs();
-        self.restore_with_step(state, step, (start, released))
-    }
-
     /// Restores a motion that began at `start` and was left at this state, with this step if steps are fixed: until the next
     /// impulse, after which a step that was not set is chosen as it always is.
     ///

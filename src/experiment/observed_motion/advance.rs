@@ -151,7 +151,7 @@ impl ObservedMotion {
             Stepping::Fixed => EQUAL_STEPS,
         };
         if steps.is_multiple_of(apart) {
-            self.log.push(self.inner.computed(), steps);
+            self.log.push(self.inner.computed(), steps, self.inner.step_size().abs());
         }
     }
 }

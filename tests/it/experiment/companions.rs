@@ -337,3 +337,56 @@ fn a_chosen_step_lasts_until_the_next_impulse_when_a_motion_is_restored() {
     }
     assert!(steps(&left).0 != before.0 && steps(&left).1 != before.1, "{before:?}");
 }
+
+/// What a session of the first text is when it is continued with the second: the step of the main motion, and of each beside it.
+fn steps_of_continued([first, second]: [&str; 2], another_law: bool) -> (f64, Vec<Option<f64>>) {
+    let mut left = build(first, |_| {});
+    run(&mut left, 0.5);
+    left.execute(Command::Pin);
+    left.execute(Command::AddNeighbour);
+    let seen = left.snapshot();
+    let checkpoint = Checkpoint::of(left.model(), left.system(), &seen);
+    let checkpoint = if another_law { checkpoint.with_another_law("the text") } else { checkpoint };
+    let mut taken = build(second, |_| {});
+    taken.execute(Command::Restore(Box::new(checkpoint)));
+    let seen = taken.snapshot();
+    assert_eq!(seen.companions.len(), 2);
+    (seen.method.step, seen.companions.iter().map(|one| one.fixed_step).collect())
+}
+
+fn spring(stiffness: f64, run: &str) -> String {
+    format!(
+        "title = \"A spring\"\n[coordinates]\nx = {{ initial = 1 }}\n[lagrangian]\nL = \"1/2*x'^2 - 1/2*{stiffness}*x^2\"\n\
+         [run]\n{run}\n"
+    )
+}
+
+/// A step that was chosen for a soft spring is far beyond stability for a stiff one.
+#[test]
+fn under_another_law_every_motion_chooses_its_step_anew() {
+    let texts = [spring(1.0, "method = \"rk4\""), spring(1e4, "method = \"rk4\"")];
+    let (step, beside) = steps_of_continued([&texts[0], &texts[1]], true);
+    let [pinned, neighbour] = beside[..] else { panic!("{beside:?}") };
+    assert_eq!(pinned, Some(step));
+    assert!((neighbour.unwrap() / step - 1.0).abs() < 1e-3, "{neighbour:?}, {step}");
+    let (soft, _) = steps_of_continued([&texts[0], &texts[0]], false);
+    assert!(soft > 50.0 * step, "{soft}, {step}");
+    // what a person has set stays
+    let set = texts.map(|text| text + "step = 0.001\n");
+    assert_eq!(steps_of_continued([&set[0], &set[1]], true), (0.001, vec![Some(0.001); 2]));
+}
+
+/// A neighbour has the method of the main motion, and its step where one is set: a step that another method has chosen is not
+/// its own, nor is one that was set before.
+#[test]
+fn a_neighbour_does_not_keep_the_step_of_another_method() {
+    let [rk4, leapfrog, set] =
+        ["method = \"rk4\"", "method = \"leapfrog\"", "method = \"rk4\"\nstep = 0.003"]
+            .map(|run| spring(1.0, run));
+    let (step, beside) = steps_of_continued([&rk4, &leapfrog], false);
+    assert!((beside[1].unwrap() / step - 1.0).abs() < 1e-3, "{beside:?}, {step}");
+    let (step, beside) = steps_of_continued([&rk4, &set], false);
+    assert_eq!((step, beside[1]), (0.003, Some(0.003)));
+    let (step, beside) = steps_of_continued([&set, &rk4], false);
+    assert!((beside[1].unwrap() / step - 1.0).abs() < 1e-3, "{beside:?}, {step}");
+}

@@ -1,8 +1,9 @@
 //! One step back in time: the state, the rows and the events are those that were there.
 
-use phaselab::experiment::{Command, Experiment, Status};
+use phaselab::experiment::{Command, Experiment, Setup, Status};
+use phaselab::system::InitialOverride::Position;
 
-use super::{run, shipped};
+use super::{build, run, shipped};
 
 const FRAME: f64 = 1.0 / 60.0;
 
@@ -17,7 +18,7 @@ fn at(name: &str, method: &str, time: f64) -> Experiment {
 #[test]
 fn a_step_back_leads_to_the_bits_that_were_there_and_on_again() {
     for name in ["henon-heiles", "pendulum", "heavy-top"] {
-        for method in ["taylor", "rk4", "verlet", "gauss6"] {
+        for method in ["taylor", "rk4", "leapfrog", "gauss6"] {
             let mut experiment = shipped(name);
             let before = experiment.snapshot().notices.len();
             experiment.execute(Command::Method(method.to_owned()));
@@ -112,6 +113,34 @@ fn an_impulse_is_taken_back_and_happens_again() {
     assert!(off.filter(|x| x.is_finite()).fold(0.0, f64::max) < 1e-11);
 }
 
+/// A method that chooses its step does so anew at each impulse. Before an impulse the step was another one.
+#[test]
+fn before_an_impulse_the_steps_are_those_that_were_taken_there() {
+    let text = "title = \"Struck\"\n[coordinates]\nx = { initial = 2 }\n[lagrangian]\nL = \"1/2*x'^2 - 1/4*x^4\"\n\
+                [[impulses]]\nname = \"strike\"\nevery = 3\nchange = { p_x = \"5*(t - 2)\" }\n";
+    for method in ["rk4", "leapfrog", "gauss4", "yoshida4"] {
+        let begun = || build(text, |setup| setup.method = method.into());
+        let (mut back, mut alone) = (begun(), begun());
+        run(&mut alone, 2.125);
+        let (there, step) = (alone.snapshot().state, alone.snapshot().method.step);
+        run(&mut back, 4.125);
+        assert!(back.snapshot().method.step != step, "{method}: no other step after the impulse");
+        back.execute(Command::LookAt(2.125));
+        assert_eq!(back.snapshot().state.values, there.values, "{method}, looked at");
+        back.execute(Command::LookAt(f64::INFINITY));
+        // a frame of one second
+        back.execute(Command::Speed(60.0));
+        back.execute(Command::StepBack(2));
+        let seen = back.snapshot();
+        assert_eq!((seen.time, seen.method.step), (2.125, step), "{method}");
+        assert_eq!(seen.state.values, there.values, "{method}, carried back");
+        run(&mut back, 7.5);
+        run(&mut alone, 7.5);
+        assert_eq!(back.snapshot().state, alone.snapshot().state, "{method}, on again");
+        assert_eq!(back.snapshot().method.step, alone.snapshot().method.step, "{method}");
+    }
+}
+
 #[test]
 fn what_came_before_another_law_is_not_gone_back_to() {
     let mut experiment = shipped("pendulum");
@@ -147,4 +176,82 @@ fn motions_beside_it_are_seen_where_they_were() {
         experiment.snapshot().companions[0].trail.rows().map(|row| row[0]).collect();
     assert!(times.windows(2).all(|pair| pair[0] <= pair[1]));
     assert_eq!(experiment.snapshot().companions[0].time, 5.0);
+}
+
+/// A pendulum with a motion from ½ beside it and a neighbour, and one of its own from ½, which has never gone back.
+fn beside_the_pendulum() -> (Experiment, Experiment, usize) {
+    let mut main = shipped("pendulum");
+    let g = main.model().parameters.iter().position(|p| p.name == "g").expect("it has a weight");
+    main.execute(Command::AddStart(vec![Position(0, 0.5)]));
+    main.execute(Command::AddNeighbour);
+    let loaded = crate::hand::loaded("pendulum", 1);
+    let setup = Setup { overrides: vec![Position(0, 0.5)], ..Setup::of(&loaded.model) };
+    let alone = Experiment::new(&loaded.model, &loaded.equations, &loaded.system, setup);
+    (main, alone.expect("its method fits"), g)
+}
+
+/// After a step back the motions beside the main one are farther than it is. A law that is changed there is changed for them at
+/// the same time, not where they had come to.
+#[test]
+fn motions_beside_it_meet_another_law_where_it_does() {
+    let (mut main, mut alone, g) = beside_the_pendulum();
+    run(&mut main, 3.0);
+    // a frame of one second
+    main.execute(Command::Speed(60.0));
+    main.execute(Command::StepBack(1));
+    assert_eq!(main.time(), 2.0);
+    main.execute(Command::Parameter { index: g, value: 3.0 });
+    run(&mut alone, 2.0);
+    alone.execute(Command::Parameter { index: g, value: 3.0 });
+    for time in [2.5, 4.0] {
+        run(&mut main, time);
+        run(&mut alone, time);
+        let seen = main.snapshot();
+        let [start, neighbour] = &seen.companions[..] else { panic!("two are beside it") };
+        assert_eq!((start.time, neighbour.time), (time, time));
+        let off = start.values[0] - alone.values()[0];
+        assert!(off.abs() < 1e-11, "{time}: {off:e}");
+        let beside = neighbour.values[0] - seen.values[0];
+        assert!(beside != 0.0 && beside.abs() < 1e-7, "{time}: {beside:e}");
+        let times: Vec<f64> = start.trail.rows().map(|row| row[0]).collect();
+        assert!(times.windows(2).all(|pair| pair[0] <= pair[1]), "{time}");
+        assert!(start.trail.rows().all(|row| row[0] <= time));
+    }
+}
+
+/// What is still on its way to where the main motion is changes its law where that did.
+#[test]
+fn motions_that_are_behind_meet_another_law_at_its_time() {
+    let (_, mut alone, g) = beside_the_pendulum();
+    let mut main = shipped("pendulum");
+    run(&mut main, 3.0);
+    main.execute(Command::AddStart(vec![Position(0, 0.5)]));
+    assert!(main.is_behind());
+    main.execute(Command::Parameter { index: g, value: 3.0 });
+    run(&mut main, 4.0);
+    run(&mut alone, 3.0);
+    alone.execute(Command::Parameter { index: g, value: 3.0 });
+    run(&mut alone, 4.0);
+    let seen = main.snapshot();
+    let off = seen.companions[0].values[0] - alone.values()[0];
+    assert!(off.abs() < 1e-11, "{off:e}");
+    assert_eq!(seen.companions[0].parameters[g], 3.0);
+}
+
+/// A neighbour that joined later is not there where the main motion has gone back to, which is said of it.
+#[test]
+fn before_it_joined_nothing_is_known_of_a_neighbour() {
+    let mut main = shipped("pendulum");
+    run(&mut main, 2.5);
+    main.execute(Command::AddNeighbour);
+    run(&mut main, 3.0);
+    main.execute(Command::Speed(60.0));
+    main.execute(Command::StepBack(1));
+    main.execute(Command::Pin);
+    main.execute(Command::Parameter { index: 0, value: 1.5 });
+    run(&mut main, 4.0);
+    let seen = main.snapshot();
+    let said = seen.companions[0].message.as_deref();
+    assert_eq!(said, Some("nothing is known of it before t = 2.5"));
+    assert_eq!((&seen.companions[1].message, seen.companions[1].time), (&None, 4.0));
 }
