@@ -30,6 +30,6 @@ mod absent;
 mod x86_64;
 
 #[cfg(not(target_arch = "x86_64"))]
-pub(super) use absent::{CodeCache, CompiledGrowth, CompiledValues, ValuesCache};
+pub(super) use absent::{CodeCache, CompiledGrowth, CompiledValues};
 #[cfg(target_arch = "x86_64")]
-pub(super) use x86_64::{CodeCache, CompiledGrowth, CompiledValues, ValuesCache};
+pub(super) use x86_64::{CodeCache, CompiledGrowth, CompiledValues};

@@ -2,7 +2,7 @@
 //! register and reads earlier ones only. Two evaluators run it: [`Evaluator`](super::Evaluator) and
 //! [`Jet`](super::Jet).
 
-use super::machine_code::ValuesCache;
+use super::made_once::MadeOnce;
 use crate::expr::FunctionId;
 use crate::num::DoubleDouble;
 
@@ -109,8 +109,8 @@ pub struct Program {
     pub(super) steep: bool,
     pub(super) inputs: Vec<Register>,
     pub(super) outputs: Vec<Register>,
-    /// The machine code of its values, if there is any.
-    pub(super) values: ValuesCache,
+    /// What its values are computed by, where that is not the list of operations.
+    pub(super) values: MadeOnce,
 }
 
 /// A matrix in the program is singular.

@@ -58,10 +58,6 @@ impl CompiledGrowth {
     }
 }
 
-/// No functions.
-#[derive(Clone, Debug, Default)]
-pub(in crate::system) struct ValuesCache;
-
 /// No parts.
 #[derive(Clone, Debug, Default)]
 pub(in crate::system) struct CompiledValues;

@@ -19,4 +19,4 @@ mod values;
 
 pub(in crate::system) use cache::CodeCache;
 pub(in crate::system) use growth::CompiledGrowth;
-pub(in crate::system) use values::{CompiledValues, ValuesCache};
+pub(in crate::system) use values::CompiledValues;

@@ -4,8 +4,7 @@
 //! theirs, and operations that are left to the interpreter. Never here: functions of analysis, matrices, choices, series.
 
 use std::ops::Range;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 use super::allocation::assemble;
 use super::arithmetic::{Arithmetic, Code};
@@ -28,29 +27,6 @@ const MOST: usize = 4096;
 /// Exponents beyond this are left to the interpreter.
 const GREATEST_EXPONENT: f64 = 64.0;
 
-/// The functions of one program, which its evaluators share. A copy of a program has none yet.
-#[derive(Debug, Default)]
-pub(in crate::system) struct ValuesCache {
-    wanted: AtomicUsize,
-    parts: Arc<OnceLock<Arc<[Part]>>>,
-}
-
-impl Clone for ValuesCache {
-    fn clone(&self) -> ValuesCache {
-        ValuesCache::default()
-    }
-}
-
-impl ValuesCache {
-    /// The parts of the program that this belongs to, once they are wanted often enough.
-    fn parts(&self, program: &Program) -> Option<Arc<[Part]>> {
-        if self.parts.get().is_none() && self.wanted.fetch_add(1, Ordering::Relaxed) < PATIENCE {
-            return None;
-        }
-        Some(Arc::clone(self.parts.get_or_init(|| parts_of(program))))
-    }
-}
-
 /// A part of a program's body.
 #[derive(Debug)]
 enum Part {
@@ -65,7 +41,7 @@ enum Part {
 /// The parts of one evaluator, with the memory that they work with.
 #[derive(Clone, Debug, Default)]
 pub(in crate::system) struct CompiledValues {
-    parts: Option<Arc<[Part]>>,
+    parts: Option<Arc<Vec<Part>>>,
     work: Vec<Work>,
 }
 
@@ -107,7 +83,7 @@ impl CompiledValues {
 
     #[cold]
     fn ask(&mut self, program: &Program) {
-        self.parts = program.values.parts(program);
+        self.parts = program.values.get(PATIENCE, || parts_of(program));
         let parts = self.parts.iter().flat_map(|parts| parts.iter());
         let works = parts.filter_map(|part| match part {
             Part::Compiled { work, .. } => Some(work.clone()),
@@ -118,7 +94,7 @@ impl CompiledValues {
 }
 
 /// The body of a program in parts.
-fn parts_of(program: &Program) -> Arc<[Part]> {
+fn parts_of(program: &Program) -> Vec<Part> {
     let mut parts = Vec::new();
     let mut interpreted = 0;
     let mut next = 0;
@@ -141,7 +117,7 @@ fn parts_of(program: &Program) -> Arc<[Part]> {
     if interpreted < program.body.len() {
         parts.push(Part::Interpreted(interpreted..program.body.len()));
     }
-    parts.into()
+    parts
 }
 
 /// Whether an operation is arithmetic alone.
@@ -401,7 +377,7 @@ mod tests {
         for _ in 0..2 * PATIENCE {
             at(&mut compiled, points[0]);
         }
-        let parts = program.values.parts.get().expect("it was wanted often enough");
+        let parts = program.values.get(0, Vec::<Part>::new).expect("it was wanted often enough");
         let count = parts.iter().filter(|part| matches!(part, Part::Compiled { .. })).count();
         assert!((2..parts.len()).contains(&count), "{parts:?}");
         for (&point, interpreted) in points.iter().zip(&interpreted) {
