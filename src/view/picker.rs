@@ -20,9 +20,9 @@ use super::wrap::{capitalised, ending, shortened, words};
 use crate::app::{Above, App, FuzzyMatch, HitTarget, Picker, Saved};
 use crate::preset::{CatalogEntry, PresetOrigin};
 
-/// The least width of the list if it has something beside it, and of what is beside a list wider than two fifths.
+/// The least width of the list if it has something beside it, and of what is beside a list wider than that.
 const LIST: u16 = 34;
-const BESIDE: u16 = 60;
+const BESIDE: u16 = 37;
 
 /// The height from which a narrow screen has room for the preview below the list.
 const TALL: u16 = 20;
@@ -87,13 +87,14 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
     preview(canvas, below, app, entry);
 }
 
-/// The width of the list: two fifths, or less where all titles fit in less, or more where there is room for more.
+/// The width of the list: that of its longest row, or what there is beside the preview.
 fn width_of_list(canvas: &Canvas<'_>, width: u16, picker: &Picker) -> u16 {
     let titles = picker.entries.iter().map(|entry| canvas.text(&entry.info.title).width());
+    let session = picker.session().map(|session| continuation(canvas, picker, session, usize::MAX));
     // a frame, a mark and a blank at each side
-    let longest = titles.max().unwrap_or(0) + 6;
+    let longest = titles.chain(session.map(|label| label.width())).max().unwrap_or(0) + 6;
     let longest = u16::try_from(longest).unwrap_or(u16::MAX).max(LIST);
-    longest.min((width * 2 / 5).max(width.saturating_sub(BESIDE)).max(LIST))
+    longest.min(width.saturating_sub(BESIDE).max(LIST))
 }
 
 /// A line of the list.
@@ -233,19 +234,22 @@ fn guided(app: &App) -> String {
     )
 }
 
-/// Returns the label of the row of a session: its system, and its time where there is room for it.
+/// What is left of a title beside the time of a session, at least.
+const LEAST_TITLE: usize = 6;
+
+/// Returns the label of the row of a session: its system and its time. Where there is no room for both the title is
+/// shortened, and only where little would be left of it the time goes.
 fn continuation(canvas: &Canvas<'_>, picker: &Picker, session: &Saved, width: usize) -> String {
     let title = canvas.text(&picker.title_of(session));
     let Some(present) = &session.moment.present else { return format!("Continue: {title}") };
     let time = brief(present.time, 2, canvas.look.glyphs);
     let unit = canvas.text(&session.time_unit);
     let time = format!(", t = {time} {unit}").trim_end().to_owned();
-    // The name says which system it is, so the time goes first, and then the end of the name.
     let room = width.saturating_sub("Continue: ".len());
-    if title.width() + time.width() <= room {
-        return format!("Continue: {title}{time}");
-    }
-    format!("Continue: {}", shortened(&title, room, canvas.look.glyphs.pick("…", "~")))
+    let beside = room.saturating_sub(time.width());
+    let (room, time) = if beside < LEAST_TITLE { (room, "") } else { (beside, time.as_str()) };
+    let title = shortened(&title, room, canvas.look.glyphs.pick("…", "~"));
+    format!("Continue: {title}{time}")
 }
 
 fn search(canvas: &mut Canvas<'_>, area: Rect, search: Option<&Input>) {

@@ -420,11 +420,19 @@ fn the_picker_shows_what_a_system_is() {
 #[test]
 fn the_first_row_of_the_picker_is_the_session() {
     let (mut app, _) = App::new(catalog(), None);
-    app.offer_session(lab("pendulum", 22.0).saved().unwrap());
+    let mut real = Real::of("pendulum");
+    real.run(60);
+    app.offer_session(real.app.saved().unwrap());
+    let time = format!(", t = {} s", (100.0 * real.seen().time).round() / 100.0);
     for size in [(80, 24), (120, 40)] {
         let text = rows(&screen(&app, &rich(), size)).join("\n");
-        assert!(text.contains("› Continue: Simple pendulum"), "{text}");
+        assert!(text.contains(&format!("› Continue: Simple pendulum{time}")), "{text}");
         assert!(!text.contains("› Simple pendulum"), "{text}");
+    }
+    // where there is no room for both the title is shortened, not the time
+    for (width, row) in [(70, format!("Simple…{time}")), (26, "Simple… ".to_owned())] {
+        let text = rows(&screen(&app, &rich(), (width, 24))).join("\n");
+        assert!(text.contains(&format!("› Continue: {row}")), "{text}");
     }
     press(&mut app, "Down");
     let text = rows(&screen(&app, &rich(), (80, 24))).join("\n");
