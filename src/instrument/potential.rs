@@ -23,6 +23,15 @@ const SHADE: f64 = 0.12;
 /// The margin beyond the turning points, as a fraction of the distance between them.
 const BEYOND: f64 = 0.4;
 
+/// Turning points are searched for at so many distances, the first of which is this part of what the motion has reached and
+/// each of which is so many times the one before: up to some sixty times what it has reached. The interval with a turning
+/// point is divided into parts, of which one has it, and so on.
+const NEAREST: f64 = 1.0 / 64.0;
+const RATIO: f64 = 1.09;
+const TRIED: usize = 97;
+const PARTS: usize = 16;
+const ROUNDS: usize = 6;
+
 /// The row.
 pub(super) struct Potential;
 
@@ -107,9 +116,8 @@ impl Instrument for Potential {
 
     fn across(&self, PlotContext { plot, present, .. }: PlotContext<'_>) -> Across {
         let along = plot.view.and_then(|view| PotentialView::of(present.physics, view));
-        along.map_or(Across::Nothing, |along| {
-            Across::Channel(along.x, Some(range(present, along.x)))
-        })
+        along
+            .map_or(Across::Nothing, |along| Across::Channel(along.x, Some(range(present, &along))))
     }
 
     fn picture(
@@ -159,17 +167,60 @@ fn steady(value: f64) -> f64 {
     }
 }
 
-/// The range of a coordinate: one period, or somewhat more than the motion has reached.
-fn range(present: &Present<'_>, channel: usize) -> [f64; 2] {
-    if let Some(period) = present.physics.system.period(channel, present.parameters) {
+/// The range of a coordinate: one period, or somewhat more than the motion has reached and will reach.
+fn range(present: &Present<'_>, along: &PotentialView) -> [f64; 2] {
+    if let Some(period) = present.physics.system.period(along.x, present.parameters) {
         return [-period / 2.0, period / 2.0];
     }
-    let (lo, hi) = present.bounds.get(channel).copied().unwrap_or((f64::NAN, f64::NAN));
-    let reached = (hi - lo).max(0.1 * lo.abs().max(hi.abs())).max(f64::MIN_POSITIVE);
+    let (lo, hi) = present.bounds.get(along.x).copied().unwrap_or((f64::NAN, f64::NAN));
+    let [below, above] = turning_points(present, along, [lo, hi]);
+    let (lo, hi) = (below.map_or(lo, |at| at.min(lo)), above.map_or(hi, |at| at.max(hi)));
+    let reached = width(lo, hi);
     // A coordinate that has never changed its sign, such as a distance, is not shown beyond zero.
     let low = lo - BEYOND * reached;
     let low = if lo > 0.0 { low.max(0.05 * lo) } else { low };
     [low, hi + BEYOND * reached]
+}
+
+/// How far a motion between these values comes, which may have only begun.
+fn width(lo: f64, hi: f64) -> f64 {
+    (hi - lo).max(0.1 * lo.abs().max(hi.abs())).max(f64::MIN_POSITIVE)
+}
+
+/// The nearest places below and above the current one where the potential exceeds the energy, if there are any near what the
+/// motion has reached.
+fn turning_points(
+    present: &Present<'_>,
+    along: &PotentialView,
+    [lo, hi]: [f64; 2],
+) -> [Option<f64>; 2] {
+    let (model, now) = (present.physics.model, present.valuation());
+    let (energy, here) = (now.at(model.symbols.energy), present.value(along.x));
+    // the end of the first of these intervals of the line from `from` whose end is beyond the energy, and its beginning
+    let first = |from: f64, places: &[f64]| {
+        let heights = along.along(&model.pool, &now, places);
+        let beyond = heights.iter().position(|height| *height > energy)?;
+        Some([beyond.checked_sub(1).map_or(from, |before| places[before]), places[beyond]])
+    };
+    let scale = width(lo, hi);
+    [-1.0, 1.0].map(|side| {
+        let distances = std::iter::successors(Some(NEAREST * scale), |far| Some(RATIO * far));
+        let places = distances.take(TRIED).map(|far| here + side * far);
+        // as above, a distance does not change its sign
+        let places: Vec<f64> = places.filter(|at| lo <= 0.0 || *at > 0.0).collect();
+        let mut between = first(here, &places)?;
+        for _ in 0..ROUNDS {
+            let [from, to] = between;
+            let inner = (1..=PARTS).map(|k| from + (to - from) * k as f64 / PARTS as f64);
+            between = first(from, &inner.collect::<Vec<_>>())?;
+        }
+        Some(rounded(between[1]))
+    })
+}
+
+/// A value to five digits: the picture is the same for a motion that returns to the same place with a rounding error.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.4e}").parse().unwrap_or(value)
 }
 
 /// From the bottom of the curve to well above the energy.

@@ -676,6 +676,35 @@ fn the_energy_reaches_from_one_turning_point_of_a_pendulum_to_the_other() {
     }
 }
 
+/// Over a distance the window is from the start where the motion will come: from a(1 − e) = 0.4 to a(1 + e) = 1.6. It stays the same
+/// on the way, and an orbit without a way back has none beyond where it has come.
+#[test]
+fn a_potential_shows_both_turning_points_before_the_motion_reaches_them() {
+    let mut real = Real::of("planet");
+    let ticks = |real: &mut Real| -> Vec<f64> {
+        real.look();
+        let lab = real.app.lab.as_mut().unwrap();
+        let potential = lab.plots.iter().position(|plot| plot.kind.name() == "potential");
+        (lab.focus.pane, lab.focus.zoomed) = (Pane::Plot(potential.expect("a potential")), true);
+        let text = rows(&screen(&real.app, &rich(), (120, 40)));
+        let axis = text.iter().rposition(|row| row.contains('┬')).expect("an axis");
+        let numbers = text[axis + 1].split_whitespace();
+        numbers.filter_map(|word| word.trim_matches('│').parse().ok()).collect()
+    };
+    let first = ticks(&mut real);
+    assert!(first.len() > 3 && first[0] < 0.41 && first[first.len() - 1] > 1.59, "{first:?}");
+    for frames in [5, 60, 60] {
+        real.run(frames);
+        assert_eq!(ticks(&mut real), first);
+    }
+    // at the perihelion the velocity of this ellipse is beyond that of escape from half of the sun
+    let mut real = Real::of("planet");
+    let effects = real.app.give(ValueId::Parameter(1), 20.0);
+    real.execute(effects);
+    let open = ticks(&mut real);
+    assert!(open.len() > 1 && open[open.len() - 1] < 1.0, "{open:?}");
+}
+
 #[test]
 fn a_body_is_drawn_as_it_stands() {
     let handle = loaded("t-handle", 1);
