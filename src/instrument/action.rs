@@ -91,17 +91,18 @@ impl Instrument for ActionPlot {
 
     fn heading(&self, plot: &Plot, present: &Present<'_>) -> Option<Heading> {
         let name = present.physics.shown(plot.column(0)?);
-        let entries = match self.0 {
+        let action = format!("{} = {}", self.0.letter(), self.0.integral());
+        let mut entries = vec![Entry::Words(action)];
+        entries.extend(match self.0 {
             Principle::Hamilton | Principle::Maupertuis => vec![Entry::Words(format!(
                 "{name} + ε sin(kπs)/k, s = 0 … 1 on the way, k = 1 … {VARIATIONS}"
             ))],
             Principle::PhaseSpace => vec![
-                Entry::Words(self.0.integral().to_owned()),
                 Entry::Key(Ink::Curve(0), format!("{name} + ε sin πs")),
                 Entry::Key(Ink::Curve(1), "p + ε c cos πs".to_owned()),
                 Entry::Key(Ink::Curve(2), format!("{name}, p = ∂L/∂q̇")),
             ],
-        };
+        });
         let kind = match self.0 {
             Principle::Hamilton => "Action",
             Principle::Maupertuis => "Abbreviated action",
@@ -291,12 +292,8 @@ fn sentences(answer: Option<&Answer>, coordinate: Option<&str>) -> Vec<String> {
         }
     };
     let (letter, value) = (computed.principle.letter(), short(found.varied.action));
-    // in phase space more is said, and the heading has the integral
-    let integral = match computed.principle {
-        Principle::PhaseSpace => String::new(),
-        principle => format!("{} = ", principle.integral()),
-    };
-    let action = format!("{letter} = {integral}{value} up to {}", at(&computed.duration));
+    // the heading has the integral
+    let action = format!("{letter} = {value} up to {}", at(&computed.duration));
     // of a motion that does not make the action stationary these slopes say nothing
     let ends = found.varied.ends.filter(|_| found.foci.is_some());
     let ends = ends.map_or_else(Vec::new, |ends| {

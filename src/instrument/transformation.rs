@@ -177,7 +177,7 @@ impl Instrument for TransformationPlot {
             }
             _ => judged(answer).map_or_else(Vec::new, |judged| judged.lines.clone()),
         };
-        let image = of_image(plot, present).map(str::to_owned);
+        let image = of_image(plot, present).iter().map(|line| (*line).to_owned());
         // that there is none comes first, as what is at the end may have no room
         let place = if now.iter().all(|x| x.is_finite()) { lines.len() } else { 0 };
         lines.splice(place..place, image);
@@ -327,11 +327,15 @@ fn with_image(plot: &Plot, present: &Present<'_>) -> Valuation {
 }
 
 /// What is said of the image of the moving point.
-fn of_image(plot: &Plot, present: &Present<'_>) -> Option<&'static str> {
-    let Shown { law, new } = shown(plot, present.physics)?;
+fn of_image(plot: &Plot, present: &Present<'_>) -> &'static [&'static str] {
+    let (Some(Shown { law, new }), Some(x), Some(y)) =
+        (shown(plot, present.physics), plot.column(0), plot.column(1))
+    else {
+        return &[];
+    };
     let solved = implicit(present.physics.equations, new).is_some();
-    let image = [plot.column(0)?, plot.column(1)?].map(|channel| present.value(channel));
-    ImageOrigin { solved, exists: image.iter().all(|x| x.is_finite()) }.line(law)
+    let exists = [x, y].into_iter().all(|channel| present.value(channel).is_finite());
+    ImageOrigin { solved, exists }.lines(law)
 }
 
 /// The channels of the old variables of the pair that is shown, where the point is moved and not its coordinates.
@@ -366,9 +370,9 @@ fn active(
     let verdict = judged(answer).and_then(|judged| judged.lines.first()?.split(": ").next());
     let mut lines = vec![format!("({q}, {p}) → ({new_q}, {new_p}), the ring")];
     lines.extend(verdict.map(str::to_owned));
-    lines.extend(
-        of_image(plot, present).filter(|_| !image.iter().all(|x| x.is_finite())).map(str::to_owned),
-    );
+    if !image.iter().all(|x| x.is_finite()) {
+        lines.extend(of_image(plot, present).iter().map(|line| (*line).to_owned()));
+    }
     let layers = vec![
         (TRAIL, Layer::Companions(new)),
         (TRAIL, Layer::Companions(old)),

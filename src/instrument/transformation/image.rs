@@ -17,15 +17,15 @@ pub(super) struct ImageOrigin {
 
 impl ImageOrigin {
     /// What is said of it.
-    pub(super) fn line(self, law: &Transformation) -> Option<&'static str> {
+    pub(super) fn lines(self, law: &Transformation) -> &'static [&'static str] {
         match (&law.law, self) {
-            (_, ImageOrigin { solved: true, exists: true }) => Some("solved numerically"),
-            (_, ImageOrigin { solved: false, exists: true }) => None,
+            (_, ImageOrigin { solved: true, exists: true }) => &["solved numerically"],
+            (_, ImageOrigin { solved: false, exists: true }) => &[],
             (TransformationLaw::Generating { .. }, _) => {
-                Some("no image: beyond a caustic, det ∂²F/∂old∂new = 0")
+                &["no image: beyond a caustic", "caustic: det ∂²F/∂old∂new = 0"]
             }
             // a written map has no value where a root in it is negative, or where it divides by zero
-            _ => Some("no image: the map has no value here"),
+            _ => &["no image: the map has no value here"],
         }
     }
 }
