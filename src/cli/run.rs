@@ -148,9 +148,8 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let method = arguments.integrator.choose(&document, &model, &system)?;
     cautions::before(&model, &system, &equations, method);
 
-    let header = header(&model, &system, &parameters, method, settings);
     let setup = Setup {
-        parameters,
+        parameters: parameters.clone(),
         overrides: given,
         method: method.name.to_owned(),
         settings,
@@ -163,6 +162,10 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         .map_err(|why| CommandError::WrongUse(why.to_string()))?;
     clock::check(&system, method, &experiment, &times)?;
     experiment.forget_past();
+    // where none is given, the step that the method has chosen at the start
+    let step = Some(experiment.snapshot().method.step).filter(|step| *step > 0.0);
+    let used = Settings { step: settings.step.or(step), ..settings };
+    let header = header(&model, &system, &parameters, method, used);
     if arguments.format == RowFormat::Csv {
         experiment.only_count_occurrences();
     }

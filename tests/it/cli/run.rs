@@ -209,6 +209,34 @@ fn json_holds_everything() {
     assert_eq!(keys, order);
 }
 
+/// A method of fixed step that chooses the step itself says which: given, it repeats the run to the last bit.
+#[test]
+fn the_step_in_use_is_in_the_head() {
+    for method in ["yoshida8", "gauss4", "gauss6", "rk4"] {
+        let with = |more: &[&str]| {
+            let options = ["--until", "3", "--format", "json", "--method", method];
+            run(&[&options, more].concat()).json()
+        };
+        let chosen = with(&[]);
+        let step = chosen["method"]["step"].as_f64().expect("a step");
+        assert!(step > 0.0 && step < 1.0, "{method}: {step}");
+        assert_eq!(with(&["--step", &step.to_string()]), chosen, "{method}");
+        assert_ne!(
+            with(&["--step", &(0.9 * step).to_string()])["rows"],
+            chosen["rows"],
+            "{method}"
+        );
+        // one that is given is kept as it is
+        assert_eq!(
+            with(&["--step", "0.0123"])["method"]["step"].as_f64(),
+            Some(0.0123),
+            "{method}"
+        );
+    }
+    let head = run(&["--until", "1", "--method", "rk4"]).success();
+    assert!(!head.contains("step=null"), "{head}");
+}
+
 #[test]
 fn json_lines_hold_the_same() {
     let whole = run(&["--until", "2", "--format", "json"]).json();
