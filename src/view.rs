@@ -72,3 +72,4 @@ pub use detail::Detail;
 pub use hit_test::{HitMap, hit_targets, hit_test};
 pub use look::RenderStyle;
 pub use screen::{Painter, draw};
+pub use wrap::words;

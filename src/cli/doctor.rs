@@ -10,6 +10,12 @@ use super::output::{Output, OutputForm};
 use crate::shell::diagnosis;
 use crate::view::card::card;
 use crate::view::glyphs::Glyphs;
+use crate::view::words;
+
+/// The columns that a finding has room in, what was found and the evidence each wrapped in its own: 80 in all.
+const SUBJECT: usize = 12;
+const FOUND: usize = 20;
+const EVIDENCE: usize = 45;
 
 /// Report what the laboratory knows about the terminal, and why.
 ///
@@ -40,9 +46,15 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
 fn findings(variables: &dyn Fn(&str) -> Option<String>, size: Option<(u16, u16)>) -> String {
     let mut text = String::new();
     for finding in diagnosis(variables, size) {
-        let line = format!("{:<12} {:<16} {}", finding.what, finding.found, finding.why);
-        text.push_str(line.trim_end());
-        text.push('\n');
+        let (found, why) = (words(&finding.found, FOUND), words(&finding.why, EVIDENCE));
+        for row in 0..found.len().max(why.len()) {
+            let subject = if row == 0 { finding.what } else { "" };
+            let [found, why] =
+                [&found, &why].map(|lines| lines.get(row).map_or("", String::as_str));
+            let line = format!("{subject:<SUBJECT$} {found:<FOUND$}  {why}");
+            text.push_str(line.trim_end());
+            text.push('\n');
+        }
     }
     text + "\n--color, --glyphs, --fps and --bandwidth override this;\n\
         `phaselab doctor --glyphs` shows which glyphs the font has.\n"

@@ -41,7 +41,7 @@ pub fn diagnosis(variables: Variables<'_>, size: Option<(u16, u16)>) -> Vec<Doct
         || "standard output is not a terminal".to_owned(),
         |(columns, rows)| format!("{columns}x{rows}"),
     );
-    let terminal = format!("{}, {size}", term.as_deref().unwrap_or("TERM is not set"));
+    let terminal = term.as_deref().unwrap_or("TERM is not set");
     let depth = ColourDepth::from_environment(variables);
     let colours = match depth {
         ColourDepth::None => "none; weight and reverse instead",
@@ -55,9 +55,10 @@ pub fn diagnosis(variables: Variables<'_>, size: Option<(u16, u16)>) -> Vec<Doct
         (name, request.pace(variables).asks.background)
     };
     let theme = match theme_of(variables) {
-        (_, true) => "chosen by the terminal's background, once it has answered",
+        (_, true) => "by the background",
         (name, false) => name,
     };
+    let asked = if theme_of(variables).1 { "the terminal is asked, " } else { "" };
     let glyphs = Glyphs::from_environment(variables);
     let pace = Request::default().pace(variables);
     let line = |variables: Variables<'_>| Request::default().pace(variables).frames;
@@ -70,9 +71,9 @@ pub fn diagnosis(variables: Variables<'_>, size: Option<(u16, u16)>) -> Vec<Doct
     };
     let finding = |what, found: &str, why| DoctorFinding { what, found: found.to_owned(), why };
     vec![
-        finding("terminal", &terminal, String::new()),
+        finding("terminal", terminal, size),
         finding("color", colours, why(variables, &OF_COLOUR, &ColourDepth::from_environment)),
-        finding("theme", theme, why(variables, &OF_THEME, &theme_of)),
+        finding("theme", theme, asked.to_owned() + &why(variables, &OF_THEME, &theme_of)),
         finding("glyphs", glyphs.name(), why(variables, &OF_GLYPHS, &Glyphs::from_environment)),
         finding("fps", &pace.frames.to_string(), why(variables, &OF_LINE, &line)),
         finding("bandwidth", &rate, why(variables, &OF_LINE, &line)),
@@ -132,10 +133,10 @@ mod tests {
         check(&rich, "color", ["24 bits", "COLORTERM=truecolor"]);
         check(&rich[..1], "color", ["256", "TERM=xterm"]);
         check(&rich, "glyphs", ["braille", "LANG=C.UTF-8"]);
-        check(&rich, "terminal", ["xterm, 80x24", ""]);
+        check(&rich, "terminal", ["xterm", "80x24"]);
         check(&[("LANG", "C.UTF-8"), ("LC_ALL", "C")], "glyphs", ["ascii", "LC_ALL=C"]);
-        let asked = "chosen by the terminal's background, once it has answered";
-        check(&rich, "theme", [asked, "TERM=xterm"]);
+        let asked = "the terminal is asked, TERM=xterm";
+        check(&rich, "theme", ["by the background", asked]);
         check(&[("TERM", "linux"), ("COLORFGBG", "0;15")], "theme", ["light", "COLORFGBG=0;15"]);
         check(&[], "link", ["near", "none of SSH_CONNECTION, SSH_TTY is set"]);
         let ssh = [("SSH_CONNECTION", "10.0.0.1 1 10.0.0.2 2"), ("SSH_TTY", "/dev/pts/0")];

@@ -7,7 +7,7 @@ use unicode_width::UnicodeWidthChar;
 use super::glyphs::TextWidth;
 
 /// The lines of a paragraph, broken at spaces; a word longer than a line is broken anywhere.
-pub(super) fn words(text: &str, width: usize) -> Vec<String> {
+pub fn words(text: &str, width: usize) -> Vec<String> {
     let spaced = |text: &str| text.contains("  ") || text.trim().len() < text.len();
     let plain = text.bytes().all(|byte| matches!(byte, b' '..=b'~'));
     if plain && (1..=width).contains(&text.len()) && !spaced(text) {

@@ -26,6 +26,32 @@ fn the_doctor_says_what_was_found_and_why() {
     assert!(text.is_ascii() && !text.contains("/dev/pts/7"), "{text}");
 }
 
+/// What was found and its evidence stay in their columns, and in 80 of them, however long a value is.
+#[test]
+fn the_columns_of_the_doctor_hold() {
+    let long = "0123456789".repeat(9);
+    let ground = "15;".repeat(30) + "0";
+    let plain: [&[(&str, &str)]; 4] = [
+        &[("TERM", "xterm-256color")],
+        &[("TERM", "dumb"), ("NO_COLOR", "1")],
+        &[("TERM", "xterm-kitty"), ("COLORTERM", "truecolor"), ("SSH_TTY", "x")],
+        &[("TERM", &long), ("WT_SESSION", &long), ("COLORFGBG", &ground)],
+    ];
+    for environment in plain {
+        let home = tempfile::tempdir().expect("a temporary folder");
+        let environment = environment.iter().copied();
+        let text = done(program(home.path()).arg("doctor").envs(environment)).success();
+        let table: Vec<&str> = text.lines().take_while(|line| !line.is_empty()).collect();
+        assert!(table.len() >= 8, "{text}");
+        for line in table {
+            let blank = |range: std::ops::Range<usize>| {
+                range.filter_map(|at| line.as_bytes().get(at)).all(|byte| *byte == b' ')
+            };
+            assert!(line.len() <= 80 && blank(12..13) && blank(33..35), "{line:?} of {text}");
+        }
+    }
+}
+
 #[test]
 fn the_card_shows_every_set_of_glyphs_also_in_a_pipe() {
     let card = phaselab(&["doctor", "--glyphs"]).success();
