@@ -71,6 +71,10 @@ impl Lesson {
                 }
             }
             LessonStage::Typing(text, wrong) => match key.code {
+                KeyCode::Char('u') if key.modifiers.contains(KeyModifiers::CONTROL) => {
+                    text.clear();
+                    *wrong = None;
+                }
                 KeyCode::Char(c) if !held && text.chars().count() < LONGEST_NUMBER => {
                     text.push(c);
                     *wrong = None;

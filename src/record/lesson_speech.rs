@@ -94,7 +94,7 @@ impl Lesson {
             LessonStage::Typing(text, wrong) => {
                 let question = self.question.as_ref().map(|question| question.text.clone());
                 said = vec![paragraph(ParagraphKind::Text, question.unwrap_or_default())];
-                said.push(paragraph(ParagraphKind::Selected, format!("{text}_")));
+                said.push(paragraph(ParagraphKind::Typed, format!("{text}_")));
                 said.extend(wrong.iter().map(|why| paragraph(ParagraphKind::Wrong, why.clone())));
                 "type a number · Enter commits · Tab next pane · q leaves"
             }

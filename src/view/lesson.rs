@@ -44,8 +44,10 @@ pub enum ParagraphKind {
     Quiet,
     /// An option.
     Option,
-    /// The selected option, or the line being typed.
+    /// The selected option, or where the cursor of a plot is.
     Selected,
+    /// The line being typed, as it is.
+    Typed,
     /// A right answer.
     Right,
     /// A wrong answer.
@@ -112,12 +114,14 @@ pub fn draw(look: &RenderStyle, speech: &Speech, area: Rect, buffer: &mut Buffer
             ParagraphKind::Text => (Role::Text, ""),
             ParagraphKind::Quiet => (Role::Dim, ""),
             ParagraphKind::Option => (Role::Text, ""),
-            ParagraphKind::Selected => (Role::Accent, look.glyphs.pick("›", ">")),
+            ParagraphKind::Selected | ParagraphKind::Typed => {
+                (Role::Accent, look.glyphs.pick("›", ">"))
+            }
             ParagraphKind::Right => (Role::Good, look.glyphs.pick("✓", "+")),
             ParagraphKind::Wrong => (Role::Bad, look.glyphs.pick("✗", "x")),
         };
         let text = match kind {
-            ParagraphKind::Selected => text.clone(),
+            ParagraphKind::Typed => text.clone(),
             _ => with_powers(&with_minus_signs(text, look.glyphs), look.glyphs),
         };
         let text = canvas.text(&with_primes(&text));

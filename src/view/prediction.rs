@@ -48,7 +48,7 @@ pub(super) fn label(
     let Some(prediction) = shown(q, plot) else { return };
     let named = [
         (prediction.points.last(), Role::Warn, "predicted"),
-        (prediction.outcome.last(), Role::Good, "found"),
+        (prediction.outcome.last(), Role::Good, "measured"),
     ];
     let mut taken: Option<Position> = None;
     for (at, role, name) in named {

@@ -1,6 +1,6 @@
 //! Lessons: what is right is what the motion says, and whoever takes one commits an answer first.
 
-use crossterm::event::{KeyCode, KeyEvent};
+use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use phaselab::diagnostic::Document;
 use phaselab::preset::{lesson, lessons};
 use phaselab::record::script::{LessonStep, ScriptStep};
@@ -137,9 +137,10 @@ fn an_answer_is_committed_before_the_outcome_and_shown_beside_it() {
         assert!(shown(&mut lesson).contains("How far?"), "time stands still until it is answered");
         keys(&mut lesson, "about\n");
         assert!(shown(&mut lesson).contains("This is not a number"));
-        for _ in 0..5 {
-            lesson.press(KeyEvent::from(KeyCode::Backspace));
-        }
+        lesson.press(KeyEvent::from(KeyCode::Backspace));
+        assert!(shown(&mut lesson).contains("> abou_"));
+        lesson.press(KeyEvent::new(KeyCode::Char('u'), KeyModifiers::CONTROL));
+        assert!(shown(&mut lesson).contains("> _"));
         keys(&mut lesson, &format!("{typed}\n"));
         pass(&mut lesson, 1.0);
         let under_way = shown(&mut lesson);
@@ -373,7 +374,7 @@ fn a_point_is_set_by_the_cursor_committed_and_kept_beside_the_outcome() {
     let wide = |lesson: &mut Lesson| screen(lesson, (120, 40), &plain()).join("\n");
     let before = wide(&mut lesson);
     assert!(
-        before.contains("Where is it in half a turn?") && !before.contains("found"),
+        before.contains("Where is it in half a turn?") && !before.contains("measured"),
         "{before}"
     );
     for key in [KeyCode::Right, KeyCode::Up, KeyCode::Enter] {
@@ -382,7 +383,31 @@ fn a_point_is_set_by_the_cursor_committed_and_kept_beside_the_outcome() {
     }
     pass(&mut lesson, 4.0);
     let after = wide(&mut lesson);
-    assert!(after.contains("predicted") && after.contains("found"), "{after}");
+    assert!(after.contains("predicted") && after.contains("measured"), "{after}");
+}
+
+/// Numbers of the cursor and of the selected option have the minus sign of all others; what is typed stays as it is.
+#[test]
+fn numbers_of_a_selected_line_have_the_minus_sign() {
+    let rich = RenderStyle { theme: Theme::dark(ColourDepth::None), glyphs: Glyphs::Braille };
+    for (ask, pressed, line) in [
+        ("Predict \"p?\" p_r within 1", vec![KeyCode::Char('-'), KeyCode::Char('2')], "› -2_"),
+        (
+            "Predict \"Where?\" point r from 0 to 2 and p_r from -4 to 4 within 0.1 and 1",
+            vec![KeyCode::Down, KeyCode::Down],
+            "p_r = −",
+        ),
+        ("Ask \"p?\"\nOption \"-2\" if p_r < 0\nOption \"2\" if p_r > 0", vec![], "› a) −2"),
+    ] {
+        let mut lesson = taken(&format!("{ask}\nWait 3s\nOutcome\n"));
+        pass(&mut lesson, 0.1);
+        screen(&mut lesson, (80, 24), &rich);
+        for code in pressed {
+            assert_eq!(lesson.press(KeyEvent::from(code)), Pressed::Taken, "{code:?}");
+        }
+        let text = screen(&mut lesson, (80, 24), &rich).join("\n");
+        assert!(text.contains(line), "{text}");
+    }
 }
 
 #[test]
@@ -398,7 +423,7 @@ fn what_was_predicted_stays_in_view_where_there_is_room_for_one_picture() {
     assert!(under_way.contains("Phase") && under_way.contains("p_r ["), "{under_way}");
     pass(&mut lesson, 3.0);
     let outcome = shown(&mut lesson);
-    assert!(outcome.contains("predicted") && outcome.contains("found"), "{outcome}");
+    assert!(outcome.contains("predicted") && outcome.contains("measured"), "{outcome}");
 }
 
 #[test]
