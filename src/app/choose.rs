@@ -184,19 +184,21 @@ impl App {
         };
         match field.purpose {
             Purpose::Value(target) => {
-                let beyond = lab.value_info(target).and_then(|value_info| {
+                let range = lab.value_info(target).and_then(|value_info| {
                     let (min, max, _) = value_info.range?;
-                    let outside = !(min..=max).contains(&value);
-                    outside.then(|| {
-                        format!(
-                            "{} is now beyond its usual range, {min} to {max}.",
-                            value_info.shown
-                        )
-                    })
+                    let sentence = format!(
+                        "{} is now beyond its usual range, {min} to {max}.",
+                        value_info.shown
+                    );
+                    Some((sentence, (min..=max).contains(&value)))
                 });
                 let effects = lab.change(target, value);
-                if let Some(sentence) = beyond {
-                    self.notify(sentence);
+                match range {
+                    Some((sentence, true)) => self.notifications.withdraw(&sentence),
+                    Some((sentence, false)) => {
+                        self.notify(sentence);
+                    }
+                    None => {}
                 }
                 effects
             }

@@ -86,6 +86,14 @@ impl Notifications {
         }
     }
 
+    /// Removes a sentence that no longer holds.
+    pub(super) fn withdraw(&mut self, text: &str) {
+        self.waiting.retain(|notification| notification.text != text);
+        if self.shown.as_ref().is_some_and(|notification| notification.text == text) {
+            self.shown = self.waiting.pop_front();
+        }
+    }
+
     /// Removes those that wait.
     pub(super) fn clear_waiting(&mut self) {
         self.waiting.clear();

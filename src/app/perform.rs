@@ -6,7 +6,7 @@ use super::keymap::Place;
 use super::speed::{faster, slower};
 use super::{
     Action, App, ArrowDirection, Asker, Effect, KeyHints, Notification, Overlay, Page, Pane,
-    Prompt, Purpose,
+    Prompt, Purpose, SourceBuffer,
 };
 use crate::experiment::{Command, Status};
 use crate::instrument::{Plot, Sight, Viewport};
@@ -109,7 +109,7 @@ impl App {
             Action::Reference => vec![Effect::Execute(Command::Reference)],
             Action::Undo => match lab.undo() {
                 Some((effects, report)) => self.report(report, effects),
-                None => self.notify("Nothing to undo."),
+                None => self.nothing_to_undo(),
             },
             Action::Redo => match lab.redo() {
                 Some((effects, report)) => self.report(report, effects),
@@ -216,6 +216,16 @@ impl App {
     pub(super) fn fail(&mut self, text: impl Into<String>) -> Vec<Effect> {
         self.notifications.show(Notification::error(text));
         Vec::new()
+    }
+
+    /// Says that there is nothing to undo, or where a changed text is undone.
+    fn nothing_to_undo(&mut self) -> Vec<Effect> {
+        let is_edited = self.own_buffer().is_some_and(SourceBuffer::is_modified);
+        self.notify(if is_edited {
+            "Nothing to undo here; changes of the text are undone in the editor: E, then Ctrl-u."
+        } else {
+            "Nothing to undo."
+        })
     }
 
     fn with_plot(&mut self, change: impl FnOnce(&mut Plot, &super::Loaded)) -> Vec<Effect> {

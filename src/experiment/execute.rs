@@ -171,8 +171,8 @@ impl Experiment {
         let sign = if by < 0.0 { '−' } else { '+' };
         let by = short(by.abs());
         let kept = match self.motion.state().form {
-            Form::Variables => "the state is",
-            Form::Velocity | Form::Momentum => "q and p are",
+            Form::Variables => "the state",
+            Form::Velocity | Form::Momentum => "q and p",
         };
         self.notify(format!("{lead} {sign}{by}; {kept} kept, gauges begin anew; r restarts"));
     }

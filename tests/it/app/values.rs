@@ -85,7 +85,13 @@ fn a_value_beyond_its_range_is_taken_and_said() {
     let mut app = in_lab();
     let effects = press(&mut app, "Enter Ctrl-u 9 9 Enter");
     assert_eq!(effects, [Effect::Execute(Command::Parameter { index: 0, value: 99.0 })]);
-    assert!(app.notifications.shown.is_some_and(|notice| notice.text.contains("0.1 to 5")));
+    let said = |app: &phaselab::app::App| {
+        app.notifications.shown.as_ref().map(|notice| notice.text.clone())
+    };
+    assert!(said(&app).is_some_and(|text| text.contains("0.1 to 5")));
+    // and no longer once it is within the range
+    press(&mut app, "Enter Ctrl-u 2 Enter");
+    assert_eq!(said(&app), None);
 }
 
 #[test]

@@ -85,6 +85,22 @@ fn a_change_is_checked_when_typing_rests_and_the_motion_goes_on() {
     assert_eq!(app.update(Event::Tick(Duration::from_secs(1))), [], "it is checked once");
 }
 
+/// Whoever left the editor and asks to undo is told where changes of the text are undone.
+#[test]
+fn undo_in_the_lab_says_where_the_text_is_undone() {
+    let told =
+        |app: &App| app.notifications.shown.as_ref().map(|n| n.text.clone()).unwrap_or_default();
+    let mut app = in_lab();
+    press(&mut app, "u");
+    assert_eq!(told(&app), "Nothing to undo.");
+    press(&mut app, "E Ctrl-End x Backspace Esc u");
+    assert_eq!(told(&app), "Nothing to undo.");
+    press(&mut app, "E Ctrl-End # Esc u");
+    assert!(told(&app).ends_with("in the editor: E, then Ctrl-u."), "{}", told(&app));
+    press(&mut app, "E Ctrl-u Esc u");
+    assert_eq!(told(&app), "Nothing to undo.");
+}
+
 #[test]
 fn what_has_a_name_in_both_texts_is_looked_at_as_before() {
     let mut app = in_lab();
