@@ -9,6 +9,9 @@ use crate::diagnostic::{nearest, with_index};
 use crate::expr::{FUNCTIONS, Span, SyntaxError, plain_name};
 use crate::model::{Attitude, BodyNames};
 
+/// What is said of a velocity of something that is not a coordinate.
+const VELOCITIES: &str = "only coordinates have velocities";
+
 impl Scope {
     /// The error for a name that the place does not know.
     pub(super) fn unknown(&self, name: &str, primes: usize, span: Span) -> SyntaxError {
@@ -76,7 +79,12 @@ impl Scope {
         let near = nearest(name, known).filter(|near| (name, *near) != ("T", "t"));
         match near {
             Some(near) => error.with_help(format!("did you mean `{near}{}`?", "'".repeat(primes))),
-            None if primes > 0 => error.with_help("only coordinates have velocities"),
+            None if primes > 0 && self.coordinates_are_open() => error
+                .with_help(format!("{VELOCITIES}: give {shown} an initial value in [coordinates]")),
+            None if primes > 0 => error.with_help(VELOCITIES),
+            None if self.coordinates_are_open() && self.is_said_to_move(&error) => {
+                error.with_help(format!("give {shown} an initial value in [coordinates]"))
+            }
             None if name.starts_with("lambda_") => error.with_help(self.multipliers()),
             None if self.allowed == Allowed::Parameters => {
                 error.with_help(format!("give {shown} a value in [parameters]"))
@@ -87,6 +95,19 @@ impl Scope {
                 error.with_help(help)
             }
         }
+    }
+
+    /// Whether a name could be that of a coordinate which the file has not declared.
+    fn coordinates_are_open(&self) -> bool {
+        !self.poisson && self.allowed != Allowed::Parameters
+    }
+
+    /// Whether the same unknown name has a velocity elsewhere in the expression.
+    fn is_said_to_move(&self, error: &SyntaxError) -> bool {
+        let of_velocity = |other: &SyntaxError| {
+            other.help.as_ref().is_some_and(|help| help.starts_with(VELOCITIES))
+        };
+        self.diagnostics.iter().any(|other| other.message == error.message && of_velocity(other))
     }
 
     /// Suggests the multipliers that a name beginning like one could mean.
