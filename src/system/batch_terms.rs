@@ -7,11 +7,12 @@
 use std::sync::Arc;
 
 use super::compiled::System;
+use super::operation::value_of;
 use super::program::{Op, Program};
 use super::state::{Form, State};
 use super::term_watch::TermSums;
 use super::terms::{AtRest, OutputPlace};
-use super::value::{Evaluator, value_of};
+use super::value::Evaluator;
 use crate::num::{Analytic, BATCH, Batch, Kernel, vectorized};
 
 /// Evaluates the terms of several orbits.

@@ -4,6 +4,8 @@
 //! Never here: the choice of precision for each order, time.
 
 use super::jet::{Coefficient, Jet, Side};
+#[cfg(target_arch = "x86_64")]
+use super::parts::Parts;
 use super::program::Singular;
 use super::solve::Factored;
 use crate::cancel::Cancel;
@@ -88,11 +90,15 @@ impl<R: Coefficient> SeriesBuilder<R> {
         (&mut self.jet, &mut self.state)
     }
 
-    /// Evaluates all registers at order 0.
+    /// Evaluates all registers at order 0, in parts.
     #[cfg(target_arch = "x86_64")]
-    pub(super) fn evaluate(&mut self, clock: SeriesClock<R>) -> Result<(), Singular> {
+    pub(super) fn evaluate(
+        &mut self,
+        parts: &mut impl Parts,
+        clock: SeriesClock<R>,
+    ) -> Result<(), Singular> {
         self.jet.take_in(&self.state, self.inputs, 0);
-        self.jet.begin(clock.time)
+        self.jet.begin_by(parts, clock.time)
     }
 
     #[cfg(target_arch = "x86_64")]

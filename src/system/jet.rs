@@ -19,7 +19,7 @@ mod tables;
 use std::ops::{Range, RangeInclusive};
 use std::sync::Arc;
 
-use super::machine_code::CompiledValues;
+use super::parts::{Interpreted, Parts};
 use super::program::{Op, Program, Register, Singular};
 use super::schedule::Schedule;
 use crate::expr::FunctionId;
@@ -37,8 +37,6 @@ pub struct Jet<R: Coefficient> {
     program: Arc<Program>,
     schedule: Arc<Schedule>,
     tables: Tables<R>,
-    /// The machine code of order 0, if there is any.
-    values: CompiledValues,
 }
 
 impl<R: Coefficient> Jet<R> {
@@ -72,7 +70,7 @@ impl<R: Coefficient> Jet<R> {
         order: usize,
     ) -> Jet<R> {
         let tables = Tables::new(&program, &schedule, index, order);
-        Jet { program, schedule, tables, values: CompiledValues::default() }
+        Jet { program, schedule, tables }
     }
 
     /// The highest order there is room for.
@@ -147,7 +145,7 @@ impl<R: Coefficient> Jet<R> {
         if k == 0 {
             self.begin(time)?;
         } else {
-            let Jet { program, schedule, tables, .. } = self;
+            let Jet { program, schedule, tables } = self;
             tables.orders().advance::<FUSED>(program, schedule, k, scale);
         }
         Ok(())
@@ -156,8 +154,14 @@ impl<R: Coefficient> Jet<R> {
     /// Evaluates all registers at order 0.
     #[inline(always)]
     pub(super) fn begin(&mut self, time: R) -> Result<(), Singular> {
-        let Jet { program, tables, values, .. } = self;
-        values.evaluate(
+        self.begin_by(&mut Interpreted, time)
+    }
+
+    /// The same in parts.
+    #[inline(always)]
+    pub(super) fn begin_by(&mut self, parts: &mut impl Parts, time: R) -> Result<(), Singular> {
+        let Jet { program, tables, .. } = self;
+        parts.evaluate(
             program,
             tables,
             |tables| R::floats(&mut tables.rows[..program.ops.len()]),
@@ -183,7 +187,7 @@ impl<R: Coefficient> Jet<R> {
         if next == 0 && orders.end > 0 && !ends() {
             self.begin(time)?;
         }
-        let Jet { program, schedule, tables, .. } = self;
+        let Jet { program, schedule, tables } = self;
         let mut tables = tables.orders();
         while next < orders.end {
             if ends() {

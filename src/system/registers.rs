@@ -4,10 +4,10 @@
 //! give. Never here: which steps, numbers that leave the range of `f64`.
 
 use super::instruction::{CHUNK, Instruction, Moved, REGISTERS};
+use super::operation::value_of;
 use super::program::Register;
 use super::register_map::RegisterMap;
 use super::solve::Factored;
-use super::value::value_of;
 use crate::num::{Analytic, Batch};
 
 /// A number that is moved with compensated sums.

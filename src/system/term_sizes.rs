@@ -5,8 +5,8 @@
 //! concluded from them.
 //! Source: N. J. Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed., § 3.3.
 
+use super::operation::value_of;
 use super::program::{Op, Program, Register};
-use super::value::value_of;
 
 /// The part of the size of an operand by which it is moved, to see how much of it reaches the value.
 const PART: f64 = 1.0 / (1 << 20) as f64;

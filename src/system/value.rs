@@ -9,6 +9,8 @@ use std::sync::Arc;
 
 use super::kink_sides::KinkSides;
 use super::machine_code::CompiledValues;
+use super::operation::value_of;
+use super::parts::Parts;
 use super::program::{Block, Op, Program, Register, Singular};
 use super::solve::Factored;
 use super::underflow;
@@ -252,41 +254,78 @@ fn run<R: Real>(program: &Program, registers: &mut [R], register: Register, op: 
     }
 }
 
-/// The value of an operation on registers with these values and, of a function, that of its
-/// companion in the next register. `None` for what is set elsewhere.
-#[inline(always)]
-pub(super) fn value_of<R: Analytic>(
-    program: &Program,
-    op: Op,
-    get: impl Fn(Register) -> R,
-) -> Option<(R, Option<R>)> {
-    let value = match op {
-        Op::Constant(c) => R::of(program.constants[c as usize]),
-        Op::Linear { constant, first, count } => {
-            let terms = &program.terms[first as usize..(first + count) as usize];
-            let mut sum = R::of(program.constants[constant as usize]);
-            for term in terms {
-                sum = sum + get(term.register) * R::of(term.coefficient);
-            }
-            sum
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::expr::{Expr, FunctionId, Pool};
+    use crate::num::Number;
+
+    /// Everything that is compiled, with what is not in the middle: a function, a choice, a live exponent.
+    fn program() -> Arc<Program> {
+        let mut pool = Pool::new();
+        let [x, y, t, n] = ["x", "y", "t", "n"].map(|name| pool.symbol(name));
+        let [a, b, time, exponent] = [x, y, t, n].map(|symbol| pool.variable(symbol));
+        let mut outputs = Vec::new();
+        for (numerator, denominator) in [
+            (2, 1),
+            (3, 1),
+            (7, 1),
+            (-1, 1),
+            (-5, 1),
+            (1, 2),
+            (3, 2),
+            (5, 2),
+            (-1, 2),
+            (-7, 2),
+            (1, 3),
+        ] {
+            let exponent = pool.number(Number::ratio(numerator, denominator));
+            let base = pool.add(a, exponent);
+            let base = pool.mul(base, base);
+            outputs.push(pool.pow(base, exponent));
         }
-        Op::Scale(a, b) | Op::Multiply(a, b) => get(a) * get(b),
-        Op::Square(a) => get(a) * get(a),
-        Op::Divide(a, b) => get(a) / get(b),
-        Op::Root(a) => get(a).sqrt(),
-        Op::Power(a, exponent) => get(a).power(program.constants[exponent as usize]),
-        Op::ParametricPower(a, exponent) => get(a).raised(get(exponent)),
-        Op::Call(function, [a, b]) => {
-            let (value, companion) = function.with_companion([get(a), get(b)]);
-            return Some((value, Some(companion)));
+        let sine = pool.call(FunctionId::Sin, &[b]);
+        let (product, fading) = (pool.mul(a, b), pool.mul(b, time));
+        let sum = pool.linear(
+            Number::ratio(1, 3),
+            &[(Number::ONE, product), (-Number::ONE, fading), (Number::ratio(2, 7), sine)],
+        );
+        let quotient = pool.div(sum, b);
+        let size = pool.call(FunctionId::Abs, &[quotient]);
+        let live = pool.pow(size, exponent);
+        let rest = pool.mul(live, sum);
+        outputs.extend([sum, quotient, size, rest]);
+        let all = outputs.iter().map(|&e| (Number::ONE, e)).collect::<Vec<(Number, Expr)>>();
+        outputs.push(pool.linear(Number::ZERO, &all));
+        Program::compile(&mut pool, &[n], t, &[x, y], &outputs).expect("all are inputs")
+    }
+
+    #[test]
+    fn values_have_the_bits_of_the_interpreter() {
+        let program = program();
+        let exponent = [DoubleDouble::from(1.25)];
+        let evaluator = || {
+            let mut evaluator: Evaluator<f64> = Evaluator::new(Arc::clone(&program));
+            evaluator.set_parameters(&exponent);
+            evaluator
+        };
+        let bits = |evaluator: &Evaluator<f64>| -> Vec<u64> {
+            (0..program.ops.len() as u32).map(|r| evaluator.register(r).to_bits()).collect()
+        };
+        let points = [[0.7, 0.3], [-2.5, 1e-3], [1e5, -4.0], [0.5, f64::INFINITY], [0.25, 0.0]];
+        let at = |evaluator: &mut Evaluator<f64>, [x, y]: [f64; 2]| {
+            evaluator.evaluate(0.9, &[x, y]).expect("no matrix is singular");
+            bits(evaluator)
+        };
+        let interpreted: Vec<_> = points.iter().map(|&point| at(&mut evaluator(), point)).collect();
+        let mut compiled = evaluator();
+        for _ in 0..200 {
+            at(&mut compiled, points[0]);
         }
-        Op::Select { switch, positive, negative, .. } => {
-            let (side, positive, negative) = (get(switch), get(positive), get(negative));
-            // on the surface; NaN if the switch is NaN
-            let between = (positive + negative) * 0.5 * (side + R::ONE);
-            side.where_positive(positive, (-side).where_positive(negative, between))
+        let functions = format!("{compiled:?}").matches("Compiled {").count();
+        assert!(functions >= 2 || cfg!(not(target_arch = "x86_64")), "{functions}");
+        for (&point, interpreted) in points.iter().zip(&interpreted) {
+            assert_eq!(at(&mut compiled, point), *interpreted, "{point:?}");
         }
-        Op::Parameter(_) | Op::Time | Op::Input(_) | Op::Solve(_) | Op::Written => return None,
-    };
-    Some((value, None))
+    }
 }

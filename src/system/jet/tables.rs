@@ -9,9 +9,9 @@ use super::operands::Operands;
 use super::orders::{Coefficient, Elimination, Orders};
 use super::series_index::SeriesIndex;
 use super::side::Side;
+use crate::system::operation::value_of;
 use crate::system::program::{Block, Op, Program, Register, Singular};
 use crate::system::schedule::Schedule;
-use crate::system::value::value_of;
 
 /// What a jet computes with.
 #[derive(Clone, Debug)]

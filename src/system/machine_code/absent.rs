@@ -10,6 +10,7 @@ use std::ops::Range;
 
 use crate::num::{Batch, DoubleDouble};
 use crate::system::growth::{SeriesBuilder, SeriesClock};
+use crate::system::parts::Parts;
 use crate::system::program::{Program, Singular};
 
 /// No functions.
@@ -62,14 +63,13 @@ impl CompiledGrowth {
 #[derive(Clone, Debug, Default)]
 pub(in crate::system) struct CompiledValues;
 
-impl CompiledValues {
-    /// Has the whole body interpreted.
-    pub(in crate::system) fn evaluate<S, E>(
+impl Parts for CompiledValues {
+    fn evaluate<M, E>(
         &mut self,
         program: &Program,
-        memory: &mut S,
-        _: impl Fn(&mut S) -> Option<&mut [f64]>,
-        interpret: impl Fn(&mut S, Range<usize>) -> Result<(), E>,
+        memory: &mut M,
+        _: impl Fn(&mut M) -> Option<&mut [f64]>,
+        interpret: impl Fn(&mut M, Range<usize>) -> Result<(), E>,
     ) -> Result<(), E> {
         interpret(memory, 0..program.body.len())
     }

@@ -430,10 +430,8 @@ fn the_first_row_of_the_picker_is_the_session() {
         assert!(!text.contains("› Simple pendulum"), "{text}");
     }
     // where there is no room for both the title is shortened, not the time
-    for (width, row) in [(70, format!("Simple…{time}")), (26, "Simple… ".to_owned())] {
-        let text = rows(&screen(&app, &rich(), (width, 24))).join("\n");
-        assert!(text.contains(&format!("› Continue: {row}")), "{text}");
-    }
+    let text = rows(&screen(&app, &rich(), (70, 24))).join("\n");
+    assert!(text.contains(&format!("› Continue: Simple…{time}")), "{text}");
     press(&mut app, "Down");
     let text = rows(&screen(&app, &rich(), (80, 24))).join("\n");
     assert!(text.contains("  Continue: Simple pendulum"), "{text}");

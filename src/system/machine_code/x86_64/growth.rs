@@ -10,6 +10,7 @@ use super::cache::{Availability, CodeCache};
 use super::compile::{Compiled, Extent};
 use super::function::{BatchStretches, Stretches, Values, Work, widest};
 use super::layout::FactoredPlace;
+use super::values::CompiledValues;
 use crate::num::{Batch, DoubleDouble, Real};
 use crate::system::growth::{SeriesBuilder, SeriesClock};
 use crate::system::program::Singular;
@@ -30,6 +31,8 @@ pub(in crate::system) struct CompiledGrowth {
 struct Code {
     compiled: Arc<Compiled>,
     work: Work,
+    /// What computes order 0.
+    values: CompiledValues,
 }
 
 impl CompiledGrowth {
@@ -94,7 +97,7 @@ impl CompiledGrowth {
 
 impl Code {
     fn of(compiled: Arc<Compiled>) -> Code {
-        Code { work: compiled.work.clone(), compiled }
+        Code { work: compiled.work.clone(), compiled, values: CompiledValues::default() }
     }
 
     fn grow(
@@ -102,7 +105,7 @@ impl Code {
         high: &mut SeriesBuilder<f64>,
         clock: SeriesClock<f64>,
     ) -> Result<bool, Singular> {
-        high.evaluate(clock)?;
+        high.evaluate(&mut self.values, clock)?;
         if self.vanishes(high.jet.values()) {
             return Ok(false);
         }
@@ -122,7 +125,7 @@ impl Code {
         low: &mut SeriesBuilder<DoubleDouble>,
         (time, scale): (DoubleDouble, f64),
     ) -> Result<bool, Singular> {
-        low.evaluate(SeriesClock::new(time, scale))?;
+        low.evaluate(&mut self.values, SeriesClock::new(time, scale))?;
         let values = low.jet.values();
         if self.vanishes(values) || self.divides_badly(values) {
             return Ok(false);
@@ -149,7 +152,7 @@ impl Code {
         builder: &mut SeriesBuilder<Batch>,
         clock: SeriesClock<Batch>,
     ) -> Result<bool, Singular> {
-        builder.evaluate(clock)?;
+        builder.evaluate(&mut self.values, clock)?;
         let values = builder.jet.values();
         let vanishes = |r: &u32| values[*r as usize].0.contains(&0.0);
         if self.compiled.vanishing.iter().any(vanishes) {

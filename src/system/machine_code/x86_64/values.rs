@@ -13,6 +13,7 @@ use super::function::{CompiledFunction, NotCompiled, Stretches, Values, Work};
 use super::layout::{Address, Area, Layout};
 use super::plain::Plain;
 use crate::num::DoubleDouble;
+use crate::system::parts::Parts;
 use crate::system::program::{Op, Program, Register};
 
 /// A program is compiled when its values are wanted so often: short motions end before it pays.
@@ -45,13 +46,9 @@ pub(in crate::system) struct CompiledValues {
     work: Vec<Work>,
 }
 
-impl CompiledValues {
-    /// Evaluates the body of a program: `interpret` evaluates a range of it.
-    ///
-    /// # Errors
-    /// Those of `interpret`.
+impl Parts for CompiledValues {
     #[inline]
-    pub(in crate::system) fn evaluate<S, E>(
+    fn evaluate<S, E>(
         &mut self,
         program: &Program,
         memory: &mut S,
@@ -80,7 +77,9 @@ impl CompiledValues {
         }
         Ok(())
     }
+}
 
+impl CompiledValues {
     #[cold]
     fn ask(&mut self, program: &Program) {
         self.parts = program.values.get(PATIENCE, || parts_of(program));
@@ -177,7 +176,7 @@ fn place(register: Register) -> Address {
     Address { area: Area::State, offset: register as usize }
 }
 
-/// Operations as instructions whose results have the bits of [`value_of`](crate::system::value).
+/// Operations as instructions whose results have the bits of the interpreter.
 struct ValueWriter<'a> {
     program: &'a Program,
     code: Code,
@@ -311,79 +310,6 @@ impl HalfInteger {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::expr::{Expr, FunctionId, Pool};
-    use crate::num::Number;
-    use crate::system::value::Evaluator;
-
-    /// Everything that is compiled, with what is not in the middle: a function, a choice, a live exponent.
-    fn program() -> Arc<Program> {
-        let mut pool = Pool::new();
-        let [x, y, t, n] = ["x", "y", "t", "n"].map(|name| pool.symbol(name));
-        let [a, b, time, exponent] = [x, y, t, n].map(|symbol| pool.variable(symbol));
-        let mut outputs = Vec::new();
-        for (numerator, denominator) in [
-            (2, 1),
-            (3, 1),
-            (7, 1),
-            (-1, 1),
-            (-5, 1),
-            (1, 2),
-            (3, 2),
-            (5, 2),
-            (-1, 2),
-            (-7, 2),
-            (1, 3),
-        ] {
-            let exponent = pool.number(Number::ratio(numerator, denominator));
-            let base = pool.add(a, exponent);
-            let base = pool.mul(base, base);
-            outputs.push(pool.pow(base, exponent));
-        }
-        let sine = pool.call(FunctionId::Sin, &[b]);
-        let (product, fading) = (pool.mul(a, b), pool.mul(b, time));
-        let sum = pool.linear(
-            Number::ratio(1, 3),
-            &[(Number::ONE, product), (-Number::ONE, fading), (Number::ratio(2, 7), sine)],
-        );
-        let quotient = pool.div(sum, b);
-        let size = pool.call(FunctionId::Abs, &[quotient]);
-        let live = pool.pow(size, exponent);
-        let rest = pool.mul(live, sum);
-        outputs.extend([sum, quotient, size, rest]);
-        let all = outputs.iter().map(|&e| (Number::ONE, e)).collect::<Vec<(Number, Expr)>>();
-        outputs.push(pool.linear(Number::ZERO, &all));
-        Program::compile(&mut pool, &[n], t, &[x, y], &outputs).expect("all are inputs")
-    }
-
-    #[test]
-    fn values_have_the_bits_of_the_interpreter() {
-        let program = program();
-        let exponent = [DoubleDouble::from(1.25)];
-        let evaluator = || {
-            let mut evaluator: Evaluator<f64> = Evaluator::new(Arc::clone(&program));
-            evaluator.set_parameters(&exponent);
-            evaluator
-        };
-        let bits = |evaluator: &Evaluator<f64>| -> Vec<u64> {
-            (0..program.ops.len() as u32).map(|r| evaluator.register(r).to_bits()).collect()
-        };
-        let points = [[0.7, 0.3], [-2.5, 1e-3], [1e5, -4.0], [0.5, f64::INFINITY], [0.25, 0.0]];
-        let at = |evaluator: &mut Evaluator<f64>, [x, y]: [f64; 2]| {
-            evaluator.evaluate(0.9, &[x, y]).expect("no matrix is singular");
-            bits(evaluator)
-        };
-        let interpreted: Vec<_> = points.iter().map(|&point| at(&mut evaluator(), point)).collect();
-        let mut compiled = evaluator();
-        for _ in 0..2 * PATIENCE {
-            at(&mut compiled, points[0]);
-        }
-        let parts = program.values.get(0, Vec::<Part>::new).expect("it was wanted often enough");
-        let count = parts.iter().filter(|part| matches!(part, Part::Compiled { .. })).count();
-        assert!((2..parts.len()).contains(&count), "{parts:?}");
-        for (&point, interpreted) in points.iter().zip(&interpreted) {
-            assert_eq!(at(&mut compiled, point), *interpreted, "{point:?}");
-        }
-    }
 
     #[test]
     fn half_integers_are_compiled_up_to_sixty_four() {
