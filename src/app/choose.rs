@@ -55,7 +55,7 @@ impl App {
             items.push(Item::plain(offer.label, offer.about, Choice::Offer(index)));
         }
         let menu =
-            Menu::new("A picture, or the horizontal axis", Choosing::Contents { plot }, items);
+            Menu::new("Choose a view or the horizontal axis", Choosing::Contents { plot }, items);
         self.overlay = Some(Overlay::Menu(menu.at(now)));
         Vec::new()
     }

@@ -22,9 +22,7 @@ impl App {
         if matches!(over, Variation::Initial(_))
             && !lab.loaded.physics().model.constraints.is_empty()
         {
-            return self.notify(
-                "Constraints hold the initial values, of which none varies alone: choose a parameter.",
-            );
+            return self.notify("Constraints tie the initial values together: choose a parameter.");
         }
         lab.show_over(over);
         if lab.is_always_regular() {

@@ -271,7 +271,7 @@ impl App {
         if buffer.editor.find(&sought) {
             return Vec::new();
         }
-        self.notify(format!("`{sought}` stands nowhere."))
+        self.notify(format!("not found: `{sought}`"))
     }
 
     fn save_file(&mut self) -> Vec<Effect> {

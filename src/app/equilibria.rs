@@ -89,7 +89,7 @@ impl App {
             items.push(Item::plain(label, about, Choice::Equilibrium(index)));
             for mode in 0..one.modes.len() {
                 let label = format!("  mode {}", described_mode(present.physics, one, mode));
-                let about = "begin along it".to_owned();
+                let about = "start along it".to_owned();
                 items.push(Item::plain(label, about, Choice::Mode(index, mode)));
             }
         }

@@ -44,7 +44,6 @@ impl Guide {
             GuideKind::Lesson(LessonTaken::Whole) => "lesson, finished",
             GuideKind::Demo => "demo",
         };
-        // The tour and other guides may be called like their system.
-        if self.system == self.title { what.to_owned() } else { format!("{what}: {}", self.system) }
+        format!("{what}: {}", self.system)
     }
 }

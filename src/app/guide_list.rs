@@ -25,7 +25,7 @@ impl App {
         };
         let items: Vec<Item> = self.picker.guides.iter().enumerate().map(item).collect();
         if items.is_empty() {
-            return self.notify("There are no lessons and demos here.");
+            return self.notify("There are no lessons or demos.");
         }
         let open = |guide: &Guide| matches!(guide.kind, GuideKind::Lesson(taken) if taken != LessonTaken::Whole);
         let guides = &self.picker.guides;

@@ -27,7 +27,7 @@ impl App {
         self.go(Page::Lab);
         let Some(lab) = &mut self.lab else { return Vec::new() };
         lab.focus.pane = pane;
-        let name = lab.titled(pane);
+        let name = lab.spoken(pane);
         self.notifications.dismiss();
         let effects = self.perform(action);
         // What the action itself reports is more important.

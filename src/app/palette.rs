@@ -82,11 +82,8 @@ impl App {
 
     fn line_of(&self, row: &Binding, elsewhere: Option<&str>) -> Item {
         let unavailable = elsewhere.or_else(|| self.lack(row.action));
-        // Users search for the word in the footer.
-        let named = row.hint.is_empty() || moves(row.action) || row.help.contains(row.hint);
-        let name = if named { String::new() } else { format!("{}: ", row.hint) };
         Item {
-            label: format!("{name}{}", row.help),
+            label: row.help.to_owned(),
             about: row.place.title().to_owned(),
             keys: row.key_names().join(" "),
             unavailable: unavailable.map(str::to_owned),
@@ -313,6 +310,15 @@ impl Lab {
     /// Returns the name of a pane with the word for its kind.
     pub(super) fn titled(&self, pane: Pane) -> String {
         format!("{}{}", self.kind_of(pane), self.name_of(pane))
+    }
+
+    /// Returns the name of a pane within a sentence: with an article where it is a common noun.
+    pub(super) fn spoken(&self, pane: Pane) -> String {
+        let named = self.titled(pane);
+        match pane {
+            Pane::Plot(_) if self.kind_of(pane).is_empty() => named,
+            _ => format!("the {named}"),
+        }
     }
 
     /// Returns the prefix of a pane's name if the name itself consists only of quantities.

@@ -16,13 +16,15 @@ pub fn synonyms(action: Action) -> &'static [&'static str] {
         Action::Exponents => &["chaos", "Lyapunov", "predictable", "sensitive"],
         Action::AddNeighbour => &["butterfly effect", "sensitive"],
         Action::ByChaos => &["chaos"],
-        Action::Reset => &["restart", "start over", "start again", "clear the trail"],
+        Action::Reset => {
+            &["restart", "back to the start", "start over", "start again", "clear the trail"]
+        }
         Action::FullReset => &["restart with the original values", "defaults"],
         Action::PlayPause => &["stop", "run", "play", "freeze"],
         Action::StepBack | Action::LookEarlier => &["rewind", "earlier"],
         Action::Reverse => &["backwards"],
-        Action::Faster => &["speed", "fast forward"],
-        Action::Slower => &["speed", "slow motion"],
+        Action::Faster => &["speed up", "fast forward"],
+        Action::Slower => &["speed", "slow down", "slow motion"],
         Action::Mouse => &["drag", "click", "wheel"],
         Action::Closer(AxisChoice::Both) => &["zoom in", "magnify"],
         Action::Farther(AxisChoice::Both) => &["zoom out"],

@@ -90,7 +90,7 @@ impl App {
         let Some(lab) = &self.lab else { return Vec::new() };
         let Some(seen) = lab.seen() else { return Vec::new() };
         if lab.marks.is_empty() {
-            return self.notify("There are no marks; ; sets one at the time shown.");
+            return self.notify("No marks yet: press ; to set one.");
         }
         let Recorded { from, to, .. } = seen.recorded;
         let (low, high) = (from.min(to), from.max(to));

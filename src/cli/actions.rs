@@ -29,7 +29,7 @@ use crate::num::significant;
 use crate::printable;
 use crate::system::ChannelKind;
 
-/// Action, period and frequency of one degree of freedom.
+/// Compute action, period and frequency of one degree of freedom.
 ///
 /// For each energy one row for every region that it allows, from left to right: libration between
 /// two turning points, or rotation; the action ∮ p dq, the period T, the frequency dE/dJ = 1/T.

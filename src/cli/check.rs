@@ -20,7 +20,7 @@ use crate::printable;
 /// Report all errors in files, and whether what they claim is true.
 ///
 /// Reports go to standard error. A file's claims (`conserved`, `[expect]`) are checked by
-/// integrating the motion. If there is none, what was found is shown on a terminal, and
+/// integrating the motion. If there are no errors, what was found is shown on a terminal, and
 /// nothing else is written.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\

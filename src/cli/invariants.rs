@@ -1,4 +1,4 @@
-//! `phaselab invariants`: constants of the motion that nobody wrote down, and what was searched in vain.
+//! `phaselab invariants`: constants of the motion that nobody wrote down, and what was searched without result.
 
 mod json;
 mod text;

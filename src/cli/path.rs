@@ -25,7 +25,7 @@ use crate::model::Model;
 use crate::printable;
 use crate::system::InitialOverride;
 
-/// The path between two configurations that makes the action stationary, or the action of a path.
+/// Find the path between two configurations that makes the action stationary, or the action of a path.
 ///
 /// With --to the motion that takes the time --in from one configuration to the other: its action
 /// ∫ L dt, its Morse index (how many ways of varying it lessen the action), and the conjugate

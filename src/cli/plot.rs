@@ -11,8 +11,9 @@ use crate::printable;
 use crate::view::glyphs::Glyphs;
 use crate::view::table_plot::{TablePlot, drawn};
 
-/// Draw a table of numbers as text: what D writes in the lab, or run, section and sweep, and others as JSON.
+/// Draw a table of numbers as text.
 ///
+/// The table is what D writes in the lab, or run, section and sweep, and others as JSON.
 /// Two of its columns are drawn against each other, a third one as shades. By default these are the
 /// first two whose numbers differ, or the three of the table of a map; of a section's a coordinate and its momentum; of a
 /// sweep's the first measure over the one or two numbers that were set. Of what `lyapunov`, `spectrum` and `orbit --along`

@@ -26,7 +26,7 @@ use crate::model::{Allowed, Direction, Model, Scope};
 use crate::printable;
 use crate::system::InitialOverride;
 
-/// The crossings of orbits with a surface of section.
+/// Find the crossings of orbits with a surface of section.
 ///
 /// One row a crossing: the orbit, the number of the crossing, the time, and the columns of `run`.
 /// Crossings are located on the dense output of the method, their times as exact as the method's

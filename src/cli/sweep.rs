@@ -31,7 +31,7 @@ use identity::{Identity, Shard};
 use journal::Journal;
 use table::{MeasureName, RowRemark, SweepRow, SweepTable};
 
-/// One run per row of a table or point of a grid, in parallel.
+/// Run once per row of a table or point of a grid, in parallel.
 ///
 /// Each column of the table, or axis of the grid, sets a parameter or an initial value. One row
 /// comes out for each: what was set, the status, the columns of `run` at the end, the drift of the

@@ -264,7 +264,7 @@ fn sentences(answer: Option<&Answer>, coordinate: Option<&str>) -> Vec<String> {
     let at = |focus: &f64| format!("t = {}", short(computed.begin + focus));
     // as many negative directions as foci that were passed (M. Morse)
     let not_least = |foci: usize| match computed.principle {
-        Principle::Maupertuis => "not least at equal H".to_owned(),
+        Principle::Maupertuis => "not a minimum at this energy".to_owned(),
         Principle::Hamilton | Principle::PhaseSpace => format!("not least: Morse index {foci}"),
     };
     let rest = match found.foci.as_deref() {

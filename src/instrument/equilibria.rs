@@ -273,7 +273,7 @@ pub fn classes(physics: Physics<'_>, periods: &[(usize, f64)]) -> Option<String>
         physics.channel(ChannelKind::Position(i)).map(|channel| physics.shown(channel).to_owned())
     };
     let names: Vec<String> = periods.iter().filter_map(shown).collect();
-    (!names.is_empty()).then(|| format!("one for each turn of {}", names.join(", ")))
+    (!names.is_empty()).then(|| format!("one per turn of {}", names.join(", ")))
 }
 
 /// The coordinate along which a virtual displacement is taken.

@@ -63,7 +63,9 @@ impl Lesson {
         let right = (number - value).abs() <= within;
         let (kind, word) = spoken(right);
         let (number, found, near) = (short(number), short(value), short(within));
-        let text = format!("{word}: you predicted {number}; it is {found} (right within {near}).");
+        let text = format!(
+            "{word}: you predicted {number}; it is {found} (within {near} counts as right)."
+        );
         Ok((vec![paragraph(kind, text)], (right, Truth::Value(value, within))))
     }
 
@@ -88,7 +90,9 @@ impl Lesson {
                     format!("{} = {}, {} = {}", names[0], at[0], names[1], at[1])
                 };
                 let [own, found] = [own, found].map(shown);
-                format!("{word}: you predicted {own}; it is {found} (right within {x} and {y}).")
+                format!(
+                    "{word}: you predicted {own}; it is {found} (within {x} and {y} counts as right)."
+                )
             }
             _ if right => format!(
                 "{word}: your curve is within {x} in {} and {y} in {} of the motion.",
@@ -96,7 +100,7 @@ impl Lesson {
             ),
             _ => {
                 let [across, upwards] = names;
-                let right = format!("right within {x} in {across} and {y} in {upwards}");
+                let right = format!("within {x} in {across} and {y} in {upwards}");
                 match distance {
                     Some(distance) => {
                         let times = significant(distance, 2, 1e-3..1e6);
@@ -105,7 +109,9 @@ impl Lesson {
                              right ({right})."
                         )
                     }
-                    None => format!("{word}: your curve is not near the motion ({right})."),
+                    None => format!(
+                        "{word}: your curve is not near the motion ({right} counts as right)."
+                    ),
                 }
             }
         };

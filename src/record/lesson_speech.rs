@@ -78,7 +78,7 @@ impl Lesson {
             LessonStage::Choosing(selected) => {
                 said =
                     self.question.as_ref().map_or(Vec::new(), |question| question.asked(*selected));
-                "↑ ↓ choose · Enter commits · Tab next pane · q leaves"
+                "↑ ↓ choose · Enter confirms · Tab next pane · q leaves"
             }
             LessonStage::Pointing(wrong) => {
                 let question = self.question.as_ref();
@@ -86,9 +86,9 @@ impl Lesson {
                 said.push(paragraph(ParagraphKind::Selected, self.pointed()));
                 said.extend(wrong.iter().map(|why| paragraph(ParagraphKind::Wrong, why.clone())));
                 if question.is_some_and(Question::is_curve) {
-                    "arrows or mouse · Space sets, Backspace removes · Enter commits · q leaves"
+                    "arrows or mouse · Space sets, Backspace removes · Enter confirms · q leaves"
                 } else {
-                    "arrows or mouse · Enter commits · q leaves"
+                    "arrows or mouse · Enter confirms · q leaves"
                 }
             }
             LessonStage::Typing(text, wrong) => {
@@ -96,7 +96,7 @@ impl Lesson {
                 said = vec![paragraph(ParagraphKind::Text, question.unwrap_or_default())];
                 said.push(paragraph(ParagraphKind::Typed, format!("{text}_")));
                 said.extend(wrong.iter().map(|why| paragraph(ParagraphKind::Wrong, why.clone())));
-                "type a number · Enter commits · Tab next pane · q leaves"
+                "type a number · Enter confirms · Tab next pane · q leaves"
             }
         };
         let all = self.runner.script.steps.len();

@@ -201,7 +201,7 @@ fn sentence(verdict: &Verdict, glyphs: Glyphs) -> String {
             "it cannot resolve the motion: its terms are larger than what moves by {}",
             number::drift(*factor, glyphs)
         ),
-        Verdict::Exact(Growth::Level) => "exact to rounding, and it stays so".to_owned(),
+        Verdict::Exact(Growth::Level) => "exact to rounding, and stays so".to_owned(),
         Verdict::Exact(Growth::Root) => {
             "exact to rounding; the error grows like √t, the least that rounding allows".to_owned()
         }

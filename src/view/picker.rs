@@ -60,8 +60,8 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
             Some(Above::Unsaved) => {
                 let title = app.picker.unsaved().unwrap_or("it");
                 format!(
-                    "Enter returns to {title} in the editor. Its last changes are not saved in the file; phaselab \
-                     keeps them until they are."
+                    "Enter returns to {title} in the editor. Its last changes are unsaved; phaselab keeps them until \
+                     they are saved."
                 )
             }
             Some(Above::Guides) => guided(app),

@@ -63,7 +63,7 @@ pub(super) fn document(q: &Quantities<'_>) -> TextPage {
             None => format!("drift {}", drift(gauge.drift, q.look.glyphs)),
         };
         write(format!(
-            "{shown}{called} is {}; {moved} since t = {}; {verdict}: {}. Why it is watched: {}.",
+            "{shown}{called} is {}; {moved} since t = {}; {verdict}: {}. Reason: {}.",
             readable(gauge.value, 8, q.look.glyphs),
             brief(gauge.reference_time, 6, q.look.glyphs),
             finding(gauge, q.look.glyphs),

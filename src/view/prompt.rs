@@ -27,9 +27,9 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, prompt: &Prom
     let lines = lines(canvas, lab, prompt, usize::from(width.saturating_sub(4)));
     let height = (lines.len() as u16 + 4).min(area.height);
     let title = if lab.loaded.model.is_poisson() {
-        "{f, g}, or one: is it conserved?"
+        "Bracket {f, g}, or is f conserved?"
     } else {
-        "[f, g], or one: is it conserved?"
+        "Bracket [f, g], or is f conserved?"
     };
     let title = canvas.span(Role::Title, title);
     let (_, inner) = canvas.dialog(area, (width, height), title);

@@ -237,7 +237,7 @@ fn foot(
             (Role::Good, format!("No errors: rebuilt in {time} ms; the motion continues."))
         }
         BufferState::Changed if sheet.is_long_checked() => {
-            (Role::Dim, "Checking takes long; Esc stops it.".to_owned())
+            (Role::Dim, "This check is slow; Esc stops it.".to_owned())
         }
         BufferState::Changed | BufferState::Left => (Role::Dim, "Checking…".to_owned()),
         BufferState::Wrong if !runs => {
@@ -302,7 +302,7 @@ fn asking(canvas: &mut Canvas<'_>, area: Rect, asking: &Asking, notice: Option<&
         Asking::Name(input) => (
             "save a copy as: ",
             input,
-            "A name alone stands among your presets; with a / or ending in .toml it is a file.",
+            "A bare name is saved among your presets; a name with / or .toml as that file.",
         ),
     };
     let field = row(area, 0);

@@ -51,7 +51,7 @@ fn the_oscillator_by_its_angle_has_the_grid_of_q_and_p() {
     press(&mut app, "Wait");
     let [by_angle, polar] = &plots(&app)[..] else { panic!("the file has two") };
     let (grid, words) = shown(&app, by_angle);
-    assert_eq!(words, ["canonical, proved", "K = ω P", "ring, dim grid: the other branch"]);
+    assert_eq!(words, ["canonical, proved", "K = ω P", "ring, dim grid: the second branch"]);
     assert_eq!(measure(&app, by_angle, "canonical"), 1.0);
     assert!(measure(&app, by_angle, "residual") < 1e-12);
     assert!(grid.len() >= 14, "seven lines of each, some of them parted: {}", grid.len());
@@ -427,7 +427,7 @@ fn both_square_roots_are_drawn() {
         assert!((image[1].abs() - (2.0 * course.value("p_q")).sqrt()).abs() < 1e-14);
         let [other] = others[..] else { panic!("{others:?}, {words:?}") };
         assert!((0..2).all(|k| (other[k] + image[k]).abs() < 1e-12), "{other:?} of {image:?}");
-        assert!(words.iter().any(|line| line.contains("the other branch")), "{words:?}");
+        assert!(words.iter().any(|line| line.contains("the second branch")), "{words:?}");
         let side = |lines: &[Vec<[f64; 2]>], sign: f64| {
             !lines.is_empty() && lines.iter().flatten().all(|at| at[1] * sign >= -1e-9)
         };

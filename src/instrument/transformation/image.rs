@@ -64,13 +64,13 @@ pub(super) fn beyond(
 pub(super) fn of_branches(others: usize, rings: usize, beside: usize) -> Option<String> {
     match (others, rings, beside) {
         (0, _, _) => None,
-        (1, 0, 0) => Some("dim grid: the other branch, which does not lead to here".to_owned()),
-        (1, 0, _) => Some("ring: the other image; no grid leads to it".to_owned()),
-        (1, _, _) => Some("ring, dim grid: the other branch".to_owned()),
+        (1, 0, 0) => Some("dim grid: the second branch, which does not lead here".to_owned()),
+        (1, 0, _) => Some("ring: the second image".to_owned()),
+        (1, _, _) => Some("ring, dim grid: the second branch".to_owned()),
         (n, k, _) if n == k => Some(format!("rings, dim grids: {n} other branches")),
-        (n, k, 0) => Some(format!("rings, dim grids: {n} other branches, {k} lead to here")),
+        (n, k, 0) => Some(format!("rings, dim grids: {n} other branches, {k} lead here")),
         (n, k, m) => Some(format!(
-            "rings: {} other images; dim grids: {n} other branches, {k} lead to here",
+            "rings: {} other images; dim grids: {n} other branches, {k} lead here",
             k + m
         )),
     }

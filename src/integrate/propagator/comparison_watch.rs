@@ -121,7 +121,8 @@ impl Propagator {
 
     /// Coordinates of the comparison motion with their names.
     fn of_comparison(&self, values: &[f64]) -> Vec<(String, f64)> {
-        let names = self.system.channels().iter().map(|channel| format!("other {}", channel.shown));
+        let names =
+            self.system.channels().iter().map(|channel| format!("{} (wrong)", channel.shown));
         names.zip(values.iter().copied()).filter(|(_, x)| x.is_finite()).take(4).collect()
     }
 }

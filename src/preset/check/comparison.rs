@@ -11,18 +11,19 @@ use crate::model::Comparison;
 use crate::preset::draft::DraftComparison;
 
 impl Check<'_> {
-    /// Declares the other motion: `other_x` and `other_x'` of every coordinate.
+    /// Declares the other motion: `other_x` and `other_x'` of every coordinate, shown as `x (wrong)`.
     pub(super) fn comparison(&mut self, written: &DraftComparison) {
         let mut symbols = Vec::new();
         for c in &self.model.coordinates {
             let pool = &mut self.model.pool;
-            let shown = format!("other {}", c.shown);
+            let wrong = |latex: &str| format!("{latex}\\text{{ (wrong)}}");
+            let shown = format!("{} (wrong)", c.shown);
             let position = pool.symbol(&format!("other_{}", c.name));
-            pool.describe(position, &shown, &latex_of_unicode(&shown), Rank::Variable);
+            pool.describe(position, &shown, &wrong(&latex_of_unicode(&c.shown)), Rank::Variable);
             let rate = pool.symbol_info(c.velocity);
-            let (shown, latex) = (format!("other {}", rate.unicode), rate.latex.clone());
+            let (shown, latex) = (format!("{} (wrong)", rate.unicode), wrong(&rate.latex));
             let velocity = pool.symbol(&format!("other_{}'", c.name));
-            pool.describe(velocity, &shown, &format!("\\text{{other }}{latex}"), Rank::Rate);
+            pool.describe(velocity, &shown, &latex, Rank::Rate);
             symbols.push((position, velocity));
         }
         let mut eliminate = Vec::new();

@@ -442,7 +442,7 @@ fn the_palette_acts_on_the_nearest_pane() {
         assert_eq!(cursor, Some([0.5, 0.5]), "{begin}");
         let told =
             app.notifications.shown.as_ref().map(|notice| notice.text.clone()).unwrap_or_default();
-        assert_eq!(told, "The focus moved to phase plane, p_θ against θ.", "{begin}");
+        assert_eq!(told, "The focus moved to the phase plane, p_θ against θ.", "{begin}");
     }
     // The motion in space is another pane; a plot that was focused is the nearest.
     let mut app = in_lab();
@@ -487,10 +487,10 @@ fn the_palette_opens_types_and_chooses() {
         ("gauges focus", "focus: gauges", "focus Parameters -> Gauges"),
         (
             "zoom",
-            "zoom: let the focused pane fill the page, or put it back",
+            "zoom the focused pane until it fills the page, or put it back",
             "zoomed false -> true",
         ),
-        ("page 3", "page 3: notes, source and expectations", "page Lab -> Notes"),
+        ("page 3", "show page 3: notes, source and expectations", "page Lab -> Notes"),
     ] {
         let (found, done) = first(query);
         assert!(found.starts_with(label), "{query} finds {found}");

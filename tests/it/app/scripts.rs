@@ -135,7 +135,7 @@ fn scripts_in_the_lab() {
         (": m e t h o d Space r k 4 Enter s 0 . 5 Enter", "lab parameter 0", "StepSize(0.5)"),
         ("a Ctrl-u 1 e - 9 Enter", "lab parameter 0", "Tolerance(1e-9)"),
         // The axes of a plot: time horizontally, then θ̇ vertically; then p against θ again.
-        ("Tab Tab Tab v", "lab space + menu \"A picture, or the horizontal axis\"", ""),
+        ("Tab Tab Tab v", "lab space + menu \"Choose a view or the horizontal axis\"", ""),
         ("Tab Tab Tab v Down Down Enter", "lab space + menu \"Vertical axis, against t\"", ""),
         ("Tab Tab Tab v Down Down Enter Down Enter", "lab time [1]", ""),
         ("Tab Tab Tab v Down Down Enter Tab Down Tab Enter", "lab time [0, 1]", ""),

@@ -1,6 +1,7 @@
 //! Searching: the systems and actions found, and their order.
 
-use phaselab::app::{App, Event, Overlay};
+use phaselab::app::keymap::{Binding, KEYS};
+use phaselab::app::{Action, App, Event, Overlay};
 
 use crate::hand::{at_picker, in_lab, press};
 
@@ -75,7 +76,7 @@ fn the_palette_finds_words_and_not_chance() {
     for (query, first) in [
         ("undo", "undo the last"),
         ("pause", "pause"),
-        ("quit", "quit: "),
+        ("quit", "quit, "),
         ("ene", "measure the drift of energy"),
         ("theme", "theme: dark"),
         ("method", "method: "),
@@ -85,6 +86,17 @@ fn the_palette_finds_words_and_not_chance() {
     }
     let chance = lines(&lab, "ene");
     assert!(!chance.iter().any(|line| line.starts_with("focus the next")), "{chance:?}");
+}
+
+/// The footer and the palette have one word for an action.
+#[test]
+fn a_line_of_the_palette_has_the_word_of_the_footer() {
+    let moves = |row: &&Binding| {
+        !matches!(row.action, Action::Move(_) | Action::Change { .. }) && !row.hint.is_empty()
+    };
+    for row in KEYS.iter().filter(moves) {
+        assert!(row.help.contains(row.hint), "{}: {}", row.hint, row.help);
+    }
 }
 
 /// Who does not know how a key is put finds it by the word that a textbook has.
@@ -97,8 +109,8 @@ fn the_palette_knows_other_words() {
         ("stable", "find equilibria"),
         ("stability", "find equilibria"),
         ("equilibrium", "find equilibria"),
-        ("restart", "reset: back to the initial values"),
-        ("trail", "reset: back to the initial values"),
+        ("restart", "reset to the initial values"),
+        ("trail", "reset to the initial values"),
         ("chaos", "measure the Lyapunov exponent"),
         ("drag", "use the mouse here"),
         ("zoom in", "look closer"),

@@ -67,7 +67,7 @@ fn everything_on_the_screen_can_be_read() {
             }
         }
         told("E (energy) is 0.25000000; changed by 0 since t = 0; not conserved: by the physics");
-        told("−2F along the whole way that it went. Why it is watched: ∂L/∂t = 0.");
+        told("−2F along the whole way that it went. Reason: ∂L/∂t = 0.");
         told("latest news first news");
         for row in KEYS.iter().filter(|row| row.place == Place::Experiment) {
             told(row.help);

@@ -330,8 +330,7 @@ fn what_moves_with_neither_mechanics_has_none_of_their_colours() {
             buffer.content.iter().filter(|cell| tones.contains(&cell.bg)).count()
         })
     };
-    let third =
-        "{ disc = [\"1\", \"2 + t\", \"2\"], radius = \"0.5\", normal = [\"1\", \"0\", \"1\"] },";
+    let third = "{ disc = [\"0\", \"0.7 + t\", \"0.4\"], radius = \"0.4\", normal = [\"1\", \"0\", \"1\"] },";
     let [before, with] = [text.clone(), text.replace("shapes = [", &format!("shapes = [{third}"))]
         .map(|text| painted(&text));
     assert_eq!(before[0], 0, "{before:?}");
