@@ -49,6 +49,7 @@ mod orbit_stability;
 mod orbit_units;
 mod path_search;
 mod phase_space;
+mod power;
 mod principle;
 mod regular_step;
 mod resonance;

@@ -16,7 +16,8 @@ use crate::mechanics::ConstraintRow;
 /// Every equilibrium around the start, with its kind (what the effective potential does there),
 /// the eigenvalues of the linearised motion, frequencies and modes. Where a coordinate is cyclic it
 /// keeps moving with its momentum at the start while all others rest (relative
-/// equilibrium). Under constraints the places are those on their surface, and each has its multipliers.
+/// equilibrium). It is stable where that is proved, and linearly stable where the linearised motion
+/// only oscillates, which proves nothing of the full one. Under constraints the places are those on their surface, and each has its multipliers.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -75,6 +76,7 @@ fn object(study: &Study, found: &Equilibria) -> Map<String, Value> {
             "modes": modes,
             "modes_quadrature": quarter,
             "stable": one.stable,
+            "stability": one.stability(),
         })
     };
     let all: Vec<Value> = found.found.iter().map(one).collect();

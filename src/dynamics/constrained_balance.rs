@@ -15,6 +15,7 @@ use nalgebra::{DMatrix, DVector};
 use super::direction::basis_of_range;
 use super::error::DynamicsError;
 use super::phase_space::PhaseSpace;
+use crate::num::math;
 use crate::system::{ConstraintProjector, Form, MotionError, Rates, State, SurfaceRow, System};
 
 /// What is left of the largest entry where entries of a matrix cancel.
@@ -38,8 +39,10 @@ pub(super) struct ConstrainedBalance {
 
 /// The motion around an equilibrium, along the surface, in units of the coordinates.
 pub(super) struct AroundPlace {
-    /// ∂(ṡ, s̈)/∂(s, ṡ).
+    /// ∂(ṡ, s̈)/∂(s, ṡ), in the unit of `time`.
     pub(super) matrix: DMatrix<f64>,
+    /// The unit of time, in which the fastest motion is of order one.
+    pub(super) time: f64,
     /// The displacements of the coordinates that rest, of each variable of the matrix.
     pub(super) displacements: DMatrix<f64>,
     /// The second derivative of the potential along the surface and the mass matrix there; `None` if a constraint is not
@@ -277,12 +280,15 @@ impl ConstrainedBalance {
             (directions.transpose() * m * right).map(|x| if x.abs() <= most { 0.0 } else { x })
         };
         let stiffness = projected(&k, &along) + projected(&c, &prescribed);
+        let time = time_unit(&k, &c, &prescribed);
         matrix
             .view_mut((0, places), (places, speeds))
             .copy_from(&(along.transpose() * &directions));
-        matrix.view_mut((0, 0), (places, places)).copy_from(&(along.transpose() * &prescribed));
-        matrix.view_mut((places, 0), (speeds, places)).copy_from(&stiffness);
-        let damping = projected(&c, &directions);
+        matrix
+            .view_mut((0, 0), (places, places))
+            .copy_from(&(along.transpose() * &prescribed * time));
+        matrix.view_mut((places, 0), (speeds, places)).copy_from(&(&stiffness * time * time));
+        let damping = projected(&c, &directions) * time;
         matrix.view_mut((places, places), (speeds, speeds)).copy_from(&damping);
         let mut displacements = DMatrix::zeros(count, places + speeds);
         displacements.view_mut((0, 0), (count, places)).copy_from(&along);
@@ -290,8 +296,15 @@ impl ConstrainedBalance {
             let mass = directions.transpose() * mass * &directions;
             (-(&mass * stiffness), mass)
         });
-        Some(AroundPlace { matrix, displacements, potential })
+        Some(AroundPlace { matrix, time, displacements, potential })
     }
+}
+
+/// The unit of time in which motions with this stiffness, this damping and these prescribed rates are neither fast nor slow: a power of
+/// two, so that no digit changes.
+fn time_unit(stiffness: &DMatrix<f64>, damping: &DMatrix<f64>, rates: &DMatrix<f64>) -> f64 {
+    let fastest = stiffness.amax().sqrt().max(damping.amax()).max(rates.amax());
+    if fastest.is_normal() { math::powi(2.0, -math::log2(fastest).round() as i32) } else { 1.0 }
 }
 
 /// The smallest velocities that these rows, which are independent, take to these values.

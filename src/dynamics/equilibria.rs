@@ -23,7 +23,7 @@ use super::error::DynamicsError;
 use super::kind::{Inertia, Kind};
 use super::linear;
 use super::phase_space::PhaseSpace;
-use super::small_oscillation::{Mode, modes, stable};
+use super::small_oscillation::{LinearMotion, Mode, linear_motion, modes};
 use super::virtual_work::virtual_work;
 use crate::mechanics::Equations;
 use crate::model::Model;
@@ -191,7 +191,15 @@ impl EquilibriumSearch<'_> {
             LawAtRest::Free(_) => self.around(variables, &along),
             LawAtRest::Constrained(_) => self.around_on_surface(variables, tangents.len()),
         };
-        let Some((kind, eigenvalues, stable, modes)) = found else { return Ok(None) };
+        let Some(Around { kind, eigenvalues, linear, is_extremum, modes }) = found else {
+            return Ok(None);
+        };
+        let stable = match linear {
+            _ if is_extremum => Some(true),
+            LinearMotion::Grows => Some(false),
+            LinearMotion::Damped => Some(true),
+            LinearMotion::Bounded | LinearMotion::Open => None,
+        };
         let rates = match &self.law {
             LawAtRest::Free(field) => {
                 let (rate, derivative) = (field.rate(), field.derivative());
@@ -225,6 +233,7 @@ impl EquilibriumSearch<'_> {
             eigenvalues,
             modes,
             stable,
+            linear,
             rates,
             work,
             multipliers,
@@ -260,13 +269,23 @@ impl EquilibriumSearch<'_> {
             linear::rates_beside_kernel(&in_units, flat)?
         };
         let within = &eigenvalues[..eigenvalues.len().saturating_sub(across)];
+        let linear = linear_motion(&in_units, within);
         let Some(inertia) = inertia else {
-            return Some((None, eigenvalues.clone(), stable(&in_units, within), Vec::new()));
+            // oscillations in a plane are around an extremum of the energy on the level sets
+            let is_extremum = self.space.is_conservative()
+                && self.space.is_unforced()
+                && within.len() == 2
+                && linear == LinearMotion::Bounded;
+            let modes = Vec::new();
+            return Some(Around { kind: None, eigenvalues, linear, is_extremum, modes });
         };
         let kind = if along.is_empty() { inertia.kind() } else { Kind::Degenerate };
-        // what has the least energy stays near it (J.-L. Lagrange, G. Dirichlet)
-        let least = kind == Kind::Minimum && self.space.is_conservative();
-        let stable = if least { Some(true) } else { stable(&in_units, within) };
+        let is_least = kind == Kind::Minimum && self.space.is_passive();
+        let is_greatest = || {
+            let hamiltonian = self.space.is_hamiltonian() && along.is_empty();
+            hamiltonian && Inertia::of_energy(&df, &error).kind() == Kind::Maximum
+        };
+        let is_extremum = is_least || is_greatest();
         let places = DMatrix::identity(count / 2, count);
         let half = count / 2;
         let mass = df.view((0, half), (half, half)).into_owned().try_inverse();
@@ -277,7 +296,7 @@ impl EquilibriumSearch<'_> {
         });
         let mass = mass.filter(|mass| mass.clone().cholesky().is_some());
         let modes = self.modes(&in_units, &eigenvalues, &places, mass.as_ref());
-        Some((Some(kind), eigenvalues, stable, modes))
+        Some(Around { kind: Some(kind), eigenvalues, linear, is_extremum, modes })
     }
 
     /// The same of displacements along the surface of constraints.
@@ -297,9 +316,12 @@ impl EquilibriumSearch<'_> {
             }
             _ => Kind::Degenerate,
         });
-        let modes = self.modes(&around.matrix, &eigenvalues, &around.displacements, None);
-        let stable = stable(&around.matrix, &eigenvalues);
-        Some((kind, eigenvalues, stable, modes))
+        let linear = linear_motion(&around.matrix, &eigenvalues);
+        let mut modes = self.modes(&around.matrix, &eigenvalues, &around.displacements, None);
+        modes.iter_mut().for_each(|mode| mode.frequency /= around.time);
+        let eigenvalues = eigenvalues.into_iter().map(|z| z.map(|x| x / around.time)).collect();
+        let is_extremum = kind == Some(Kind::Minimum) && self.space.is_passive();
+        Some(Around { kind, eigenvalues, linear, is_extremum, modes })
     }
 
     /// The modes, with the displacement of every coordinate.
@@ -327,5 +349,12 @@ impl EquilibriumSearch<'_> {
     }
 }
 
-/// The kind, the eigenvalues, whether nothing grows, and the modes of an equilibrium.
-type Around = (Option<Kind>, Vec<[f64; 2]>, Option<bool>, Vec<Mode>);
+/// What is around an equilibrium.
+struct Around {
+    kind: Option<Kind>,
+    eigenvalues: Vec<[f64; 2]>,
+    linear: LinearMotion,
+    /// Whether it is a strict minimum of an energy that does not grow, or a strict maximum of one that is conserved.
+    is_extremum: bool,
+    modes: Vec<Mode>,
+}

@@ -5,7 +5,7 @@
 use std::cmp::Ordering;
 
 use super::kind::Kind;
-use super::small_oscillation::{Mode, rests};
+use super::small_oscillation::{LinearMotion, Mode, rests};
 use super::virtual_work::VirtualWork;
 
 /// An equilibrium.
@@ -28,9 +28,13 @@ pub struct Equilibrium {
     pub eigenvalues: Vec<[f64; 2]>,
     /// The small oscillations, the slowest first.
     pub modes: Vec<Mode>,
-    /// Whether nothing grows in the linearised motion; `None` where zero eigenvalues or equal ones leave it open, see
+    /// Whether it is stable, where that is proved: it is not where something grows in the linearised motion, and it is where all is
+    /// damped, or where the energy, which does not grow, is least or greatest (J.-L. Lagrange, G. Dirichlet). Oscillations of the
+    /// linearised motion alone prove nothing (T. M. Cherry, Trans. Cambridge Philos. Soc. 23, 199 (1925)). See
     /// [`Equilibrium::stability`].
     pub stable: Option<bool>,
+    /// What the linearised motion does.
+    pub(super) linear: LinearMotion,
     /// The rates of the cyclic coordinates, by index.
     pub rates: Vec<(usize, f64)>,
     /// The forces that balance there, once [`with_virtual_work`](super::with_virtual_work) has written them …
@@ -40,12 +44,18 @@ pub struct Equilibrium {
 }
 
 impl Equilibrium {
+    /// Whether all that is known of its stability is that in the linearised motion everything oscillates and nothing grows.
+    pub fn is_linearly_stable(&self) -> bool {
+        self.stable.is_none() && self.linear == LinearMotion::Bounded
+    }
+
     /// Its stability in words.
     pub fn stability(&self) -> &'static str {
         match self.stable {
             Some(true) => "stable",
             Some(false) => "unstable",
             None if self.eigenvalues.is_empty() => "of unknown stability",
+            None if self.is_linearly_stable() => "linearly stable",
             None if rests(&self.eigenvalues) => "neutral in a direction",
             None => "neutral: equal frequencies with fewer modes",
         }

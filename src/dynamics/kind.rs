@@ -79,6 +79,12 @@ impl Inertia {
             return Inertia::of(&-(c - d * mass * a), &error);
         }
         // no kinetic energy that is positive: the energy itself decides
+        Inertia::of_energy(df, error)
+    }
+
+    /// That of the energy itself by ∂(q̇, ṗ)/∂(q, p) of Hamilton's equations, with its errors.
+    pub(super) fn of_energy(df: &DMatrix<f64>, error: &DMatrix<f64>) -> Inertia {
+        let n = df.nrows() / 2;
         let ordered = |of: &DMatrix<f64>, sign: f64| {
             DMatrix::from_fn(2 * n, 2 * n, |i, j| {
                 if i < n { of[(n + i, j)] * sign } else { of[(i - n, j)] }

@@ -18,6 +18,12 @@ const KERNEL: f64 = 1e-12;
 /// positive imaginary part first; empty if they cannot be found.
 pub(super) fn eigenvalues(matrix: &DMatrix<f64>) -> Vec<[f64; 2]> {
     let mut values = num::eigenvalues(matrix.clone());
+    sort(&mut values);
+    values
+}
+
+/// Sorts eigenvalues by falling modulus, of a pair the positive imaginary part first.
+fn sort(values: &mut [[f64; 2]]) {
     let modulus = |z: &[f64; 2]| z[0] * z[0] + z[1] * z[1];
     values.sort_by(|a, b| {
         let (x, y) = (modulus(a), modulus(b));
@@ -28,16 +34,51 @@ pub(super) fn eigenvalues(matrix: &DMatrix<f64>) -> Vec<[f64; 2]> {
             y.total_cmp(&x)
         }
     });
-    values
 }
 
 /// The same of a matrix of rates, whose eigenvalues all are in one unit: real and imaginary parts that are rounding of the
-/// largest are 0.
+/// largest are 0. Rounding stays among variables that act on each other, so that what is slow beside something fast on which it does
+/// not act is known as well as that.
 pub(super) fn rates(matrix: &DMatrix<f64>) -> Vec<[f64; 2]> {
-    let values = eigenvalues(matrix);
-    let largest = values.iter().flatten().fold(0.0_f64, |most, x| most.max(x.abs()));
-    let known = |x: f64| if x.abs() <= ROUNDING * largest { 0.0 } else { x };
-    values.into_iter().map(|z| z.map(known)).collect()
+    let parts = coupled(matrix);
+    let mut values: Vec<[f64; 2]> = Vec::new();
+    for part in &parts {
+        let own = DMatrix::from_fn(part.len(), part.len(), |i, j| matrix[(part[i], part[j])]);
+        let own = num::eigenvalues(own);
+        if own.len() < part.len() {
+            return Vec::new();
+        }
+        let largest = own.iter().flatten().fold(0.0_f64, |most, x| most.max(x.abs()));
+        let known = |x: f64| if x.abs() <= ROUNDING * largest { 0.0 } else { x };
+        values.extend(own.into_iter().map(|z| z.map(known)));
+    }
+    sort(&mut values);
+    values
+}
+
+/// The variables of a matrix in groups that act on each other, directly or by way of others: the matrix is block triangular with
+/// a block for each.
+fn coupled(matrix: &DMatrix<f64>) -> Vec<Vec<usize>> {
+    let n = matrix.nrows();
+    let mut acts = DMatrix::from_fn(n, n, |i, j| i == j || matrix[(i, j)] != 0.0);
+    for k in 0..n {
+        for i in (0..n).filter(|&i| i != k) {
+            if acts[(i, k)] {
+                for j in 0..n {
+                    acts[(i, j)] |= acts[(k, j)];
+                }
+            }
+        }
+    }
+    let mut groups: Vec<Vec<usize>> = Vec::new();
+    for i in 0..n {
+        let own = groups.iter_mut().find(|group| acts[(i, group[0])] && acts[(group[0], i)]);
+        match own {
+            Some(group) => group.push(i),
+            None => groups.push(vec![i]),
+        }
+    }
+    groups
 }
 
 /// The same of a matrix with a kernel of at least this dimension that is known to be one but for rounding: without its vectors, which

@@ -8,6 +8,7 @@ use nalgebra::{DMatrix, DVector};
 use super::drive::{acts, coordinate_period, drive_period};
 use super::error::DynamicsError;
 use super::levels::Levels;
+use super::power::never_adds_energy;
 use crate::cancel::Cancel;
 use crate::expr::Expr;
 use crate::mechanics::Equations;
@@ -23,9 +24,12 @@ pub struct PhaseSpace {
     system: System,
     parameters: Vec<f64>,
     names: Vec<String>,
+    unforced: bool,
     hamiltonian: bool,
     autonomous: bool,
     conservative: bool,
+    /// Whether the energy is known to grow nowhere.
+    passive: bool,
     /// The period of the drive, of a law that depends on time.
     drive: Option<f64>,
     jumps: bool,
@@ -135,12 +139,13 @@ impl PhaseSpace {
             (q.chain(&channels[2 * n..3 * n]).map(|c| c.name.clone()).collect(), n)
         };
         let none = |forces: &[Expr]| forces.iter().all(|&force| force == Expr::ZERO);
-        let hamiltonian = match &model.mechanics {
+        let unforced = match &model.mechanics {
             Mechanics::Lagrangian { dissipation, forces, .. } => {
                 *dissipation == Expr::ZERO && none(forces)
             }
-            Mechanics::Hamiltonian { forces, .. } => none(forces),
-            Mechanics::Poisson { .. } => false,
+            Mechanics::Hamiltonian { forces, .. } | Mechanics::Poisson { forces, .. } => {
+                none(forces)
+            }
         };
         let timeless = !system.without_tangents().exact_rates().depends_on_time();
         let moving = acts(model).iter().any(|&e| equations.pool.depends(e, model.symbols.time));
@@ -156,12 +161,14 @@ impl PhaseSpace {
         periods.resize(names.len(), None);
         let conservative = autonomous && !jumps && equations.energy_rate == Expr::ZERO;
         let levels = if jumps { None } else { Levels::of(model, equations, conservative)? };
+        let passive = autonomous && !jumps && never_adds_energy(model, equations, parameters);
         Ok(PhaseSpace {
             levels: levels.map(Arc::new),
             system: system.without_tangents(),
             parameters: parameters.to_vec(),
             names,
-            hamiltonian: hamiltonian && !jumps && system.is_holonomic(),
+            unforced,
+            hamiltonian: unforced && !model.is_poisson() && !jumps && system.is_holonomic(),
             autonomous,
             jumps,
             constrained: system.constraints() > 0,
@@ -169,6 +176,7 @@ impl PhaseSpace {
                 .then(|| drive_period(model, equations, system, parameters))
                 .flatten(),
             conservative,
+            passive: conservative || passive,
             periods,
             turns,
             cyclic: equations
@@ -190,11 +198,12 @@ impl PhaseSpace {
         &self.parameters
     }
 
-    /// The same space at other parameters, at which the period of the drive is not known.
+    /// The same space at other parameters, at which neither the period of the drive is known nor what friction does.
     #[must_use]
     pub fn at_parameters(&self, parameters: &[f64]) -> PhaseSpace {
         let drive = self.drive.filter(|_| parameters == self.parameters);
-        PhaseSpace { parameters: parameters.to_vec(), drive, ..self.clone() }
+        let passive = self.conservative || self.passive && parameters == self.parameters;
+        PhaseSpace { parameters: parameters.to_vec(), drive, passive, ..self.clone() }
     }
 
     /// The same space, whose motions are followed until this token is set.
@@ -229,6 +238,11 @@ impl PhaseSpace {
         self.hamiltonian
     }
 
+    /// Whether no forces act but those of L, H or the brackets.
+    pub(super) fn is_unforced(&self) -> bool {
+        self.unforced
+    }
+
     /// Whether the law of motion is the same at all times.
     pub fn is_autonomous(&self) -> bool {
         self.autonomous
@@ -237,6 +251,11 @@ impl PhaseSpace {
     /// Whether the energy is conserved at all times.
     pub fn is_conservative(&self) -> bool {
         self.conservative
+    }
+
+    /// Whether the energy is conserved or falls: the form of its rate shows that it grows at no state.
+    pub fn is_passive(&self) -> bool {
+        self.passive
     }
 
     /// Whether periodic orbits come in families over the energy: it is conserved, and its gradient is known.

@@ -27,21 +27,36 @@ pub struct Mode {
     pub quadrature: Vec<f64>,
 }
 
-/// Whether nothing grows in the linear motion x′ = `matrix` x by its eigenvalues; `None` where some that are zero leave it open,
-/// where equal frequencies have fewer modes than there are of them, so that the motion grows in proportion to time, and where
-/// the eigenvalues are not known.
-pub(super) fn stable(matrix: &DMatrix<f64>, eigenvalues: &[[f64; 2]]) -> Option<bool> {
+/// What neighbours do in a linear motion.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum LinearMotion {
+    /// Some grow exponentially: so they do in the full motion.
+    Grows,
+    /// All are damped: so they are in the full motion (A. M. Lyapunov's first method).
+    Damped,
+    /// None grows and some oscillate without end: of the full motion that tells nothing.
+    Bounded,
+    /// Eigenvalues that are zero leave it open; or equal frequencies have fewer modes than there are of them, so that some grow in
+    /// proportion to time; or the eigenvalues are not known.
+    Open,
+}
+
+/// What neighbours do in the linear motion x′ = `matrix` x, by its eigenvalues.
+pub(super) fn linear_motion(matrix: &DMatrix<f64>, eigenvalues: &[[f64; 2]]) -> LinearMotion {
     let scale = largest(eigenvalues);
     if eigenvalues.iter().any(|z| z[0] > error_of_growth(*z, scale)) {
-        return Some(false);
+        return LinearMotion::Grows;
     }
-    let known = !eigenvalues.is_empty();
-    let whole = || {
-        frequencies(eigenvalues).chunk_by(|&one, &other| equal(one, other)).all(|equal| {
-            equal.len() == 1 || linear::null_vectors(matrix, equal[0]).len() >= equal.len()
-        })
-    };
-    (known && !rests(eigenvalues) && whole()).then_some(true)
+    if eigenvalues.is_empty() || rests(eigenvalues) {
+        return LinearMotion::Open;
+    }
+    if eigenvalues.iter().all(|z| z[0] < -error_of_growth(*z, scale)) {
+        return LinearMotion::Damped;
+    }
+    let whole = frequencies(eigenvalues).chunk_by(|&one, &other| equal(one, other)).all(|equal| {
+        equal.len() == 1 || linear::null_vectors(matrix, equal[0]).len() >= equal.len()
+    });
+    if whole { LinearMotion::Bounded } else { LinearMotion::Open }
 }
 
 /// Whether something neither moves nor grows in some direction: an eigenvalue is zero.

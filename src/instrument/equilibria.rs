@@ -182,9 +182,8 @@ pub fn described(physics: Physics<'_>, one: &Equilibrium) -> (String, String) {
         None => "equilibrium",
     };
     let stable = match one.stable {
-        Some(true) => "stable",
-        Some(false) => "unstable",
-        None => "neutral",
+        None if !one.is_linearly_stable() => "neutral",
+        _ => one.stability(),
     };
     let short = |x: f64| significant(x, 4, 1e-4..1e5).replace('-', "−");
     let places = physics.positions().filter_map(|(_, channel)| {

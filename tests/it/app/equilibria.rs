@@ -109,7 +109,7 @@ fn a_gyroscopic_mode_begins_with_its_velocity() {
     // at L4 of the restricted problem the modes are ellipses: the motion returns after a period
     let mut real = Real::of("restricted-three-body");
     let lines = found(&mut real);
-    let stable: Vec<_> = lines.iter().filter(|(label, _)| label.contains(": stable")).collect();
+    let stable: Vec<_> = lines.iter().filter(|(l, _)| l.contains(": linearly stable")).collect();
     assert_eq!(lines.iter().filter(|(l, _)| !l.starts_with("  ")).count(), 5, "{lines:?}");
     assert_eq!(stable.len(), 2, "{lines:?}");
     let Choice::Equilibrium(index) = stable[0].1 else { panic!("{stable:?}") };
@@ -137,7 +137,7 @@ fn a_mode_begins_where_the_forces_are_nearly_linear() {
         real.run(60);
         real.look();
         let lines = found(&mut real);
-        let stable = lines.iter().find(|(label, _)| label.contains(": stable")).unwrap();
+        let stable = lines.iter().find(|(label, _)| label.contains(": linearly stable")).unwrap();
         let Choice::Equilibrium(index) = stable.1 else { panic!("{stable:?}") };
         let line = lines.iter().position(|(_, c)| *c == Choice::Mode(index, mode)).unwrap();
         let place = real.lab().present().unwrap().equilibria[index].clone();

@@ -63,8 +63,9 @@ fn the_points_of_lagrange_are_found_and_judged() {
     for one in &found[3..] {
         close(one.variables[0], 0.5 - mu, 1e-12);
         close(one.variables[1].abs(), 3.0_f64.sqrt() / 2.0, 1e-12);
-        // a maximum, and stable: λ⁴ + λ² + (27/4) μ (1 − μ) = 0
-        assert_eq!((one.kind, one.stable), (Some(Kind::Maximum), Some(true)));
+        // a maximum beside which all oscillates: λ⁴ + λ² + (27/4) μ (1 − μ) = 0, which proves nothing of the full motion
+        assert_eq!((one.kind, one.stable), (Some(Kind::Maximum), None));
+        assert_eq!(one.stability(), "linearly stable");
         let root = (1.0 - 27.0 * mu * (1.0 - mu)).sqrt();
         let expected = [(0.5 * (1.0 - root)).sqrt(), (0.5 * (1.0 + root)).sqrt()];
         for (frequency, expected) in frequencies(one).iter().zip(expected) {
@@ -118,11 +119,90 @@ fn equal_frequencies_with_one_mode_are_not_stable() {
     assert_eq!((turns[0].stable, turns[0].modes.len()), (None, 1), "{:?}", turns[0]);
     assert!(turns[0].stability().contains("equal frequencies"));
     let routh = (1.0 - 69.0_f64.sqrt() / 9.0) / 2.0;
-    for (mu, stable) in [(routh, None), (routh - 1e-4, Some(true)), (routh + 1e-4, Some(false))] {
+    let neutral = "neutral: equal frequencies with fewer modes";
+    for (mu, stability) in
+        [(routh, neutral), (routh - 1e-4, "linearly stable"), (routh + 1e-4, "unstable")]
+    {
         let found = of(&preset("restricted-three-body", &[("mu", mu)], &[]));
         let fourth = found.iter().find(|one| one.variables[1] > 0.5).expect("L4");
-        assert_eq!(fourth.stable, stable, "{mu}: {fourth:?}");
+        assert_eq!(fourth.stability(), stability, "{mu}: {fourth:?}");
     }
+}
+
+/// The energy of a motion in one coordinate that is held back by x and pushed by a force Q, and that of Cherry's equations, from
+/// near the equilibrium: both leave it, however slowly, although the linearised motion only oscillates.
+#[test]
+fn oscillations_of_the_linearised_motion_prove_nothing() {
+    let pushed = |force: &str, function: &str| {
+        of(&file(
+            &format!(
+                "title = \"t\"\n[coordinates]\nx = {{ initial = 0.05, velocity = 0 }}\n[parameters]\nc = 0.2\n[lagrangian]\n\
+                 L = \"1/2*x'^2 - 1/2*x^2\"\n{function}forces = {{ x = \"{force}\" }}\n"
+            ),
+            &[],
+        ))
+    };
+    let verdict = |force: &str, function: &str| {
+        let found = pushed(force, function);
+        let [one] = &found[..] else { panic!("{found:?}") };
+        assert_eq!(one.kind, Some(Kind::Minimum));
+        (one.stable, one.stability())
+    };
+    let open = (None, "linearly stable");
+    for force in ["c*x'^3", "c*x^2*x'", "c*(x^2 - 1)*x'^3"] {
+        assert_eq!(verdict(force, ""), open, "{force}");
+    }
+    // what only takes energy leaves it stable, even where the linearised motion does not see it
+    for force in ["-c*x'^3", "-c*x^2*x'", "-c*(x^2 + 1)*x'^3"] {
+        assert_eq!(verdict(force, "").0, Some(true), "{force}");
+    }
+    assert_eq!(verdict("0", "dissipation = \"c*x'^4\"\n").0, Some(true));
+    assert_eq!(verdict("c*x'", ""), (Some(false), "unstable"));
+    assert_eq!(verdict("-c*x'", "").0, Some(true));
+    // damping that decides in the linearised motion, whatever comes later
+    assert_eq!(verdict("-c*x' + x'^3", "").0, Some(true));
+    let cherry = "1/2*(x^2 + p_x^2) - (y^2 + p_y^2) + 1/2*(y*(x^2 - p_x^2) - 2*x*p_x*p_y)";
+    let hamilton = |h: &str| {
+        of(&file(
+            &format!(
+                "title = \"t\"\n[coordinates]\nx = {{ initial = 0.05, momentum = 0 }}\ny = {{ initial = 0.035, momentum = 0 }}\n\
+                 [hamiltonian]\nH = \"{h}\"\n"
+            ),
+            &[],
+        ))
+    };
+    let origin = |h: &str| {
+        let found = hamilton(h);
+        let one = found.into_iter().find(|one| one.variables.iter().all(|x| x.abs() < 1e-9));
+        one.expect("the origin")
+    };
+    assert_eq!((origin(cherry).stable, origin(cherry).stability()), open);
+    // an energy that is greatest is as good as one that is least
+    let greatest = origin("-1/2*(x^2 + p_x^2) - (y^2 + p_y^2) + 1/3*x^3");
+    assert_eq!(greatest.stable, Some(true), "{greatest:?}");
+}
+
+/// x = 0.05 of Cherry's equations leaves the equilibrium that its linearised motion circles, and so does x of the pushed motion: that is why
+/// neither is called stable.
+#[test]
+fn what_is_linearly_stable_may_be_left() {
+    let text = "title = \"t\"\n[coordinates]\nx = { initial = 0.05, momentum = 0 }\ny = { initial = 0.035, momentum = 0 }\n\
+                [hamiltonian]\nH = \"1/2*(x^2 + p_x^2) - (y^2 + p_y^2) + 1/2*(y*(x^2 - p_x^2) - 2*x*p_x*p_y)\"\n";
+    let mut motion = crate::experiment::build(text, |_| {});
+    crate::experiment::run(&mut motion, 30.0);
+    let x = crate::experiment::value(&motion, "x");
+    let p = crate::experiment::value(&motion, "p_x");
+    assert!(x.hypot(p) > 0.25, "{x} {p}");
+}
+
+/// A free body turns steadily about its principal axes: about the middle one it does not keep to it, about the others it does, since the
+/// energy at the angular momentum is least or greatest there (L. Poinsot).
+#[test]
+fn rotations_about_the_outer_axes_are_stable() {
+    let found = of(&preset("free-rigid-body", &[], &[]));
+    let stable = found.iter().filter(|one| one.stable == Some(true)).count();
+    let unstable = found.iter().filter(|one| one.stable == Some(false)).count();
+    assert_eq!((stable, unstable), (4, 2), "{found:?}");
 }
 
 #[test]
@@ -1087,4 +1167,46 @@ fn a_twin_is_found_beyond_the_reach_of_the_search() {
             close(*place, *expected, 1e-12);
         }
     }
+}
+
+/// A bob on a rod has λ² = ∓g/l, however fast or slow that is: in units of 1, those of an atom, and of a year.
+#[test]
+fn a_rod_is_found_to_swing_however_fast() {
+    let rod = |mass: f64, weight: f64, [x, y]: [f64; 2]| {
+        let square = x * x + y * y;
+        held(
+            &format!(
+                "title = \"t\"\n[coordinates]\nx = {{ initial = {x:e}, velocity = 0 }}\ny = {{ initial = {y:e} }}\n[parameters]\n\
+                 m = {mass:e}\nw = {weight:e}\nl2 = {square:e}\n[lagrangian]\nL = \"1/2*m*(x'^2 + y'^2) - w*y\"\n\
+                 [[constraints]]\nname = \"rod\"\nexpression = \"x^2 + y^2 - l2\"\n"
+            ),
+            &[],
+        )
+    };
+    for (mass, weight, start) in [
+        (1.0, 1e12, [0.6, -0.8]),
+        (1.0, 1e16, [0.6, -0.8]),
+        (1.0, 1e-18, [0.6, -0.8]),
+        (1.67e-27, 1e-12, [3e-10, -4e-10]),
+        (6e24, 3.5e22, [9e10, -1.2e11]),
+    ] {
+        let found = rod(mass, weight, start);
+        let rate = (weight / mass / start[0].hypot(start[1])).sqrt();
+        assert_eq!(kinds(&found), [MINIMUM, MAXIMUM], "{mass:e} {weight:e}: {found:?}");
+        close(found[0].eigenvalues[0][1] / rate, 1.0, 1e-9);
+        close(found[0].modes[0].frequency / rate, 1.0, 1e-9);
+        close(found[1].eigenvalues[0][0] / rate, 1.0, 1e-9);
+    }
+}
+
+/// What is slow beside something fast on which it does not act has its own eigenvalues and its mode.
+#[test]
+fn a_slow_oscillator_beside_a_fast_one_keeps_its_frequency() {
+    let text = "title = \"t\"\n[coordinates]\nx = { initial = 0.5, velocity = 0 }\ny = { initial = 0.3, velocity = 0 }\n[lagrangian]\n\
+                L = \"1/2*(x'^2 + y'^2) - 1e30*x^2/2 - y^2/2\"\n";
+    let found = of(&file(text, &[]));
+    assert_eq!(kinds(&found), [MINIMUM]);
+    assert_eq!(found[0].eigenvalues[2..], [[0.0, 1.0], [0.0, -1.0]]);
+    assert_eq!(frequencies(&found[0])[0], 1.0);
+    assert_eq!(found[0].modes[0].in_phase, [0.0, 1.0]);
 }
