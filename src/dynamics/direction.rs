@@ -59,6 +59,14 @@ impl FlowDirection {
         }
     }
 
+    /// The derivatives of the rates evaluated last by the variables; nothing under constraints, which hold the variables together.
+    pub(super) fn derivative(&self) -> Option<DMatrix<f64>> {
+        match &self.source {
+            RateSource::Free(field) => Some(field.derivative()),
+            RateSource::Constrained { .. } => None,
+        }
+    }
+
     /// Whether the motion through a state moves, in any units: one of its rates is more than rounding of the variables would
     /// explain, by its linear rates or, under constraints, over this length of time.
     pub(super) fn moves(&mut self, state: &State, length: f64) -> Result<bool, MotionError> {

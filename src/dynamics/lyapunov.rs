@@ -10,7 +10,9 @@
 //! Never here: text.
 
 use super::carrier::Carrier;
+use super::closing::closing;
 use super::error::DynamicsError;
+use super::excursion::Departure;
 use super::lyapunov_course::{CarriedMotion, LyapunovCourse};
 use super::megno::Megno;
 use super::phase_space::PhaseSpace;
@@ -37,13 +39,21 @@ const RISING: f64 = 1.5;
 /// A chaotic motion has grown by this many powers of e.
 const GROWTH: f64 = 8.0;
 
-/// Whether neighbouring motions part exponentially.
+/// The distance from the start grows by this part of the power of e by which neighbours part where these part as the motion escapes.
+const ESCAPE: f64 = 0.5;
+
+/// A motion that is to close does so before neighbours have parted by this power of e: rounding has led it away from where it was later.
+const LOST: f64 = 20.0;
+
+/// Whether neighbouring motions part exponentially, and whether that is chaos.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Chaos {
     /// They do not.
     Regular,
-    /// They do.
+    /// They do, and the motion is bounded and keeps returning without ever closing.
     Chaotic,
+    /// They do, and the motion is none that could be chaotic: it is at rest, periodic, escapes, or follows linear equations.
+    Unstable,
     /// It cannot be decided.
     Undecided,
 }
@@ -54,6 +64,7 @@ impl Chaos {
         match self {
             Chaos::Regular => "regular",
             Chaos::Chaotic => "chaotic",
+            Chaos::Unstable => "unstable",
             Chaos::Undecided => "undecided",
         }
     }
@@ -102,7 +113,52 @@ pub fn lyapunov(
     until: f64,
     report: &mut dyn FnMut(f64),
 ) -> Result<Lyapunov, DynamicsError> {
-    let (mut course, vectors) = LyapunovCourse::begin(space, start, until)?;
+    let by = (method, settings);
+    let (mut course, motion, failure) = followed(space, by, (start, until, false), report)?;
+    let (departs, failure) = match failure {
+        None => match departure(space, by, &mut course) {
+            Ok(departs) => (departs, None),
+            // what was followed until then is the result
+            Err(error) => (None, Some(error)),
+        },
+        Some(_) => (None, failure),
+    };
+    let Some(departure) = departs else {
+        return exponents(space, method, &course, &motion, failure);
+    };
+    // the directions of the flow and of the energy have exponents of their own
+    let end = if let Departure::Separatrix(time) = departure { time } else { until };
+    let (course, motion, failure) = followed(space, by, (start, end, true), report)?;
+    departing(space, method, (&course, departure), &motion, failure)
+}
+
+/// How a motion whose directions of the flow and of the energy were taken out departs from one for which their exponents are 0.
+///
+/// # Errors
+/// Returns an error if it is cancelled.
+fn departure(
+    space: &PhaseSpace,
+    by: (&'static Method, Settings),
+    course: &mut LyapunovCourse,
+) -> Result<Option<Departure>, DynamicsError> {
+    let found = course.departure();
+    if found == Some(Departure::Unreturned)
+        && closing(space, by, course.excursion(), course.growth().end())?.is_some()
+    {
+        course.has_closed();
+        return Ok(None);
+    }
+    Ok(found)
+}
+
+/// Follows a motion from a state until a time, with vectors in all directions or across those whose exponents are 0.
+fn followed(
+    space: &PhaseSpace,
+    (method, settings): (&'static Method, Settings),
+    (start, until, all): (&State, f64, bool),
+    report: &mut dyn FnMut(f64),
+) -> Result<(LyapunovCourse, CarriedMotion, Option<DynamicsError>), DynamicsError> {
+    let (mut course, vectors) = LyapunovCourse::begin(space, start, until, all)?;
     let mut carrier = Carrier::new(space, method, settings, course.vectors())?;
     carrier.start(start, &vectors)?;
     let mut failure = None;
@@ -122,14 +178,107 @@ pub fn lyapunov(
         fixed: carrier.is_fixed(),
         steps: carrier.steps(),
     };
-    exponents(space, &course, &motion, failure)
+    Ok((course, motion, failure))
 }
 
 /// The exponents of a motion that has been followed to its end, or to a failure.
 ///
 /// # Errors
-/// Returns an error if it is too short for any exponent.
+/// Returns an error if it is too short for any exponent, or cancelled.
 pub(super) fn exponents(
+    space: &PhaseSpace,
+    method: &'static Method,
+    course: &LyapunovCourse,
+    motion: &CarriedMotion,
+    failure: Option<DynamicsError>,
+) -> Result<Lyapunov, DynamicsError> {
+    let mut found = measured(space, course, motion, failure)?;
+    if found.verdict != Chaos::Chaotic {
+        return Ok(found);
+    }
+    let excursion = course.excursion();
+    let growth = course.growth();
+    let [whole, half] = [growth.end(), f64::midpoint(growth.begin(), growth.end())]
+        .map(|time| if growth.logarithms[0].is_empty() { 0.0 } else { growth.at(0, time) });
+    let why = if excursion.rests() {
+        Some("the motion is at rest, at an unstable equilibrium, which is not chaos".to_owned())
+    } else if whole - half > 1.0 && excursion.widening() >= ESCAPE * (whole - half) {
+        Some("the motion itself goes away from its start as fast, and does not return".to_owned())
+    } else {
+        let most = growth.begin() + LOST / found.exponents[0];
+        let end = most.min(growth.end());
+        let closes = match closing(space, (method, motion.settings), excursion, end) {
+            Ok(closes) => closes,
+            Err(error) => {
+                let reason = "whether the motion closes was not found out".to_owned();
+                let failure = Some(found.failure.unwrap_or(error));
+                return Ok(Lyapunov { verdict: Chaos::Undecided, reason, failure, ..found });
+            }
+        };
+        match closes {
+            Some(period) => Some(format!(
+                "the motion is back at its start after {}, to rounding: an unstable periodic orbit, which is not chaos",
+                short(period)
+            )),
+            None => excursion.is_linear().then(|| {
+                "they follow linear equations, the same wherever the motion is, which is not chaos".to_owned()
+            }),
+        }
+    };
+    if let Some(why) = why {
+        found.verdict = Chaos::Unstable;
+        found.reason = format!("{}; {why}", parted(whole, growth.end() - growth.begin()));
+    }
+    Ok(found)
+}
+
+/// The exponents of a motion that does not keep returning, which was followed in all directions.
+///
+/// # Errors
+/// Returns an error if it is too short for any exponent, or cancelled.
+fn departing(
+    space: &PhaseSpace,
+    method: &'static Method,
+    (course, departure): (&LyapunovCourse, Departure),
+    motion: &CarriedMotion,
+    failure: Option<DynamicsError>,
+) -> Result<Lyapunov, DynamicsError> {
+    let mut found = exponents(space, method, course, motion, failure)?;
+    let growth = course.growth();
+    // the first vector may lie along the flow, which contracts as it comes to rest
+    let vectors = 0..growth.logarithms[0].len();
+    let grown = vectors.map(|i| growth.at(i, growth.end())).fold(0.0, f64::max);
+    let known = found.failure.is_none() && found.exponents[0] > 2.0 * found.uncertainty[0];
+    let why = match departure {
+        Departure::Separatrix(time) => format!(
+            "at t = {} the motion is at an unstable equilibrium, to rounding, which decides what comes after: it is on a separatrix",
+            short(time)
+        ),
+        Departure::Escape => {
+            "the motion itself goes away from its start exponentially, and does not return"
+                .to_owned()
+        }
+        Departure::Rest => "the motion itself comes to rest at an unstable equilibrium".to_owned(),
+        Departure::Unreturned if found.verdict != Chaos::Chaotic => return Ok(found),
+        Departure::Unreturned => "the motion does not return".to_owned(),
+    };
+    if known && grown >= GROWTH {
+        found.verdict = Chaos::Unstable;
+        found.reason = format!("{}; {why}", parted(grown, growth.end() - growth.begin()));
+    } else if found.verdict == Chaos::Regular || found.verdict == Chaos::Chaotic {
+        found.verdict = Chaos::Undecided;
+        found.reason = format!("{why}, and λ is known to ± {:.1e}", found.uncertainty[0]);
+    }
+    Ok(found)
+}
+
+/// By how much neighbours part.
+fn parted(grown: f64, time: f64) -> String {
+    format!("neighbouring motions part by e^{grown:.1} in a time of {}", short(time))
+}
+
+/// What was measured on the way, and what it shows by itself.
+fn measured(
     space: &PhaseSpace,
     course: &LyapunovCourse,
     motion: &CarriedMotion,
@@ -175,7 +324,12 @@ fn result(
         pairing: pairing.filter(|_| !space.is_constrained()),
         jumps: space.has_jumps(),
     };
-    let judged = judged(&followed, (&exponents, &uncertainty), megno);
+    let judged = if count == 0 && course.departure().is_some() {
+        let reason = "the motion has not returned in the time followed, which is too short to tell";
+        (Chaos::Undecided, reason.to_owned())
+    } else {
+        judged(&followed, (&exponents, &uncertainty), megno)
+    };
     // what ends is not followed for as long as one wishes
     let (verdict, reason) = match (&failure, judged) {
         // neighbours that part next to a pole of the coordinates tell nothing of the motion, which continues
@@ -196,7 +350,7 @@ fn result(
     // the exponents of regular motion are 0, towards which they go like 1/t
     let settled = match verdict {
         Chaos::Regular => vec![true; settled.len()],
-        Chaos::Chaotic | Chaos::Undecided => settled,
+        Chaos::Chaotic | Chaos::Unstable | Chaos::Undecided => settled,
     };
     Lyapunov {
         time: end,
@@ -223,8 +377,7 @@ fn judged(
 ) -> (Chaos, String) {
     let (motion, growth, megno) = (followed.motion, followed.growth, mean_growth.mean());
     if growth.logarithms[0].is_empty() {
-        let reason =
-            "a motion of one degree of freedom with conserved energy has no exponent but 0";
+        let reason = "a motion of one degree of freedom with conserved energy that returns has no exponent but 0";
         return (Chaos::Regular, reason.to_owned());
     }
     let grown = growth.at(0, growth.end());

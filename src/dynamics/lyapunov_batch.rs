@@ -45,6 +45,7 @@ pub fn lyapunov_of_all(
     let mut together = ExponentsTogether {
         orbits,
         system,
+        method,
         settings,
         fixed: method.stepping == Stepping::Fixed,
         lanes: std::array::from_fn(|_| None),
@@ -68,8 +69,9 @@ fn room(
     if orbits.len() < FEW || chosen || !orbits.iter().all(|orbit| suits(&orbit.space)) {
         return None;
     }
-    let begin =
-        |orbit: &LyapunovOrbit| LyapunovCourse::begin(&orbit.space, &orbit.start, orbit.until).ok();
+    let begin = |orbit: &LyapunovOrbit| {
+        LyapunovCourse::begin(&orbit.space, &orbit.start, orbit.until, false).ok()
+    };
     let (first, (course, _)) = orbits.iter().find_map(|orbit| Some((orbit, begin(orbit)?)))?;
     let system = first.space.system().without_marks().with_tangents(course.vectors());
     let batch = BatchPropagator::new(&system, method, settings)?;
@@ -89,6 +91,7 @@ struct ExponentsTogether<'a> {
     orbits: &'a [LyapunovOrbit],
     /// The system with tangent vectors.
     system: System,
+    method: &'static Method,
     settings: Settings,
     /// Whether all steps are equal.
     fixed: bool,
@@ -101,7 +104,7 @@ impl Follower for ExponentsTogether<'_> {
     fn begin(&mut self, orbit: usize, lane: usize, batch: &mut BatchPropagator) -> OrbitCourse {
         let LyapunovOrbit { space, start, until } = &self.orbits[orbit];
         // the motion alone says why
-        let Ok((course, vectors)) = LyapunovCourse::begin(space, start, *until) else {
+        let Ok((course, vectors)) = LyapunovCourse::begin(space, start, *until, false) else {
             return OrbitCourse::Over;
         };
         // one that begins at rest has other vectors
@@ -135,7 +138,10 @@ impl Follower for ExponentsTogether<'_> {
         if batch.state(lane).time >= *until {
             let motion =
                 CarriedMotion { settings: self.settings, fixed: self.fixed, steps: *steps };
-            self.found[orbit] = Some(exponents(space, course, &motion, None));
+            // one that does not keep returning is followed again in all directions
+            if course.departure().is_none() {
+                self.found[orbit] = Some(exponents(space, self.method, course, &motion, None));
+            }
             return OrbitCourse::Over;
         }
         if let Some((state, vectors)) = renewed {

@@ -11,6 +11,7 @@ use nalgebra::{DMatrix, DMatrixView, DVector};
 use super::direction::{FlowDirection, basis_of_range};
 use super::displacement_units::{displacement_units, scaled};
 use super::error::DynamicsError;
+use super::excursion::{Departure, Excursion};
 use super::megno::Megno;
 use super::phase_space::{NOTHING_MOVES, PhaseSpace};
 use super::step_growth::StepGrowth;
@@ -48,6 +49,7 @@ pub(super) struct CarriedMotion {
 /// The course of a motion and its vectors.
 pub(super) struct LyapunovCourse {
     direction: FlowDirection,
+    excursion: Excursion,
     what: Removed,
     units: DVector<f64>,
     in_units: DVector<f64>,
@@ -63,7 +65,8 @@ pub(super) struct LyapunovCourse {
 }
 
 impl LyapunovCourse {
-    /// A course from a state of a space until a time, and the vectors to be carried from there.
+    /// A course from a state of a space until a time, and the vectors to be carried from there: across the directions whose exponents
+    /// are zero where a motion keeps returning, or if `all` are asked for in all directions.
     ///
     /// # Errors
     /// Returns an error if the motion has no direction there, or nothing can move.
@@ -71,6 +74,7 @@ impl LyapunovCourse {
         space: &PhaseSpace,
         start: &State,
         until: f64,
+        all: bool,
     ) -> Result<(LyapunovCourse, DMatrix<f64>), DynamicsError> {
         if until <= start.time {
             return Err(DynamicsError::WrongRequest(
@@ -80,7 +84,8 @@ impl LyapunovCourse {
         }
         let n = space.dimension();
         let mut direction = FlowDirection::new(space);
-        let what = removed(space, direction.moves(start, until - start.time)?);
+        let moves = direction.moves(start, until - start.time)?;
+        let what = if all { Removed::Nothing } else { removed(space, moves) };
         let units = displacement_units(space, start, until - start.time);
         let rates = direction.at(start)?.component_div(&units);
         let (allowed, dimension) = space.allowed_displacements(start)?;
@@ -99,8 +104,13 @@ impl LyapunovCourse {
         let mut vectors = frame.insert_column(count, 0.0);
         vectors.set_column(count, &free.normalize());
         let vectors = scaled(&vectors, &units);
+        let mut excursion = Excursion::begin(space, (start, until), &units, moves);
+        if count == 0 {
+            excursion.of_one_degree();
+        }
         let course = LyapunovCourse {
             direction,
+            excursion,
             what,
             in_units: units.map(|unit| 1.0 / unit),
             units,
@@ -123,6 +133,21 @@ impl LyapunovCourse {
     /// Which directions are taken out.
     pub(super) fn removed(&self) -> Removed {
         self.what
+    }
+
+    /// How the motion departs from one for which the directions that were taken out have the exponent 0.
+    pub(super) fn departure(&self) -> Option<Departure> {
+        self.excursion.departure().filter(|_| self.what != Removed::Nothing)
+    }
+
+    /// The motion is known to be back where it began.
+    pub(super) fn has_closed(&mut self) {
+        self.excursion.has_closed();
+    }
+
+    /// The way of the motion.
+    pub(super) fn excursion(&self) -> &Excursion {
+        &self.excursion
     }
 
     pub(super) fn growth(&self) -> &TangentGrowth {
@@ -166,6 +191,7 @@ impl LyapunovCourse {
             Some(found) => found,
             None => step.at(end)?,
         };
+        self.excursion.reaches(space, &state);
         let mut vectors = scaled(&vectors, &self.in_units);
         let last = self.growth.times.len() - 1;
         let due = end - self.growth.times[last] >= self.round || end >= self.until;
@@ -175,9 +201,13 @@ impl LyapunovCourse {
         let checked = self.count > 1 && self.steps.is_multiple_of(CHECKED);
         let due = due || checked && is_flat(&vectors.columns(0, self.count));
         if !due || step.awaits_occurrence() {
+            if self.excursion.wants_rates() {
+                self.excursion.moves_on(space, &state, &mut self.direction)?;
+            }
             return Ok(None);
         }
-        let rates = self.direction.at(&state)?.component_div(&self.units);
+        let rates = self.excursion.moves_on(space, &state, &mut self.direction)?;
+        let rates = rates.component_div(&self.units);
         let free = vectors.column(self.count).into_owned();
         self.megno.rescale(free.norm());
         self.single_steps.renew();

@@ -78,6 +78,7 @@ fn character(
     let reason = &found.reason;
     Ok(Some(match found.verdict {
         Chaos::Chaotic => format!("is chaotic: {reason}"),
+        Chaos::Unstable => format!("is unstable: {reason}"),
         Chaos::Undecided => format!("may be regular or chaotic, which is undecided: {reason}"),
         Chaos::Regular => match torus(space, method, (start, end, count), drive)? {
             Some(torus) => torus.sentence(),

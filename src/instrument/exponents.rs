@@ -158,10 +158,10 @@ impl Instrument for Exponents {
             },
             Measure {
                 word: "chaotic",
-                about: "1 if the motion is chaotic, 0 if it is regular; undecided has no value",
+                about: "1 if the motion is chaotic, 0 if it is regular or unstable; undecided has no value",
                 value: |context| match found(context.answer)?.verdict {
                     Chaos::Chaotic => Some(1.0),
-                    Chaos::Regular => Some(0.0),
+                    Chaos::Regular | Chaos::Unstable => Some(0.0),
                     Chaos::Undecided => None,
                 },
             },
