@@ -123,6 +123,8 @@ impl BatchTerms {
         let negative_zero = Batch::splat(-0.0);
         let (mut value, mut size, mut moving) = (negative_zero, negative_zero, negative_zero);
         let place = self.places.get(quantity).and_then(Option::as_ref);
+        let as_a_whole = place.is_some_and(|place| place.exchanges);
+        let mut changed_at_rest = Batch::ZERO;
         let (first, rests) = place.map_or((0, &[][..]), |place| (place.first, &place.terms));
         let mut outputs = self.program.outputs.get(first..).unwrap_or_default().iter();
         let mut next = || outputs.next().map(|&r| self.registers[r as usize]);
@@ -141,13 +143,21 @@ impl BatchTerms {
             value = value + term;
             size = size + its_size;
             if let Some(&were) = were.get(k) {
-                let moved = (term - rest).abs() + (rest - Batch::splat(were)).abs();
+                let (beyond, change) = ((term - rest).abs(), rest - Batch::splat(were));
                 for lane in 0..BATCH {
-                    let whole = term.0[lane].abs();
-                    moving.0[lane] += if moved.0[lane].is_finite() { moved.0[lane] } else { whole };
+                    let (beyond, change) = (beyond.0[lane], change.0[lane]);
+                    if !(beyond + change.abs()).is_finite() {
+                        moving.0[lane] += term.0[lane].abs();
+                    } else if as_a_whole {
+                        moving.0[lane] += beyond;
+                        changed_at_rest.0[lane] += change;
+                    } else {
+                        moving.0[lane] += beyond + change.abs();
+                    }
                 }
             }
         }
+        moving = moving + changed_at_rest.abs();
         std::array::from_fn(|lane| TermSums {
             value: value.0[lane],
             size: size.0[lane],

@@ -2,8 +2,8 @@
 //! every step.
 //!
 //! In: the state of any method. Out: the value of each quantity, and the varying part of it: the
-//! amount by which its terms exceed their values at rest, and by which the latter have changed. A
-//! constant in the potential, or the origin of a coordinate, does not contribute to it. Never here:
+//! amount by which its terms exceed their values at rest, and by which the latter have changed, those of an energy
+//! all together. A constant in the potential, or the origin of a coordinate, does not contribute to it. Never here:
 //! references, drifts, verdicts.
 
 use std::sync::Arc;
@@ -119,16 +119,27 @@ impl TermWatch {
 
     /// The sums over the terms of a quantity whose values at rest were these.
     pub fn sums(&self, quantity: usize, were: &[f64]) -> TermSums {
+        let place = self.places.get(quantity).and_then(Option::as_ref);
+        let as_a_whole = place.is_some_and(|place| place.exchanges);
         let mut sums = TermSums { value: -0.0, size: -0.0, moving: -0.0 };
+        let mut changed_at_rest = 0.0;
         let mut were = were.iter();
         for [term, rest, size] in self.terms(quantity) {
             sums.value += term;
             sums.size += size;
             if let Some(were) = were.next() {
-                let moved = (term - rest).abs() + (rest - were).abs();
-                sums.moving += if moved.is_finite() { moved } else { term.abs() };
+                let (beyond, change) = ((term - rest).abs(), rest - were);
+                if !(beyond + change.abs()).is_finite() {
+                    sums.moving += term.abs();
+                } else if as_a_whole {
+                    sums.moving += beyond;
+                    changed_at_rest += change;
+                } else {
+                    sums.moving += beyond + change.abs();
+                }
             }
         }
+        sums.moving += changed_at_rest.abs();
         sums
     }
 }
@@ -148,7 +159,8 @@ pub struct TermSums {
     /// The size of the terms, to which its rounding errors are at least proportional.
     pub size: f64,
     /// The size of its varying part: the sum of the amounts by which the terms exceed their values
-    /// at rest, and by which the latter have changed. A term that has no value at rest counts
-    /// entirely.
+    /// at rest, and by which the latter have changed. Where the quantity is an energy of motion and
+    /// of place, the latter is the change of their sum, since the terms of a potential may cancel
+    /// each other. A term that has no value at rest counts entirely.
     pub moving: f64,
 }

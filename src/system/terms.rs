@@ -34,6 +34,8 @@ pub(super) struct OutputPlace {
     pub(super) terms: Vec<AtRest>,
     /// Whether constant terms were left out.
     pub(super) offset: bool,
+    /// Whether it is an energy of which a part is that of the motion, so that what moves between its terms at rest alone does not count.
+    pub(super) exchanges: bool,
 }
 
 /// The energy, then the conserved quantities, each by its terms, before compilation.
@@ -157,7 +159,8 @@ impl ConservedTerms {
                 };
                 terms.push(rest);
             }
-            quantities.places.push(Some(OutputPlace { first, terms, offset }));
+            let exchanges = quantity == 0 && terms.iter().any(|&rest| rest != AtRest::Same);
+            quantities.places.push(Some(OutputPlace { first, terms, offset, exchanges }));
         }
         quantities
     }

@@ -121,6 +121,50 @@ fn an_energy_that_cannot_resolve_the_motion_is_not_exact() {
     }
 }
 
+/// The energy of x'²/2 − V from this place at rest, until t = 100.
+fn energy_in(
+    potential: &str,
+    from: f64,
+    method: &str,
+    step: Option<f64>,
+) -> phaselab::experiment::Gauge {
+    let text = format!(
+        "title = \"V\"\n[coordinates]\nx = {{ initial = {from} }}\n[lagrangian]\nL = \"1/2*x'^2 - ({potential})\"\n"
+    );
+    gauge(&carried(&text, method, step, 100.0).snapshot(), "energy")
+}
+
+/// The terms of a potential cancel each other where it is written about another place, and a drift is a part of what moves all the
+/// same: (x − a)ⁿ multiplied out, a spring under a weight, and Lennard-Jones' potential but for a constant as a square.
+#[test]
+fn one_potential_drifts_alike_however_it_is_written() {
+    for (one, from, other, there) in [
+        ("x^2/2", 0.7, "x^2/2 - 1000*x", 1000.7),
+        ("x^4/4", 0.7, "x^4/4 - 10*x^3 + 150*x^2 - 1000*x", 10.7),
+        ("4*(1/x^6 - 0.5)^2", 1.14, "4*(1/x^12 - 1/x^6)", 1.14),
+    ] {
+        let drifts = [(one, from), (other, there)].map(|(potential, from)| {
+            let energy = energy_in(potential, from, "leapfrog", Some(0.05));
+            assert_eq!(energy.verdict, Verdict::Bounded, "{potential}: {energy:?}");
+            let exact = energy_in(potential, from, "auto", None);
+            assert_eq!(exact.verdict.word(), "exact", "{potential}: {exact:?}");
+            energy.max_drift
+        });
+        let ratio = drifts[1] / drifts[0];
+        assert!((0.5..2.0).contains(&ratio) && drifts[0] > 1e-4, "{other}: {drifts:?}");
+    }
+}
+
+/// The terms of (x − 1000)⁴/4 are 4e12 times as great as what moves, and have four digits fewer than would show it.
+#[test]
+fn what_terms_that_cancel_do_not_show_is_not_exact() {
+    let quartic = "x^4/4 - 1000*x^3 + 1.5e6*x^2 - 1e9*x + 2.5e11";
+    for (method, step) in [("leapfrog", Some(0.05)), ("auto", None)] {
+        let energy = energy_in(quartic, 1000.7, method, step);
+        assert_eq!(energy.verdict.word(), "unknown", "{method}: {energy:?}");
+    }
+}
+
 /// The period of L = θ'²/2 + cos θ from rest at θ₀: 2π over the arithmetic-geometric mean of 1 and cos θ₀/2.
 fn period_of_pendulum(from: f64) -> f64 {
     let (mut a, mut b) = (1.0, (from / 2.0).cos());
