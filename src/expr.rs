@@ -35,6 +35,7 @@ mod product;
 mod range;
 mod rewrite;
 mod sample;
+mod sides;
 mod simplify;
 mod steps;
 mod sum;

@@ -44,6 +44,7 @@ mod named_ramps;
 mod nearest_image;
 mod new_hamiltonian;
 mod observe;
+mod one_sided;
 mod poisson;
 mod poisson_structure;
 mod potential;
@@ -90,6 +91,7 @@ pub use impulse_change::is_changed_by_impulse;
 pub use invariants::casimir_rate;
 pub use latex::latex;
 pub use legendre::{hamiltonian_to_lagrangian, lagrangian_to_hamiltonian};
+pub use one_sided::OneSided;
 pub use poisson_structure::structure_errors;
 pub use report::{
     BodyNumbers, BodyReport, ConservedKind, ConservedReport, ConstraintReport, ImpulseReport,

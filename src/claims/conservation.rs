@@ -4,8 +4,8 @@
 //! here: the motion.
 
 use crate::diagnostic::{Diagnostic, SourceRange};
-use crate::expr::Expr;
-use crate::mechanics::{Class, Conserved, Equations, Reason, class_of};
+use crate::expr::{Expr, Symbol};
+use crate::mechanics::{Class, Conserved, Equations, OneSided, Reason, class_of};
 use crate::model::Model;
 
 /// The tolerated drift of a conserved quantity, relative to the size of its terms.
@@ -31,6 +31,10 @@ pub(super) struct Claim {
     pub(super) rate: Option<Expr>,
     /// Whether that rate is nonzero somewhere along the motion.
     pub(super) refuted: bool,
+    /// The kinks of its rate and its own jumps, if it is not known to be conserved.
+    one_sided: Option<OneSided>,
+    /// Whether each of their functions was always positive, or always negative; `None` if neither, or at the kink.
+    stayed: Vec<(Expr, Option<bool>)>,
     /// Whether its terms, which are not 0, were seen below the numbers that have all their digits.
     pub(super) underflows: bool,
     first: f64,
@@ -50,12 +54,19 @@ pub(super) fn open_claims(model: &Model, equations: &mut Equations) -> Vec<Claim
     let claim = |(name, expression, place): (&String, Expr, &SourceRange)| {
         let classed = class_of(model, equations, name, expression);
         let rate = classed.rate.ok().filter(|_| classed.class == Class::Changing);
+        let one_sided = if classed.class.is_conserved() {
+            None
+        } else {
+            OneSided::of(model, equations, expression)
+        };
         Claim {
             name: name.clone(),
             place: place.clone(),
             expression,
             rate,
             refuted: false,
+            one_sided,
+            stayed: Vec::new(),
             underflows: false,
             first: f64::NAN,
             size: 0.0,
@@ -74,6 +85,49 @@ impl Claim {
         let distance = (value - self.first).abs();
         self.farthest =
             if distance.is_finite() { self.farthest.max(distance) } else { f64::INFINITY };
+    }
+
+    /// Sees on which sides of its kinks a state is.
+    pub(super) fn see_sides(&mut self, equations: &Equations, at: &dyn Fn(Symbol) -> f64) {
+        let Some(one_sided) = &self.one_sided else { return };
+        let side = |e: Expr| {
+            let value = equations.pool.evaluate(e, at);
+            (value != 0.0 && !value.is_nan()).then_some(value > 0.0)
+        };
+        let now = one_sided.switches().into_iter().map(|e| (e, side(e)));
+        if self.stayed.is_empty() {
+            self.stayed = now.collect();
+        } else {
+            for ((_, stayed), (_, now)) in self.stayed.iter_mut().zip(now) {
+                *stayed = stayed.filter(|_| *stayed == now);
+            }
+        }
+    }
+
+    /// A quantity that is conserved only as long as a motion stays on one side of a kink, as this motion does, is not conserved.
+    pub(super) fn one_sided(
+        &self,
+        equations: &Equations,
+        at: &dyn Fn(Symbol) -> f64,
+        end: f64,
+    ) -> Option<Diagnostic> {
+        let one_sided = self.one_sided.as_ref()?;
+        let stayed: Vec<(Expr, bool)> =
+            self.stayed.iter().filter_map(|&(e, side)| Some((e, side?))).collect();
+        let mut equations = equations.clone();
+        let sides = one_sided.sides(&mut equations, &stayed, at);
+        if sides.is_empty() {
+            return None;
+        }
+        let side = |&(e, positive): &(Expr, bool)| {
+            format!("{} {} 0", equations.pool.unicode(e), if positive { '>' } else { '<' })
+        };
+        let place = sides.iter().map(side).collect::<Vec<_>>().join(" and ");
+        let message = format!("`{}` is claimed to be conserved, but it is not", self.name);
+        let help = format!(
+            "it is only where {place}, where this motion stays as far as it is seen until t = {end}"
+        );
+        Some(Diagnostic::error(self.place.clone(), message).with_help(help))
     }
 
     /// A quantity that changes by too little to detect, for instance by a distant force, is not

@@ -285,8 +285,11 @@ impl<'a> ClaimedMotion<'a> {
                 None => self.sample(model, equations, &mut claims),
             }
         }
+        let at = |symbol: Symbol| self.value_of(model, equations, symbol, end);
         diagnostics.extend(claims.iter().filter_map(|claim| {
-            claim.diagnostic(equations, end).or_else(|| claim.unseen(equations, end))
+            let seen = claim.diagnostic(equations, end);
+            let unseen = || claim.unseen(equations, end);
+            seen.or_else(unseen).or_else(|| claim.one_sided(equations, &at, end))
         }));
         if !(model.expect.events.is_empty() && model.expect.counts.is_empty()) {
             let short = self.reach(last, last).err().filter(|why| !matches!(why, Short::Ended(_)));
@@ -393,6 +396,7 @@ impl<'a> ClaimedMotion<'a> {
             claim.underflows |=
                 size < f64::MIN_POSITIVE && equations.pool.underflows(claim.expression, &at);
             claim.sample(value, if size.is_finite() { size } else { value.abs() });
+            claim.see_sides(equations, &at);
             claim.refuted |= claim
                 .rate
                 .is_some_and(|e| equations.pool.vanishes_at(e, SLACK, &at) == Some(false));

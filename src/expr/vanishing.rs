@@ -61,6 +61,26 @@ impl Pool {
     }
 }
 
+/// Whether something holds on a line on which the `moving` symbols move, each at its own rate, while the others have the
+/// values `at`. It is given the symbols' values by the place on the line, and places from end to end.
+pub(super) fn on_lines(
+    moving: &[Symbol],
+    at: &dyn Fn(Symbol) -> f64,
+    holds: &mut dyn FnMut(&dyn Fn(Symbol, f64) -> f64, &[f64]) -> bool,
+) -> bool {
+    let places: Vec<f64> = (0..=2 * PLACES).map(place).collect();
+    (0..LINES).any(|line| {
+        let along = |symbol: Symbol, place: f64| {
+            if moving.contains(&symbol) {
+                sample(symbol, 2 * line) + place * (sample(symbol, 2 * line + 1) - 1.1)
+            } else {
+                at(symbol)
+            }
+        };
+        holds(&along, &places)
+    })
+}
+
 fn place(k: u32) -> f64 {
     math::sinh(SPACING * (f64::from(k) - f64::from(PLACES)))
 }

@@ -141,7 +141,7 @@ impl Pool {
 
     /// The switch of a call with a kink, and whether its sign was reversed to identify it with its
     /// opposite.
-    fn switch_of(&mut self, call: Expr) -> Option<(Expr, bool)> {
+    pub(super) fn switch_of(&mut self, call: Expr) -> Option<(Expr, bool)> {
         let shared = self.shared(call);
         let Node::Call(function, arguments) = &*shared else { return None };
         let Rule::Branch(branches) = function.row().rule else { return None };
@@ -157,7 +157,7 @@ impl Pool {
     }
 
     /// The expression on the side where a switch is positive, or negative.
-    fn on_side(&mut self, e: Expr, switch: Expr, positive: bool) -> Expr {
+    pub(super) fn on_side(&mut self, e: Expr, switch: Expr, positive: bool) -> Expr {
         let mut done: FxHashMap<Expr, Expr> = FxHashMap::default();
         for part in self.reachable(&[e]) {
             let mut rebuilt = self.rebuild_from(part, &done);
@@ -175,7 +175,7 @@ impl Pool {
     }
 
     /// Rewrites roots of even powers as absolute values, √(u²) = |u|, and exp(ln u) as u.
-    fn open_roots(&mut self, e: Expr) -> Expr {
+    pub(super) fn open_roots(&mut self, e: Expr) -> Expr {
         let mut done: FxHashMap<Expr, Expr> = FxHashMap::default();
         for part in self.reachable(&[e]) {
             let rebuilt = self.rebuild_from(part, &done);

@@ -169,7 +169,7 @@ fn claimed([within, beyond]: [&str; 2], said: &str, text: impl Fn(&str) -> Strin
 fn what_is_claimed_conserved_drifts_by_no_more_than_1e_10_of_its_terms() {
     claimed(["1.4e-10", "1.6e-10"], "claimed to be conserved, but it is not", |drift| {
         oscillator(&format!(
-            "[[observables]]\nname = \"one\"\nexpression = \"1 + {drift}*t + 1/2*sign(x + 10)\"\n\
+            "[[observables]]\nname = \"one\"\nexpression = \"1 + {drift}*t + 1/2*sign(x^2 + 10)\"\n\
              conserved = true"
         ))
     });

@@ -324,6 +324,89 @@ fn a_claim_that_holds_by_a_short_run_only_is_false() {
     assert_eq!(with_file(&barrier(denied), &["check", "system.toml"]).success(), "");
 }
 
+/// What is conserved only as long as a motion stays on one side of a kink, until t = 10 or always, is refused with the side.
+#[test]
+fn a_claim_that_holds_on_one_side_of_a_kink_only_is_false() {
+    let file = |law: &str, claim: &str| {
+        let start = "x = { initial = 0, velocity = 1 }";
+        one(start, &format!("[lagrangian]\n{law}\n[run]\nuntil = 10\n{claim}"))
+    };
+    let momentum = "[expect]\nconserves = [\"p_x\"]";
+    let energy = "[expect]\nconserves = [\"energy\"]";
+    let of = |expression: &str| {
+        format!("[[observables]]\nname = \"s\"\nexpression = \"{expression}\"\nconserved = true")
+    };
+    let [far, near] = ["sign(x + 1.0001)", "max(x, 2)"].map(of);
+    let oscillator = "L = \"1/2*x'^2 - 1/2*x^2\"";
+    let ramp = "L = \"1/2*x'^2 - k*x^2/2\"\n[parameters]\nk = 1\n[[ramps]]\nparameter = \"k\"\nto = 2\nstart = 50\n\
+                duration = 5";
+    for (law, claim, side) in [
+        ("L = \"1/2*x'^2 - max(0, x - 20)^3\"", momentum, "x − 20 < 0"),
+        ("L = \"1/2*x'^2 - (x - 20 + sqrt((x - 20)^2))\"", momentum, "x − 20 < 0"),
+        ("L = \"1/2*x'^2 - 1/2*x^2 + x*max(0, t - 100)^1.5\"", energy, "t − 100 < 0"),
+        ("L = \"1/2*x'^2 - 1/2*x^2 + x*(t - 50 + abs(t - 50))\"", energy, "t − 50 < 0"),
+        (
+            &format!("{oscillator}\nforces = {{ x = \"1e-3*max(0, t - 100)\" }}"),
+            energy,
+            "t − 100 < 0",
+        ),
+        (
+            &format!("{oscillator}\ndissipation = \"0.1*max(0, abs(x) - 5)^2*x'^2\""),
+            energy,
+            "|x| − 5 < 0",
+        ),
+        // nowhere but in a small piece far away
+        ("L = \"1/2*x'^2 - max(0, 1e-7 - abs(x - 20))^2\"", momentum, "< 0"),
+        (ramp, energy, "< 0"),
+        (oscillator, &far, "x + 1.0001 > 0"),
+        (oscillator, &near, "x − 2 < 0"),
+    ] {
+        with_file(&file(law, claim), &["check", "system.toml"]).fails(
+            65,
+            &[
+                "is claimed to be conserved, but it is not",
+                "it is only where ",
+                side,
+                "where this motion stays as far as it is seen until t = 10",
+            ],
+        );
+    }
+}
+
+/// What is conserved on every side of its kinks, on sides that nothing reaches, or at rest, is.
+#[test]
+fn a_claim_that_no_kink_ends_is_passed() {
+    let file = |start: &str, law: &str, claims: &str| {
+        one(
+            start,
+            &format!(
+                "[lagrangian]\nL = \"{law}\"\n[run]\nuntil = 10\n[expect]\nconserves = [{claims}]"
+            ),
+        )
+    };
+    let moving = "x = { initial = 1, velocity = 0.3 }";
+    let plane = "x = { initial = 1, velocity = 0.3 }\ny = { initial = 0, velocity = 1 }";
+    let rest = "x = { initial = 0, velocity = 0 }";
+    for (start, law, claims) in [
+        (moving, "1/2*x'^2 - max(0, x - 20)^3", "\"energy\", \"(x'^2/2 + max(0, x - 20)^3)^2\""),
+        (moving, "1/2*x'^2 - (x - 20)*sign(x - 20)", "\"energy\""),
+        (
+            moving,
+            "1/2*x'^2 - x^2/2",
+            "\"max(energy, 0)\", \"sign(energy)\", \"x'^2 + x*abs(x)*sign(x)\"",
+        ),
+        (moving, "1/2*x'^2 - max(0, -x^2 - 1)", "\"p_x\""),
+        (plane, "1/2*(x'^2 + y'^2) - max(x - y - 5, 0)^1.5", "\"p_x + p_y\""),
+        (rest, "1/2*x'^2 - abs(x)*x^2", "\"p_x\", \"x\""),
+    ] {
+        assert_eq!(
+            with_file(&file(start, law, claims), &["check", "system.toml"]).success(),
+            "",
+            "{law}"
+        );
+    }
+}
+
 /// A circle and a parabola touch at the start, and part.
 #[test]
 fn constraints_that_touch_are_said_to_repeat_each_other_at_the_start() {

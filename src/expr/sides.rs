@@ -1,0 +1,135 @@
+//! On which sides of its kinks an expression vanishes, and whether it is more than that on others.
+//!
+//! In: an expression, and the sides of some kinks. Out: proofs that it vanishes there, and values beyond rounding that it
+//! has elsewhere. Never here: where a motion goes.
+
+use super::node::{Expr, FunctionId, Node};
+use super::pool::Pool;
+use super::symbol::Symbol;
+use super::vanishing::on_lines;
+
+/// A kink: the function that changes its sign there.
+type Switch = Expr;
+
+/// Distances from a kink at which values are looked at, relative to its place on a line.
+const BESIDE: [f64; 4] = [1e-12, 1e-9, 1e-6, 1e-3];
+
+/// A jump below this part of the size of what jumps is rounding.
+const SEEN: f64 = 1e-9;
+
+impl Pool {
+    /// The functions whose changes of sign are the kinks of an expression, those of outer functions before those of what they
+    /// are made of. The expression is returned with its roots of even powers as absolute values.
+    pub fn switches(&mut self, e: Expr) -> (Expr, Vec<Switch>) {
+        let opened = self.open_roots(e);
+        let mut parts = self.reachable(&[opened]);
+        parts.reverse();
+        let mut switches = Vec::new();
+        for part in parts {
+            if let Some((switch, _)) = self.switch_of(part)
+                && !switches.contains(&switch)
+            {
+                switches.push(switch);
+            }
+        }
+        (opened, switches)
+    }
+
+    /// Whether an expression is proved to vanish on these sides of these kinks, where the second of a pair is whether the
+    /// first is positive; outer ones come first.
+    pub fn vanishes_on_sides(&mut self, e: Expr, sides: &[(Switch, bool)]) -> bool {
+        let side = self.on_sides(e, sides);
+        let form = self.normal_form(side);
+        !self.is_full() && form == Expr::ZERO
+    }
+
+    fn on_sides(&mut self, e: Expr, sides: &[(Switch, bool)]) -> Expr {
+        sides.iter().fold(e, |e, &(switch, positive)| self.on_side(e, switch, positive))
+    }
+
+    /// Whether an expression has a value beyond rounding on a line on which the `moving` symbols move, among others beside
+    /// its kinks; `true` is a proof. The other symbols have the values `at`.
+    pub fn has_value_beyond_kinks(
+        &self,
+        e: Expr,
+        switches: &[Switch],
+        moving: &[Symbol],
+        at: &dyn Fn(Symbol) -> f64,
+    ) -> bool {
+        self.some_place(moving, at, switches, &|here| self.refutes(e, here))
+    }
+
+    /// Whether an expression jumps where a switch changes its sign.
+    pub fn jumps_at(
+        &mut self,
+        e: Expr,
+        switch: Switch,
+        moving: &[Symbol],
+        at: &dyn Fn(Symbol) -> f64,
+    ) -> bool {
+        let [above, below] = [true, false].map(|positive| self.on_side(e, switch, positive));
+        self.some_crossing(moving, at, switch, &|here| {
+            let [(a, size_of_a), (b, size_of_b)] =
+                [above, below].map(|side| self.evaluate_with_size(side, here));
+            (a - b).abs() > SEEN * (size_of_a + size_of_b)
+        })
+    }
+
+    /// The arguments of the signs in an expression.
+    pub fn signs(&mut self, e: Expr) -> Vec<Switch> {
+        let parts = self.reachable(&[e]);
+        let is_sign = |pool: &Pool, e| matches!(pool.node(e), Node::Call(FunctionId::Sign, _));
+        let signs: Vec<Expr> = parts.into_iter().filter(|&part| is_sign(self, part)).collect();
+        signs.into_iter().filter_map(|part| Some(self.switch_of(part)?.0)).collect()
+    }
+
+    fn some_place(
+        &self,
+        moving: &[Symbol],
+        at: &dyn Fn(Symbol) -> f64,
+        switches: &[Switch],
+        holds: &dyn Fn(&dyn Fn(Symbol) -> f64) -> bool,
+    ) -> bool {
+        on_lines(moving, at, &mut |line, places| {
+            let there = |place: f64| holds(&|symbol| line(symbol, place));
+            places.iter().any(|&place| there(place))
+                || switches.iter().any(|&switch| {
+                    let value = |place: f64| self.evaluate(switch, &|symbol| line(symbol, place));
+                    crossings(&value, places).into_iter().any(|place| {
+                        let mut beside = BESIDE.iter().flat_map(|by| [1.0 - by, 1.0 + by]);
+                        beside.any(|factor| there(place * factor))
+                    })
+                })
+        })
+    }
+
+    fn some_crossing(
+        &self,
+        moving: &[Symbol],
+        at: &dyn Fn(Symbol) -> f64,
+        switch: Switch,
+        holds: &dyn Fn(&dyn Fn(Symbol) -> f64) -> bool,
+    ) -> bool {
+        on_lines(moving, at, &mut |line, places| {
+            let value = |place: f64| self.evaluate(switch, &|symbol| line(symbol, place));
+            let mut crossings = crossings(&value, places).into_iter();
+            crossings.any(|place| holds(&|symbol| line(symbol, place)))
+        })
+    }
+}
+
+/// Where a function changes its sign, to the last digit.
+fn crossings(value: &dyn Fn(f64) -> f64, places: &[f64]) -> Vec<f64> {
+    let values: Vec<f64> = places.iter().map(|&place| value(place)).collect();
+    let pairs = places.windows(2).zip(values.windows(2));
+    let changed = pairs.filter(|(_, values)| values[0] * values[1] < 0.0);
+    let located = changed.map(|(ends, values)| {
+        let (mut left, mut right) = (ends[0], ends[1]);
+        for _ in 0..80 {
+            let middle = f64::midpoint(left, right);
+            if value(middle) * values[0] > 0.0 { left = middle } else { right = middle }
+        }
+        f64::midpoint(left, right)
+    });
+    located.collect()
+}
