@@ -20,12 +20,26 @@ impl Model {
 
     /// Whether an expression switches where something other than a parameter has a value.
     fn is_switch(&self, e: Expr) -> bool {
-        let Node::Call(function, _) = self.pool.node(e) else { return false };
-        let switches =
-            *function == FunctionId::Atan2 || matches!(function.row().rule, Rule::Branch(_));
+        let Node::Call(function, arguments) = self.pool.node(e) else { return false };
+        // the cut of atan2(y, x) lies where x < 0
+        let has_cut = || !self.is_positive_constant(arguments[1]);
+        let switches = match function {
+            FunctionId::Atan2 => has_cut(),
+            _ => matches!(function.row().rule, Rule::Branch(_)),
+        };
         let is_fixed = |symbol| self.parameters.iter().any(|p| p.symbol == symbol);
         let moves =
             |e: Expr| matches!(*self.pool.node(e), Node::Symbol(symbol) if !is_fixed(symbol));
         switches && self.pool.reachable(&[e]).into_iter().any(moves)
+    }
+
+    /// Whether an expression is a number above zero, or a parameter whose value is.
+    fn is_positive_constant(&self, e: Expr) -> bool {
+        match self.pool.node(e) {
+            Node::Symbol(symbol) => {
+                self.parameters.iter().any(|p| p.symbol == *symbol && p.value > 0.0)
+            }
+            _ => self.pool.as_number(e).is_some_and(|n| n.value() > 0.0),
+        }
     }
 }

@@ -753,6 +753,12 @@ fn a_smooth_ramp_is_no_kink() {
     assert!(!told(law, &[smooth, &later], None));
     assert!(!told("1/2*max(h, 2)*g*x^2", &[smooth], None), "a number");
     assert!(!told(law, &[], Some("g=1:2:0:2")));
+    assert!(
+        !told("x*atan2(x, 1) + x*atan2(x^2, g)", &[], None),
+        "the cut is where the second is negative"
+    );
+    assert!(told("x*atan2(x, x - 3)", &[], None));
+    assert!(told("x*atan2(x, -g)", &[], None));
     assert!(told("abs(x)", &[], None));
     assert!(told("g*abs(x)", &[smooth], None));
     assert!(told("g*abs(x)", &[], Some("g=1:2:0:2")));
