@@ -78,9 +78,9 @@ fn followed(
                 }
                 let (state, _) = carrier.at(middle)?;
                 if along(space, way, (&state, &rates)) >= 0.0 {
-                    high = middle
+                    high = middle;
                 } else {
-                    low = middle
+                    low = middle;
                 }
             }
             let (state, _) = carrier.at(high)?;

@@ -318,7 +318,9 @@ impl EquilibriumSearch<'_> {
         });
         let linear = linear_motion(&around.matrix, &eigenvalues);
         let mut modes = self.modes(&around.matrix, &eigenvalues, &around.displacements, None);
-        modes.iter_mut().for_each(|mode| mode.frequency /= around.time);
+        for mode in &mut modes {
+            mode.frequency /= around.time;
+        }
         let eigenvalues = eigenvalues.into_iter().map(|z| z.map(|x| x / around.time)).collect();
         let is_extremum = kind == Some(Kind::Minimum) && self.space.is_passive();
         Some(Around { kind, eigenvalues, linear, is_extremum, modes })
