@@ -179,9 +179,10 @@ fn dop853_keeps_to_its_tolerance_at_a_steep_wall() {
             let contacts = (since / (flight + contact)).floor();
             let after = since - contacts * (flight + contact);
             let side = if contacts % 2.0 == 0.0 { 1.0 } else { -1.0 };
-            match after < contact {
-                true => side * (1.0 + v / omega * (omega * after).sin()),
-                false => side * (1.0 - v * (after - contact)),
+            if after < contact {
+                side * (1.0 + v / omega * (omega * after).sin())
+            } else {
+                side * (1.0 - v * (after - contact))
             }
         };
         let l = format!("1/2*x'^2 - {strength:e}*max(0, abs(x) - 1)^2");
