@@ -12,7 +12,7 @@ use tui_input::Input;
 
 use super::Loaded;
 use super::editor::{Caret, Editor};
-use super::field::edit;
+use super::field::{edit, edit_selected};
 use crate::diagnostic::TEXT_LIMIT;
 use crate::diagnostic::{Diagnostic, Severity};
 
@@ -115,7 +115,19 @@ pub enum Asking {
     /// A text to search for.
     Words(Input),
     /// The name of a copy.
-    Name(Input),
+    Name {
+        /// What is typed so far, with the cursor.
+        input: Input,
+        /// Whether it is still the suggested name, selected as a whole: typing replaces it.
+        whole: bool,
+    },
+}
+
+impl Asking {
+    /// Asks for the name of a copy, with a suggestion.
+    pub(super) fn name(suggested: String) -> Self {
+        Self::Name { input: Input::new(suggested), whole: true }
+    }
 }
 
 /// Whether a check result is about the current text.
@@ -317,8 +329,11 @@ impl SourceBuffer {
     /// Handles a typed key.
     pub(super) fn press(&mut self, key: KeyEvent, page: usize) {
         match &mut self.asking {
-            Some(Asking::Words(input) | Asking::Name(input)) => {
+            Some(Asking::Words(input)) => {
                 edit(input, key);
+            }
+            Some(Asking::Name { input, whole }) => {
+                edit_selected(input, whole, key);
             }
             None => {
                 if self.editor.press(key, page) {

@@ -13,7 +13,7 @@ use crossterm::event::KeyEvent;
 use tui_input::Input;
 
 use super::buffer::{Asking, BufferState, CheckedRevision, SourceBuffer, Unsaved};
-use super::field::paste;
+use super::field::{paste, paste_selected};
 use super::pending::AwaitedPlots;
 use super::{App, CheckedText, EditCommand, Effect, Lab, Notification, Overlay, Page, SaveError};
 use crate::preset::{PresetOrigin, is_path};
@@ -143,7 +143,8 @@ impl App {
     pub(super) fn paste_into_buffer(&mut self, text: &str) -> bool {
         let Some(buffer) = self.buffer() else { return true };
         match &mut buffer.asking {
-            Some(Asking::Words(input) | Asking::Name(input)) => paste(input, text),
+            Some(Asking::Words(input)) => paste(input, text),
+            Some(Asking::Name { input, whole }) => paste_selected(input, whole, text),
             None => {
                 let whole = buffer.editor.paste(text);
                 buffer.touch();
@@ -225,7 +226,7 @@ impl App {
                 let name = buffer.title.rsplit('/').next().unwrap_or(&buffer.title);
                 format!("{name} has unsaved changes; {key} returns to it.")
             }
-            (false, false) if self.lab.is_none() => return self.leave_alone(),
+            (false, false) if self.lab.is_none() => return self.leave_unchanged(),
             (false, false) => return Vec::new(),
         };
         self.notifications.show(Notification::info(message));
@@ -249,10 +250,10 @@ impl App {
                 input.value().clone_into(&mut buffer.sought);
                 if buffer.sought.is_empty() { Vec::new() } else { self.find() }
             }
-            Some(Asking::Name(input)) => {
+            Some(Asking::Name { input, whole }) => {
                 let name = input.value().trim().to_owned();
                 if name.is_empty() || name.ends_with('/') {
-                    buffer.asking = Some(Asking::Name(input));
+                    buffer.asking = Some(Asking::Name { input, whole });
                     return self.notify("Give the copy a name, as my-pendulum or ./pendulum.toml.");
                 }
                 let text = buffer.editor.text();
@@ -284,7 +285,7 @@ impl App {
             }
             None => {
                 let copy = format!("my-{}", buffer.name);
-                buffer.asking = Some(Asking::Name(Input::new(copy)));
+                buffer.asking = Some(Asking::name(copy));
                 Vec::new()
             }
         }
@@ -298,7 +299,8 @@ impl App {
             Ok((place, text)) => {
                 let shown = place.display().to_string();
                 buffer.on_disk = text;
-                if buffer.place.as_ref() != Some(&place) {
+                let renamed = buffer.place.as_ref() != Some(&place);
+                if renamed {
                     // From now on the copy is the open file.
                     let here = |lab: &&mut Lab| lab.loaded.name == buffer.name;
                     let name = if is_path(&shown) { shown.clone() } else { format!("./{shown}") };
@@ -308,18 +310,24 @@ impl App {
                     (buffer.name, buffer.title) = (name, shown.clone());
                     buffer.place = Some(place);
                 }
-                buffer.unlooked = buffer.state == BufferState::Changed;
-                match (buffer.saved_as(), buffer.state) {
+                let saved = match (buffer.saved_as(), buffer.state) {
                     (Some(message), BufferState::Wrong) => Notification::error(message),
                     (message, _) => Notification::info(message.unwrap_or_default()),
+                };
+                let unchecked = buffer.state == BufferState::Changed;
+                if renamed && buffer.state != BufferState::Wrong {
+                    // a text without a title has that of its file
+                    buffer.touch_at_once(false);
                 }
+                buffer.unlooked = unchecked;
+                saved
             }
             Err(SaveError::Changed) => Notification::error(format!(
                 "{} was changed by another program: Ctrl-s again overwrites it, Ctrl-o reloads it.",
                 buffer.title
             )),
             Err(SaveError::Exists(place)) => {
-                buffer.asking = Some(Asking::Name(Input::new(place.display().to_string())));
+                buffer.asking = Some(Asking::name(place.display().to_string()));
                 Notification::error(format!(
                     "{} already exists; choose another name.",
                     place.display()

@@ -61,23 +61,15 @@ impl InputField {
 
     /// Handles an editing key and clears the last error message.
     pub fn press(&mut self, key: KeyEvent) {
-        let replaces = types(key) || matches!(key.code, KeyCode::Backspace | KeyCode::Delete);
-        let emptied = std::mem::take(&mut self.whole) && replaces;
-        if emptied {
-            self.input.reset();
-        }
-        if edit(&mut self.input, key) || emptied {
+        if edit_selected(&mut self.input, &mut self.whole, key) {
             self.diagnostic = None;
         }
     }
 
     /// Inserts pasted text as if it were typed. Returns whether all of it fitted.
     pub(super) fn paste(&mut self, text: &str) -> bool {
-        if std::mem::take(&mut self.whole) {
-            self.input.reset();
-        }
         self.diagnostic = None;
-        paste(&mut self.input, text)
+        paste_selected(&mut self.input, &mut self.whole, text)
     }
 
     /// Parses the typed number, which must be positive if the purpose requires it.
@@ -150,6 +142,25 @@ pub(super) fn edit(input: &mut Input, key: KeyEvent) -> bool {
         code => KeyEvent::new(code, key.modifiers - KeyModifiers::SHIFT),
     };
     input.handle_event(&Event::Key(key)).is_some()
+}
+
+/// Handles an editing key where the text may be selected as a whole: what is typed replaces it, a cursor key keeps it.
+/// Returns whether the text or the cursor changed.
+pub(super) fn edit_selected(input: &mut Input, whole: &mut bool, key: KeyEvent) -> bool {
+    let replaces = types(key) || matches!(key.code, KeyCode::Backspace | KeyCode::Delete);
+    let emptied = std::mem::take(whole) && replaces;
+    if emptied {
+        input.reset();
+    }
+    edit(input, key) || emptied
+}
+
+/// Inserts pasted text, in place of the text where that is selected as a whole. Returns whether all of it fitted.
+pub(super) fn paste_selected(input: &mut Input, whole: &mut bool, text: &str) -> bool {
+    if std::mem::take(whole) {
+        input.reset();
+    }
+    paste(input, text)
 }
 
 /// Inserts pasted text as if it were typed. Returns whether all of it fitted.

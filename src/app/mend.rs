@@ -89,6 +89,16 @@ impl App {
         self.picker.take().map(|name| self.ask(name, false)).into_iter().collect()
     }
 
+    /// Leaves an unchanged text where no system runs: its file is read again, and its errors are shown as before. A new
+    /// system has no file.
+    pub(super) fn leave_unchanged(&mut self) -> Vec<Effect> {
+        let file = self.workbench.top().filter(|buffer| buffer.place.is_some());
+        let Some(name) = file.map(|buffer| buffer.name.clone()) else { return self.leave_alone() };
+        self.go(Page::Picker);
+        self.picker.select(&name);
+        vec![self.ask(name, true)]
+    }
+
     /// Lists the last unsaved text among the systems, unless the session is the one that runs it.
     pub(super) fn list_unsaved(&mut self) {
         let title = self.waiting_text().map(|text| text.title);

@@ -152,7 +152,13 @@ fn lower_chain(
     pool: &mut Pool,
     names: &mut dyn Resolve,
 ) -> Expr {
-    if reports_applications(first, rest, names) {
+    let reported = reported_applications(first, rest, names);
+    if !reported.is_empty() {
+        // The other names may be unknown, too.
+        let parts = std::iter::once(first).chain(rest.iter().map(|(_, part)| part));
+        for part in parts.filter(|part| !reported.contains(&part.span)) {
+            part.lower(pool, names);
+        }
         return Expr::ONE;
     }
     let head = first.lower(pool, names);
@@ -179,24 +185,24 @@ fn is_euler(base: &Syntax, names: &dyn Resolve) -> bool {
     matches!(&base.kind, SyntaxKind::Name(name, 0) if name == "e") && !names.is_variable("e")
 }
 
-/// Reports the names directly before a parenthesis that are not read as products. Returns whether there is one.
-fn reports_applications(
+/// Reports the names directly before a parenthesis that are not read as products, and returns their spans.
+fn reported_applications(
     first: &Syntax,
     rest: &[(BinaryOperator, Syntax)],
     names: &mut dyn Resolve,
-) -> bool {
+) -> Vec<Span> {
     let mut left = first;
-    let mut found = false;
+    let mut reported = Vec::new();
     for (operator, part) in rest {
         if *operator == BinaryOperator::Apply
             && let Some(error) = not_a_product(left, part, names)
         {
             names.complain(error);
-            found = true;
+            reported.push(left.span);
         }
         left = part;
     }
-    found
+    reported
 }
 
 /// Why a name directly before a parenthesis is not read as a product, or `None` if it is one.

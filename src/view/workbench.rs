@@ -76,7 +76,8 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App, sheet: &Sourc
 fn rows_below(sheet: &SourceBuffer, notice: u16, height: u16) -> u16 {
     let wrong = sheet.state == BufferState::Wrong;
     let wanted = if wrong || sheet.asking.is_some() || !sheet.diagnostics.is_empty() {
-        FOOT
+        let others = sheet.diagnostics.len().saturating_sub(1) as u16;
+        FOOT.saturating_add(if sheet.asking.is_some() { 0 } else { others })
     } else {
         notice.clamp(1, FOOT)
     };
@@ -274,13 +275,26 @@ fn foot(
     let role = if diagnostic.warning { Role::Warn } else { Role::Text };
     // If both are long, one row is reserved for the help.
     let room = usize::from(area.height).saturating_sub(usize::from(!help.is_empty()));
-    let shown = message.iter().take(room).map(|line| (role, line));
-    let helped = help.iter().map(|line| (Role::Accent, line));
-    for (index, (role, line)) in shown.chain(helped).enumerate() {
+    let shown = message.iter().take(room).map(|line| (role, line.clone()));
+    let helped = help.iter().map(|line| (Role::Accent, line.clone()));
+    let others = others(sheet, diagnostic).map(|text| (Role::Dim, text));
+    for (index, (role, line)) in shown.chain(helped).chain(others).enumerate() {
         if index < area.height.into() {
-            canvas.left(row(area, index), role, line);
+            canvas.left(row(area, index), role, &line);
         }
     }
+}
+
+/// The places and messages of the other diagnostics, from the one after this on.
+fn others<'s>(
+    sheet: &'s SourceBuffer,
+    shown: &'s BufferDiagnostic,
+) -> impl Iterator<Item = String> + 's {
+    let all = &sheet.diagnostics;
+    let at = all.iter().position(|other| std::ptr::eq(other, shown)).unwrap_or(0);
+    let others = all.iter().cycle().skip(at + 1).take(all.len().saturating_sub(1));
+    others
+        .map(|other| format!("{}:{} {}", other.from.row + 1, other.from.column + 1, other.message))
 }
 
 /// Draws a notification and returns the number of rows it takes.
@@ -295,13 +309,14 @@ fn draw_notification(canvas: &mut Canvas<'_>, area: Rect, notice: &Notification)
 }
 
 fn asking(canvas: &mut Canvas<'_>, area: Rect, asking: &Asking, notice: Option<&Notification>) {
-    let (label, input, help) = match asking {
+    let (label, input, whole, help) = match asking {
         Asking::Words(input) => {
-            ("find: ", input, "Enter goes to the next place, Ctrl-g to one more.")
+            ("find: ", input, false, "Enter goes to the next place, Ctrl-g to one more.")
         }
-        Asking::Name(input) => (
+        Asking::Name { input, whole } => (
             "save a copy as: ",
             input,
+            *whole,
             "A bare name is saved among your presets; a name with / or .toml as that file.",
         ),
     };
@@ -311,7 +326,10 @@ fn asking(canvas: &mut Canvas<'_>, area: Rect, asking: &Asking, notice: Option<&
     let room = usize::from(place.width.saturating_sub(1));
     let skipped = input.visual_scroll(room);
     let text: String = input.value().chars().skip(skipped).take(room).collect();
-    canvas.left(place, Role::Text, &text);
+    let shown = canvas.left(place, Role::Text, &text);
+    if whole {
+        canvas.tint(columns(place, 0, shown), Role::Selected);
+    }
     let cursor = input.visual_cursor().saturating_sub(skipped).min(room) as u16;
     canvas.tint(columns(place, cursor, 1), Role::Selected);
     let below = Rect { y: area.y + 1, height: area.height.saturating_sub(1), ..area };

@@ -83,17 +83,20 @@ fn a_wrong_file_is_edited_at_its_first_error_and_then_runs() {
 }
 
 #[test]
-fn a_wrong_file_that_is_left_leads_back_to_the_systems() {
+fn a_wrong_file_that_is_left_leads_back_to_its_errors_and_then_to_the_systems() {
     let name = "./wrong.toml";
     let (mut app, _) = App::new(catalog(), Some(name));
     let message = "error: a wrong line".to_owned();
-    app.update(Event::Loaded(Err(LoadError { name: name.to_owned(), message })));
+    let failure = LoadError { name: name.to_owned(), message };
+    app.update(Event::Loaded(Err(failure.clone())));
     press(&mut app, "E");
     app.update(Event::FileRead { text: wrong(), asked: true });
     rest(&mut app);
-    let effects = press(&mut app, "Esc");
-    assert_eq!(app.page, Page::Picker);
-    assert!(effects.iter().any(|effect| matches!(effect, Effect::Load(_))), "a preview again");
+    assert_eq!(press(&mut app, "Esc"), [Effect::Load(name.to_owned())]);
+    app.update(Event::Loaded(Err(failure)));
+    assert!(matches!(app.overlay, Some(Overlay::Message(_))), "the page from which it was opened");
+    press(&mut app, "Esc");
+    assert!(app.page == Page::Picker && app.overlay.is_none());
     assert!(app.unsaved().is_empty());
 }
 
@@ -161,6 +164,36 @@ fn a_new_system_begins_from_the_template_and_writes_nothing() {
         other => panic!("{other:?}"),
     };
     assert_eq!(name, "my-system");
+}
+
+#[test]
+fn a_name_that_is_typed_replaces_the_suggestion_and_titles_the_system() {
+    let mut app = in_lab();
+    press(&mut app, "Ctrl-n");
+    rest(&mut app);
+    let name_after = |app: &mut App, keys: &str| {
+        press(app, "Ctrl-s");
+        press(app, keys);
+        let effects = press(app, "Enter");
+        let [Effect::SaveCopy { name, .. }] = &effects[..] else { panic!("{effects:?}") };
+        name.clone()
+    };
+    assert_eq!(name_after(&mut app, "End 2"), "my-system2");
+    press(&mut app, "Ctrl-s");
+    press(&mut app, "Backspace");
+    app.update(Event::Paste("pasted".to_owned()));
+    assert!(text_of(&app).contains("save a copy as: pasted"));
+    press(&mut app, "Esc");
+    assert_eq!(name_after(&mut app, "m i n e"), "mine");
+    // A file without a title has its name for one, so it is read again under the new name.
+    let place = PathBuf::from("/home/me/presets/mine.toml");
+    app.update(Event::FileSaved(Ok((place.clone(), template().to_owned()))));
+    let effects = app.update(Event::Tick(Duration::ZERO));
+    let title = effects.iter().find_map(|effect| match effect {
+        Effect::Check { title, .. } => Some(title.clone()),
+        _ => None,
+    });
+    assert_eq!(title, Some(place.display().to_string()));
 }
 
 #[test]

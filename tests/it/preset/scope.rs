@@ -89,6 +89,19 @@ fn the_nearest_name_is_one_that_may_stand_there() {
     check(Observable, "sqr(x)", "0..3 there is no function `sqr`; did you mean `sqrt`?");
 }
 
+/// An unknown function hides no unknown name beside it or in it.
+#[test]
+fn every_unknown_name_is_reported_at_once() {
+    let check = |text, expected: &[&str]| {
+        let found = messages(Lagrangian, "the Lagrangian", text);
+        let names: Vec<&str> = found.iter().filter_map(|text| text.split('`').nth(1)).collect();
+        assert_eq!(names, expected, "{text}: {found:?}");
+    };
+    check("x'^2 + 2*length*sni(x)*kk", &["sni", "kk"]);
+    check("x'^2 + 2 length sni(x) kk", &["sni", "kk"]);
+    check("sni(kk)*csc2(x)", &["sni", "csc2", "kk"]);
+}
+
 /// The same text gives the same messages, whatever the order of tables in memory.
 #[test]
 fn messages_do_not_change_from_run_to_run() {

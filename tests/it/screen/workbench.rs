@@ -224,6 +224,32 @@ fn an_error_is_told_in_few_rows() {
     assert!(find(&buffer, "did you mean `name`?").is_some(), "{:#?}", rows(&buffer));
 }
 
+/// Of several errors as many are told as there is room for, the one at the cursor first and in full.
+#[test]
+fn several_errors_are_told_at_once() {
+    let mut app = edited();
+    let sheet = app.workbench.top_mut().unwrap();
+    let error = |row: usize, help: Option<&str>| BufferDiagnostic {
+        from: Caret { row, column: 0 },
+        to: Caret { row, column: 1 },
+        warning: false,
+        message: format!("wrong number {row}"),
+        help: help.map(str::to_owned),
+    };
+    sheet.diagnostics = vec![error(0, None), error(2, Some("mend it")), error(4, None)];
+    sheet.state = BufferState::Wrong;
+    let told = |app: &App| {
+        let rows = rows(&screen(app, &rich(), (80, 24)));
+        let row = |text: &str| rows.iter().position(|row| row.contains(text)).expect("it is told");
+        [row("1:1 wrong number 0"), row("3:1 wrong number 2"), row("5:1 wrong number 4")]
+    };
+    let [first, second, third] = told(&app);
+    assert!(first < second && second < third);
+    press(&mut app, "Down Down");
+    let [first, second, third] = told(&app);
+    assert!(second + 1 < third && third < first, "its help is in the row below");
+}
+
 /// Rows that nothing is said in belong to the text.
 #[test]
 fn the_text_has_the_rows_that_messages_leave() {
