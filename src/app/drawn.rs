@@ -17,6 +17,8 @@ pub struct Drawn {
     pub cursor: Option<(u16, u16)>,
     /// The coordinates of the cursor of the focused plot.
     pub reading: Option<[f64; 2]>,
+    /// Its place in the window, in fractions of the width from the left and of the height from below.
+    pub cursor_place: Option<[f64; 2]>,
     /// The place of the moving point on the focused plot, in fractions of the width from the left and of the height from below.
     pub moving: Option<[f64; 2]>,
     /// The panes of the lab, if they were drawn.

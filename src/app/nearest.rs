@@ -47,17 +47,18 @@ impl App {
             (Some(Pane::Plot(i)), Some(lab)) => lab.plots.get(i).and_then(Plot::viewport),
             _ => None,
         };
-        let shown = shown.and_then(|viewport| viewport.cursor);
+        let shown = shown.filter(|viewport| viewport.cursor.is_some());
         match near {
             None => self.notify("No plot here has a cursor: v on a pane chooses one."),
             near if near == focused => self.with_viewport(|viewport| {
-                viewport.cursor = if viewport.cursor.is_some() { None } else { Some([0.5, 0.5]) };
+                let middle = viewport.cursor.is_none().then_some([0.5; 2]);
+                viewport.put_cursor(middle);
             }),
             Some(_) => {
                 let mut effects = self.perform_at(Place::Plot, Action::Cursor);
                 // one that was shown stays
                 effects.extend(self.with_viewport(|viewport| {
-                    viewport.cursor = shown.or(viewport.cursor);
+                    *viewport = shown.unwrap_or(*viewport);
                 }));
                 effects
             }
@@ -86,15 +87,18 @@ impl App {
     pub(super) fn other_way(&mut self) -> Vec<Effect> {
         let Some(lab) = &mut self.lab else { return Vec::new() };
         let Some(index) = lab.with_other_way() else {
-            return self.notify(
-                "Only a transformation moves the coordinates or the point, only an action has other principles, and only a diagram other numbers; v chooses one.",
-            );
+            return self
+                .notify("Q does nothing here: it is for transformations, actions and diagrams.");
         };
         lab.redraw(index, |plot, _| {
             if !moves_points(plot) {
                 plot.kind = plot.kind.other().unwrap_or(plot.kind);
             } else if let Some(viewport) = plot.viewport_mut() {
                 viewport.active = !viewport.active;
+            }
+            // its coordinates were those of other quantities
+            if let Some(viewport) = plot.viewport_mut() {
+                viewport.cursor_at = None;
             }
         });
         Vec::new()

@@ -168,7 +168,7 @@ impl App {
                     Err(NoStart::Nothing) => {
                         lab.redraw(index, |plot, _| {
                             if let Some(viewport) = plot.viewport_mut() {
-                                viewport.cursor = Some(place);
+                                viewport.put_cursor(Some(place));
                             }
                         });
                         Vec::new()
@@ -233,6 +233,17 @@ impl App {
 
 /// What keys do at the cursor of a plot, and on a section.
 impl App {
+    /// Keeps the cursor of the focused plot at the coordinates at which it was drawn.
+    pub(super) fn hold_cursor(&mut self) {
+        let (Some(at), Some(place)) = (self.drawn.reading, self.drawn.cursor_place) else { return };
+        let Some(lab) = &mut self.lab else { return };
+        let Some((index, _)) = lab.focused_plot() else { return };
+        let viewport = lab.plots.get_mut(index).and_then(Plot::viewport_mut);
+        if let Some(viewport) = viewport.filter(|viewport| viewport.cursor.is_some()) {
+            (viewport.cursor, viewport.cursor_at) = (Some(place), Some(at));
+        }
+    }
+
     /// Begins the motion at the cursor of the focused plot. Without a cursor, chooses what the plot shows.
     pub(super) fn start_here(&mut self) -> Vec<Effect> {
         let Some(lab) = &mut self.lab else { return Vec::new() };

@@ -24,7 +24,7 @@ impl App {
         lab.focus.choose(Pane::Plot(index));
         if let Some(viewport) = lab.plots[index].viewport_mut() {
             (viewport.zoom, viewport.pan) = ([1.0; 2], [0.0; 2]);
-            viewport.cursor = Some([0.5; 2]);
+            viewport.put_cursor(Some([0.5; 2]));
         }
         lab.prediction = Some(Box::new(prediction));
         true
@@ -42,7 +42,7 @@ impl App {
         lab.focus.pane = prediction.before.unwrap_or(lab.focus.pane);
         let Some(plot) = lab.plots.iter_mut().find(|plot| prediction.is_on(plot)) else { return };
         if let Some(viewport) = plot.viewport_mut() {
-            viewport.cursor = None;
+            viewport.put_cursor(None);
         }
     }
 }

@@ -116,6 +116,7 @@ impl App {
             }
             Event::Drawn(drawn) => {
                 self.drawn = drawn;
+                self.hold_cursor();
                 if let (Some(panes), Some(lab)) = (drawn.panes, &mut self.lab) {
                     lab.take_drawn(panes);
                 }

@@ -56,6 +56,9 @@ pub struct Viewport {
     pub by_chaos: bool,
     /// The cursor, in fractions of the width from the left and of the height from below.
     pub cursor: Option<[f64; 2]>,
+    /// The data coordinates of the cursor since it was drawn: it stays there when the axes change.
+    #[serde(default)]
+    pub cursor_at: Option<[f64; 2]>,
 }
 
 impl Viewport {
@@ -68,6 +71,7 @@ impl Viewport {
         active: false,
         by_chaos: false,
         cursor: None,
+        cursor_at: None,
     };
 
     /// The part of a range of an axis that is seen.
@@ -84,10 +88,18 @@ impl Viewport {
         Self { log, equal, active, by_chaos, cursor, ..Self::WHOLE }
     }
 
+    /// Puts the cursor at a place in the window, or takes it away.
+    pub fn put_cursor(&mut self, place: Option<[f64; 2]>) {
+        (self.cursor, self.cursor_at) = (place, None);
+    }
+
     /// Moves one step in a direction: the cursor if there is one, otherwise the window.
     pub(super) fn shift(&mut self, step: [f64; 2]) {
-        match &mut self.cursor {
-            Some(cursor) => *cursor = [0, 1].map(|k| (cursor[k] + step[k] / 40.0).clamp(0.0, 1.0)),
+        match self.cursor {
+            Some(cursor) => {
+                let moved = [0, 1].map(|k| (cursor[k] + step[k] / 40.0).clamp(0.0, 1.0));
+                self.put_cursor(Some(moved));
+            }
             None => self.pan = [0, 1].map(|k| self.pan[k] + step[k] / 10.0),
         }
     }

@@ -97,7 +97,7 @@ impl Lesson {
                 }
                 let is_curve = prediction.is_curve;
                 if let Some(viewport) = plot.viewport_mut() {
-                    viewport.cursor = Some(place);
+                    viewport.put_cursor(Some(place));
                 }
                 self.stage = LessonStage::Pointing(None);
                 if is_curve {

@@ -14,6 +14,7 @@ use unicode_width::UnicodeWidthChar;
 use super::RenderStyle;
 use super::cache::FrameCache;
 use super::colour::ColourDepth;
+use super::cursor::CursorReading;
 use super::glyphs::TextWidth;
 use super::region::ScreenRegion;
 use super::theme::Role;
@@ -28,8 +29,8 @@ pub(super) struct Canvas<'a> {
     pub(super) regions: Option<Vec<(Rect, ScreenRegion)>>,
     /// The position of the terminal's cursor.
     pub(super) cursor: Option<Position>,
-    /// The coordinates of the cursor of the focused plot.
-    pub(super) reading: Option<[f64; 2]>,
+    /// Where the cursor of the focused plot is.
+    pub(super) reading: Option<CursorReading>,
     /// The place of the moving point on the focused plot.
     pub(super) moving: Option<[f64; 2]>,
     /// Whether the list with the focus says what its selected value means.

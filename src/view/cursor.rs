@@ -12,23 +12,64 @@ use super::plot::PlotFrame;
 use super::theme::Role;
 use crate::instrument::Viewport;
 
-/// Draws the cursor, if there is one, and in the upper right corner, or a row below what is written there, its coordinates and what happened. Returns
-/// the coordinates.
+/// Where the cursor of a plot is.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct CursorReading {
+    /// Its data coordinates.
+    pub(super) at: [f64; 2],
+    /// Its place in fractions of the width from the left and of the height from below.
+    pub(super) place: [f64; 2],
+}
+
+/// Draws the cursor, if there is one and it is in the window, and in the upper right corner, or a row below what is written there,
+/// its coordinates and what happened.
 pub(super) fn draw(
     canvas: &mut Canvas<'_>,
     area: Rect,
     frame: &PlotFrame,
     (viewport, marks): (Viewport, &Marks<'_>),
-) -> Option<[f64; 2]> {
-    let [right, up] = viewport.cursor?;
+) -> Option<CursorReading> {
+    let place @ [right, up] = viewport.cursor?;
     if frame.area.is_empty() {
         return None;
     }
-    let place = |fraction: f64, count: u16| ((fraction * f64::from(count)) as u16).min(count - 1);
-    let at = Position::new(
-        frame.area.x + place(right, frame.area.width),
-        frame.area.y + place(1.0 - up, frame.area.height),
+    let part = |fraction: f64, count: u16| ((fraction * f64::from(count)) as u16).min(count - 1);
+    let put = Position::new(
+        frame.area.x + part(right, frame.area.width),
+        frame.area.y + part(1.0 - up, frame.area.height),
     );
+    let (cell, at) = match viewport.cursor_at {
+        Some(at) => (frame.cell(at), at),
+        None => (Some(put), frame.at(put)),
+    };
+    if let Some(cell) = cell {
+        draw_mark(canvas, frame, cell);
+    }
+    let glyphs = canvas.look.glyphs;
+    let what = cell.and_then(|cell| marks.at(frame, cell));
+    let what = what.map_or_else(String::new, |name| format!("{name}: "));
+    let [x, y] = at;
+    let reading = format!(" {what}{}, {} ", readable(x, 4, glyphs), readable(y, 4, glyphs));
+    // It covers no word above the axes.
+    let wide = (canvas.text(&reading).width() as u16).min(area.width);
+    let [top, below] = [0, 1].map(|index| row(area, index));
+    let free = |x: u16| canvas.buffer[(x, top.y)].symbol().trim().is_empty();
+    let above = below.is_empty() || (top.right() - wide..top.right()).all(free);
+    canvas.right(if above { top } else { below }, Role::Focus, &reading);
+    // Steps of a key that are less than a cell add up.
+    let stays = cell == Some(put);
+    let place = if stays { place } else { place_of(frame, at, place) };
+    Some(CursorReading { at, place })
+}
+
+/// The place of a point in a frame, or at its edge if it is outside; the one before where the axes do not contain it at all.
+fn place_of(frame: &PlotFrame, [x, y]: [f64; 2], before: [f64; 2]) -> [f64; 2] {
+    let now = [frame.x.fraction(x), frame.y.fraction(y)];
+    [0, 1].map(|k| if now[k].is_finite() { now[k].clamp(0.0, 1.0) } else { before[k] })
+}
+
+/// Draws the lines through a cell of a frame, and their crossing.
+fn draw_mark(canvas: &mut Canvas<'_>, frame: &PlotFrame, at: Position) {
     let glyphs = canvas.look.glyphs;
     let style = canvas.style(Role::Focus);
     for x in frame.area.x..frame.area.right() {
@@ -42,14 +83,4 @@ pub(super) fn draw(
         }
     }
     canvas.write(at, 1, glyphs.pick("┼", "+"), style);
-    let [x, y] = frame.at(at);
-    let what = marks.at(frame, at).map_or_else(String::new, |name| format!("{name}: "));
-    let reading = format!(" {what}{}, {} ", readable(x, 4, glyphs), readable(y, 4, glyphs));
-    // It covers no word above the axes.
-    let wide = (canvas.text(&reading).width() as u16).min(area.width);
-    let [top, below] = [0, 1].map(|index| row(area, index));
-    let free = |x: u16| canvas.buffer[(x, top.y)].symbol().trim().is_empty();
-    let above = below.is_empty() || (top.right() - wide..top.right()).all(free);
-    canvas.right(if above { top } else { below }, Role::Focus, &reading);
-    Some([x, y])
 }

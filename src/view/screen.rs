@@ -63,7 +63,13 @@ impl Painter {
         let cursor = canvas.cursor.map(|at| (at.x, at.y));
         self.cache = canvas.cache;
         self.cache.end();
-        Drawn { cursor, reading: canvas.reading, moving: canvas.moving, ..drawn }
+        Drawn {
+            cursor,
+            reading: canvas.reading.map(|reading| reading.at),
+            cursor_place: canvas.reading.map(|reading| reading.place),
+            moving: canvas.moving,
+            ..drawn
+        }
     }
 }
 

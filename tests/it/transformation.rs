@@ -152,7 +152,7 @@ fn in_the_active_view_the_point_is_moved_and_the_coordinates_stay() {
     let mut app = in_lab();
     press(&mut app, "Q");
     let told = app.notifications.shown.take().map(|notice| notice.text).unwrap_or_default();
-    assert!(told.contains("Only a transformation"), "{told}");
+    assert!(told.contains("Q does nothing here"), "{told}");
 }
 
 #[test]

@@ -12,7 +12,7 @@ use phaselab::view::glyphs::Glyphs;
 use phaselab::view::{hit_targets, hit_test};
 use ratatui::layout::Rect;
 
-use super::{find, rich, rows, screen};
+use super::{drawn, find, rich, rows, screen};
 use crate::app::real::Real;
 use crate::hand::{at_picker, gauge, in_lab, pendulum, press, snapshot};
 
@@ -189,6 +189,46 @@ fn a_click_in_another_plot_reads_the_coordinates() {
     let buffer = screen(&real.app, &rich(), size);
     assert_eq!(buffer[place].symbol(), "┼");
     assert!(real.seen().time > 1.0, "the motion goes on");
+}
+
+/// The cursor stays at its coordinates while the axes grow with the motion, and the motion begins there; a key moves it
+/// from where it is seen.
+#[test]
+fn the_cursor_stays_at_its_coordinates_while_the_axes_change() {
+    let size = (80, 24);
+    let mut real = Real::of("harmonic-oscillator");
+    real.run(5);
+    real.press("c");
+    assert!(real.lab().has_cursor());
+    let seen = |real: &mut Real| {
+        let (buffer, shown) = drawn(&real.app, &rich(), size);
+        real.app.update(Event::Drawn(shown));
+        let mark = find(&buffer, "┼").expect("the cursor is drawn");
+        (mark, shown.reading.expect("it is read"))
+    };
+    real.press("Left Left Up Up");
+    let (mark, reading) = seen(&mut real);
+    let mut moved = false;
+    for _ in 0..12 {
+        real.run(30);
+        let (now, at) = seen(&mut real);
+        assert_eq!(at, reading);
+        moved |= now != mark;
+    }
+    assert!(moved, "the axes have changed");
+    let (before, _) = seen(&mut real);
+    real.press("Left Left");
+    let (after, _) = seen(&mut real);
+    assert!(after.0 < before.0 && after.1 == before.1, "{before:?} {after:?}");
+    let (_, [x, p]) = seen(&mut real);
+    real.press("Enter");
+    let named = |name: &str| {
+        let channels = real.lab().loaded.system.channels();
+        let place = channels.iter().position(|channel| channel.name == name).expect("a column");
+        real.seen().values[place]
+    };
+    assert_eq!((real.seen().time, named("x")), (0.0, x));
+    assert!((named("p_x") - p).abs() <= 1e-12 * p.abs(), "{} {p}", named("p_x"));
 }
 
 #[test]
