@@ -214,7 +214,7 @@ pub const KEYS: &[Binding] = &[
     row(Place::Anywhere, &[c('q')], Action::Quit, "quit", "quit, or close what lies on top; the session is saved"),
     row(Place::Anywhere, &[c(':')], Action::Palette, "", "search all actions by name"),
     row(Place::Anywhere, &[c('T')], Action::ChooseTheme, "", "choose the theme: the colours of the screen"),
-    row(Place::Anywhere, &[plain(KeyCode::F(2))], Action::Guides, "", "take a lesson or watch a demo; q returns here"),
+    row(Place::Anywhere, &[plain(KeyCode::F(2))], Action::Guides, "", "take a lesson or watch a demo; q leaves it for the list, Esc closes the list"),
     row(Place::Anywhere, &[ESC], Action::Back, "", "go back: close or shrink; twice in the lab: to the list of systems"),
 
     row(Place::Picker, &[UP], Action::Move(ArrowDirection::Up), "", "the system above"),
@@ -411,7 +411,7 @@ pub const KEYS: &[Binding] = &[
     row(Place::Field, &[ENTER], Action::Accept, "accept", "accept what is typed"),
 
     row(Place::Typing, &[plain(KeyCode::F(1))], Action::Help, "help", "show the help, then continue typing"),
-    row(Place::Typing, &[ESC], Action::Back, "cancel", "cancel"),
+    row(Place::Typing, &[ESC], Action::Back, "cancel", "cancel, or close the list; q is a letter here"),
 ];
 
 /// Returns the action of a key where these places are active, the innermost first.

@@ -40,6 +40,8 @@ impl App {
             Action::MoreFrames => self.change_frames(true),
             Action::Back => self.back(),
             Action::Show(page) => {
+                // What was said of the page before does not cover another.
+                self.notifications.shown.take_if(|notice| page != self.page && !notice.is_error());
                 self.go(page);
                 Vec::new()
             }

@@ -174,7 +174,7 @@ impl Experiment {
             Form::Variables => "the state",
             Form::Velocity | Form::Momentum => "q and p",
         };
-        self.notify(format!("{lead} {sign}{by}; {kept} kept, gauges begin anew; r restarts"));
+        self.notify(format!("{lead} {sign}{by}; {kept} kept; press r to restart"));
     }
 
     fn energy(&self) -> f64 {

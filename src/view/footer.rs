@@ -112,15 +112,17 @@ pub(super) fn notice(canvas: &mut Canvas<'_>, body: Rect, app: &App) {
     for (index, line) in lines.iter().enumerate() {
         let at = usize::from(body.height).saturating_sub(lines.len()) + index;
         let at = columns(row(body, at), 2, body.width.saturating_sub(4));
-        let gap = " ".repeat(wide.saturating_sub(line.width()));
+        let on_frame = framed && index + 1 == lines.len();
+        // A short last line takes no more of the frame than it needs.
+        let wide = if on_frame { line.width().min(room) } else { wide };
         let torn = framed && tears_a_word(canvas, columns(at, wide as u16 + 1, 2));
         // Nothing of the frame below is left, its weight included.
         canvas.blank(columns(at, 0, wide as u16 + 2));
         if torn {
             erase_while(canvas, columns(at, wide as u16 + 2, at.width), is_of_word);
         }
-        canvas.left(columns(at, 1, wide as u16), role, &format!("{line}{gap}"));
-        if index + 1 == lines.len() && framed {
+        canvas.left(columns(at, 1, wide as u16), role, line);
+        if on_frame {
             // such as `wn` of `+1 down`
             let rest = |c: char| c.is_alphanumeric() || c == ' ' || c == '↓';
             erase_while(canvas, columns(at, wide as u16 + 2, at.width), rest);
@@ -201,7 +203,9 @@ struct Hint {
 
 /// The most useful keys in the current context, innermost first; help and quit come last.
 fn hints(canvas: &Canvas<'_>, app: &App) -> Vec<Hint> {
-    let editing = app.places().contains(&Place::Workbench);
+    // A text that is edited is kept, and a list is closed, when it is left.
+    let closes_with_esc =
+        app.places().iter().any(|place| matches!(place, Place::Workbench | Place::Menu));
     let rows = app.places().iter().flat_map(|place| {
         KEYS.iter().filter(move |row| {
             let back = (row.place, row.action) == (Place::Space, Action::Home)
@@ -213,9 +217,9 @@ fn hints(canvas: &Canvas<'_>, app: &App) -> Vec<Hint> {
     let hint = |row: &Binding| {
         let keys = keys(row, canvas.look);
         let first = keys.split(' ').next().unwrap_or_default().to_owned();
-        // The editor keeps its text when it is left; what lies on top is closed before the program is left.
+        // What lies on top is closed before the program is left.
         let closes = match row.action {
-            Action::Back => editing,
+            Action::Back => closes_with_esc,
             Action::Quit => app.closes_with_quit(),
             _ => false,
         };

@@ -50,7 +50,7 @@ fn gauges_start_anew_after_a_parameter_and_say_by_how_much_the_energy_jumped() {
     assert!((energy.reference - before).abs() > 0.1);
     let notice = snapshot.notices.last().expect("the jump is reported");
     assert!(notice.starts_with("g: energy jumped by "), "{notice}");
-    assert!(notice.ends_with("q and p kept, gauges begin anew; r restarts"), "{notice}");
+    assert!(notice.ends_with("q and p kept; press r to restart"), "{notice}");
 }
 
 #[test]
