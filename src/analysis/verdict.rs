@@ -29,6 +29,8 @@ pub enum Verdict {
     Broken(String),
     /// Conserved on one branch of the function that it is made of; the motion is on another, where another number is conserved.
     OtherBranch,
+    /// The residual of a constraint that no longer acts: there is nothing to judge.
+    Released,
 }
 
 /// Why no drift of a quantity can be seen.
@@ -66,7 +68,7 @@ pub enum Growth {
 
 impl Verdict {
     /// The verdict in one to four words, for reports: `exact`, `bounded`, `secular`, `lost`,
-    /// `not conserved`, `open`, `unknown`, `other branch`.
+    /// `not conserved`, `open`, `unknown`, `other branch`, `released`.
     pub fn word(&self) -> &'static str {
         match self {
             Verdict::Open => "open",
@@ -77,6 +79,7 @@ impl Verdict {
             Verdict::Lost => "lost",
             Verdict::Broken(_) => "not conserved",
             Verdict::OtherBranch => "other branch",
+            Verdict::Released => "released",
         }
     }
 

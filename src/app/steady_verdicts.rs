@@ -113,7 +113,11 @@ fn changes_at_once(shown: &Verdict, gauge: &Gauge) -> bool {
     let is_final = |verdict: &Verdict| {
         matches!(
             verdict,
-            Verdict::Lost | Verdict::Broken(_) | Verdict::Unknown(_) | Verdict::OtherBranch
+            Verdict::Lost
+                | Verdict::Broken(_)
+                | Verdict::Unknown(_)
+                | Verdict::OtherBranch
+                | Verdict::Released
         )
     };
     let was_near = matches!(shown, Verdict::Exact(_) | Verdict::Open);

@@ -78,7 +78,7 @@ impl ResidualGauge {
     pub(super) fn show(&self, values: &[f64], residuals: &[[f64; 2]], released: bool) -> Gauge {
         let lambda = values[self.multiplier];
         let reason = if released {
-            "released".to_owned()
+            "no longer holds".to_owned()
         } else if lambda.is_nan() {
             self.force.clone()
         } else {
@@ -86,8 +86,11 @@ impl ResidualGauge {
             format!("{} = {}{unit}, {}", self.symbol, short(lambda), self.force)
         };
         let gauge = self.deviation.gauge(&self.name, &self.name, reason, self.now(residuals));
+        if released {
+            return Gauge { verdict: Verdict::Released, ..gauge };
+        }
         // a motion that could not begin shows nothing of it
-        if residuals.is_empty() && !released {
+        if residuals.is_empty() {
             return Gauge { verdict: Verdict::Open, ..gauge };
         }
         gauge

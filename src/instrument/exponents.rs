@@ -98,8 +98,13 @@ impl Instrument for Exponents {
         let (largest_words, off_words) = (short(*largest), significant(*off, 1, 1e-4..1e4));
         let settled = found.settled.first().copied().unwrap_or(true);
         let known = if settled { "" } else { " or more: the average has not settled" };
+        // what is known to be zero has no uncertainty
+        let value = match (*largest, *off) {
+            (0.0, 0.0) => "λ = 0, exactly".to_owned(),
+            _ => format!("λ = {largest_words} ± {off_words}{known}"),
+        };
         let legend = vec![
-            format!("{}: λ = {largest_words} ± {off_words}{known}", found.verdict.word()),
+            format!("{}: {value}", found.verdict.word()),
             format!("MEGNO {}", short(found.megno)),
             found.reason.clone(),
         ];

@@ -174,6 +174,7 @@ pub(super) fn word(verdict: &Verdict) -> (&'static str, Role) {
         Verdict::Lost => ("lost", Role::Bad),
         Verdict::Broken(_) => ("varies", Role::Warn),
         Verdict::OtherBranch => ("other branch", Role::Dim),
+        Verdict::Released => ("released", Role::Dim),
     }
 }
 
@@ -220,6 +221,7 @@ fn sentence(verdict: &Verdict, glyphs: Glyphs) -> String {
         Verdict::OtherBranch => {
             "p is that of the other root of S, where another number is conserved".to_owned()
         }
+        Verdict::Released => "there is no residual to judge any more".to_owned(),
     }
 }
 
@@ -253,6 +255,7 @@ fn name_and_reason(
     // A reason is shown whole, or in a word.
     let reason = canvas.text(&number::with_minus_signs(&gauge.reason, canvas.look.glyphs));
     let in_a_word = match (residual, gauge.proved) {
+        _ if gauge.verdict == Verdict::Released => "",
         (true, _) => "residual",
         _ if gauge.verdict == Verdict::Unknown(Unseen::Underflow) => "underflow",
         _ if matches!(gauge.verdict, Verdict::Unknown(_)) => "not resolved",
@@ -260,15 +263,15 @@ fn name_and_reason(
         (false, false) => "",
     };
     let room = usize::from(area.width.saturating_sub(used));
-    let whole =
-        if residual && reason != RELEASED { format!("{in_a_word}; {reason}") } else { reason };
+    let whole = if residual && gauge.verdict != Verdict::Released {
+        format!("{in_a_word}; {reason}")
+    } else {
+        reason
+    };
     if let Some(reason) = [&*whole, in_a_word].into_iter().find(|text| text.width() <= room) {
         canvas.left(columns(area, used, area.width), Role::Dim, reason);
     }
 }
-
-/// The reason shown for a constraint that no longer holds.
-const RELEASED: &str = "released";
 
 /// Draws value, drift, and the history of the drift on a logarithmic scale. A residual is its own drift, and is shown once.
 fn numbers_and_history(canvas: &mut Canvas<'_>, area: Rect, (gauge, residual): (&Gauge, bool)) {

@@ -20,7 +20,7 @@ pub const CLAIMS: [(&str, &str); 10] = [
     ("time NAME = EXPR within EPS", "when it last happened"),
     (
         "verdict NAME WORD",
-        "the verdict on a gauge: `exact`, `bounded`, `secular`, `lost`, `not conserved`, `open`, `unknown`, `other branch`",
+        "the verdict on a gauge: `exact`, `bounded`, `secular`, `lost`, `not conserved`, `open`, `unknown`, `other branch`, `released`",
     ),
     ("status WORD", "`running`, `paused`, `ended` or `stopped`"),
     ("screen \"TEXT\"", "the text stands on the screen"),
@@ -39,7 +39,7 @@ const MEASURES: [(&str, AssertedNumber); 5] = [
 const STATUS: [Word; 4] = ["running", "paused", "ended", "stopped"];
 
 /// The verdicts of one word.
-const VERDICTS: [Word; 6] = ["exact", "bounded", "secular", "lost", "open", "unknown"];
+const VERDICTS: [Word; 7] = ["exact", "bounded", "secular", "lost", "open", "unknown", "released"];
 
 /// What some of them are called elsewhere: in old scripts, and where a column of the screen is narrow.
 const OTHER_WORDS: [(Word, Word); 3] =

@@ -1,5 +1,6 @@
 //! Checkpoints: a motion restored from one is the same to the last bit; in a changed system, as far as names match.
 
+use phaselab::analysis::Verdict;
 use phaselab::experiment::{Checkpoint, Command, Experiment, Status};
 use phaselab::preset::Catalog;
 
@@ -87,7 +88,14 @@ fn a_constraint_that_was_let_go_stays_so() {
         left.advance(left.time() + 0.01, PLENTY);
         assert_eq!(left.status(), Status::Running);
     }
+    let verdict = |sphere: &Experiment| {
+        let seen = sphere.snapshot();
+        let gauge = seen.gauges.iter().find(|gauge| gauge.name == "sphere").expect("a residual");
+        gauge.verdict.clone()
+    };
     let mut taken = shipped("smooth-sphere");
+    assert_ne!(verdict(&taken), Verdict::Released);
+    assert_eq!(verdict(&left), Verdict::Released, "there is nothing to judge");
     taken.execute(Command::Restore(Box::new(kept(&left))));
     assert_eq!(taken.snapshot().released, [0]);
     let later = left.time() + 0.05;
