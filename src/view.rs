@@ -16,6 +16,7 @@ pub mod colour;
 mod companions;
 mod constants;
 mod cursor;
+mod cursor_reading;
 mod detail;
 mod emphasis;
 mod equations;

@@ -224,17 +224,22 @@ pub(super) fn null_vectors(matrix: &DMatrix<f64>, omega: f64) -> Vec<DVector<Com
 mod tests {
     use super::*;
 
-    /// A rotation by the rate 2 beside what does not move: with the rows mixed, rounding of 2 is not distinguished from 0, and 1e-14 is.
+    /// A rotation by the rate 2 beside what hardly moves: with the rows mixed, rounding of 2 is not told from 0, and 1e-13 is; where
+    /// neither acts on the other, both are known.
     #[test]
     fn rates_that_are_rounding_of_the_largest_are_zero() {
-        let of = |small: f64| {
+        let of = |small: f64, mixed: bool| {
             let parts = [[0.0, 2.0, 0.0], [-2.0, 0.0, 0.0], [0.0, 0.0, small]];
-            rates(&DMatrix::from_fn(3, 3, |i, j| parts[i][j]))
+            let apart = DMatrix::from_fn(3, 3, |i, j| parts[i][j]);
+            let turn = [[1.0, 0.0, 0.0], [0.0, 0.6, -0.8], [0.0, 0.8, 0.6]];
+            let turn = DMatrix::from_fn(3, 3, |i, j| turn[i][j]);
+            rates(&if mixed { &turn * apart * turn.transpose() } else { apart })
         };
-        let found = of(1e-15);
+        let found = of(1e-15, true);
         assert!((found[0][1] - 2.0).abs() < 1e-14 && found[0][0] == 0.0, "{found:?}");
         assert_eq!(found[2], [0.0, 0.0]);
-        let known = of(1e-14)[2];
-        assert!((known[0] - 1e-14).abs() < 1e-15 && known[1] == 0.0, "{known:?}");
+        let known = of(1e-13, true)[2];
+        assert!((known[0] - 1e-13).abs() < 5e-15 && known[1] == 0.0, "{known:?}");
+        assert_eq!(of(1e-15, false)[2], [1e-15, 0.0]);
     }
 }

@@ -14,7 +14,7 @@ use unicode_width::UnicodeWidthChar;
 use super::RenderStyle;
 use super::cache::FrameCache;
 use super::colour::ColourDepth;
-use super::cursor::CursorReading;
+use super::cursor_reading::CursorReading;
 use super::glyphs::TextWidth;
 use super::region::ScreenRegion;
 use super::theme::Role;

@@ -6,20 +6,12 @@ use ratatui::layout::{Position, Rect};
 use unicode_width::UnicodeWidthStr;
 
 use super::canvas::{Canvas, row};
+use super::cursor_reading::CursorReading;
 use super::marks::Marks;
 use super::number::readable;
 use super::plot::PlotFrame;
 use super::theme::Role;
 use crate::instrument::Viewport;
-
-/// Where the cursor of a plot is.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct CursorReading {
-    /// Its data coordinates.
-    pub(super) at: [f64; 2],
-    /// Its place in fractions of the width from the left and of the height from below.
-    pub(super) place: [f64; 2],
-}
 
 /// Draws the cursor, if there is one and it is in the window, and in the upper right corner, or a row below what is written there,
 /// its coordinates and what happened.

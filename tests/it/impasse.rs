@@ -848,8 +848,8 @@ fn a_singular_configuration_of_the_comparison_motion_is_called_its_own() {
     let mut other = file(smooth);
     run(&mut other, time);
     assert!((value(&other, "f") - std::f64::consts::FRAC_PI_2).abs() < 1e-9, "{message}");
-    assert!(message.contains("other f = 1.5707963267"), "{message}");
-    let x = message.split("other x = ").nth(1).and_then(|rest| rest.split(',').next());
+    assert!(message.contains("f (wrong) = 1.5707963267"), "{message}");
+    let x = message.split("x (wrong) = ").nth(1).and_then(|rest| rest.split(',').next());
     let x: f64 = x.and_then(|x| x.parse().ok()).expect("a place");
     assert!((x - value(&other, "x")).abs() < 1e-9, "{message}");
 

@@ -32,12 +32,22 @@ impl DormandPrince {
     /// of an error relative to a number that was zero before the kink. Before the first step no size is known to continue with.
     /// Returns an error if the motion follows the kink.
     pub(super) fn passes_kink(&mut self, step: f64) -> Result<bool, MotionError> {
-        let begins = self.longest == 0.0;
-        if begins || step.abs() > OVER_A_KINK * self.shortest() || !self.crosses_kink(step)? {
+        if self.longest == 0.0 || step.abs() > OVER_A_KINK * self.shortest() {
             return Ok(false);
         }
-        self.refuse_to_slide(step)?;
-        Ok(true)
+        if self.crosses_kink(step)? {
+            self.refuse_to_slide(step)?;
+            return Ok(true);
+        }
+        // where the law beyond the kink leads back the step may end on this side; a straight line does not
+        for i in 0..self.numbers.len() {
+            let change = DoubleDouble::from(step * self.slopes[0][i]);
+            self.next.set(i, self.state.exact(i) + change);
+        }
+        if self.crosses_kink(step)? {
+            self.refuse_to_slide(step)?;
+        }
+        Ok(false)
     }
 
     /// Whether the ends of the attempted step lie on two sides of a kink.
