@@ -224,7 +224,7 @@ pub(super) fn null_vectors(matrix: &DMatrix<f64>, omega: f64) -> Vec<DVector<Com
 mod tests {
     use super::*;
 
-    /// A rotation by the rate 2 beside what hardly moves: with the rows mixed, rounding of 2 is not told from 0, and 1e-13 is; where
+    /// A rotation by the rate 2 beside what hardly moves: with the rows mixed, rounding of 2 is not distinguished from 0, 1e-13 is; where
     /// neither acts on the other, both are known.
     #[test]
     fn rates_that_are_rounding_of_the_largest_are_zero() {

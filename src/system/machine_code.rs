@@ -30,6 +30,8 @@ mod absent;
 mod x86_64;
 
 #[cfg(not(target_arch = "x86_64"))]
-pub(super) use absent::{CodeCache, CompiledGrowth, CompiledValues};
+pub(super) use super::parts::Interpreted as CompiledValues;
+#[cfg(not(target_arch = "x86_64"))]
+pub(super) use absent::{CodeCache, CompiledGrowth};
 #[cfg(target_arch = "x86_64")]
 pub(super) use x86_64::{CodeCache, CompiledGrowth, CompiledValues};

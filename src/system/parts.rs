@@ -24,6 +24,7 @@ pub(super) trait Parts {
 }
 
 /// All of it is interpreted.
+#[derive(Clone, Debug, Default)]
 pub(super) struct Interpreted;
 
 impl Parts for Interpreted {

@@ -2,6 +2,7 @@
 //! register and reads earlier ones only. Two evaluators run it: [`Evaluator`](super::Evaluator) and
 //! [`Jet`](super::Jet).
 
+#[cfg(target_arch = "x86_64")]
 use super::made_once::MadeOnce;
 use crate::expr::FunctionId;
 use crate::num::DoubleDouble;
@@ -110,6 +111,7 @@ pub struct Program {
     pub(super) inputs: Vec<Register>,
     pub(super) outputs: Vec<Register>,
     /// What its values are computed by, where that is not the list of operations.
+    #[cfg(target_arch = "x86_64")]
     pub(super) values: MadeOnce,
 }
 

@@ -6,12 +6,9 @@
     reason = "has the form of what it stands for"
 )]
 
-use std::ops::Range;
-
 use crate::num::{Batch, DoubleDouble};
 use crate::system::growth::{SeriesBuilder, SeriesClock};
-use crate::system::parts::Parts;
-use crate::system::program::{Program, Singular};
+use crate::system::program::Singular;
 
 /// No functions.
 #[derive(Clone, Debug)]
@@ -56,21 +53,5 @@ impl CompiledGrowth {
         _: SeriesClock<Batch>,
     ) -> Result<bool, Singular> {
         Ok(false)
-    }
-}
-
-/// No parts.
-#[derive(Clone, Debug, Default)]
-pub(in crate::system) struct CompiledValues;
-
-impl Parts for CompiledValues {
-    fn evaluate<M, E>(
-        &mut self,
-        program: &Program,
-        memory: &mut M,
-        _: impl Fn(&mut M) -> Option<&mut [f64]>,
-        interpret: impl Fn(&mut M, Range<usize>) -> Result<(), E>,
-    ) -> Result<(), E> {
-        interpret(memory, 0..program.body.len())
     }
 }
