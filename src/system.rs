@@ -70,7 +70,6 @@ mod legendre;
 mod logarithms;
 mod lower;
 mod machine_code;
-#[cfg(target_arch = "x86_64")]
 mod made_once;
 mod mass_determinant;
 mod native_states;

@@ -3,6 +3,8 @@
 //! In: how often it must be wanted, the way to make it. Out: what was made. Never here: what it is, so that the thing need not know
 //! its makers.
 
+#![cfg(target_arch = "x86_64")]
+
 use std::any::Any;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, OnceLock};
