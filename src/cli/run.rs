@@ -186,7 +186,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let ends_before =
         |steps| overstepped::end_of_motion((&model, &equations, &system), &asked, steps);
     let ends_before: Option<&dyn Fn(u64) -> Option<String>> =
-        if method.stepping == Stepping::Fixed { Some(&ends_before) } else { None };
+        if overstepped::may_step_over(method) { Some(&ends_before) } else { None };
     let run = Run {
         experiment,
         times,

@@ -1,4 +1,4 @@
-//! Whether equal steps have passed over a place where the motion ends, such as a pole of a force.
+//! Whether a method has stepped over a place where the motion ends, such as a pole of a force.
 //!
 //! In: the setup of a run in which a conserved quantity has drifted. Out: why the motion by series ends before the run does. Never here:
 //! rows.
@@ -6,7 +6,7 @@
 use std::sync::Arc;
 
 use crate::experiment::{AdvanceOutcome, Experiment, Setup, Status};
-use crate::integrate::Settings;
+use crate::integrate::{Method, Settings};
 use crate::mechanics::Equations;
 use crate::model::Model;
 use crate::system::System;
@@ -14,12 +14,17 @@ use crate::system::System;
 /// The method that finds where a motion ends.
 const BY_SERIES: &str = "taylor";
 
-/// It is followed for as many steps as the run has taken, since each of its own leads farther, and for so many more to a
+/// It is followed for as many steps as the run has taken, since each of its own leads farther (at loose tolerances about as far), and for so many more to a
 /// singularity, …
 const MORE_STEPS: u64 = 2000;
 
 /// … but for at most so many.
 const MOST_STEPS: u64 = 20_000;
+
+/// Whether a method may not see where a motion ends.
+pub(super) fn may_step_over(method: &Method) -> bool {
+    method.name != BY_SERIES
+}
 
 /// Why the motion ends before the time that the setup asks for; `None` if it does not, or not within some number of steps.
 pub(super) fn end_of_motion(

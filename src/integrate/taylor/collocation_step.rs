@@ -28,6 +28,9 @@ const SHORT: f64 = 1e-10;
 /// The tolerated difference between two ways of taking a step, relative to the size of each number.
 const AGREEMENT: f64 = 1e-18;
 
+/// The difference tolerated where the first part of a step is taken by itself.
+const MISSED: f64 = 1e-15;
+
 /// The maximal number of iterations of the stages, and the movement tolerated then.
 const ROUNDS: u32 = 60;
 const SETTLED: f64 = 1e-26;
@@ -145,6 +148,35 @@ impl CollocationStep {
         self.power = power;
         self.inside(rates, from, DoubleDouble::from(step), toward, out)?;
         Ok(Some(step))
+    }
+
+    /// Whether the last step ends elsewhere if a first part of its time is taken by itself.
+    pub(super) fn misses(
+        &mut self,
+        rates: &mut ExactRates,
+        from: &State,
+        step: f64,
+        part: f64,
+    ) -> Result<bool, MotionError> {
+        let (start, step) = (numbers_of(from), DoubleDouble::from(step));
+        if !self.take_two(rates, from, step, None)? {
+            return Ok(true);
+        }
+        let two = self.two.clone();
+        let part = math::powf(part, 1.0 / f64::from(self.power));
+        let mut numbers = start.clone();
+        for (begin, end) in [(0.0, part), (part, PART), (PART, 1.0)] {
+            let piece = SubStep { step, begin, end };
+            if !self.take(rates, from.exact_time(), &numbers, &piece, None)? {
+                return Ok(true);
+            }
+            numbers.clone_from(&self.end);
+        }
+        let is_same = |i: usize| {
+            let size = start[i].high.abs().max(two[i].high.abs());
+            (numbers[i] - two[i]).high.abs() <= MISSED * size
+        };
+        Ok(!(0..self.moving).all(is_same))
     }
 
     /// The longest step possible with one time variable.

@@ -3,6 +3,7 @@
 //! In: the state, the choices of the kinks. Out: a series that continues, or a step by collocation, or rest. Never here:
 //! steps along a series.
 
+use super::step_end::SOON_STALLED;
 use super::sticking::{self, Sticking};
 use super::{Taylor, start_slope};
 use crate::system::{MotionError, MotionErrorKind, Side};
@@ -32,7 +33,10 @@ impl Taylor {
             match self.expand_on_surface(left) {
                 Ok(step) if self.kinks.leads_on(&self.series, step, self.stride) => {
                     let hopeless = step < HOPELESS * self.stride && !rough;
-                    return Ok(if hopeless && self.leap(left, 0.0)? { None } else { Some(step) });
+                    if hopeless && self.leap_beside(Some(step), left, 0.0)? {
+                        return Ok(None);
+                    }
+                    return Ok(Some(step));
                 }
                 Ok(_) => {}
                 Err(fault) if fault.kind == MotionErrorKind::Sticks => {}
@@ -93,6 +97,16 @@ impl Taylor {
     /// Leaves a point from which no series continues, or continues by no more than `least`. Returns
     /// false if that is not possible.
     pub(super) fn leap(&mut self, left: f64, least: f64) -> Result<bool, MotionError> {
+        self.leap_beside(None, left, least)
+    }
+
+    /// The same, where a series represents the motion for a time: a step that misses what happens within it is none.
+    fn leap_beside(
+        &mut self,
+        series: Option<f64>,
+        left: f64,
+        least: f64,
+    ) -> Result<bool, MotionError> {
         self.leaps.0 += 1;
         if self.leaps.0.is_multiple_of(ROUND) {
             let (before, now) = (self.leaps.1, self.state.time);
@@ -107,6 +121,14 @@ impl Taylor {
         let mut toward = None;
         let rates = &mut self.rates;
         let mut found = self.bridge.cross(rates, &from, (wanted, least), None, &mut self.state)?;
+        // nothing can be seen within a step that does not advance the time
+        let series = series.filter(|series| *series >= SOON_STALLED * from.time.abs());
+        if let (Some(series), Some(step)) = (series, found)
+            && self.bridge.misses(rates, &from, step, series / step.abs())?
+        {
+            self.state = from;
+            return Ok(false);
+        }
         // next to rest, dry friction leaves steps that lead nowhere; at the start of a motion no step has shown what is short
         let is_hopeless = |step: f64| self.stride > 0.0 && step.abs() < HOPELESS * stride;
         if found.is_none_or(is_hopeless) {

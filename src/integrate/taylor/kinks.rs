@@ -22,6 +22,13 @@ const SIGNIFICANT: f64 = 1e-9;
 /// velocity of such a size, which may matter on one side, over the step there, and not on the other.
 const TOUCHED: f64 = 1e-8;
 
+/// A switch crosses zero, and does not merely touch it, where its rate of change times the time to its zero is more than this part of
+/// its largest term.
+const TRANSVERSAL: f64 = 1e-3;
+
+/// Rates of change on both sides of a surface are the same to this part.
+const SAME: f64 = 1e-9;
+
 /// The maximal number of simultaneous switches that are tried in every combination.
 const COMBINED: usize = 5;
 
@@ -42,6 +49,8 @@ pub(super) struct Kinks {
     touched: bool,
     /// Where the motion begins on surfaces: their first certain terms.
     certain: Vec<(usize, usize)>,
+    /// The rates of change with which switches came to zero, where the motion did not merely touch their surfaces.
+    arrival: Vec<(usize, f64)>,
 }
 
 /// A surface met within a step.
@@ -49,6 +58,8 @@ pub(super) struct KinkCrossing {
     /// The time after the series' origin, in its unit.
     pub(super) after: DoubleDouble,
     switches: Vec<usize>,
+    /// The rates of change there of those that the motion does not merely touch.
+    rates: Vec<(usize, f64)>,
 }
 
 /// The last term of a series may be this part of the first where the series still represents its
@@ -130,11 +141,19 @@ impl Kinks {
     }
 
     /// The first term of a switch that decides on a direction within a time.
-    fn deciding(&self, i: usize, switch: &[f64], reach: f64) -> Option<usize> {
-        match self.certain.iter().find(|(of, _)| *of == i) {
-            Some(&(_, k)) => Some(k),
-            None => first_that_matters(switch, reach, self.significant()),
+    fn deciding(&self, i: usize, series: &Series, reach: f64) -> Option<usize> {
+        let switch = series.switch(i);
+        if let Some(&(_, k)) = self.certain.iter().find(|(of, _)| *of == i) {
+            return Some(k);
         }
+        // whatever forces do later, at first it goes on as it came
+        let goes_on = |&(of, rate): &(usize, f64)| {
+            of == i && (switch[1] / series.scale() - rate).abs() <= SAME * rate.abs()
+        };
+        if self.arrival.iter().any(goes_on) {
+            return Some(1);
+        }
+        first_that_matters(switch, reach, self.significant())
     }
 
     /// From here on the motion counts as touching its surface only, until it moves. Returns whether that is new.
@@ -160,7 +179,7 @@ impl Kinks {
         let reach = end.min(1.0).min(known_ahead(series, stride));
         let met = |i: usize, end: f64| match series.sides()[i] {
             Side::Between => leaves_weight(series.weight(i), end),
-            side => self.leaves_side(i, series.switch(i), side, (end, reach)),
+            side => self.leaves_side(i, series, side, (end, reach)),
         };
         let mut earliest: Option<(f64, usize)> = None;
         for i in 0..series.switches() {
@@ -170,7 +189,7 @@ impl Kinks {
             }
         }
         let (x, first) = earliest?;
-        let width = TOGETHER * end.min(x.max(1e-3 * end));
+        let width = TOGETHER * end.min(x.max(1e-6 * end));
         // a surface that was only touched before is not met again here
         let together =
             |&i: &usize| i == first || met(i, x + width).is_some_and(|other| other >= x - width);
@@ -179,7 +198,9 @@ impl Kinks {
             Side::Between => DoubleDouble::from(x),
             _ => self.polish(series, first, x),
         };
-        Some(KinkCrossing { after, switches })
+        let rate = |&i: &usize| Some((i, rate_of_crossing(series.switch(i), x)? / series.scale()));
+        let rates = switches.iter().filter_map(rate).collect();
+        Some(KinkCrossing { after, switches, rates })
     }
 
     /// Ends a step on a surface, or on none. Returns false if the time no longer advances.
@@ -193,6 +214,10 @@ impl Kinks {
         self.stalled = if moved { 0 } else { self.stalled + 1 };
         self.touched = !moved && (self.touched || self.stalled >= STALLS);
         self.certain.clear();
+        self.arrival.clear();
+        if let (Some(crossing), true) = (&crossing, moved) {
+            self.arrival.clone_from(&crossing.rates);
+        }
         self.on_surface = crossing.map_or(Vec::new(), |crossing| crossing.switches);
         for &i in &self.on_surface {
             // a number of the state that has reached zero is zero, not a rounding error
@@ -211,8 +236,7 @@ impl Kinks {
             Side::Positive => 1.0,
             Side::Negative => -1.0,
         };
-        let switch = series.switch(i);
-        self.deciding(i, switch, reach).is_none_or(|k| sign * switch[k] > 0.0)
+        self.deciding(i, series, reach).is_none_or(|k| sign * series.switch(i)[k] > 0.0)
     }
 
     /// The point where a switch leaves its side. If the step begins on its surface, the switch
@@ -220,12 +244,13 @@ impl Kinks {
     fn leaves_side(
         &self,
         i: usize,
-        switch: &[f64],
+        series: &Series,
         side: Side,
         (end, reach): (f64, f64),
     ) -> Option<f64> {
+        let switch = series.switch(i);
         let sign = if side == Side::Negative { -1.0 } else { 1.0 };
-        let from = if self.on_surface.contains(&i) { self.deciding(i, switch, reach)? } else { 0 };
+        let from = if self.on_surface.contains(&i) { self.deciding(i, series, reach)? } else { 0 };
         let mut signed = [0.0; 64];
         let signed = &mut signed[..switch.len() - from];
         for (c, x) in signed.iter_mut().zip(&switch[from..]) {
@@ -257,6 +282,15 @@ impl Kinks {
 /// A direction is chosen by what the motion does in no more than this many of its last steps. Where its numbers are
 /// polynomials of the time a series has no end, and the velocity of arrival is nothing beside what forces do in so long.
 const AHEAD: f64 = 1e6;
+
+/// The rate of change of a switch at its zero, in the unit of the series; `None` where its terms cancel there, so that it is no better
+/// known than their rounding, or where the zero is of a higher order.
+fn rate_of_crossing(switch: &[f64], x: f64) -> Option<f64> {
+    let slope = value_and_slope(switch, x).1;
+    let term = |(k, c): (usize, &f64)| (c * math::powi(x, k as i32)).abs();
+    let largest = switch.iter().enumerate().map(term).fold(0.0, f64::max);
+    ((slope * x).abs() > TRANSVERSAL * largest).then_some(slope)
+}
 
 /// How far ahead, in the unit of the series, a direction may be decided; unlimited where there was no step.
 fn known_ahead(series: &Series, stride: f64) -> f64 {

@@ -542,6 +542,33 @@ fn equal_steps_over_the_end_of_a_motion_are_an_error() {
     assert_eq!((with("0.4").code, with("0.4").stderr.as_str()), (0, ""));
 }
 
+/// V = −|tan x| has poles at ±π/2, which the motion reaches at t = 0.4: the steps of `dop853`, chosen by their error, go over them too.
+#[test]
+fn adaptive_steps_over_the_end_of_a_motion_are_an_error() {
+    let file = |law: &str| {
+        format!(
+            "title = 'pole'\n[coordinates]\nx = {{ initial = 1, velocity = 0.2 }}\n[lagrangian]\nL = \"{law}\"\n"
+        )
+    };
+    for (law, tolerance) in [
+        ("1/2*x'^2 + abs(tan(x))", "1e-4"),
+        ("1/2*x'^2 + abs(tan(x))", "1e-11"),
+        ("1/2*x'^2 + 1/abs(x)", "1e-4"),
+        ("1/2*x'^2 - ln(abs(x))", "1e-5"),
+    ] {
+        let adaptive =
+            ["run", "system.toml", "--method", "dop853", "--tolerance", tolerance, "--at", "5.3"];
+        let past = with_file(&file(law), &adaptive);
+        assert_eq!(past.code, 1, "{law}: {}", past.stderr);
+    }
+    // through a smooth well as narrow as this one the motion goes on
+    let through = with_file(
+        &file("1/2*x'^2 + 1/sqrt(x^2 + 1e-4)"),
+        &["run", "system.toml", "--method", "dop853", "--at", "5.3"],
+    );
+    assert_eq!(through.code, 0, "{}", through.stderr);
+}
+
 /// The poles of friction at which energy is not lost by much: a force of 10 leads on, or the pole is weak. A larger force
 /// or friction without a pole ends nothing, and no shorter step is recommended where there is no motion.
 #[test]

@@ -209,6 +209,43 @@ fn kinks_a_trillionth_of_the_way_apart_are_crossed_in_one_step_and_farther_ones_
     assert_eq!(steps("2.2e-12"), steps("7e-13") + 1);
 }
 
+/// A body whose mass becomes four times as large within a very short time keeps its momentum. A short change of a force is the control.
+#[test]
+fn what_changes_within_a_short_time_is_not_stepped_over() {
+    for (potential, at_3) in [("0", [1.5, 0.25]), ("1/2*x^2", [0.0; 2])] {
+        for width in [1e-7, 1e-8, 1e-9, 1e-10] {
+            let ramp = format!("min(1, max(0, (t - 1)/{width:e}))");
+            let mut run =
+                one("0.0", "1.0", &format!("1/2*(1 + 3*{ramp})*x'^2 - {potential}"), "0", "0");
+            // x = sin t, x' = cos t up to the change; then x' is a quarter, and the frequency a half
+            let expected = if potential == "0" {
+                at_3
+            } else {
+                let (x, v) = (1.0_f64.sin(), 1.0_f64.cos() / 4.0);
+                [
+                    x * 1.0_f64.cos() + 2.0 * v * 1.0_f64.sin(),
+                    -0.5 * x * 1.0_f64.sin() + v * 1.0_f64.cos(),
+                ]
+            };
+            near(&run.to(3.0)[..2], &expected, 2.0 * width + 1e-9);
+        }
+    }
+}
+
+/// A barrier twice as high as the energy throws back, however narrow it is and however far away the end of the run.
+#[test]
+fn a_narrow_barrier_throws_back_whatever_the_end_of_the_run() {
+    for width in [1e-3, 1e-6, 1e-9] {
+        for end in [20.0, 1e3, 1e5, 1e7] {
+            let barrier = format!("max(0, 1 - abs(x - 10)/{width:e})");
+            let mut run = one("0.0", "1.0", &format!("1/2*x'^2 - 2*{barrier}"), "0", "0");
+            // within it the velocity falls at the rate 2/w, to zero at a quarter of the way up
+            let returned = 2.0 * (10.0 - width) + width - end;
+            near(&run.to(end)[..2], &[returned, -1.0], 1e-14 * end + 1e-7);
+        }
+    }
+}
+
 #[test]
 fn at_rest_on_a_kink_it_stays_to_the_last_bit() {
     // the pull of 0.3 is less than the jump of 1 to both sides
