@@ -15,6 +15,7 @@ mod batch_step_size;
 mod branches;
 mod collocation_step;
 mod departure;
+mod exact_passage;
 mod expansion;
 mod kinks;
 mod last_orders;
@@ -74,6 +75,8 @@ pub(super) const METHOD: Method = Method {
 struct Taylor {
     system: System,
     series: Series,
+    /// The series in `f64`, while digits of double-double are needed to pass a place.
+    plain: Option<Box<Series>>,
     step_size: StepSize,
     state: State,
     begin: f64,
@@ -128,6 +131,7 @@ impl Taylor {
         Ok(Taylor {
             system,
             series,
+            plain: None,
             tolerance,
             exact: exact > 0,
             step_size: StepSize::new(tolerance, order),
@@ -203,35 +207,9 @@ fn part_of_step(after: DoubleDouble, step: DoubleDouble) -> DoubleDouble {
     }
 }
 
-impl Stepper for Taylor {
-    fn start(&mut self, state: &State, parameters: &[f64]) -> Result<(), MotionError> {
-        let mut state = self.system.convert(state, self.system.form(), parameters)?;
-        let before = self.before(&state)?;
-        if self.series.switches() > 0 {
-            start_slope::settle(&mut state, &before);
-        }
-        self.sizes = start_slope::sizes(&state, &before);
-        self.state = state;
-        self.begin = self.state.time;
-        self.scaled = false;
-        self.taken = None;
-        self.stride = 0.0;
-        self.last = f64::INFINITY;
-        self.leaving = false;
-        self.landed = false;
-        self.leapt = None;
-        self.resting = None;
-        self.touch_tried = f64::INFINITY;
-        self.parameters = parameters.to_vec();
-        self.leaps = (0, f64::NAN);
-        let parameters = self.system.inputs(parameters);
-        self.series.set_parameters(&parameters);
-        self.series.set_scale(1.0);
-        self.rates.set_parameters(&parameters);
-        self.kinks.begin(&mut self.series, &mut self.rates, &self.state)
-    }
-
-    fn step(&mut self, limit: f64) -> Result<(), MotionError> {
+impl Taylor {
+    /// Takes a step no farther than a limit.
+    fn step_to(&mut self, limit: f64) -> Result<(), MotionError> {
         if self.state.time == limit {
             return Ok(());
         }
@@ -277,6 +255,47 @@ impl Stepper for Taylor {
             Some(end) if end.is_branch_point() && self.cross_touch(step, limit)? => Ok(()),
             Some(end) => self.go_to(end, step, (left.high, limit)),
             None => Ok(()),
+        }
+    }
+}
+
+impl Stepper for Taylor {
+    fn start(&mut self, state: &State, parameters: &[f64]) -> Result<(), MotionError> {
+        let mut state = self.system.convert(state, self.system.form(), parameters)?;
+        let before = self.before(&state)?;
+        self.end_passage(true);
+        if self.series.switches() > 0 {
+            start_slope::settle(&mut state, &before);
+        }
+        self.sizes = start_slope::sizes(&state, &before);
+        self.state = state;
+        self.begin = self.state.time;
+        self.scaled = false;
+        self.taken = None;
+        self.stride = 0.0;
+        self.last = f64::INFINITY;
+        self.leaving = false;
+        self.landed = false;
+        self.leapt = None;
+        self.resting = None;
+        self.touch_tried = f64::INFINITY;
+        self.parameters = parameters.to_vec();
+        self.leaps = (0, f64::NAN);
+        let parameters = self.system.inputs(parameters);
+        self.series.set_parameters(&parameters);
+        self.series.set_scale(1.0);
+        self.rates.set_parameters(&parameters);
+        self.kinks.begin(&mut self.series, &mut self.rates, &self.state)
+    }
+
+    fn step(&mut self, limit: f64) -> Result<(), MotionError> {
+        self.end_passage(false);
+        match self.step_to(limit) {
+            Err(fault) if self.wants_digits(&fault) => {
+                self.begin_passage()?;
+                self.step_to(limit)
+            }
+            outcome => outcome,
         }
     }
 

@@ -109,6 +109,11 @@ impl Kinks {
         Ok(())
     }
 
+    /// Whether the motion is on a switching surface.
+    pub(super) fn is_on_surface(&self) -> bool {
+        !self.on_surface.is_empty()
+    }
+
     /// The choices of sides on a surface, the likeliest first.
     pub(super) fn undecided(&self, series: &Series) -> Option<Vec<Vec<Side>>> {
         if self.on_surface.is_empty() {

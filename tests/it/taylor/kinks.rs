@@ -246,6 +246,28 @@ fn a_narrow_barrier_throws_back_whatever_the_end_of_the_run() {
     }
 }
 
+/// Roots of functions whose terms cancel at their zero, in `f64`: the same laws written with `abs` are the reference.
+#[test]
+fn kinks_hidden_in_cancelling_terms_are_passed_in_f64() {
+    let run = |potential: &str, (x, v): (&str, &str), tolerance: Option<f64>| {
+        let text = format!(
+            "title = \"hidden\"\n[coordinates]\nx = {{ initial = {x}, velocity = {v} }}\n[lagrangian]\n\
+             L = \"1/2*x'^2 - {potential}\"\n"
+        );
+        Run::with(&text, tolerance).to(100.0)
+    };
+    let start = ("0.3", "1.2");
+    for (hidden, plain, start) in [
+        ("sqrt(1 - cos(x))", "sqrt(2)*abs(sin(x/2))", start),
+        ("(1 - cos(x))^(3/4)", "2^(3/4)*abs(sin(x/2))^1.5", ("0.4", "0.6")),
+        ("sqrt((x - 1)^2*(x + 1)^2)", "abs(x^2 - 1)", ("0.3", "1.5")),
+        ("sqrt(2 + 2*cos(x))", "2*abs(cos(x/2))", ("0.2", "3.3")),
+    ] {
+        let (found, expected) = (run(hidden, start, Some(1e-15)), run(plain, start, None));
+        near(&found[..2], &expected[..2], 1e-8);
+    }
+}
+
 #[test]
 fn at_rest_on_a_kink_it_stays_to_the_last_bit() {
     // the pull of 0.3 is less than the jump of 1 to both sides
