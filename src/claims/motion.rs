@@ -47,7 +47,7 @@ pub(super) struct ClaimedMotion<'a> {
     budget: u64,
     occurrences: Vec<Occurrence>,
     /// The propagator's count of changes of its constraints when the observer was created.
-    holdings: u64,
+    active_set_changes: u64,
 }
 
 /// Why a motion ended before a claim could be checked.
@@ -176,7 +176,7 @@ impl<'a> ClaimedMotion<'a> {
             allowed,
             budget: allowed,
             occurrences: Vec::new(),
-            holdings: 0,
+            active_set_changes: 0,
         };
         let state = system.initial(model.run.start, &parameters, &[]);
         let state = state.map_err(|fault| match &fault.kind {
@@ -364,8 +364,8 @@ impl<'a> ClaimedMotion<'a> {
                 }
             }
         }
-        if self.holdings != self.course.holdings() {
-            self.holdings = self.course.holdings();
+        if self.active_set_changes != self.course.active_set_changes() {
+            self.active_set_changes = self.course.active_set_changes();
             let parameters = self.observer.parameters().to_vec();
             self.observer = self.course.system().observer(&parameters);
         }

@@ -155,7 +155,7 @@ fn take_still(
     };
     // What colours tell apart, as a surface and what is drawn on it, text has to tell apart by its characters.
     let screen = if form == ImageFormat::Text { colourless } else { screen };
-    let palette = recording.look.theme.palette();
+    let palette = recording.style.theme.palette();
     let text = screenshot::write(screen, palette, form, &recording.title);
     let written = if form == ImageFormat::Ansi { OutputForm::Coloured } else { OutputForm::Text };
     Output::open(Some(path), written)?.write_text(&text)

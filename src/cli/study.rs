@@ -112,7 +112,7 @@ impl Study {
                 let why = "--around takes coordinates; momenta are those of the start, --init";
                 return Err(CommandError::WrongUse(why.to_owned()));
             };
-            state.set(i, DoubleDouble::written(x));
+            state.set(i, DoubleDouble::from_decimal(x));
         }
         Ok(state)
     }

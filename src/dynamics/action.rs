@@ -62,7 +62,7 @@ pub(super) fn compiled(
     let given = model.parameters.iter().zip(parameters).map(|(p, &value)| (p.symbol, value));
     let named = given.chain(body_constants(model, parameters));
     let (symbols, values): (Vec<Symbol>, Vec<DoubleDouble>) =
-        named.map(|(symbol, value)| (symbol, DoubleDouble::written(value))).unzip();
+        named.map(|(symbol, value)| (symbol, DoubleDouble::from_decimal(value))).unzip();
     let program = Program::compile(pool, &symbols, model.symbols.time, inputs, outputs)
         .map_err(|_| unsuited("the law has no value where it is used"))?;
     let mut evaluator = Evaluator::new(program);

@@ -91,7 +91,7 @@ impl Levels {
         let count = self.model.coordinates.len();
         let built = body_constants(&self.model, parameters).into_iter().map(|(_, value)| value);
         let values: Vec<DoubleDouble> =
-            parameters.iter().copied().chain(built).map(DoubleDouble::written).collect();
+            parameters.iter().copied().chain(built).map(DoubleDouble::from_decimal).collect();
         let mut evaluator: Evaluator<f64> = Evaluator::new(Arc::clone(&self.program));
         evaluator.set_parameters(&values);
         let variables = &state.values[..count];

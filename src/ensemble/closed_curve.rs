@@ -227,12 +227,12 @@ impl ClosedCurve {
         }
         let along = |step: usize| -> f64 {
             let ends = (0..INTERVALS).step_by(step).map(|i| (rows[i], rows[i + step]));
-            ends.map(|(a, b)| strip(level, a, b)).sum()
+            ends.map(|(a, b)| trapezoid(level, a, b)).sum()
         };
         let (fine, middle, coarse) = (along(1), along(2), along(4));
         let (once, before) = ((4.0 * fine - middle) / 3.0, (4.0 * middle - coarse) / 3.0);
         let value = (16.0 * once - before) / 15.0;
-        let size = (0..INTERVALS).map(|i| strip(level, rows[i], rows[i + 1]).abs()).sum();
+        let size = (0..INTERVALS).map(|i| trapezoid(level, rows[i], rows[i + 1]).abs()).sum();
         Some(PanelIntegral { value, error: (value - once).abs(), size })
     }
 
@@ -304,7 +304,7 @@ fn node(s: f64, start: &dyn Fn(f64) -> Option<State>) -> Option<CurveNode> {
 }
 
 /// Σ (p − level) dq along a straight line between two rows.
-fn strip(level: &[f64], a: &[f64], b: &[f64]) -> f64 {
+fn trapezoid(level: &[f64], a: &[f64], b: &[f64]) -> f64 {
     let pair = |i: usize| {
         let (q, p) = (2 + i, 2 + level.len() + i);
         (f64::midpoint(a[p], b[p]) - level[i]) * (b[q] - a[q])

@@ -27,7 +27,7 @@ pub struct PoolError(String);
 type ThreadResult<T> = Result<T, Box<dyn Any + Send>>;
 
 /// What the threads and the consumer share.
-struct Bench<T> {
+struct ResultQueue<T> {
     done: Mutex<Done<T>>,
     changed: Condvar,
 }
@@ -40,7 +40,7 @@ struct Done<T> {
     working: usize,
 }
 
-impl<T> Bench<T> {
+impl<T> ResultQueue<T> {
     fn done(&self) -> MutexGuard<'_, Done<T>> {
         self.done.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -96,14 +96,14 @@ pub fn in_order<T: Send>(
     let threads = pool.current_num_threads();
     let (next, over) = (AtomicUsize::new(0), AtomicBool::new(false));
     let done = Done { results: BTreeMap::new(), first: 0, working: threads };
-    let bench = Bench { done: Mutex::new(done), changed: Condvar::new() };
+    let queue = ResultQueue { done: Mutex::new(done), changed: Condvar::new() };
     let stopped = || over.load(Ordering::Acquire) || cancel.is_cancelled();
     let break_off = || {
         // under the lock, so that nobody is between looking at it and waiting
-        let done = bench.done();
+        let done = queue.done();
         over.store(true, Ordering::Release);
         drop(done);
-        bench.changed.notify_all();
+        queue.changed.notify_all();
     };
     let one_after_the_other = || {
         while !stopped() {
@@ -111,20 +111,20 @@ pub fn in_order<T: Send>(
             if item >= count {
                 break;
             }
-            bench.admit(item, AHEAD * threads, &stopped);
+            queue.admit(item, AHEAD * threads, &stopped);
             let result = catch_unwind(AssertUnwindSafe(|| work(item)));
-            bench.done().results.insert(item, result);
-            bench.changed.notify_all();
+            queue.done().results.insert(item, result);
+            queue.changed.notify_all();
         }
-        bench.done().working -= 1;
-        bench.changed.notify_all();
+        queue.done().working -= 1;
+        queue.changed.notify_all();
     };
     let panicked = pool.in_place_scope(|scope| {
         for _ in 0..threads {
             scope.spawn(|_| one_after_the_other());
         }
         for item in 0..count {
-            let broken = match bench.next(item) {
+            let broken = match queue.next(item) {
                 None => break,
                 Some(Ok(result)) => take(item, result).is_break(),
                 Some(Err(panic)) => {

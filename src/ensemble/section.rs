@@ -215,7 +215,7 @@ fn followed(
         motion,
         observer,
         values,
-        holdings: 0,
+        active_set_changes: 0,
         plan,
         start,
         parameters,
@@ -229,7 +229,7 @@ struct SectionOrbit<'a> {
     motion: Propagator,
     observer: Observer,
     values: Vec<f64>,
-    holdings: u64,
+    active_set_changes: u64,
     plan: &'a SectionPlan,
     start: f64,
     parameters: &'a [f64],
@@ -296,8 +296,10 @@ impl SectionOrbit<'_> {
 
     fn record(&mut self, time: f64) -> Result<(), MotionError> {
         // constraints are released by events, and enforced in turn where some are redundant
-        if self.motion.system().constraints() > 0 || self.holdings != self.motion.holdings() {
-            self.holdings = self.motion.holdings();
+        if self.motion.system().constraints() > 0
+            || self.active_set_changes != self.motion.active_set_changes()
+        {
+            self.active_set_changes = self.motion.active_set_changes();
             self.observer = self.motion.system().observer(self.parameters);
         }
         self.plan.see(&mut self.observer, self.motion.state(), &mut self.values)?;

@@ -32,9 +32,9 @@ impl Experiment {
     /// The motions beside it follow to the time reached, with a budget of the same size. One that is behind makes the
     /// result `Underway`.
     pub fn advance(&mut self, time: f64, budget: u64) -> AdvanceOutcome {
-        let progress = match self.way_home().filter(|home| *home <= time) {
+        let progress = match self.return_clock().filter(|home| *home <= time) {
             Some(home) => match self.advance_main(home, budget) {
-                AdvanceOutcome::Arrived => self.come_home(),
+                AdvanceOutcome::Arrived => self.finish_return(),
                 other => other,
             },
             None => self.advance_main(time, budget),

@@ -116,7 +116,7 @@ pub(super) struct CompanionMotion {
     pub(super) parameters: Vec<f64>,
     motion: Propagator,
     observer: Observer,
-    holdings: u64,
+    active_set_changes: u64,
     values: Vec<f64>,
     recorder: Recorder,
     crossings: CrossingLog,
@@ -150,7 +150,7 @@ impl CompanionMotion {
             parameters: parameters.to_vec(),
             motion: Propagator::new(system, method, settings, parameters)?,
             observer: system.observer(parameters),
-            holdings: 0,
+            active_set_changes: 0,
             values: vec![f64::NAN; channels],
             recorder: Recorder::bounded(channels, numbers),
             crossings: CrossingLog::new(surfaces.count()),
@@ -408,12 +408,14 @@ impl CompanionMotion {
     }
 
     fn take_observer(&mut self) {
-        self.holdings = self.motion.holdings();
+        self.active_set_changes = self.motion.active_set_changes();
         self.observer = self.motion.system().observer(&self.parameters);
     }
 
     fn observe(&mut self) -> Result<(), MotionError> {
-        if self.motion.system().constraints() > 0 || self.holdings != self.motion.holdings() {
+        if self.motion.system().constraints() > 0
+            || self.active_set_changes != self.motion.active_set_changes()
+        {
             self.take_observer();
         }
         self.observer.observe(self.motion.state(), &mut self.values)

@@ -145,7 +145,7 @@ impl Experiment {
         let mut state = state.clone();
         if let CompanionOrigin::Neighbour(displaced) = origin {
             for (i, by) in displaced.iter().enumerate() {
-                let moved = state.exact(i) + DoubleDouble::written(*by);
+                let moved = state.exact(i) + DoubleDouble::from_decimal(*by);
                 state.set(i, moved);
             }
         }

@@ -25,7 +25,7 @@ use crate::num::BATCH;
 use crate::system::{BatchTerms, ChannelKind, System, TermWatch};
 use formula_monitors::{ChannelValues, FormulaMonitors};
 use integration_constants::IntegrationConstants;
-use invariant_monitor::{ENERGY_BALANCE, InvariantMonitor, MonitoredStep, Subject};
+use invariant_monitor::{ENERGY_BALANCE, InvariantMonitor, MonitoredInvariant, MonitoredStep};
 
 /// Rounding errors are measured once per this many samples.
 const MEASURED: u64 = 16;
@@ -62,7 +62,7 @@ impl Gauges {
             let Some(channel) = find(kind) else { return };
             let shown = system.channels()[channel].shown.clone();
             let name = name.to_owned();
-            let subject = Subject {
+            let invariant = MonitoredInvariant {
                 name,
                 shown,
                 reason,
@@ -72,7 +72,7 @@ impl Gauges {
                 quantity,
                 expression,
             };
-            monitors.push(InvariantMonitor::new(subject));
+            monitors.push(InvariantMonitor::new(invariant));
         };
         // the first quantity of a `TermWatch`
         let energy = Some(0);
@@ -95,7 +95,7 @@ impl Gauges {
             let kind = if is_energy { ChannelKind::Energy } else { ChannelKind::Conserved(i) };
             let quantity = Some(if is_energy { 0 } else { i + 1 });
             monitors.extend(find(kind).map(|channel| {
-                InvariantMonitor::new(Subject {
+                InvariantMonitor::new(MonitoredInvariant {
                     name: conserved.name.clone(),
                     shown: system.channels()[channel].shown.clone(),
                     reason: conserved.reason.to_string(),
@@ -109,7 +109,7 @@ impl Gauges {
         }
         // the energy comes first
         monitors.sort_by_key(|monitor| {
-            monitor.subject.channel != find(ChannelKind::Energy).unwrap_or(0)
+            monitor.invariant.channel != find(ChannelKind::Energy).unwrap_or(0)
         });
         let mut places = Vec::new();
         for (i, c) in equations.coordinates.iter().enumerate() {
@@ -127,7 +127,8 @@ impl Gauges {
         {
             places.extend(find(ChannelKind::Attitude(i)).map(|channel| (*symbol, channel)));
         }
-        let names = monitors.iter().map(|monitor: &InvariantMonitor| monitor.subject.name.clone());
+        let names =
+            monitors.iter().map(|monitor: &InvariantMonitor| monitor.invariant.name.clone());
         let integration = IntegrationConstants::of(model, equations, &names.collect::<Vec<_>>());
         let residuals = ResidualGauge::all(model, equations, system);
         let attitude = AttitudeGauge::of(system);
@@ -182,7 +183,7 @@ impl Gauges {
         };
         for monitor in &mut self.monitors {
             if let Some(reference) =
-                known(&monitor.subject.name, now.values[monitor.subject.channel])
+                known(&monitor.invariant.name, now.values[monitor.invariant.channel])
             {
                 self.reference_time = reference.since;
                 self.reference_steps = 0;
@@ -327,11 +328,11 @@ impl Gauges {
             }
         };
         for monitor in &mut self.monitors {
-            let (_, error) = equations.pool.evaluate_with_error(monitor.subject.expression, &at);
+            let (_, error) = equations.pool.evaluate_with_error(monitor.invariant.expression, &at);
             let underflows = error < f64::MIN_POSITIVE
-                && equations.pool.underflows(monitor.subject.expression, &at);
+                && equations.pool.underflows(monitor.invariant.expression, &at);
             // if the error of the terms is not finite, the value itself is the measure
-            let value = now.values[monitor.subject.channel].abs();
+            let value = now.values[monitor.invariant.channel].abs();
             let error = if error.is_finite() { error.max(value) } else { value };
             monitor.measure(error, underflows);
         }

@@ -24,7 +24,7 @@ pub(super) struct ObservedMotion {
     lost: Vec<bool>,
     residuals: Vec<[f64; 2]>,
     /// The motion's count of constraint changes when the observer was made.
-    holdings: u64,
+    active_set_changes: u64,
     pub(super) watch: StepSampler,
     /// The states between the steps so far.
     pub(super) log: StepLog,
@@ -50,7 +50,7 @@ impl ObservedMotion {
             values: vec![f64::NAN; system.channels().len()],
             lost: vec![false; system.channels().len()],
             residuals: Vec::new(),
-            holdings: 0,
+            active_set_changes: 0,
             watch: StepSampler::of(system, parameters),
             log: StepLog::default(),
         })
@@ -191,8 +191,8 @@ impl ObservedMotion {
 
     pub(super) fn observe(&mut self) -> Result<(), MotionError> {
         self.residuals = self.inner.residuals();
-        if self.holdings != self.inner.holdings() {
-            self.holdings = self.inner.holdings();
+        if self.active_set_changes != self.inner.active_set_changes() {
+            self.active_set_changes = self.inner.active_set_changes();
             self.take_observer();
         }
         let outcome = self.observer.observe(self.inner.state(), &mut self.values);

@@ -172,13 +172,13 @@ impl Experiment {
     }
 
     /// Where on the clock the run before began, if the motion has not yet been there.
-    pub(super) fn way_home(&self) -> Option<f64> {
+    pub(super) fn return_clock(&self) -> Option<f64> {
         let home = self.motion.sign() * self.echo.as_ref()?.start;
         (home > self.clock()).then_some(home)
     }
 
     /// The motion is back where the run before began, and pauses.
-    pub(super) fn come_home(&mut self) -> AdvanceOutcome {
+    pub(super) fn finish_return(&mut self) -> AdvanceOutcome {
         self.running = false;
         if self.recorder.due() > self.clock() {
             self.compare_with_echo();

@@ -303,7 +303,7 @@ impl Stepper for DormandPrince {
             return Ok(());
         }
         let time = self.state.exact_time();
-        let left = DoubleDouble::written(limit) - time;
+        let left = DoubleDouble::from_decimal(limit) - time;
         if self.stale {
             self.rates.evaluate(time.high, &self.state.values, &mut self.slopes[0])?;
             self.stale = false;
@@ -396,7 +396,7 @@ impl DenseOutput for DormandPrince {
         self.complete()?;
         out.copy_from(&self.before);
         let step = self.last_step();
-        let part = (DoubleDouble::written(time) - self.before.exact_time()).high / step;
+        let part = (DoubleDouble::from_decimal(time) - self.before.exact_time()).high / step;
         let rest = 1.0 - part;
         for i in 0..self.numbers.len() {
             let change = (self.state.exact(i) - self.before.exact(i)).high;

@@ -39,11 +39,11 @@ impl EqualSteps {
         parameters: &[f64],
     ) -> DoubleDouble {
         match asked {
-            Some(step) => DoubleDouble::written(step),
+            Some(step) => DoubleDouble::from_decimal(step),
             None => {
                 let pace = initial_step::of(system, state, parameters) * PART_OF_PACE;
                 // two digits are enough, and times are then short decimals
-                DoubleDouble::written(format!("{pace:.1e}").parse().unwrap_or(pace))
+                DoubleDouble::from_decimal(format!("{pace:.1e}").parse().unwrap_or(pace))
             }
         }
     }

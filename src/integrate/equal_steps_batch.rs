@@ -165,7 +165,7 @@ impl<B: BatchSteps, S: Scheme> EqualStepsBatch<B, S> {
             self.aside_of = Some(lane);
         }
         self.aside.forget();
-        let step = DoubleDouble::written(time) - own.before.exact_time();
+        let step = DoubleDouble::from_decimal(time) - own.before.exact_time();
         if self.aside.advance(step.high, out).is_err() {
             out.values.fill(f64::NAN);
         }

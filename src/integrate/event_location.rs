@@ -95,7 +95,7 @@ impl EventLocator {
     /// The decimal number that a time is written as.
     fn written(&mut self, time: f64) -> DoubleDouble {
         if self.end.0 != time {
-            self.end = (time, DoubleDouble::written(time));
+            self.end = (time, DoubleDouble::from_decimal(time));
         }
         self.end.1
     }

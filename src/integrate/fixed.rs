@@ -322,7 +322,7 @@ impl<S: Scheme> DenseOutput for FixedStep<S> {
         }
         self.aside.forget();
         self.aside.continue_from(&self.scheme);
-        let step = DoubleDouble::written(time) - self.before.exact_time();
+        let step = DoubleDouble::from_decimal(time) - self.before.exact_time();
         self.aside.advance(step.high, out)?;
         (out.time, out.time_carry) = (time, 0.0);
         self.system.check_finite(out)

@@ -54,7 +54,7 @@ impl ImpulseSchedule {
         let periodic = schedule.interval.and_then(|interval| {
             let count = ((now - self.start) / interval.high).floor().max(1.0);
             let time = |k: i32| {
-                (DoubleDouble::written(self.start) + interval * (count + f64::from(k))).high
+                (DoubleDouble::from_decimal(self.start) + interval * (count + f64::from(k))).high
             };
             (-1..=2).map(time).find(open)
         });

@@ -88,7 +88,7 @@ impl Probe {
     }
 
     fn move_to(&mut self, motion: &mut dyn DenseOutput, time: f64) -> Result<(), MotionError> {
-        match self.begun.filter(|&begun| earlier(DoubleDouble::written(time), begun)) {
+        match self.begun.filter(|&begun| earlier(DoubleDouble::from_decimal(time), begun)) {
             Some(begun) => motion.at_exactly(begun, &mut self.state),
             None => motion.at(time, &mut self.state),
         }

@@ -64,7 +64,7 @@ pub struct Propagator {
     /// The logarithms of the energy, if it has any.
     logarithms: Option<Logarithms>,
     /// The number of changes of the enforced constraints among redundant ones.
-    holdings: u64,
+    active_set_changes: u64,
     ended: bool,
     /// The last impulse, and the event that caused it.
     impulse: Option<(usize, Option<usize>)>,
@@ -101,7 +101,7 @@ impl Propagator {
             passed: PassedEvents::default(),
             branch: None,
             logarithms: None,
-            holdings: 0,
+            active_set_changes: 0,
             ended: false,
             impulse: None,
             steps: 0,
@@ -127,7 +127,7 @@ impl Propagator {
         self.passed = PassedEvents::default();
         self.search.begin(state.time, self.whole.discontinuities().events.len());
         self.parameters = parameters.to_vec();
-        self.system = self.whole.hold_all(state, parameters);
+        self.system = self.whole.activate_all(state, parameters);
         // a step was requested before, so the method still fits
         if let Ok(stepper) = (self.method.make)(&self.system, &self.settings) {
             self.stepper = stepper;
@@ -279,8 +279,8 @@ impl Propagator {
 
     /// The number of times the [system](Propagator::system) has changed which of its redundant
     /// constraints it enforces. Observers of its states must be created again when it changes.
-    pub fn holdings(&self) -> u64 {
-        self.holdings
+    pub fn active_set_changes(&self) -> u64 {
+        self.active_set_changes
     }
 
     /// The method.

@@ -130,55 +130,61 @@ impl Sampling<'_> {
         known: &mut f64,
         last: f64,
     ) -> Result<Vec<Crossing>, MotionError> {
-        let mut walk = Walk { event, direction, side: *known, known, last, found: Vec::new() };
+        let mut follower =
+            SignFollower { event, direction, side: *known, known, last, found: Vec::new() };
         for pair in samples.windows(2) {
-            if walk.side == 0.0 {
-                walk.side = sign(pair[0], pair[1]);
-                *walk.known = walk.side;
+            if follower.side == 0.0 {
+                follower.side = sign(pair[0], pair[1]);
+                *follower.known = follower.side;
             }
-            if self.piece(&mut walk, pair[0], pair[1], HALVINGS)? {
+            if self.piece(&mut follower, pair[0], pair[1], HALVINGS)? {
                 break;
             }
         }
-        if let (true, [.., before, last]) = (walk.side == 0.0, samples) {
-            *walk.known = sign(*last, *before);
+        if let (true, [.., before, last]) = (follower.side == 0.0, samples) {
+            *follower.known = sign(*last, *before);
         }
-        Ok(walk.found)
+        Ok(follower.found)
     }
 
     /// Follows a function over one piece. Returns true if a crossing that counts was found.
     fn piece(
         &mut self,
-        walk: &mut Walk<'_>,
+        follower: &mut SignFollower<'_>,
         a: Sample,
         b: Sample,
         halvings: u32,
     ) -> Result<bool, MotionError> {
         let time = 0.5 * (a.time + b.time);
         if time <= a.time || time >= b.time {
-            return self.end(walk, a, b);
+            return self.end(follower, a, b);
         }
         let width = b.time - a.time;
-        let middle = self.sample(time, width)?[walk.event];
+        let middle = self.sample(time, width)?[follower.event];
         let predicted = 0.5 * (a.value + b.value) + width * (a.slope - b.slope) / 8.0;
         let steep = 1.5 * (b.value - a.value) / width - 0.25 * (a.slope + b.slope);
         let size = a.value.abs().max(b.value.abs()).max(middle.value.abs());
         let off = (middle.value - predicted).abs().max((middle.slope - steep).abs() * width / 8.0);
         let surprise = off > PREDICTED * size;
         if surprise && halvings > 0 {
-            return Ok(self.piece(walk, a, middle, halvings - 1)?
-                || self.piece(walk, middle, b, halvings - 1)?);
+            return Ok(self.piece(follower, a, middle, halvings - 1)?
+                || self.piece(follower, middle, b, halvings - 1)?);
         }
-        Ok(self.turned(walk, a, middle)? || self.turned(walk, middle, b)?)
+        Ok(self.turned(follower, a, middle)? || self.turned(follower, middle, b)?)
     }
 
     /// Handles a piece on which the function has at most one turning point, which is also sampled
     /// if it lies towards zero.
-    fn turned(&mut self, walk: &mut Walk<'_>, a: Sample, b: Sample) -> Result<bool, MotionError> {
+    fn turned(
+        &mut self,
+        follower: &mut SignFollower<'_>,
+        a: Sample,
+        b: Sample,
+    ) -> Result<bool, MotionError> {
         let same_side = a.value * b.value > 0.0;
         let towards = a.value * a.slope < 0.0 && b.value * b.slope > 0.0;
         if !(same_side && towards) {
-            return self.end(walk, a, b);
+            return self.end(follower, a, b);
         }
         let (mut left, mut right) = (a, b);
         for _ in 0..60 {
@@ -189,9 +195,9 @@ impl Sampling<'_> {
                 break;
             }
             let width = right.time - left.time;
-            let sample = self.sample(time, width)?[walk.event];
+            let sample = self.sample(time, width)?[follower.event];
             if sample.value * a.value <= 0.0 {
-                return Ok(self.end(walk, a, sample)? || self.end(walk, sample, b)?);
+                return Ok(self.end(follower, a, sample)? || self.end(follower, sample, b)?);
             }
             if sample.slope * a.value < 0.0 {
                 left = sample;
@@ -203,46 +209,51 @@ impl Sampling<'_> {
                 break;
             }
         }
-        self.end(walk, a, b)
+        self.end(follower, a, b)
     }
 
     /// Handles a piece with at most one crossing, and records it.
-    fn end(&mut self, walk: &mut Walk<'_>, a: Sample, b: Sample) -> Result<bool, MotionError> {
+    fn end(
+        &mut self,
+        follower: &mut SignFollower<'_>,
+        a: Sample,
+        b: Sample,
+    ) -> Result<bool, MotionError> {
         let side = sign(b, a);
         let at_end = self.is_last && b.time == self.whole.1;
-        if side == 0.0 && at_end && b.slope * walk.side < 0.0 {
+        if side == 0.0 && at_end && b.slope * follower.side < 0.0 {
             // it crosses at the very end of the step, which may be the time of an output row or an
             // impulse
-            let crossing = Crossing::at(DoubleDouble::written(b.time), -walk.side);
-            walk.side = -walk.side;
-            walk.found.push(crossing);
-            return Ok(crossing.counts(walk.direction));
+            let crossing = Crossing::at(DoubleDouble::from_decimal(b.time), -follower.side);
+            follower.side = -follower.side;
+            follower.found.push(crossing);
+            return Ok(crossing.counts(follower.direction));
         }
-        if side == 0.0 || side == walk.side {
+        if side == 0.0 || side == follower.side {
             return Ok(false);
         }
-        if walk.side == 0.0 {
-            walk.side = side;
-            *walk.known = side;
+        if follower.side == 0.0 {
+            follower.side = side;
+            *follower.known = side;
             return Ok(false);
         }
-        let is_same = |time: f64| (time - walk.last).abs() <= DIGITS * spacing(time);
+        let is_same = |time: f64| (time - follower.last).abs() <= DIGITS * spacing(time);
         let from = if is_same(a.time) {
-            self.between(walk.event, side, a.time, b.time)?
+            self.between(follower.event, side, a.time, b.time)?
         } else {
             Some(a.time)
         };
-        walk.side = side;
+        follower.side = side;
         let Some(from) = from else {
-            *walk.known = side;
+            *follower.known = side;
             return Ok(false);
         };
-        let crossing = self.locate(walk.event, side, from, b.time)?;
+        let crossing = self.locate(follower.event, side, from, b.time)?;
         if is_same(crossing.exact.high) {
             return Ok(false);
         }
-        walk.found.push(crossing);
-        Ok(crossing.counts(walk.direction))
+        follower.found.push(crossing);
+        Ok(crossing.counts(follower.direction))
     }
 
     /// A time between that of the last crossing and a sample on this side of zero at which the function is on the other: the
@@ -283,17 +294,17 @@ impl Sampling<'_> {
             let next = right + spacing(right);
             let beside = self.probe.exactly(self.motion, event, next)?;
             let pole = self.is_pole(event, (right, high.high), (next, beside.high))?;
-            return Ok(Crossing { exact: DoubleDouble::written(right), side, pole });
+            return Ok(Crossing { exact: DoubleDouble::from_decimal(right), side, pole });
         }
         if low.high * side > 0.0 {
             if let Some(pole) = self.was_pole(event, side, (left, low.high))? {
-                return Ok(Crossing { exact: DoubleDouble::written(left), side, pole });
+                return Ok(Crossing { exact: DoubleDouble::from_decimal(left), side, pole });
             }
             // in double-double it has crossed already
             let next = (left + spacing(left)).min(right);
             let beside = self.probe.exactly(self.motion, event, next)?;
             let pole = self.is_pole(event, (left, low.high), (next, beside.high))?;
-            return Ok(Crossing { exact: DoubleDouble::written(left), side, pole });
+            return Ok(Crossing { exact: DoubleDouble::from_decimal(left), side, pole });
         }
         for round in 0..200 {
             let middle = 0.5 * (left + right);
@@ -312,7 +323,7 @@ impl Sampling<'_> {
             let time = if inside { secant } else { middle };
             let value = self.probe.exactly(self.motion, event, time)?;
             if value.high == 0.0 {
-                return Ok(Crossing::at(DoubleDouble::written(time), side));
+                return Ok(Crossing::at(DoubleDouble::from_decimal(time), side));
             }
             if value.high * side > 0.0 {
                 (right, high) = (time, value);
@@ -324,7 +335,7 @@ impl Sampling<'_> {
         let begins = low.high.is_nan();
         let pole = begins || self.is_pole(event, (left, low.high), (right, high.high))?;
         // the samples were taken at exactly these times
-        let (left, right) = (DoubleDouble::written(left), DoubleDouble::written(right));
+        let (left, right) = (DoubleDouble::from_decimal(left), DoubleDouble::from_decimal(right));
         let part = low / (low - high);
         let exact = if part.is_finite() { left + (right - left) * part } else { left };
         Ok(Crossing { exact, side, pole })
@@ -408,7 +419,7 @@ pub(super) fn leaving(samples: &[Sample], [residual, part]: [f64; 2]) -> &[Sampl
 }
 
 /// The progress of one function through an interval.
-struct Walk<'a> {
+struct SignFollower<'a> {
     event: usize,
     direction: Direction,
     side: f64,

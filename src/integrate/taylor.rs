@@ -215,7 +215,7 @@ impl Taylor {
         }
         let time = self.state.exact_time();
         if self.limit.0 != limit {
-            self.limit = (limit, DoubleDouble::written(limit));
+            self.limit = (limit, DoubleDouble::from_decimal(limit));
         }
         let left = self.limit.1 - time;
         if self.resting.as_ref().is_some_and(Still::is_over) {
@@ -226,7 +226,7 @@ impl Taylor {
         if let Some(still) = &mut self.resting {
             let (rates, parameters) = (&mut self.rates, &self.parameters);
             let place = (&self.state, limit);
-            let state = still.go_on(&self.system, rates, parameters, place)?;
+            let state = still.advance(&self.system, rates, parameters, place)?;
             self.begin = self.state.time;
             self.state = state;
             return Ok(());
@@ -324,7 +324,7 @@ impl DenseOutput for Taylor {
     fn at(&mut self, time: f64, out: &mut State) -> Result<(), MotionError> {
         out.copy_from(&self.state);
         if time != self.state.time {
-            self.write_state(DoubleDouble::written(time), out)?;
+            self.write_state(DoubleDouble::from_decimal(time), out)?;
             out.time = time;
         }
         Ok(())

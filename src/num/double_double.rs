@@ -74,7 +74,7 @@ impl DoubleDouble {
 
     /// The decimal number that the shortest literal for `x` denotes: what a user means by 0.1,
     /// which no `f64` equals. `x` is the nearest `f64` to it.
-    pub fn written(x: f64) -> DoubleDouble {
+    pub fn from_decimal(x: f64) -> DoubleDouble {
         if (x.fract() == 0.0 && x.abs() < 9e15) || !x.is_finite() {
             return DoubleDouble::from(x);
         }

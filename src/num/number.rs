@@ -136,7 +136,7 @@ impl Number {
     pub fn double(self) -> DoubleDouble {
         match self {
             Number::Rational(n, d) => DoubleDouble::integer(n) / DoubleDouble::integer(d),
-            Number::Real(x) => DoubleDouble::written(x),
+            Number::Real(x) => DoubleDouble::from_decimal(x),
         }
     }
 

@@ -122,7 +122,7 @@ impl<W: Write> Cast<W> {
 /// # Errors
 /// Returns an error if writing fails.
 pub fn write<W: Write>(recording: &Recording, version: Version, out: W) -> io::Result<W> {
-    let palette = recording.look.theme.palette();
+    let palette = recording.style.theme.palette();
     let mut cast = Cast::begin(out, version, recording.size, &recording.title, palette)?;
     for (time, event) in &recording.events {
         match event {

@@ -112,10 +112,10 @@ impl Lesson {
 impl ScriptRunner {
     /// The coordinates of the cursor of the focused plot, as it stands after the last key.
     fn reading(&mut self) -> Option<[f64; 2]> {
-        let look = self.script.head.render_style();
+        let style = self.script.head.render_style();
         let area = Rect::from(self.size);
         let mut buffer = Buffer::empty(area);
-        let drawn = self.paint(&mut Painter::default(), &look, area, &mut buffer);
+        let drawn = self.paint(&mut Painter::default(), &style, area, &mut buffer);
         self.lab.happen(Event::Drawn(drawn));
         drawn.reading
     }

@@ -33,7 +33,7 @@ pub struct Recording {
     /// The time of the end.
     pub end: Micros,
     /// The render style.
-    pub look: RenderStyle,
+    pub style: RenderStyle,
     /// The timed output: bytes for a terminal and names of chapters.
     pub events: Vec<(Micros, RecordingEvent)>,
     /// The chapters.
@@ -133,7 +133,7 @@ pub fn play_while(
     let mut take = Take {
         performance: performance.map_err(alone)?,
         screen: Frames::new(false).map_err(|why| alone(unwritten(&why)))?,
-        look: script.head.render_style(),
+        style: script.head.render_style(),
         area,
         events: Vec::new(),
         markers: Vec::new(),
@@ -153,8 +153,8 @@ pub fn play_while(
         whole = wanted(so_far).is_continue();
         heard = take.events.len();
     }
-    let last_colourless = take.performance.picture(&colourless(&take.look));
-    let Take { performance, screen, look, events, markers, log, false_claims, .. } = take;
+    let last_colourless = take.performance.picture(&colourless(&take.style));
+    let Take { performance, screen, style, events, markers, log, false_claims, .. } = take;
     let lab = performance.lab;
     let of_system = || {
         let opened = lab.app.lab.as_ref();
@@ -166,7 +166,7 @@ pub fn play_while(
         fps,
         frames: lab.clock.frame(),
         end: lab.now(),
-        look,
+        style,
         last: screen.shown().cloned().unwrap_or_default(),
         last_colourless,
         events,
@@ -178,9 +178,9 @@ pub fn play_while(
 }
 
 /// The same style without colours.
-fn colourless(look: &RenderStyle) -> RenderStyle {
-    let theme = look.theme.clone().with_depth(ColourDepth::None);
-    RenderStyle { theme, glyphs: look.glyphs }
+fn colourless(style: &RenderStyle) -> RenderStyle {
+    let theme = style.theme.clone().with_depth(ColourDepth::None);
+    RenderStyle { theme, glyphs: style.glyphs }
 }
 
 /// A frame that could not be written.
@@ -203,7 +203,7 @@ fn too_long(script: &Script, width: u16) -> Vec<Diagnostic> {
 struct Take {
     performance: ScriptRunner,
     screen: Frames,
-    look: RenderStyle,
+    style: RenderStyle,
     area: Size,
     events: Vec<(Micros, RecordingEvent)>,
     markers: Vec<ChapterMarker>,
@@ -223,7 +223,7 @@ impl Take {
                 self.log.push((now, TranscriptEntry::Done(what, text)));
             }
             RunnerEvent::Claim(place, claim) => {
-                let screen = rows(&self.performance.picture(&self.look));
+                let screen = rows(&self.performance.picture(&self.style));
                 let finding = self.performance.find(&claim, &screen)?;
                 self.claims += 1;
                 if !finding.holds {
@@ -233,8 +233,8 @@ impl Take {
                 self.log.push((now, TranscriptEntry::Claimed(finding.holds, finding.sentence)));
             }
             RunnerEvent::Marker(name) => {
-                let screen = self.performance.picture(&self.look);
-                let colourless = self.performance.picture(&colourless(&self.look));
+                let screen = self.performance.picture(&self.style);
+                let colourless = self.performance.picture(&colourless(&self.style));
                 self.events.push((now, RecordingEvent::Marker(name.clone())));
                 self.log.push((now, TranscriptEntry::Marker(self.markers.len())));
                 self.markers.push(ChapterMarker { name, time: now, screen, colourless });
@@ -247,12 +247,12 @@ impl Take {
 
     /// Draws the current state as a frame.
     fn draw(&mut self, now: Micros) -> io::Result<()> {
-        let Self { performance, screen, look, .. } = self;
+        let Self { performance, screen, style, .. } = self;
         if performance.lab.takes_repaint() {
             screen.forget();
         }
         let bytes = screen.next(self.area, |area, buffer| {
-            performance.draw(look, area, buffer);
+            performance.draw(style, area, buffer);
         })?;
         if !bytes.is_empty() {
             let text = String::from_utf8_lossy(&bytes).into_owned();

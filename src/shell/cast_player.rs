@@ -25,7 +25,7 @@ pub struct CastPlayer {
     ahead: Option<RecordingAhead>,
     /// How its recording ended.
     recorded: Option<Result<Recording, NotRecorded>>,
-    look: RenderStyle,
+    style: RenderStyle,
     screen: avt::Vt,
     /// The index of the next event, and how many bytes of it have been written.
     next: (usize, usize),
@@ -69,13 +69,13 @@ const LEAP: f64 = 5e6;
 
 impl CastPlayer {
     /// Creates a player at the start of a cast.
-    pub fn new(cast: RecordedCast, look: RenderStyle) -> Self {
+    pub fn new(cast: RecordedCast, style: RenderStyle) -> Self {
         let screen = blank(cast.size);
         Self {
             cast,
             ahead: None,
             recorded: None,
-            look,
+            style,
             screen,
             next: (0, 0),
             time: 0.0,
@@ -90,9 +90,9 @@ impl CastPlayer {
     }
 
     /// Creates a player at the start of a cast that is still being recorded.
-    pub fn following(ahead: RecordingAhead, look: RenderStyle) -> Self {
+    pub fn following(ahead: RecordingAhead, style: RenderStyle) -> Self {
         let cast = RecordedCast { title: None, size: ahead.size, events: Vec::new(), end: 0 };
-        Self { ahead: Some(ahead), ..Self::new(cast, look) }
+        Self { ahead: Some(ahead), ..Self::new(cast, style) }
     }
 
     /// Returns how the recording of the cast ended, or how far it came, if it was recorded meanwhile.
@@ -259,7 +259,7 @@ impl CastPlayer {
 
     /// Draws the control line: the time in the cast, then the keys, the most important first.
     fn draw_controls(&self, row: Rect, buffer: &mut Buffer) {
-        let glyphs = self.look.glyphs;
+        let glyphs = self.style.glyphs;
         let (sign, role) = match (self.is_over(), self.paused) {
             (true, _) => (glyphs.pick("■", "#"), Role::Dim),
             (_, true) => (glyphs.pick("‖", "="), Role::Warn),
@@ -314,8 +314,8 @@ impl CastPlayer {
                 break;
             }
             let room = usize::from(row.right() - x);
-            let text = self.look.glyphs.text(text);
-            x = buffer.set_stringn(x, row.y, &text, room, self.look.theme[*role]).0;
+            let text = self.style.glyphs.text(text);
+            x = buffer.set_stringn(x, row.y, &text, room, self.style.theme[*role]).0;
         }
         x
     }
@@ -323,7 +323,7 @@ impl CastPlayer {
 
 impl Screen for CastPlayer {
     fn background(&mut self, colour: Rgb) {
-        self.look = self.look.on(colour);
+        self.style = self.style.on(colour);
     }
 
     fn input(&mut self, event: Event) -> ScreenRequest {
@@ -358,7 +358,7 @@ impl Screen for CastPlayer {
 
     fn draw(&mut self, area: Rect, buffer: &mut Buffer) -> Option<Position> {
         self.size = area.as_size();
-        draw_screen(&self.screen, &self.look, area, buffer);
+        draw_screen(&self.screen, &self.style, area, buffer);
         if area.height > 0 && self.shows_controls() {
             let rows = self.screen.size().1;
             let y = if self.has_room() { area.y + rows as u16 } else { area.bottom() - 1 };

@@ -12,8 +12,8 @@ use crate::view::colour::{ColourDepth, Rgb};
 use crate::view::glyphs::Glyphs;
 
 /// Draws as much of the screen as the area holds; the rest of the area is left as it is.
-pub(super) fn draw_screen(screen: &avt::Vt, look: &RenderStyle, area: Rect, buffer: &mut Buffer) {
-    let depth = look.theme.depth();
+pub(super) fn draw_screen(screen: &avt::Vt, style: &RenderStyle, area: Rect, buffer: &mut Buffer) {
+    let depth = style.theme.depth();
     for (y, line) in (area.top()..area.bottom()).zip(screen.view()) {
         let mut x = area.left();
         for cell in line.cells() {
@@ -25,9 +25,9 @@ pub(super) fn draw_screen(screen: &avt::Vt, look: &RenderStyle, area: Rect, buff
                 break;
             }
             let drawn = &mut buffer[(x, y)];
-            let plain = look.glyphs.is_ascii() && !cell.char().is_ascii();
+            let plain = style.glyphs.is_ascii() && !cell.char().is_ascii();
             drawn.set_char(if plain { spelt(cell.char()) } else { cell.char() });
-            drawn.set_style(style(cell.pen(), depth));
+            drawn.set_style(pen_style(cell.pen(), depth));
             x += cell.width() as u16;
         }
     }
@@ -44,7 +44,7 @@ fn spelt(character: char) -> char {
     }
 }
 
-fn style(pen: &avt::Pen, depth: ColourDepth) -> Style {
+fn pen_style(pen: &avt::Pen, depth: ColourDepth) -> Style {
     let mut style = Style::new();
     style.fg = pen.foreground().and_then(|c| colour(c, depth));
     style.bg = pen.background().and_then(|c| colour(c, depth));

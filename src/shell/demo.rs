@@ -22,8 +22,8 @@ const LONGEST: Duration = Duration::from_secs(1);
 
 /// A script being performed on the terminal.
 pub(super) struct Demo {
-    performance: ScriptRunner,
-    look: RenderStyle,
+    runner: ScriptRunner,
+    style: RenderStyle,
     detail: Detail,
     /// The time since the start, without pauses.
     time: Duration,
@@ -34,15 +34,15 @@ pub(super) struct Demo {
 
 impl Demo {
     /// Creates a demo at its start.
-    pub(super) fn new(performance: ScriptRunner, look: RenderStyle) -> Self {
+    pub(super) fn new(runner: ScriptRunner, style: RenderStyle) -> Self {
         let (detail, time) = (Detail::default(), Duration::ZERO);
-        Self { performance, look, detail, time, paused: false, end: None }
+        Self { runner, style, detail, time, paused: false, end: None }
     }
 
     /// Returns the last picture of a demo that was not ended by the user, or what is wrong with the script.
     pub(super) fn outcome(self) -> Result<Option<Buffer>, Diagnostic> {
-        let Self { performance, look, end, .. } = self;
-        Ok(end.transpose()?.map(|()| performance.picture(&look)))
+        let Self { runner, style, end, .. } = self;
+        Ok(end.transpose()?.map(|()| runner.picture(&style)))
     }
 }
 
@@ -58,7 +58,7 @@ impl Screen for Demo {
             (KeyCode::Char('q') | KeyCode::Esc, _) => ScreenRequest::Quit,
             (KeyCode::Char(' '), _) => {
                 self.paused = !self.paused;
-                self.performance.suspend(self.paused);
+                self.runner.suspend(self.paused);
                 ScreenRequest::Nothing
             }
             _ => ScreenRequest::Nothing,
@@ -70,17 +70,17 @@ impl Screen for Demo {
             return false;
         }
         self.time += elapsed.min(LONGEST);
-        let before = self.performance.now();
-        match self.performance.continue_to(self.time.as_micros() as u64) {
+        let before = self.runner.now();
+        match self.runner.continue_to(self.time.as_micros() as u64) {
             Ok(true) => {}
             Ok(false) => self.end = Some(Ok(())),
             Err(diagnostic) => self.end = Some(Err(diagnostic)),
         }
-        before == 0 || self.performance.now() != before
+        before == 0 || self.runner.now() != before
     }
 
     fn draw(&mut self, area: Rect, buffer: &mut Buffer) -> Option<Position> {
-        self.performance.draw(&self.look.reduced(self.detail), area, buffer);
+        self.runner.draw(&self.style.reduced(self.detail), area, buffer);
         // A demo shows no blinking cursor.
         None
     }
@@ -98,6 +98,6 @@ impl Screen for Demo {
     }
 
     fn background(&mut self, colour: Rgb) {
-        self.look = self.look.on(colour);
+        self.style = self.style.on(colour);
     }
 }

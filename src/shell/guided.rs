@@ -81,7 +81,7 @@ impl Guided {
     ///
     /// # Errors
     /// Returns what is wrong with its script or its system.
-    pub fn open(guide: &Guide, look: RenderStyle) -> Result<Self, String> {
+    pub fn open(guide: &Guide, style: RenderStyle) -> Result<Self, String> {
         let name = guide.name.clone();
         let source = match guide.kind {
             GuideKind::Lesson(_) => preset::lesson(&name),
@@ -101,12 +101,12 @@ impl Guided {
                 lesson
                     .resume(mark.unwrap_or_default().step)
                     .map_err(|diagnostic| report(&[diagnostic]))?;
-                GuideScreen::Lesson(Box::new(LessonScreen::new(lesson, look)))
+                GuideScreen::Lesson(Box::new(LessonScreen::new(lesson, style)))
             }
             GuideKind::Demo => {
                 let runner = ScriptRunner::watched(script, &system, called(&open));
                 let runner = runner.map_err(|diagnostic| report(&[diagnostic]))?;
-                GuideScreen::Demo(Box::new(Demo::new(runner, look)))
+                GuideScreen::Demo(Box::new(Demo::new(runner, style)))
             }
         };
         Ok(Self { name, screen, was_running: false })

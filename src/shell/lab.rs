@@ -133,9 +133,9 @@ pub fn perform_demo(
 ) -> Result<(Ending, Result<Option<String>, Diagnostic>), LabError> {
     TerminalError::check(RECORDED)?;
     let variable = |name: &str| std::env::var(name).ok();
-    let look = request.render_style(&variable);
-    let palette = look.theme.palette();
-    let mut demo = Demo::new(performance, look);
+    let style = request.render_style(&variable);
+    let palette = style.theme.palette();
+    let mut demo = Demo::new(performance, style);
     let pace = FramePace { mouse: false, ..request.pace(&variable) };
     let ending = perform(&mut demo, pace)?;
     let text = |picture| screenshot::write(&picture, palette, screenshot::ImageFormat::Ansi, "");

@@ -23,15 +23,15 @@ const LONGEST: Duration = Duration::from_secs(1);
 /// A lesson on the terminal, its own or borrowed.
 pub(super) struct LessonScreen<L> {
     lesson: L,
-    look: RenderStyle,
+    style: RenderStyle,
     detail: Detail,
     diagnostic: Option<Diagnostic>,
 }
 
 impl<L: BorrowMut<Lesson>> LessonScreen<L> {
     /// Creates the screen of a lesson.
-    pub(super) fn new(lesson: L, look: RenderStyle) -> Self {
-        Self { lesson, look, detail: Detail::default(), diagnostic: None }
+    pub(super) fn new(lesson: L, style: RenderStyle) -> Self {
+        Self { lesson, style, detail: Detail::default(), diagnostic: None }
     }
 
     /// Returns the lesson, and what is wrong with its script, if anything is.
@@ -44,8 +44,8 @@ impl<L: BorrowMut<Lesson>> Screen for LessonScreen<L> {
     fn input(&mut self, event: Event) -> ScreenRequest {
         if let Event::Mouse(mouse) = event {
             let at = [mouse.column, mouse.row];
-            let look = self.look.reduced(self.detail);
-            self.lesson.borrow_mut().point(with_shift(mouse), &look, at);
+            let style = self.style.reduced(self.detail);
+            self.lesson.borrow_mut().point(with_shift(mouse), &style, at);
             let left = self.lesson.borrow().is_left();
             return if left { ScreenRequest::Quit } else { ScreenRequest::Nothing };
         }
@@ -78,7 +78,7 @@ impl<L: BorrowMut<Lesson>> Screen for LessonScreen<L> {
     }
 
     fn draw(&mut self, area: Rect, buffer: &mut Buffer) -> Option<Position> {
-        self.lesson.borrow_mut().draw(&self.look.reduced(self.detail), area, buffer);
+        self.lesson.borrow_mut().draw(&self.style.reduced(self.detail), area, buffer);
         None
     }
 
@@ -95,6 +95,6 @@ impl<L: BorrowMut<Lesson>> Screen for LessonScreen<L> {
     }
 
     fn background(&mut self, colour: Rgb) {
-        self.look = self.look.on(colour);
+        self.style = self.style.on(colour);
     }
 }

@@ -153,19 +153,19 @@ mod tests {
         for (asked, frames) in [(None, 4), (Some(60), 4), (Some(2), 2)] {
             assert_eq!(request(asked).pace(&|_| None).frames, frames);
         }
-        let look =
+        let style =
             request(None).render_style(&|name| (name == "TERM").then(|| "xterm-direct".to_owned()));
-        assert_eq!(look.theme.trail(0).len(), 1);
-        assert_eq!(look.reduced(crate::view::Detail::default()).theme.trail(0).len(), 1);
+        assert_eq!(style.theme.trail(0).len(), 1);
+        assert_eq!(style.reduced(crate::view::Detail::default()).theme.trail(0).len(), 1);
     }
 
     #[test]
     fn the_theme_is_the_one_asked_for_or_suits_the_terminal() {
         let theme = |asked: Option<&str>, colours: &str| {
             let request = Request { theme: asked.map(str::to_owned), ..Request::default() };
-            let look =
+            let style =
                 request.render_style(&|name| (name == "COLORFGBG").then(|| colours.to_owned()));
-            look.theme.palette().name
+            style.theme.palette().name
         };
         assert_eq!(theme(None, ""), "dark");
         assert_eq!(theme(None, "15;0"), "dark");
@@ -202,14 +202,14 @@ mod tests {
             "NO_COLOR" => Some("1".to_owned()),
             _ => None,
         };
-        let look = Request::default().render_style(&variable);
-        assert_eq!((look.theme.depth(), look.glyphs), (ColourDepth::None, Glyphs::Ascii));
+        let style = Request::default().render_style(&variable);
+        assert_eq!((style.theme.depth(), style.glyphs), (ColourDepth::None, Glyphs::Ascii));
         let asked = Request {
             colour: Some(ColourDepth::True),
             glyphs: Some(Glyphs::HalfBlock),
             ..Request::default()
         };
-        let look = asked.render_style(&variable);
-        assert_eq!((look.theme.depth(), look.glyphs), (ColourDepth::True, Glyphs::HalfBlock));
+        let style = asked.render_style(&variable);
+        assert_eq!((style.theme.depth(), style.glyphs), (ColourDepth::True, Glyphs::HalfBlock));
     }
 }

@@ -46,7 +46,7 @@ use crate::worker::{SideJob, Worker};
 /// The running laboratory.
 pub(super) struct Session {
     app: App,
-    look: RenderStyle,
+    style: RenderStyle,
     /// The level of detail, reduced over a slow connection.
     detail: Detail,
     worker: Worker,
@@ -133,7 +133,7 @@ impl Session {
     pub(super) fn new(
         catalog: Catalog,
         request: &Request,
-        look: RenderStyle,
+        style: RenderStyle,
         pace: FramePace,
     ) -> io::Result<Self> {
         let (mut app, effects) = App::new(&catalog, request.open.as_deref());
@@ -143,13 +143,13 @@ impl Session {
         app.meter.most = request.most_frames();
         app.themes.available =
             PALETTES.iter().map(|palette| (palette.name, palette.about)).collect();
-        app.themes.chosen = Some(look.theme.palette().name);
+        app.themes.chosen = Some(style.theme.palette().name);
         let loader = Loader::new(Arc::new(catalog));
         let watch = request.watch.then(Watch::default);
         let (worker, checker) = (Worker::idle()?, Checker::new());
         let mut session = Self {
             app,
-            look,
+            style,
             detail: Detail::default(),
             worker,
             loader,
@@ -295,7 +295,7 @@ impl Screen for Session {
                     self.app.end_group();
                 }
                 let area = Rect::from((Position::ORIGIN, self.size));
-                match view::hit_test(&self.app, &self.look, area, mouse.column, mouse.row) {
+                match view::hit_test(&self.app, &self.style, area, mouse.column, mouse.row) {
                     Some(hit) => Event::Mouse(with_shift(mouse), hit),
                     None => return ScreenRequest::Nothing,
                 }
@@ -368,9 +368,9 @@ impl Screen for Session {
         if let Some(guided) = &mut self.guided {
             return guided.draw(area, buffer);
         }
-        let reduced = (self.detail != Detail::default()).then(|| self.look.reduced(self.detail));
-        let look = reduced.as_ref().unwrap_or(&self.look);
-        let drawn = self.painter.draw(&self.app, look, area, buffer);
+        let reduced = (self.detail != Detail::default()).then(|| self.style.reduced(self.detail));
+        let style = reduced.as_ref().unwrap_or(&self.style);
+        let drawn = self.painter.draw(&self.app, style, area, buffer);
         self.size = area.as_size();
         if let Some(recorder) = &mut self.recorder
             && let Err(why) = recorder.take(buffer)
@@ -422,9 +422,9 @@ impl Screen for Session {
 
     /// What the user has chosen in the meantime stays.
     fn background(&mut self, colour: Rgb) {
-        let initial = self.look.theme.palette().name;
-        self.look = self.look.on(colour);
-        let suits = self.look.theme.palette().name;
+        let initial = self.style.theme.palette().name;
+        self.style = self.style.on(colour);
+        let suits = self.style.theme.palette().name;
         info!("the terminal's background is {colour:?}: the {suits} theme");
         if self.app.themes.chosen == Some(initial) {
             self.app.themes.chosen = Some(suits);

@@ -88,7 +88,7 @@ fn independent_at_start(
     let outputs = model.coordinates.iter().map(|c| lowering.lower(c.initial)).collect();
     let start = lowering.finish(outputs)?;
     let mut parameters: Vec<DoubleDouble> =
-        model.parameters.iter().map(|p| DoubleDouble::written(p.value)).collect();
+        model.parameters.iter().map(|p| DoubleDouble::from_decimal(p.value)).collect();
     if let Some(inertia) = inertia {
         parameters.extend(inertia.values(&parameters));
     }
@@ -98,6 +98,6 @@ fn independent_at_start(
         (0..model.coordinates.len()).map(|i| values.output(i)).collect();
     let mut conditions = Conditions::new(programs, count);
     conditions.set_parameters(&parameters);
-    conditions.observe(DoubleDouble::written(model.run.start), &positions);
+    conditions.observe(DoubleDouble::from_decimal(model.run.start), &positions);
     Ok(conditions.independent(&vec![true; count]))
 }

@@ -55,7 +55,7 @@ impl System {
         let numbers: Vec<DoubleDouble> = (0..2 * n).map(|i| native.exact(i)).collect();
         let singular = || self.lost(ProjectionError::Singular, state);
 
-        let enforced = &self.holding().enforced;
+        let enforced = &self.active_set().enforced;
         let rows: Vec<usize> = (0..self.constraints()).filter(|&k| enforced[k]).collect();
         let holonomic: Vec<usize> =
             rows.iter().copied().filter(|&k| constrained.programs.holonomic[k]).collect();
@@ -103,7 +103,7 @@ impl System {
 
     /// Whether all constraints that are enforced were written as f(q, t) = 0.
     pub fn is_holonomic(&self) -> bool {
-        let enforced = &self.holding().enforced;
+        let enforced = &self.active_set().enforced;
         self.constrained().is_none_or(|constrained| {
             constrained.programs.holonomic.iter().zip(enforced).all(|(&own, &on)| own || !on)
         })

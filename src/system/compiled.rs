@@ -28,7 +28,7 @@ use crate::num::{DoubleDouble, Real};
 #[derive(Clone, Debug)]
 pub struct System {
     pub(super) shared: Arc<Shared>,
-    holding: ActiveSet,
+    active_set: ActiveSet,
     cancel: Cancel,
     tangents: Option<Arc<Tangents>>,
     /// Whether events that only mark their times are left out.
@@ -153,16 +153,23 @@ impl System {
         builder.parameters.extend(inertia.iter().flat_map(|m| m.names().to_vec()));
         let constraints =
             Constrained::of(model, &mut builder, inertia.as_ref()).map_err(unknown)?;
-        let (constraints, holding) = constraints.unzip();
+        let (constraints, active_set) = constraints.unzip();
         let shared = Self::write(model, &equations, &mut builder, (list, quantities), constraints)
             .map_err(unknown)?;
         if builder.pool.is_full() {
             return Err(CompileError::TooLarge);
         }
-        let holding = holding.unwrap_or_default();
+        let active_set = active_set.unwrap_or_default();
         let cancel = equations.pool.cancel().clone();
         let shared = Arc::new(Shared { inertia, extra: extra.to_vec(), ..shared });
-        Ok(System { shared, holding, cancel, tangents: None, unmarked: false, interpreted: false })
+        Ok(System {
+            shared,
+            active_set,
+            cancel,
+            tangents: None,
+            unmarked: false,
+            interpreted: false,
+        })
     }
 
     /// The same system, whose work another token cancels.
@@ -339,13 +346,13 @@ impl System {
         self.shared.constraints.as_ref()
     }
 
-    pub(super) fn holding(&self) -> &ActiveSet {
-        &self.holding
+    pub(super) fn active_set(&self) -> &ActiveSet {
+        &self.active_set
     }
 
     /// The same system with another set of enforced constraints.
-    pub(super) fn with_holding(&self, holding: ActiveSet) -> System {
-        System { holding, ..self.clone() }
+    pub(super) fn with_active_set(&self, active_set: ActiveSet) -> System {
+        System { active_set, ..self.clone() }
     }
 
     /// The same system with other tangent vectors.
@@ -361,12 +368,12 @@ impl System {
     /// and the quantities derived from them.
     pub fn inputs(&self, parameters: &[f64]) -> Vec<DoubleDouble> {
         let mut inputs: Vec<DoubleDouble> =
-            parameters.iter().map(|&x| DoubleDouble::written(x)).collect();
+            parameters.iter().map(|&x| DoubleDouble::from_decimal(x)).collect();
         if let Some(inertia) = &self.shared.inertia {
             inputs.extend(inertia.values(&inputs));
         }
         if let Some(constraints) = self.constrained().filter(|c| c.switched) {
-            inputs.extend(self.holding.switches(constraints.names.len()));
+            inputs.extend(self.active_set.switches(constraints.names.len()));
         }
         inputs
     }
@@ -375,7 +382,7 @@ impl System {
     pub fn body_values(&self, parameters: &[f64]) -> Vec<(Symbol, f64)> {
         let Some(inertia) = &self.shared.inertia else { return Vec::new() };
         let written: Vec<DoubleDouble> =
-            parameters.iter().map(|&x| DoubleDouble::written(x)).collect();
+            parameters.iter().map(|&x| DoubleDouble::from_decimal(x)).collect();
         let values = inertia.values(&written).into_iter().map(|x| x.high);
         inertia.names().iter().copied().zip(values).collect()
     }

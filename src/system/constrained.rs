@@ -30,20 +30,20 @@ impl System {
     /// Their multipliers are those of least norm.
     pub fn redundant(&self) -> Vec<&str> {
         let Some(constrained) = self.constrained() else { return Vec::new() };
-        let ActiveSet { active, enforced } = self.holding();
+        let ActiveSet { active, enforced } = self.active_set();
         let names = constrained.names.iter().enumerate();
         names.filter(|&(k, _)| active[k] && !enforced[k]).map(|(_, name)| name.as_str()).collect()
     }
 
     /// Whether a constraint has been released.
     pub fn is_released(&self, constraint: usize) -> bool {
-        self.holding().active.get(constraint).is_some_and(|active| !active)
+        self.active_set().active.get(constraint).is_some_and(|active| !active)
     }
 
     /// The same system without one of its constraints, from this state on.
     #[must_use]
     pub fn release(&self, constraint: usize, state: &State, parameters: &[f64]) -> System {
-        let mut active = self.holding().active.clone();
+        let mut active = self.active_set().active.clone();
         let Some(place) = active.get_mut(constraint) else { return self.clone() };
         *place = false;
         self.enforcing(active, state, parameters)
@@ -51,21 +51,21 @@ impl System {
 
     /// The same system with all its constraints.
     #[must_use]
-    pub fn hold_all(&self, state: &State, parameters: &[f64]) -> System {
+    pub fn activate_all(&self, state: &State, parameters: &[f64]) -> System {
         self.enforcing(vec![true; self.constraints()], state, parameters)
     }
 
     fn enforcing(&self, active: Vec<bool>, state: &State, parameters: &[f64]) -> System {
         let Some(conditions) = self.conditions(parameters, state) else { return self.clone() };
         let enforced = conditions.independent(&active);
-        self.with_holding(ActiveSet { active, enforced })
+        self.with_active_set(ActiveSet { active, enforced })
     }
 
     /// The same system with another choice of enforced constraints, if the current ones have become
     /// dependent and others have not. Returns `None` if no choice is better.
     #[must_use]
-    pub fn hold_better(&self, state: &State, parameters: &[f64]) -> Option<System> {
-        let ActiveSet { active, enforced } = self.holding();
+    pub fn enforce_more_independent(&self, state: &State, parameters: &[f64]) -> Option<System> {
+        let ActiveSet { active, enforced } = self.active_set();
         // most systems have no constraints; this is asked before every step
         if active.is_empty() || active == enforced {
             return None;
@@ -79,7 +79,7 @@ impl System {
         let better = conditions.most_independent(active, count)?;
         let gained = conditions.strength(active, &better) > GAINED * now;
         let active = active.clone();
-        gained.then(|| self.with_holding(ActiveSet { active, enforced: better }))
+        gained.then(|| self.with_active_set(ActiveSet { active, enforced: better }))
     }
 
     pub(super) fn conditions(&self, parameters: &[f64], state: &State) -> Option<Conditions> {
@@ -116,7 +116,7 @@ impl System {
         );
         let reactions =
             outcome.map_err(|why| self.unsolved(why, state.time, &projector.numbers))?;
-        let ActiveSet { active, enforced } = self.holding();
+        let ActiveSet { active, enforced } = self.active_set();
         let reactions = projector.projection.conditions().least(active, enforced, reactions);
         let mut after = state.clone();
         after.form = Form::Velocity;
@@ -145,7 +145,7 @@ impl System {
                 return Err(missed(k, part));
             }
         }
-        if conditions.independence(&self.holding().enforced) == 0.0 {
+        if conditions.independence(&self.active_set().enforced) == 0.0 {
             return Err(self.lost(ProjectionError::Singular, &state));
         }
         let mut momenta = Evaluator::new(self.legendre_program());

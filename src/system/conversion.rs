@@ -93,19 +93,19 @@ impl System {
         let mut known = self.shared.known.clone();
         for &given in given {
             match (given, self.form()) {
-                (InitialOverride::Position(i, x), _) => state[i] = DoubleDouble::written(x),
+                (InitialOverride::Position(i, x), _) => state[i] = DoubleDouble::from_decimal(x),
                 (InitialOverride::Velocity(i, x), Form::Velocity)
                 | (InitialOverride::Momentum(i, x), Form::Momentum) => {
-                    (state[n + i], targets[i]) = (DoubleDouble::written(x), None);
+                    (state[n + i], targets[i]) = (DoubleDouble::from_decimal(x), None);
                     known[i] = KnownVelocity::InitialOverride;
                 }
                 (InitialOverride::Velocity(i, x) | InitialOverride::Momentum(i, x), _) => {
-                    targets[i] = Some(DoubleDouble::written(x));
-                    known[i] = KnownVelocity::Momentum(DoubleDouble::written(x));
+                    targets[i] = Some(DoubleDouble::from_decimal(x));
+                    known[i] = KnownVelocity::Momentum(DoubleDouble::from_decimal(x));
                 }
             }
         }
-        let time = DoubleDouble::written(start);
+        let time = DoubleDouble::from_decimal(start);
         let small = |x: &DoubleDouble| x.high.is_subnormal();
         let other = if self.form() == Form::Velocity { Form::Momentum } else { Form::Velocity };
         let given = targets.iter().position(|x| x.as_ref().is_some_and(small));

@@ -29,11 +29,11 @@ impl ImpulseTimes {
         let periodic = || {
             let interval = self.interval?;
             let count = ((time - start) / interval.high).round();
-            Some(DoubleDouble::written(start) + interval * count)
+            Some(DoubleDouble::from_decimal(start) + interval * count)
         };
         let listed = self.times.iter().copied().find(|x| x.high == time);
         let found = listed.or_else(|| periodic().filter(|x| x.high == time));
-        found.unwrap_or_else(|| DoubleDouble::written(time))
+        found.unwrap_or_else(|| DoubleDouble::from_decimal(time))
     }
 }
 

@@ -74,7 +74,7 @@ impl ConstraintProjector {
             return Err(self.system.lost(why, state));
         }
         // a constraint that was redundant at the start may have come to contradict the others
-        let ActiveSet { active, enforced } = self.system.holding();
+        let ActiveSet { active, enforced } = self.system.active_set();
         let conditions = self.projection.conditions();
         let velocities = &self.numbers[self.system.degrees()..];
         for k in (0..active.len()).filter(|&k| active[k] && !enforced[k]) {
@@ -98,7 +98,7 @@ impl ConstraintProjector {
         let beside = beside.and_then(|beside| self.directions(beside, None));
         let Some(here) = self.directions(state, beside.as_ref()) else { return true };
         let shrunk = |beside: Directions| here.0.volume() < NEARLY_SINGULAR * beside.0.volume();
-        let enforced = self.system.holding().enforced.clone();
+        let enforced = self.system.active_set().enforced.clone();
         self.projection.conditions().independence(&enforced) < NEARLY_SINGULAR
             || beside.is_some_and(shrunk)
     }
@@ -119,7 +119,7 @@ impl ConstraintProjector {
         for (i, x) in self.numbers.iter_mut().enumerate() {
             *x = state.exact(first + i);
         }
-        let enforced = self.system.holding().enforced.clone();
+        let enforced = self.system.active_set().enforced.clone();
         let conditions = self.projection.conditions();
         conditions.observe(state.exact_time(), &self.numbers);
         let units = like.map(|like| like.0.units());
@@ -132,7 +132,7 @@ impl ConstraintProjector {
     pub fn residuals(&mut self, state: &State) -> Vec<[f64; 2]> {
         self.load(state);
         let n = self.system.degrees();
-        let active = self.system.holding().active.clone();
+        let active = self.system.active_set().active.clone();
         let conditions = self.projection.conditions();
         conditions.observe(state.exact_time(), &self.numbers);
         let residual = |k: usize| {
@@ -152,7 +152,7 @@ impl ConstraintProjector {
     pub(super) fn enforced(&self) -> Vec<(usize, bool)> {
         let Some(constrained) = self.system.constrained() else { return Vec::new() };
         let programs = &constrained.programs;
-        let enforced = self.system.holding().enforced.iter().enumerate();
+        let enforced = self.system.active_set().enforced.iter().enumerate();
         let rows = enforced.filter(|(_, on)| **on);
         rows.map(|(k, _)| (k, programs.holonomic[k] || programs.integrated[k])).collect()
     }
@@ -163,7 +163,7 @@ impl System {
     pub fn projector(&self, parameters: &[f64]) -> Option<ConstraintProjector> {
         let conditions = Conditions::new(&self.constrained()?.programs, self.constraints());
         let momenta = Evaluator::new(self.legendre_program());
-        let projection = Projection::new(conditions, momenta, &self.holding().enforced);
+        let projection = Projection::new(conditions, momenta, &self.active_set().enforced);
         let numbers = vec![DoubleDouble::ZERO; self.moving()];
         let mut projector = ConstraintProjector { system: self.clone(), projection, numbers };
         projector.set_parameters(parameters);

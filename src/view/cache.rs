@@ -24,7 +24,7 @@ type Row = Vec<(String, Style)>;
 /// What was drawn in the last frames.
 #[derive(Debug, Default)]
 pub(super) struct FrameCache {
-    look: Option<CachedStyle>,
+    style: Option<CachedStyle>,
     trails: Vec<CachedEntry<TrailKey, DrawnTrail>>,
     levels: Vec<CachedEntry<LevelsKey, Raster>>,
     lines: Vec<CachedEntry<LinesKey, Raster>>,
@@ -105,13 +105,13 @@ struct LawKey {
 impl FrameCache {
     /// Begins a frame. Nothing stays of another theme or other characters.
     pub(super) fn begin(&mut self, style: &RenderStyle) {
-        let look = CachedStyle {
+        let style = CachedStyle {
             palette: style.theme.palette().name,
             trail: style.theme.trail(0).to_vec(),
             glyphs: style.glyphs,
         };
-        if self.look.as_ref() != Some(&look) {
-            *self = Self { look: Some(look), stroked: self.stroked, ..Self::default() };
+        if self.style.as_ref() != Some(&style) {
+            *self = Self { style: Some(style), stroked: self.stroked, ..Self::default() };
         }
         self.trails.iter_mut().for_each(|entry| entry.used = false);
         self.levels.iter_mut().for_each(|entry| entry.used = false);

@@ -24,7 +24,7 @@ use crate::app::HitTarget;
 /// A buffer and the style in which to draw on it.
 pub(super) struct Canvas<'a> {
     pub(super) buffer: &'a mut Buffer,
-    pub(super) look: &'a RenderStyle,
+    pub(super) style: &'a RenderStyle,
     /// The regions for the mouse, if they are collected; later ones lie over earlier ones.
     pub(super) regions: Option<Vec<(Rect, ScreenRegion)>>,
     /// The position of the terminal's cursor.
@@ -46,10 +46,10 @@ pub(super) type Span = (String, Style);
 
 impl<'a> Canvas<'a> {
     /// Creates a canvas that draws on `buffer`.
-    pub(super) fn over(buffer: &'a mut Buffer, look: &'a RenderStyle) -> Self {
+    pub(super) fn over(buffer: &'a mut Buffer, style: &'a RenderStyle) -> Self {
         Self {
             buffer,
-            look,
+            style,
             regions: None,
             cursor: None,
             reading: None,
@@ -63,12 +63,12 @@ impl<'a> Canvas<'a> {
 
 impl Canvas<'_> {
     pub(super) fn style(&self, role: Role) -> Style {
-        self.look.theme[role]
+        self.style.theme[role]
     }
 
     /// Returns the text as this terminal can show it, without control characters.
     pub(super) fn text(&self, text: &str) -> String {
-        self.look.shown(text).into_owned()
+        self.style.shown(text).into_owned()
     }
 
     /// A span in the style of a role.
@@ -79,19 +79,19 @@ impl Canvas<'_> {
     /// Writes text from a position on, and cuts it with an ellipsis if it is wider than `width` columns. Returns the
     /// number of columns written.
     pub(super) fn write(&mut self, at: Position, width: u16, text: &str, style: Style) -> u16 {
-        let look = self.look;
+        let screen = self.style;
         let room = width.min(self.buffer.area.right().saturating_sub(at.x));
-        if let Some(wide) = look.columns(text).filter(|wide| *wide <= width.into()) {
+        if let Some(wide) = screen.columns(text).filter(|wide| *wide <= width.into()) {
             if self.buffer.area.contains(at) {
                 self.put_letters(at, text, room, style);
             }
             return wide as u16;
         }
-        let text = look.shown(text);
+        let text = screen.shown(text);
         let (text, wide) = match text.width() {
             wide if wide <= width.into() => (text, wide),
             _ => {
-                let short = shortened(&text, width.into(), look.glyphs.pick("…", "~"));
+                let short = shortened(&text, width.into(), screen.glyphs.pick("…", "~"));
                 let wide = short.width();
                 (Cow::Owned(short), wide)
             }
@@ -135,12 +135,12 @@ impl Canvas<'_> {
 
     /// Writes spans one after the other; an ellipsis replaces those that do not fit.
     pub(super) fn spans(&mut self, row: Rect, spans: &[Span]) -> u16 {
-        let look = self.look;
-        let texts = spans.iter().map(|(text, style)| (look.shown(text), *style));
+        let screen = self.style;
+        let texts = spans.iter().map(|(text, style)| (screen.shown(text), *style));
         let texts: Vec<(Cow<'_, str>, Style)> = texts.collect();
         let all: usize = texts.iter().map(|(text, _)| text.width()).sum();
         let padding = texts.last().map_or(0, |(text, _)| text.len() - text.trim_end().len());
-        let mark = look.glyphs.pick("…", "~");
+        let mark = screen.glyphs.pick("…", "~");
         let cut = all.saturating_sub(padding) > usize::from(row.width);
         let room = if cut { row.width.saturating_sub(1) } else { row.width };
         let mut used = 0;
@@ -171,14 +171,14 @@ impl Canvas<'_> {
         let focused = focused && !self.beside;
         let role = if focused { Role::Focus } else { Role::Border };
         // Without colour, a heavier line marks the focus.
-        let heavy = focused && self.look.theme.depth() == ColourDepth::None;
-        let set = match (heavy, self.look.glyphs.is_ascii()) {
-            (false, _) => self.look.glyphs.border(),
+        let heavy = focused && self.style.theme.depth() == ColourDepth::None;
+        let set = match (heavy, self.style.glyphs.is_ascii()) {
+            (false, _) => self.style.glyphs.border(),
             (true, false) => border::THICK,
             (true, true) => border::Set {
                 horizontal_top: "=",
                 horizontal_bottom: "=",
-                ..self.look.glyphs.border()
+                ..self.style.glyphs.border()
             },
         };
         self.outline(area, set, self.style(role));

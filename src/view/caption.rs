@@ -48,12 +48,12 @@ fn lines(text: &str, width: u16) -> Vec<String> {
 
 /// Draws the caption over blank rows: the sentence at the left, the keys as caps at the right of the last row. The
 /// sentence has priority over the keys.
-pub fn draw(look: &RenderStyle, caption: &Caption<'_>, area: Rect, buffer: &mut Buffer) {
-    let mut canvas = Canvas::over(buffer, look);
+pub fn draw(style: &RenderStyle, caption: &Caption<'_>, area: Rect, buffer: &mut Buffer) {
+    let mut canvas = Canvas::over(buffer, style);
     let (mut used, mut last) = (0, Rect { height: 1, ..area });
     if !caption.text.is_empty() {
         for (row, line) in area.rows().zip(lines(caption.text, area.width)) {
-            used = canvas.left(columns(row, 1, 2), Role::Accent, look.glyphs.pick("▌", "|"));
+            used = canvas.left(columns(row, 1, 2), Role::Accent, style.glyphs.pick("▌", "|"));
             used += 2 + canvas.left(columns(row, used + 2, row.width), Role::Title, &line);
             last = row;
         }
@@ -61,7 +61,7 @@ pub fn draw(look: &RenderStyle, caption: &Caption<'_>, area: Rect, buffer: &mut 
     let row = last;
     let mut right = row.width.saturating_sub(1);
     for key in caption.keys.iter().rev() {
-        let cap = format!(" {} ", look.glyphs.text(key));
+        let cap = format!(" {} ", style.glyphs.text(key));
         let width = cap.width() as u16;
         if used + 2 + width > right {
             break;

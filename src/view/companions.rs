@@ -37,20 +37,20 @@ pub(super) fn trails(
     (frame, q): (&PlotFrame, &Quantities<'_>),
     ([x, y], level): ([usize; 2], Level),
 ) {
-    let look = canvas.look;
+    let style = canvas.style;
     for one in q.snapshot.companions.iter() {
         let track = Track::Channels([x, y]);
         let (epoch, motion) = (q.snapshot.epoch, one.number);
         let key = TrailKey { epoch, motion, frame: *frame, track };
-        let trail = canvas.cache.trail(key, (&one.trail, look.glyphs), |row| {
+        let trail = canvas.cache.trail(key, (&one.trail, style.glyphs), |row| {
             Some([*row.get(1 + x)?, *row.get(1 + y)?, 0.0])
         });
-        let ramp = look.theme.trail(series(one.number));
+        let ramp = style.theme.trail(series(one.number));
         let since = cache::since(&one.trail, ramp.len());
         let now = [x, y].map(|k| one.values.get(k).copied().unwrap_or(f64::NAN));
         let ages = Ages { since: &since, ramp, layer: level, behind: None };
         trail.draw(raster, ages, now);
-        mark(raster, frame, (one, &look.theme), (now, level + 1));
+        mark(raster, frame, (one, &style.theme), (now, level + 1));
     }
 }
 
@@ -61,19 +61,19 @@ pub(super) fn curves(
     (frame, q): (&PlotFrame, &Quantities<'_>),
     (channel, level): (usize, Level),
 ) {
-    let look = canvas.look;
+    let style = canvas.style;
     for one in q.snapshot.companions.iter() {
         let now = [one.time, one.values.get(channel).copied().unwrap_or(f64::NAN)];
-        let shade = look.theme.series(series(one.number));
+        let shade = style.theme.series(series(one.number));
         let since = frame.x.lo - (frame.x.hi - frame.x.lo);
         let track = Track::Curve(channel, shade.dash, since);
         let (epoch, motion) = (q.snapshot.epoch, one.number);
         let key = TrailKey { epoch, motion, frame: *frame, track };
-        let trail = canvas.cache.trail(key, (&one.trail, look.glyphs), |row| {
+        let trail = canvas.cache.trail(key, (&one.trail, style.glyphs), |row| {
             Some([*row.first()?, *row.get(1 + channel)?, 0.0])
         });
         trail.draw(raster, cache::whole(&[f64::MIN], &[shade], level), now);
-        mark(raster, frame, (one, &look.theme), (now, level + 1));
+        mark(raster, frame, (one, &style.theme), (now, level + 1));
     }
 }
 
@@ -84,7 +84,7 @@ pub(super) fn crossings(
     (frame, q): (&PlotFrame, &Quantities<'_>),
     (section, channels, level): (usize, [usize; 2], Level),
 ) {
-    let theme = &canvas.look.theme;
+    let theme = &canvas.style.theme;
     for one in q.snapshot.companions.iter() {
         let rows = one.crossings.rows(section, one.values.len());
         let points: Vec<[f64; 2]> = rows.map(|row| channels.map(|c| row[1 + c])).collect();

@@ -38,7 +38,7 @@ pub(super) fn verdict(lab: &Lab, page: &mut TextPage) {
 }
 
 /// Adds what was found, what was searched, and the table of brackets if it is open.
-pub(super) fn found(lab: &Lab, look: &RenderStyle, page: &mut TextPage) {
+pub(super) fn found(lab: &Lab, style: &RenderStyle, page: &mut TextPage) {
     let Some(Ok(findings)) = lab.findings() else { return };
     let invariants = &findings.invariants;
     let write = |e: Expr| {
@@ -47,7 +47,7 @@ pub(super) fn found(lab: &Lab, look: &RenderStyle, page: &mut TextPage) {
             weight if weight > MOST => {
                 format!("… ({weight} pieces: phaselab invariants prints them)")
             }
-            _ if look.glyphs.is_ascii() => pool.ascii(e),
+            _ if style.glyphs.is_ascii() => pool.ascii(e),
             _ => pool.unicode(e),
         }
     };
@@ -70,7 +70,7 @@ pub(super) fn found(lab: &Lab, look: &RenderStyle, page: &mut TextPage) {
             remark.push_str("; between impulses");
         }
         page.formula(
-            &look.glyphs.text(&findings.names[known + i]),
+            &style.glyphs.text(&findings.names[known + i]),
             write(constant.expression),
             &remark,
         );
@@ -79,14 +79,14 @@ pub(super) fn found(lab: &Lab, look: &RenderStyle, page: &mut TextPage) {
     let relations = &findings.relations;
     if !relations.completing.is_empty() {
         let names = relations.commuting_names(&findings.names).join(", ");
-        page.words(Role::Dim, look.glyphs.text(&format!("In involution: {names} (proved).")));
+        page.words(Role::Dim, style.glyphs.text(&format!("In involution: {names} (proved).")));
     }
     // where nothing was searched for, the ansatz says nothing
     let needless = invariants.found.is_empty() && invariants.is_exhausted();
     if let Some(searched) = invariants.searched.last().filter(|_| !needless) {
-        let family = if look.glyphs.is_ascii() { &searched.family } else { &searched.shown };
+        let family = if style.glyphs.is_ascii() { &searched.family } else { &searched.shown };
         let words = format!("Searched up to degree {}: {family}.", searched.degree);
-        page.words(Role::Dim, look.glyphs.text(&words));
+        page.words(Role::Dim, style.glyphs.text(&words));
     }
     if invariants.is_exhausted() {
         page.words(Role::Dim, "No other constant can be independent of these.");
@@ -116,7 +116,7 @@ pub(super) fn found(lab: &Lab, look: &RenderStyle, page: &mut TextPage) {
     }
     if lab.searches.constants.brackets {
         let parameters = !lab.loaded.model.parameters.is_empty();
-        brackets(findings, parameters, look, page, &write);
+        brackets(findings, parameters, style, page, &write);
     }
 }
 
@@ -124,7 +124,7 @@ pub(super) fn found(lab: &Lab, look: &RenderStyle, page: &mut TextPage) {
 fn brackets(
     findings: &Findings,
     parameters: bool,
-    look: &RenderStyle,
+    style: &RenderStyle,
     page: &mut TextPage,
     write: &dyn Fn(Expr) -> String,
 ) {
@@ -140,7 +140,7 @@ fn brackets(
     let mut commuting = Vec::new();
     for (i, row) in table.iter().enumerate() {
         for (j, entry) in row.iter().enumerate().skip(i + 1) {
-            let label = look
+            let label = style
                 .glyphs
                 .text(&format!("[{}, {}]", findings.names[i], findings.names[j]))
                 .into_owned();

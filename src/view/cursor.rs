@@ -37,7 +37,7 @@ pub(super) fn draw(
     if let Some(cell) = cell {
         draw_mark(canvas, frame, cell);
     }
-    let glyphs = canvas.look.glyphs;
+    let glyphs = canvas.style.glyphs;
     let what = cell.and_then(|cell| marks.at(frame, cell));
     let what = what.map_or_else(String::new, |name| format!("{name}: "));
     let [x, y] = at;
@@ -62,7 +62,7 @@ fn place_of(frame: &PlotFrame, [x, y]: [f64; 2], before: [f64; 2]) -> [f64; 2] {
 
 /// Draws the lines through a cell of a frame, and their crossing.
 fn draw_mark(canvas: &mut Canvas<'_>, frame: &PlotFrame, at: Position) {
-    let glyphs = canvas.look.glyphs;
+    let glyphs = canvas.style.glyphs;
     let style = canvas.style(Role::Focus);
     for x in frame.area.x..frame.area.right() {
         if canvas.buffer[(x, at.y)].symbol().trim().is_empty() {

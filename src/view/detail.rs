@@ -39,16 +39,16 @@ impl RenderStyle {
     #[must_use]
     pub fn reduced(&self, detail: Detail) -> Self {
         let (most, ages, share) = STEPS[usize::from(detail.0).min(STEPS.len() - 1)];
-        let mut look = self.clone();
-        if look.theme.depth() > most {
-            look.theme = look.theme.with_depth(most);
+        let mut style = self.clone();
+        if style.theme.depth() > most {
+            style.theme = style.theme.with_depth(most);
         }
         if let Some(ages) = ages {
-            look.theme = look.theme.with_ages(ages);
+            style.theme = style.theme.with_ages(ages);
         }
         if share < 1.0 {
-            look.theme = look.theme.thinned(share);
+            style.theme = style.theme.thinned(share);
         }
-        look
+        style
     }
 }

@@ -21,9 +21,9 @@ const MOST: u64 = 4_000;
 const LONGEST_DEFINITION: usize = 200;
 
 /// Builds the page.
-pub(super) fn document(lab: &Lab, look: &RenderStyle) -> TextPage {
+pub(super) fn document(lab: &Lab, style: &RenderStyle) -> TextPage {
     let report = Report::readable(&lab.loaded.model, &lab.loaded.equations);
-    let mut writer = EquationRows { report: &report, look, page: TextPage::default() };
+    let mut writer = EquationRows { report: &report, style, page: TextPage::default() };
     if !is_derived(lab) {
         writer.is_being_derived();
         return writer.page;
@@ -35,16 +35,16 @@ pub(super) fn document(lab: &Lab, look: &RenderStyle) -> TextPage {
     writer.motion();
     writer.hamiltonian();
     writer.conserved();
-    further::rows(lab, look, &mut writer.page);
-    constants::found(lab, look, &mut writer.page);
+    further::rows(lab, style, &mut writer.page);
+    constants::found(lab, style, &mut writer.page);
     writer.definitions();
     writer.page
 }
 
 /// The law of motion, the solved equations and the notes of the file, for a small pane.
-pub(super) fn law(lab: &Lab, look: &RenderStyle) -> TextPage {
+pub(super) fn law(lab: &Lab, style: &RenderStyle) -> TextPage {
     let report = Report::readable(&lab.loaded.model, &lab.loaded.equations);
-    let mut writer = EquationRows { report: &report, look, page: TextPage::default() };
+    let mut writer = EquationRows { report: &report, style, page: TextPage::default() };
     if is_derived(lab) {
         writer.lines(&[report.law]);
         writer.ramps();
@@ -67,7 +67,7 @@ fn is_derived(lab: &Lab) -> bool {
 
 struct EquationRows<'a> {
     report: &'a Report<'a>,
-    look: &'a RenderStyle,
+    style: &'a RenderStyle,
     page: TextPage,
 }
 
@@ -77,7 +77,7 @@ impl EquationRows<'_> {
         if pool.weight(e) > MOST {
             return format!("… ({} pieces: phaselab derive prints them)", pool.weight(e));
         }
-        if self.look.glyphs.is_ascii() { pool.ascii(e) } else { pool.unicode(e) }
+        if self.style.glyphs.is_ascii() { pool.ascii(e) } else { pool.unicode(e) }
     }
 
     /// A time, that of a key to as many digits as one reads.
@@ -90,7 +90,7 @@ impl EquationRows<'_> {
 
     fn symbol(&self, symbol: Symbol) -> String {
         let info = self.report.equations.pool.symbol_info(symbol);
-        self.look.glyphs.pick(&info.unicode, &info.name).clone()
+        self.style.glyphs.pick(&info.unicode, &info.name).clone()
     }
 
     fn left(&self, left: LeftSide) -> String {
@@ -102,7 +102,7 @@ impl EquationRows<'_> {
             LeftSide::Added(letter, q) => format!("{letter}_{}", self.symbol(q)),
             LeftSide::Bracket(x, y) => format!("{{{}, {}}}", self.symbol(x), self.symbol(y)),
             LeftSide::Jump(symbol) => {
-                format!("{}{}", self.look.glyphs.pick("Δ", "jump of "), self.symbol(symbol))
+                format!("{}{}", self.style.glyphs.pick("Δ", "jump of "), self.symbol(symbol))
             }
         }
     }
@@ -147,7 +147,7 @@ impl EquationRows<'_> {
             self.page.heading("Casimirs");
         }
         for (name, casimir) in &report.casimirs {
-            self.put(&self.look.glyphs.text(name), *casimir, "");
+            self.put(&self.style.glyphs.text(name), *casimir, "");
         }
         if !report.forces.is_empty() {
             let title = if poisson { "Added to the rates" } else { "Forces without a potential" };
@@ -162,7 +162,7 @@ impl EquationRows<'_> {
             self.put(&format!("{}(t)", self.symbol(ramp.parameter)), ramp.function, "");
             for progress in &ramp.progress {
                 let [start, end] = progress.times.map(|e| self.time(e));
-                let range = self.look.glyphs.text("0 … 1").into_owned();
+                let range = self.style.glyphs.text("0 … 1").into_owned();
                 let mut words = format!("from t = {start} to t = {end}");
                 if let Some(time) = progress.stopped {
                     words.push_str(&format!(", stays from t = {} on", self.time(time)));
@@ -294,7 +294,7 @@ impl EquationRows<'_> {
         for kept in &report.conserved {
             let shown = match kept.constant {
                 ConservedKind::Momentum(p) => self.symbol(p),
-                ConservedKind::Energy => self.look.glyphs.pick("E", "energy").to_owned(),
+                ConservedKind::Energy => self.style.glyphs.pick("E", "energy").to_owned(),
                 ConservedKind::Casimir(name) | ConservedKind::Other(name) => name.to_owned(),
             };
             self.put(&shown, kept.expression, &kept.reason.to_string());
@@ -307,7 +307,7 @@ impl EquationRows<'_> {
             self.page.heading("Definitions of the file");
             let mut long = Vec::new();
             for (name, e) in &report.model.definitions {
-                let shown = self.look.glyphs.pick(crate::expr::unicode_name(name), name.clone());
+                let shown = self.style.glyphs.pick(crate::expr::unicode_name(name), name.clone());
                 let written = self.write(*e);
                 if written.chars().count() > LONGEST_DEFINITION {
                     long.push(shown);

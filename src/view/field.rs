@@ -24,7 +24,7 @@ fn step(share: f64, steps: usize) -> usize {
 
 /// The faintest shade, that in the middle and the strongest, each as it is drawn here, with its number.
 pub(super) fn keys(canvas: &Canvas<'_>, field: &Field) -> Vec<Span> {
-    let (theme, glyphs) = (&canvas.look.theme, canvas.look.glyphs);
+    let (theme, glyphs) = (&canvas.style.theme, canvas.style.glyphs);
     let ramp = theme.density();
     let few = matches!(theme.depth(), ColourDepth::None | ColourDepth::Ansi16);
     let signs = glyphs.pick(&SHADES[..], &ASCII[..]);
@@ -41,7 +41,7 @@ pub(super) fn keys(canvas: &Canvas<'_>, field: &Field) -> Vec<Span> {
 
 /// Draws a field.
 pub(super) fn draw(canvas: &mut Canvas<'_>, frame: &PlotFrame, field: &Field) {
-    let (theme, glyphs) = (&canvas.look.theme, canvas.look.glyphs);
+    let (theme, glyphs) = (&canvas.style.theme, canvas.style.glyphs);
     let ramp = theme.density();
     let few = matches!(theme.depth(), ColourDepth::None | ColourDepth::Ansi16);
     let number = |position: Position, share: f64| {

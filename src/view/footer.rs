@@ -133,7 +133,7 @@ pub(super) fn notice(canvas: &mut Canvas<'_>, body: Rect, app: &App) {
 /// Whether a row is the lower border of a frame, and not text.
 fn is_frame(canvas: &Canvas<'_>, row: Rect) -> bool {
     let corner = canvas.buffer.cell((row.x, row.y)).map_or("", |cell| cell.symbol());
-    let own = canvas.look.glyphs.border().bottom_left;
+    let own = canvas.style.glyphs.border().bottom_left;
     row.width > 0 && [own, border::THICK.bottom_left].contains(&corner)
 }
 
@@ -169,13 +169,13 @@ fn ended(snapshot: &Snapshot) -> Option<String> {
 
 /// The meaning, unit and range of the selected item, and the same with less of what its list says already.
 fn meaning(canvas: &Canvas<'_>, lab: &Lab) -> Vec<String> {
-    let glyphs = canvas.look.glyphs;
+    let glyphs = canvas.style.glyphs;
     if lab.focus.pane == Pane::Gauges {
         let gauge = lab.snapshot.as_ref().and_then(|s| s.gauges.get(lab.selection.gauge));
         return gauge.map_or_else(Vec::new, |gauge| {
             let name = glyphs.pick(&gauge.shown, &gauge.name);
             let named = format!("{name} ({})", gauge.reason);
-            let found = format!("{named}: {}", finding(gauge, canvas.look.glyphs));
+            let found = format!("{named}: {}", finding(gauge, canvas.style.glyphs));
             [found, named, gauge.reason.clone()].map(|text| canvas.text(&text)).into()
         });
     }
@@ -215,7 +215,7 @@ fn hints(canvas: &Canvas<'_>, app: &App) -> Vec<Hint> {
         })
     });
     let hint = |row: &Binding| {
-        let keys = keys(row, canvas.look);
+        let keys = keys(row, canvas.style);
         let first = keys.split(' ').next().unwrap_or_default().to_owned();
         // What lies on top is closed before the program is left.
         let closes = match row.action {
@@ -245,7 +245,7 @@ fn open_field(canvas: &mut Canvas<'_>, area: Rect, app: &App, field: &InputField
         (Some(lab), Purpose::Ramp(index)) => lab.value_info(ValueId::Parameter(index)),
         _ => None,
     };
-    let glyphs = canvas.look.glyphs;
+    let glyphs = canvas.style.glyphs;
     let name = match (field.purpose, &facts) {
         (Purpose::Flow(_) | Purpose::SymmetryFlow(_) | Purpose::GeneratorFlow(_), _) => {
             "how far, ε; a negative value goes back".to_owned()

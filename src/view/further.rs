@@ -12,7 +12,7 @@ use crate::expr::{Expr, Symbol};
 const MOST: u64 = 1_000;
 
 /// Adds what is known of them.
-pub(super) fn rows(lab: &Lab, look: &RenderStyle, page: &mut TextPage) {
+pub(super) fn rows(lab: &Lab, style: &RenderStyle, page: &mut TextPage) {
     if !lab.has_further() {
         return;
     }
@@ -21,7 +21,7 @@ pub(super) fn rows(lab: &Lab, look: &RenderStyle, page: &mut TextPage) {
         page.words(Role::Dim, "Being looked at.");
         return;
     };
-    let mut rows = FurtherRows { forms, look, page };
+    let mut rows = FurtherRows { forms, style, page };
     rows.transformations();
     rows.generators();
     rows.complete_integral(lab);
@@ -29,7 +29,7 @@ pub(super) fn rows(lab: &Lab, look: &RenderStyle, page: &mut TextPage) {
 
 struct FurtherRows<'a> {
     forms: &'a FurtherForms,
-    look: &'a RenderStyle,
+    style: &'a RenderStyle,
     page: &'a mut TextPage,
 }
 
@@ -39,12 +39,12 @@ impl FurtherRows<'_> {
         if pool.weight(e) > MOST {
             return format!("… ({} pieces: phaselab derive prints them)", pool.weight(e));
         }
-        if self.look.glyphs.is_ascii() { pool.ascii(e) } else { pool.unicode(e) }
+        if self.style.glyphs.is_ascii() { pool.ascii(e) } else { pool.unicode(e) }
     }
 
     fn symbol(&self, symbol: Symbol) -> String {
         let info = self.forms.equations.pool.symbol_info(symbol);
-        self.look.glyphs.pick(&info.unicode, &info.name).clone()
+        self.style.glyphs.pick(&info.unicode, &info.name).clone()
     }
 
     fn put(&mut self, label: &str, e: Expr, remark: &str) {

@@ -45,7 +45,7 @@ const LEAST_RATIO: f64 = 100.0;
 
 /// The columns of single rows of this width.
 fn single_row(canvas: &Canvas<'_>, width: u16, gauges: &[Gauge]) -> SingleRow {
-    let glyphs = canvas.look.glyphs;
+    let glyphs = canvas.style.glyphs;
     let name = |gauge: &Gauge| glyphs.pick(&*gauge.shown, &*gauge.name).width();
     let verdict = |gauge: &Gauge| {
         let sign = if given_by_impulses(gauge).is_some() { 2 } else { 0 };
@@ -91,7 +91,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, selected: Opt
     let first = window(selected.unwrap_or(0), gauges.len(), shown);
     for (place, gauge) in gauges.iter().skip(first).take(shown).enumerate() {
         let here = selected == Some(first + place);
-        let mark = if here { canvas.look.glyphs.pick("›", ">") } else { " " };
+        let mark = if here { canvas.style.glyphs.pick("›", ">") } else { " " };
         for line in 0..height {
             canvas.target(row(area, place * height + line), HitTarget::Gauge(first + place));
         }
@@ -118,7 +118,7 @@ fn reason_below(
     count: usize,
     gauge: &Gauge,
 ) -> (Rect, Vec<String>) {
-    let glyphs = canvas.look.glyphs;
+    let glyphs = canvas.style.glyphs;
     let reason = number::with_minus_signs(&gauge.reason, glyphs);
     let text = format!("{reason}; {}", finding(gauge, glyphs));
     let lines = words(&canvas.text(&text), usize::from(area.width.saturating_sub(3)));
@@ -227,7 +227,7 @@ fn sentence(verdict: &Verdict, glyphs: Glyphs) -> String {
 
 /// Whether a gauge's name leaves room for its verdict in full, in a row of this width.
 fn fits_in_full(canvas: &Canvas<'_>, width: u16, gauge: &Gauge) -> bool {
-    let name = canvas.look.glyphs.pick(&gauge.shown, &gauge.name).width();
+    let name = canvas.style.glyphs.pick(&gauge.shown, &gauge.name).width();
     let sign = if given_by_impulses(gauge).is_some() { 2 } else { 0 };
     width >= HEADED - 3 && name + 1 + usize::from(IN_FULL + sign) <= width.into()
 }
@@ -253,7 +253,7 @@ fn name_and_reason(
     let area = columns(area, 0, area.width.saturating_sub(used + 1));
     let used = name(canvas, area, (gauge, all), here) + 2;
     // A reason is shown whole, or in a word.
-    let reason = canvas.text(&number::with_minus_signs(&gauge.reason, canvas.look.glyphs));
+    let reason = canvas.text(&number::with_minus_signs(&gauge.reason, canvas.style.glyphs));
     let in_a_word = match (residual, gauge.proved) {
         _ if gauge.verdict == Verdict::Released => "",
         (true, _) => "residual",
@@ -291,7 +291,7 @@ fn numbers_and_history(canvas: &mut Canvas<'_>, area: Rect, (gauge, residual): (
         values: &values,
         scale: Scale::log(if is_rounding { FLOOR } else { least }, most),
         style: canvas.style(drift_role(gauge)),
-        glyphs: canvas.look.glyphs,
+        glyphs: canvas.style.glyphs,
     };
     history.render(sparkline, canvas.buffer);
 }
@@ -322,7 +322,7 @@ fn verdict(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge, (text, role): (&s
     if given_by_impulses(gauge).is_none() || width + 2 > area.width {
         return canvas.right(area, role, text);
     }
-    let sign = Marker::Diamond.symbol(canvas.look.glyphs).to_string();
+    let sign = Marker::Diamond.symbol(canvas.style.glyphs).to_string();
     let after = if text == BETWEEN { 2 } else { 0 };
     let used = canvas.right(columns(area, 0, area.width - after), role, text);
     let at = if after > 0 { area.width - 1 } else { area.width - used - 2 };
@@ -352,7 +352,7 @@ pub(super) fn finding(gauge: &Gauge, glyphs: Glyphs) -> String {
 
 /// Writes the name of a gauge; if it is too long, with its last words where another one begins in the same way.
 fn name(canvas: &mut Canvas<'_>, area: Rect, (gauge, all): (&Gauge, &[Gauge]), here: bool) -> u16 {
-    let glyphs = canvas.look.glyphs;
+    let glyphs = canvas.style.glyphs;
     let (room, mark) = (usize::from(area.width), glyphs.pick("…", "~"));
     let short = |gauge: &Gauge| {
         shortened(&canvas.text(glyphs.pick(&*gauge.shown, &*gauge.name)), room, mark)
@@ -373,12 +373,12 @@ pub(super) fn shown_value(gauge: &Gauge, residual: bool) -> f64 {
 
 /// Draws the value at the right. Returns the number of columns used.
 fn value(canvas: &mut Canvas<'_>, area: Rect, value: f64, digits: usize) -> u16 {
-    let text = fitted(value, digits, area.width.into(), canvas.look.glyphs);
+    let text = fitted(value, digits, area.width.into(), canvas.style.glyphs);
     canvas.right(area, Role::Accent, text.trim_start())
 }
 
 fn drift(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge) {
-    let (width, glyphs) = (usize::from(area.width), canvas.look.glyphs);
+    let (width, glyphs) = (usize::from(area.width), canvas.style.glyphs);
     let text = change(gauge, width, glyphs);
     let text = text.unwrap_or_else(|| match gauge.drift {
         drift if drift.is_nan() => glyphs.pick("–", "-").to_owned(),

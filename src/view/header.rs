@@ -89,7 +89,7 @@ fn tabs(canvas: &Canvas<'_>, app: &App, gap: &str, pages: &[Tab]) -> Vec<Span> {
 pub(super) fn status(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
     let area = columns(area, 1, area.width.saturating_sub(2));
     let Some(snapshot) = app.snapshot().filter(|_| app.page != Page::Picker) else { return };
-    let glyphs = canvas.look.glyphs;
+    let glyphs = canvas.style.glyphs;
     let waits = app.lab.as_ref().is_some_and(Lab::waits_for_law);
     let (sign, word, role) = match &snapshot.status {
         Status::Running if waits => (glyphs.pick("‖", "="), "waiting", Role::Warn),
@@ -165,7 +165,7 @@ fn speed(snapshot: &Snapshot, glyphs: Glyphs) -> String {
 
 /// Returns the status as a sentence.
 pub(super) fn status_words(q: &Quantities<'_>) -> String {
-    let (snapshot, glyphs) = (q.snapshot, q.look.glyphs);
+    let (snapshot, glyphs) = (q.snapshot, q.style.glyphs);
     let status = match &snapshot.status {
         Status::Running if q.lab.waits_for_law() => "waiting until the law is rebuilt".to_owned(),
         Status::Running => "running".to_owned(),
@@ -198,7 +198,7 @@ fn short(value: f64) -> String {
 
 /// The method with its step and tolerance, in a constant width.
 fn method(snapshot: &Snapshot, canvas: &Canvas<'_>) -> String {
-    let glyphs = canvas.look.glyphs;
+    let glyphs = canvas.style.glyphs;
     // Before the first step there is no length of one.
     let step = match snapshot.method.step {
         0.0 => glyphs.pick("–", "-").to_owned(),

@@ -41,13 +41,13 @@ pub(super) fn draw(
         }
         inner = below;
     }
-    let page = document(canvas.look, active, sought);
+    let page = document(canvas.style, active, sought);
     page.draw_in_columns(canvas, inner, scroll)
 }
 
 /// Builds the page: the keys of what has the focus come first, then those of the page around it, the mouse, then all
 /// others. Of a search only what was found is left, by the words of the page or by other words for the same action.
-fn document(look: &RenderStyle, active: &[Place], sought: &str) -> TextPage {
+fn document(style: &RenderStyle, active: &[Place], sought: &str) -> TextPage {
     let mut page = TextPage::default();
     let words: Vec<String> = sought.split_whitespace().map(str::to_lowercase).collect();
     let has = |text: String| {
@@ -67,10 +67,10 @@ fn document(look: &RenderStyle, active: &[Place], sought: &str) -> TextPage {
     let rows_of = |place: Place| -> Vec<(String, &'static str)> {
         let fits = |row: &&Binding| {
             let others = synonyms(row.action).join(" ");
-            has(format!("{} {} {} {others}", keys(row, look), row.help, place.title()))
+            has(format!("{} {} {} {others}", keys(row, style), row.help, place.title()))
         };
         let rows = KEYS.iter().filter(|row| row.place == place).filter(fits);
-        rows.map(|row| (keys(row, look), row.help)).collect()
+        rows.map(|row| (keys(row, style), row.help)).collect()
     };
     for (index, place) in active.iter().enumerate() {
         let title = place.title();
@@ -89,14 +89,14 @@ fn document(look: &RenderStyle, active: &[Place], sought: &str) -> TextPage {
 }
 
 /// The keys of a binding, as they are labelled on keyboards.
-pub(super) fn keys(row: &Binding, look: &RenderStyle) -> String {
-    named(&row.key_names().join(" "), look)
+pub(super) fn keys(row: &Binding, style: &RenderStyle) -> String {
+    named(&row.key_names().join(" "), style)
 }
 
 /// Names of keys, with words for the arrows if they cannot be drawn.
-pub(super) fn named(keys: &str, look: &RenderStyle) -> String {
+pub(super) fn named(keys: &str, style: &RenderStyle) -> String {
     const ARROWS: [(&str, &str); 4] = [("↑", "Up"), ("↓", "Down"), ("←", "Left"), ("→", "Right")];
     let spelt =
         || ARROWS.iter().fold(keys.to_owned(), |name, (sign, word)| name.replace(sign, word));
-    if look.glyphs.is_ascii() { spelt() } else { keys.to_owned() }
+    if style.glyphs.is_ascii() { spelt() } else { keys.to_owned() }
 }

@@ -7,8 +7,8 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 
 use super::canvas::Canvas;
-use super::look::RenderStyle;
 use super::region::ScreenRegion;
+use super::render_style::RenderStyle;
 use super::screen::paint;
 use crate::app::{App, Grab, HitTarget};
 
@@ -21,9 +21,9 @@ pub struct HitMap {
 }
 
 /// Collects the regions of an application's screen.
-pub fn hit_targets(app: &App, look: &RenderStyle, area: Rect) -> HitMap {
+pub fn hit_targets(app: &App, style: &RenderStyle, area: Rect) -> HitMap {
     let mut buffer = Buffer::empty(area);
-    let mut canvas = Canvas::over(&mut buffer, look);
+    let mut canvas = Canvas::over(&mut buffer, style);
     canvas.regions = Some(Vec::new());
     paint(&mut canvas, app, area);
     HitMap { regions: canvas.regions.unwrap_or_default(), drag: app.drag }
@@ -32,12 +32,12 @@ pub fn hit_targets(app: &App, look: &RenderStyle, area: Rect) -> HitMap {
 /// Returns what lies at one position of the screen.
 pub fn hit_test(
     app: &App,
-    look: &RenderStyle,
+    style: &RenderStyle,
     area: Rect,
     column: u16,
     row: u16,
 ) -> Option<HitTarget> {
-    hit_targets(app, look, area).at(column, row)
+    hit_targets(app, style, area).at(column, row)
 }
 
 impl HitMap {

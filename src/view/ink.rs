@@ -12,7 +12,7 @@ use crate::instrument::{Ink, Level, MarkerShape};
 
 /// The pen of an ink on a layer.
 pub(super) fn pen(canvas: &Canvas<'_>, ink: Ink, level: Level) -> Pen {
-    let theme = &canvas.look.theme;
+    let theme = &canvas.style.theme;
     match ink {
         Ink::Plain => Pen::new(theme[Role::Text], level),
         Ink::Accent => Pen::new(theme[Role::Accent], level),
@@ -45,5 +45,5 @@ pub(super) fn colourless_mark(canvas: &Canvas<'_>, ink: Ink) -> Option<MarkerSha
 }
 
 pub(super) fn is_colourless(canvas: &Canvas<'_>) -> bool {
-    canvas.look.theme.depth() == ColourDepth::None
+    canvas.style.theme.depth() == ColourDepth::None
 }

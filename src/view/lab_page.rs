@@ -90,7 +90,7 @@ fn law(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, title: &[Span]) -> LawInV
     canvas.target(area, HitTarget::Pane(Pane::Law));
     let mut cache = std::mem::take(&mut canvas.cache);
     let rows = cache.law(&lab.loaded.equations, inner.width, || {
-        equations::law(lab, canvas.look).laid_out(canvas, inner.width)
+        equations::law(lab, canvas.style).laid_out(canvas, inner.width)
     });
     let drawn = draw_rows(canvas, inner, lab.law_scroll, rows);
     canvas.cache = cache;
@@ -103,7 +103,7 @@ fn law(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, title: &[Span]) -> LawInV
 fn since(canvas: &Canvas<'_>, lab: &Lab) -> Option<Span> {
     let time = lab.snapshot.as_ref()?.gauges.first()?.reference_time;
     let begun = lab.loaded.model.run.start;
-    let text = || format!("  since t = {}", brief(time, 6, canvas.look.glyphs));
+    let text = || format!("  since t = {}", brief(time, 6, canvas.style.glyphs));
     (time != begun).then(|| canvas.span(Role::Dim, text()))
 }
 
@@ -152,7 +152,7 @@ fn out_of_sight(canvas: &mut Canvas<'_>, area: Rect, above: usize, below: usize)
     if above + below == 0 || area.width < 16 {
         return;
     }
-    let glyphs = canvas.look.glyphs;
+    let glyphs = canvas.style.glyphs;
     let mut parts = Vec::new();
     if above > 0 {
         parts.push(format!("+{above} {}", glyphs.pick("↑", "up")));
@@ -168,7 +168,7 @@ fn out_of_sight(canvas: &mut Canvas<'_>, area: Rect, above: usize, below: usize)
 /// Draws a picture; `sharing` are the pictures that take turns in its frame.
 fn plot(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, (index, sharing): (usize, &[usize])) {
     let focused = lab.focus.pane == Pane::Plot(index);
-    let (Some(plot), Some(q)) = (lab.plots.get(index), Quantities::of(lab, canvas.look)) else {
+    let (Some(plot), Some(q)) = (lab.plots.get(index), Quantities::of(lab, canvas.style)) else {
         canvas.pane(area, &[], focused);
         return;
     };
@@ -197,7 +197,7 @@ fn plot(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, (index, sharing): (usize
         }
         None => picture_title::title(canvas, &q, plot, room),
     };
-    let mark = gauges::departed(q.snapshot, canvas.look.glyphs).map(|(role, _)| role);
+    let mark = gauges::departed(q.snapshot, canvas.style.glyphs).map(|(role, _)| role);
     let tabs_from = if mark.is_some() { 2 } else { 0 };
     title.splice(0..0, mark.map(|role| canvas.span(role, "! ")));
     let inner = canvas.pane(area, &title, focused);

@@ -35,9 +35,9 @@ const MORE: &str = "z shows more";
 pub(super) fn beside(
     area: Rect,
     (layers, zoomable): (&[(Level, Layer)], bool),
-    look: &RenderStyle,
+    style: &RenderStyle,
 ) -> (Rect, Option<Rect>) {
-    let width = |line: &String| shown(line, look).width();
+    let width = |line: &String| shown(line, style).width();
     let widest = layers.iter().filter_map(|(_, layer)| match layer {
         Layer::Legend(lines) => lines.iter().map(width).max(),
         _ => None,
@@ -50,7 +50,8 @@ pub(super) fn beside(
             (axes, Some(lines))
         }
         Some(_) => {
-            let wanted = u16::try_from(wrapped(area, (layers, zoomable), look)).unwrap_or(u16::MAX);
+            let wanted =
+                u16::try_from(wrapped(area, (layers, zoomable), style)).unwrap_or(u16::MAX);
             let room = (area.height / 2).min(area.height.saturating_sub(LOW));
             let parts = [Constraint::Length(wanted.min(room)), Constraint::Min(0)];
             let [lines, axes] = Layout::vertical(parts).areas(area);
@@ -72,10 +73,14 @@ fn most_above(area: Rect) -> usize {
 }
 
 /// The number of rows of all lines.
-fn wrapped(area: Rect, (layers, zoomable): (&[(Level, Layer)], bool), look: &RenderStyle) -> usize {
+fn wrapped(
+    area: Rect,
+    (layers, zoomable): (&[(Level, Layer)], bool),
+    style: &RenderStyle,
+) -> usize {
     let lines = layers.iter().map(|(_, layer)| match layer {
         Layer::Legend(lines) => {
-            rows(area, (lines, if zoomable { most_above(area) } else { usize::MAX }), look).len()
+            rows(area, (lines, if zoomable { most_above(area) } else { usize::MAX }), style).len()
         }
         _ => 0,
     });
@@ -83,9 +88,9 @@ fn wrapped(area: Rect, (layers, zoomable): (&[(Level, Layer)], bool), look: &Ren
 }
 
 /// The rows of some lines in the width of an area: all, or so many at most, the last of which says that there are more.
-fn rows(area: Rect, (lines, most): (&[String], usize), look: &RenderStyle) -> Vec<String> {
+fn rows(area: Rect, (lines, most): (&[String], usize), style: &RenderStyle) -> Vec<String> {
     let room = usize::from(area.width).saturating_sub(2).max(1);
-    let lines: Vec<String> = lines.iter().map(|line| shown(line, look)).collect();
+    let lines: Vec<String> = lines.iter().map(|line| shown(line, style)).collect();
     let all: Vec<String> = lines.iter().flat_map(|line| clauses(line, room)).collect();
     let [first, others @ ..] = &lines[..] else { return all };
     if all.len() <= most {
@@ -103,7 +108,7 @@ fn rows(area: Rect, (lines, most): (&[String], usize), look: &RenderStyle) -> Ve
         whole.push(MORE.to_owned());
         return whole;
     }
-    let mark = look.glyphs.pick("…", "...");
+    let mark = style.glyphs.pick("…", "...");
     let first = if first.width() <= room { first.clone() } else { beginning(first, room, mark) };
     let whole = first == lines[0];
     let beside = others.first().filter(|_| whole).map(|line| format!("{line}   z: more"));
@@ -155,23 +160,23 @@ fn left_side(line: &str) -> Option<&str> {
 }
 
 /// A line in the characters of this terminal, its numbers written as elsewhere.
-fn shown(line: &str, look: &RenderStyle) -> String {
-    look.glyphs.text(&number::with_powers(line, look.glyphs)).into_owned()
+fn shown(line: &str, style: &RenderStyle) -> String {
+    style.glyphs.text(&number::with_powers(line, style.glyphs)).into_owned()
 }
 
 /// Writes lines from the top, wrapped, as far as there is room for them; where there is not, the last row says so.
 pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, (lines, most): (&[String], usize)) {
-    let look = canvas.look;
+    let style = canvas.style;
     let room = usize::from(area.width).saturating_sub(2);
-    let mut rows = rows(area, (lines, most), look).into_iter().peekable();
+    let mut rows = rows(area, (lines, most), style).into_iter().peekable();
     for y in area.y..area.bottom() {
         let Some(mut line) = rows.next() else { break };
         if y + 1 == area.bottom() && rows.peek().is_some() {
             let short: String = line.chars().take(room.saturating_sub(2)).collect();
-            line = look.glyphs.text(&format!("{short} …")).into_owned();
+            line = style.glyphs.text(&format!("{short} …")).into_owned();
         }
         let line = format!("{line} ");
-        canvas.buffer.set_stringn(area.x + 1, y, line, room, look.theme[Role::Text]);
+        canvas.buffer.set_stringn(area.x + 1, y, line, room, style.theme[Role::Text]);
     }
 }
 
@@ -185,13 +190,13 @@ mod tests {
     /// Lines beside the axes take a third of a plot at most; longer ones stand above, and the axes have its whole width.
     #[test]
     fn words_leave_the_axes_two_thirds() {
-        let look = RenderStyle { theme: Theme::dark(ColourDepth::True), glyphs: Glyphs::Braille };
+        let style = RenderStyle { theme: Theme::dark(ColourDepth::True), glyphs: Glyphs::Braille };
         for width in [30, 64, 90, 120] {
             for long in [10, 20, 29, 39, 60] {
                 let area = Rect::new(5, 3, width, 20);
                 let lines = vec!["a".repeat(long), "b".to_owned()];
                 let layers = [(0, Layer::Legend(lines))];
-                let (axes, words) = beside(area, (&layers, true), &look);
+                let (axes, words) = beside(area, (&layers, true), &style);
                 let words = words.expect("words");
                 assert!(axes.width >= width - width / 3, "{width} {long}: {axes:?}");
                 assert_eq!(axes.intersection(words).area(), 0, "{width} {long}");
@@ -206,11 +211,11 @@ mod tests {
     /// has all, and nothing is cut inside a factor.
     #[test]
     fn a_low_plot_has_two_lines_at_most() {
-        let look = RenderStyle { theme: Theme::dark(ColourDepth::True), glyphs: Glyphs::Braille };
+        let style = RenderStyle { theme: Theme::dark(ColourDepth::True), glyphs: Glyphs::Braille };
         let written = |lines: &[&str], few| {
             let lines: Vec<String> = lines.iter().map(|&line| line.to_owned()).collect();
             let most = if few { FEW } else { usize::MAX };
-            rows(Rect::new(0, 0, 38, 12), (&lines, most), &look)
+            rows(Rect::new(0, 0, 38, 12), (&lines, most), &style)
         };
         let k = "K = ½ k X² + ½ k Y² + (PX² + PY²)/(2 m) − Ω X PY + Ω Y PX";
         let down = "no F₁, F₄: det ∂Q/∂p = det ∂P/∂q = 0";
@@ -243,7 +248,7 @@ mod tests {
         assert_eq!(written(&[long, k], true)[0], "libration: period J = 0.27817 …");
         let layers = [(0, Layer::Legend(lines.map(str::to_owned).to_vec()))];
         let heights = |height, zoomable| {
-            let (axes, words) = beside(Rect::new(0, 0, 38, height), (&layers, zoomable), &look);
+            let (axes, words) = beside(Rect::new(0, 0, 38, height), (&layers, zoomable), &style);
             [axes.height, words.expect("words").height]
         };
         assert_eq!(heights(12, true), [10, 2]);
@@ -252,12 +257,12 @@ mod tests {
         assert_eq!(heights(20, true), [20 - whole, whole]);
         // in a higher one they take a third at most, none of them cut
         let many: Vec<String> = [lines, lines].concat().into_iter().map(str::to_owned).collect();
-        let shown = rows(Rect::new(0, 0, 38, 20), (&many, 6), &look);
+        let shown = rows(Rect::new(0, 0, 38, 20), (&many, 6), &style);
         assert!(shown.len() <= 6 && shown.len() > 2, "{shown:?}");
         assert_eq!(shown[..shown.len() - 1], written(&lines, false)[..shown.len() - 1]);
         assert_eq!(shown.last().map(String::as_str), Some(MORE));
         let many = [(0, Layer::Legend(many))];
-        let (axes, words) = beside(Rect::new(0, 0, 38, 20), (&many, true), &look);
+        let (axes, words) = beside(Rect::new(0, 0, 38, 20), (&many, true), &style);
         let words = words.expect("words").height;
         assert_eq!([axes.height, words], [20 - shown.len() as u16, shown.len() as u16]);
     }

@@ -83,8 +83,8 @@ fn fitting(keys: &str, room: usize) -> String {
 const BETWEEN: &str = " · ";
 
 /// Draws the pane.
-pub fn draw(look: &RenderStyle, speech: &Speech, area: Rect, buffer: &mut Buffer) {
-    let mut canvas = Canvas::over(buffer, look);
+pub fn draw(style: &RenderStyle, speech: &Speech, area: Rect, buffer: &mut Buffer) {
+    let mut canvas = Canvas::over(buffer, style);
     canvas.clear(area);
     let title = [
         canvas.span(Role::Title, &speech.title),
@@ -115,14 +115,14 @@ pub fn draw(look: &RenderStyle, speech: &Speech, area: Rect, buffer: &mut Buffer
             ParagraphKind::Quiet => (Role::Dim, ""),
             ParagraphKind::Option => (Role::Text, ""),
             ParagraphKind::Selected | ParagraphKind::Typed => {
-                (Role::Accent, look.glyphs.pick("›", ">"))
+                (Role::Accent, style.glyphs.pick("›", ">"))
             }
-            ParagraphKind::Right => (Role::Good, look.glyphs.pick("✓", "+")),
-            ParagraphKind::Wrong => (Role::Bad, look.glyphs.pick("✗", "x")),
+            ParagraphKind::Right => (Role::Good, style.glyphs.pick("✓", "+")),
+            ParagraphKind::Wrong => (Role::Bad, style.glyphs.pick("✗", "x")),
         };
         let text = match kind {
             ParagraphKind::Typed => text.clone(),
-            _ => with_powers(&with_minus_signs(text, look.glyphs), look.glyphs),
+            _ => with_powers(&with_minus_signs(text, style.glyphs), style.glyphs),
         };
         let text = canvas.text(&with_primes(&text));
         for (index, line) in words(&text, room(area.width)).iter().enumerate() {

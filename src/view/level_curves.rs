@@ -24,8 +24,8 @@ pub(super) fn draw(
     landscape: &Landscape,
     lowest: Level,
 ) {
-    let look = canvas.look;
-    let crowded = look.glyphs.pick(CROWDED[1], CROWDED[0]);
+    let style = canvas.style;
+    let crowded = style.glyphs.pick(CROWDED[1], CROWDED[0]);
     let plain = Pen::new(Style::new(), 0);
     let trace = |raster: &mut Raster, curves: &[Curve], pen: &Pen| {
         for curve in curves {
@@ -35,12 +35,12 @@ pub(super) fn draw(
     let parting = pen(canvas, Ink::Separatrix, lowest + 1);
     trace(raster, &landscape.separatrices, &parting);
     let faint = pen(canvas, Ink::Level, lowest);
-    let (wide, high) = look.glyphs.dots();
+    let (wide, high) = style.glyphs.dots();
     let dots = frame.area.area() * u32::from(wide) * u32::from(high);
-    if dots > ROOMY && !look.glyphs.is_ascii() {
+    if dots > ROOMY && !style.glyphs.is_ascii() {
         landscape.levels.iter().for_each(|level| trace(raster, level, &faint));
     } else {
-        let blank = Raster::new(frame.area, look.glyphs);
+        let blank = Raster::new(frame.area, style.glyphs);
         let mut drawn = blank.clone();
         trace(&mut drawn, &landscape.separatrices, &plain);
         for level in &landscape.levels {

@@ -42,7 +42,7 @@ impl ListTabs {
     /// The titles of panes with a line between neighbours, shortened where they do not fit into the frame. Where they do not
     /// fit even so, the shown one with its place among all.
     pub(super) fn of(canvas: &Canvas<'_>, panes: &[Pane], shown: Pane, frame: Rect) -> Self {
-        let glyphs = canvas.look.glyphs;
+        let glyphs = canvas.style.glyphs;
         let room = usize::from(frame.width.saturating_sub(6));
         let between = [glyphs.pick(" │ ", " | "), glyphs.pick("│", "|")];
         for (short, between) in [(false, between[0]), (true, between[0]), (true, between[1])] {

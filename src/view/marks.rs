@@ -96,6 +96,6 @@ pub(super) fn legend(canvas: &Canvas<'_>, q: &Quantities<'_>) -> Vec<Span> {
     if names.is_empty() {
         return Vec::new();
     }
-    let sign = Marker::Diamond.symbol(canvas.look.glyphs);
+    let sign = Marker::Diamond.symbol(canvas.style.glyphs);
     vec![canvas.span(Role::Warn, format!("  {sign} {}", names.join(", ")))]
 }

@@ -42,9 +42,9 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, menu: &Menu) {
         let area = row(list, place - first);
         let marked = menu.marked.contains(index);
         let mark = if marked {
-            canvas.look.glyphs.pick("✓", "*")
+            canvas.style.glyphs.pick("✓", "*")
         } else if place == menu.selected {
-            canvas.look.glyphs.pick("›", ">")
+            canvas.style.glyphs.pick("›", ">")
         } else {
             " "
         };
@@ -117,7 +117,7 @@ fn about(canvas: &Canvas<'_>, menu: &Menu, (width, height): (u16, u16)) -> u16 {
 
 /// The keys of an item as they are labelled on keyboards.
 fn keys_of(canvas: &Canvas<'_>, item: &Item) -> String {
-    named(&item.keys, canvas.look)
+    named(&item.keys, canvas.style)
 }
 
 /// The columns of the rows.

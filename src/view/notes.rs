@@ -9,7 +9,7 @@ use super::theme::Role;
 use crate::app::Lab;
 
 /// Builds the page.
-pub(super) fn document(lab: &Lab, look: &RenderStyle) -> TextPage {
+pub(super) fn document(lab: &Lab, style: &RenderStyle) -> TextPage {
     let model = &lab.loaded.model;
     let mut page = TextPage::default();
     page.heading(&model.info.title);
@@ -29,9 +29,9 @@ pub(super) fn document(lab: &Lab, look: &RenderStyle) -> TextPage {
     if !model.parameters.is_empty() {
         page.heading("Parameters");
         for p in &model.parameters {
-            let name = look.glyphs.pick(&p.shown, &p.name);
+            let name = style.glyphs.pick(&p.shown, &p.name);
             let unit = if p.unit.is_empty() { String::new() } else { format!(" {}", p.unit) };
-            let value = brief(p.value, 6, look.glyphs);
+            let value = brief(p.value, 6, style.glyphs);
             page.formula(name, format!("{value}{unit}"), &p.about);
         }
     }
@@ -46,8 +46,8 @@ pub(super) fn document(lab: &Lab, look: &RenderStyle) -> TextPage {
     for value in values {
         page.gap();
         page.words(Role::Text, format!("{}:", value.name));
-        let is = brief(value.is, 12, look.glyphs);
-        let when = brief(value.at, 6, look.glyphs);
+        let is = brief(value.is, 12, style.glyphs);
+        let when = brief(value.at, 6, style.glyphs);
         let source =
             if value.source.is_empty() { String::new() } else { format!(" — {}", value.source) };
         page.words(Role::Dim, format!("{is} at t = {when}{source}"));

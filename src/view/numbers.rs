@@ -18,7 +18,7 @@ type ChannelGroup = (&'static str, fn(&ChannelKind) -> bool);
 /// Builds the page.
 pub(super) fn document(q: &Quantities<'_>) -> TextPage {
     let mut page = TextPage::default();
-    let glyphs = q.look.glyphs;
+    let glyphs = q.style.glyphs;
     page.heading("State");
     let unit = q.lab.loaded.model.time_unit();
     page.value("t", &readable(q.snapshot.time, 10, glyphs), unit, Vec::new());
@@ -81,7 +81,7 @@ fn equilibria(page: &mut TextPage, q: &Quantities<'_>) {
         return;
     }
     page.heading("Equilibria");
-    let glyphs = q.look.glyphs;
+    let glyphs = q.style.glyphs;
     for one in present.equilibria {
         let (what, about) = described(present.physics, one);
         page.line(&glyphs.text(&format!("{what}; {about}")));
@@ -104,7 +104,7 @@ fn beside(page: &mut TextPage, q: &Quantities<'_>) {
     }
     page.heading("Beside this motion");
     for (one, (_, separation)) in q.snapshot.companions.iter().zip(q.snapshot.separations.iter()) {
-        let glyphs = q.look.glyphs;
+        let glyphs = q.style.glyphs;
         let (name, value, rest) = companions::words(one, separation, glyphs);
         page.value(&name, &value, "", vec![(Role::Dim, format!("  {rest}"))]);
     }
@@ -118,7 +118,7 @@ fn occurrences(page: &mut TextPage, q: &Quantities<'_>) {
     }
     page.heading("What happened");
     for EventCount { name, count, last } in event_log.tallies() {
-        let last = readable(*last, 10, q.look.glyphs);
+        let last = readable(*last, 10, q.style.glyphs);
         let rest = vec![(Role::Dim, format!(", last at t = {last}"))];
         let times = if *count == 1 { "time" } else { "times" };
         page.value(name, &count.to_string(), times, rest);

@@ -158,7 +158,7 @@ fn list(canvas: &mut Canvas<'_>, area: Rect, picker: &Picker) {
             ListLine::Above(above) => {
                 canvas.target(area, HitTarget::Above(*above));
                 let selected = picker.selected_above() == Some(*above);
-                let mark = if selected { canvas.look.glyphs.pick("›", ">") } else { " " };
+                let mark = if selected { canvas.style.glyphs.pick("›", ">") } else { " " };
                 canvas.left(columns(area, 1, 1), Role::Accent, mark);
                 let field = columns(area, 3, area.width.saturating_sub(4));
                 let label = match (above, picker.session()) {
@@ -168,7 +168,7 @@ fn list(canvas: &mut Canvas<'_>, area: Rect, picker: &Picker) {
                     (Above::Unsaved, _) => {
                         let title = canvas.text(picker.unsaved().unwrap_or_default());
                         let room = usize::from(field.width).saturating_sub("Unsaved: ".len());
-                        let mark = canvas.look.glyphs.pick("…", "~");
+                        let mark = canvas.style.glyphs.pick("…", "~");
                         format!("Unsaved: {}", ending(&title, room, mark))
                     }
                     (Above::Guides, _) => canvas.text("Lessons and demos …"),
@@ -182,7 +182,7 @@ fn list(canvas: &mut Canvas<'_>, area: Rect, picker: &Picker) {
             ListLine::System(place, entry, fit) => {
                 canvas.target(area, HitTarget::System(*place));
                 let selected = picker.is_selected(*place);
-                let mark = if selected { canvas.look.glyphs.pick("›", ">") } else { " " };
+                let mark = if selected { canvas.style.glyphs.pick("›", ">") } else { " " };
                 canvas.left(columns(area, 1, 1), Role::Accent, mark);
                 let role = if entry.fault.is_some() { Role::Bad } else { Role::Text };
                 let name = columns(area, 3, area.width.saturating_sub(4));
@@ -207,7 +207,7 @@ fn ends_of_titles<'a>(
     if picker.sought().is_some() {
         return HashMap::new();
     }
-    let mark = canvas.look.glyphs.pick("…", "~");
+    let mark = canvas.style.glyphs.pick("…", "~");
     let mut long: HashMap<String, Vec<&String>> = HashMap::new();
     for title in picker.entries.iter().map(|entry| &entry.info.title) {
         if title.width() > width {
@@ -242,13 +242,13 @@ const LEAST_TITLE: usize = 6;
 fn continuation(canvas: &Canvas<'_>, picker: &Picker, session: &Saved, width: usize) -> String {
     let title = canvas.text(&picker.title_of(session));
     let Some(present) = &session.moment.present else { return format!("Continue: {title}") };
-    let time = brief(present.time, 2, canvas.look.glyphs);
+    let time = brief(present.time, 2, canvas.style.glyphs);
     let unit = canvas.text(&session.time_unit);
     let time = format!(", t = {time} {unit}").trim_end().to_owned();
     let room = width.saturating_sub("Continue: ".len());
     let beside = room.saturating_sub(time.width());
     let (room, time) = if beside < LEAST_TITLE { (room, "") } else { (beside, time.as_str()) };
-    let title = shortened(&title, room, canvas.look.glyphs.pick("…", "~"));
+    let title = shortened(&title, room, canvas.style.glyphs.pick("…", "~"));
     format!("Continue: {title}{time}")
 }
 
@@ -297,7 +297,7 @@ fn preview(canvas: &mut Canvas<'_>, area: Rect, app: &App, entry: &CatalogEntry)
         return;
     }
     let lab = app.lab.as_ref().filter(|lab| lab.loaded.name == entry.name);
-    let Some((q, lab)) = lab.and_then(|lab| Some((Quantities::of(lab, canvas.look)?, lab))) else {
+    let Some((q, lab)) = lab.and_then(|lab| Some((Quantities::of(lab, canvas.style)?, lab))) else {
         let message = match app.loading() {
             Some(name) if name == entry.name => "Loading; Esc cancels.".to_owned(),
             Some(name) => format!("Loading {name}; Esc cancels."),

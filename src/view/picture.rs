@@ -27,7 +27,7 @@ const KEY_ROWS: usize = 3;
 /// a curve may be in the way, else in the widest room. Those that a row has no room for stand in the next one, and over the picture
 /// rather than nowhere.
 fn keys_above(canvas: &mut Canvas<'_>, area: Rect, keys: &[Span]) {
-    let mark = canvas.look.glyphs.pick("…", "~");
+    let mark = canvas.style.glyphs.pick("…", "~");
     let rows = KEY_ROWS.min(area.height.into());
     let mut rest = keys;
     for index in 0..rows {
@@ -88,7 +88,7 @@ pub(super) fn draw(
             Some(DrawnAxis::new("t", q.lab.loaded.model.time_unit(), scale))
         }
         Across::Named(name, [from, to]) => {
-            let name = q.look.glyphs.text(&name).into_owned();
+            let name = q.style.glyphs.text(&name).into_owned();
             Some(DrawnAxis::new(name, "", through(Scale::linear(from, to), (viewport, 0))))
         }
         Across::Time => {
@@ -103,9 +103,9 @@ pub(super) fn draw(
         }
         Picture::Axes { upwards, layers, occurrences } => (upwards, layers, occurrences),
     };
-    let look = canvas.look;
+    let style = canvas.style;
     let (whole, zoomable) = (area, !q.lab.focus.zoomed);
-    let (area, beside) = legend::beside(whole, (&layers, zoomable), canvas.look);
+    let (area, beside) = legend::beside(whole, (&layers, zoomable), canvas.style);
     let mut axes = Axes::new(across?, axis_upwards(q, &upwards, viewport));
     if let Across::Channel(x, None) = plot.kind.across(context)
         && let Upwards::Channel(y, None) = upwards
@@ -129,11 +129,11 @@ pub(super) fn draw(
         axes
     };
     if let Across::Time = plot.kind.across(context) {
-        let cells = axes.frame(area, look.glyphs).area.width;
+        let cells = axes.frame(area, style.glyphs).area.width;
         axes.x.scale = time_window(q, viewport, cells);
     }
-    let frame = axes.draw(area, canvas.buffer, &look.theme, look.glyphs);
-    let mut raster = Raster::new(frame.area, look.glyphs);
+    let frame = axes.draw(area, canvas.buffer, &style.theme, style.glyphs);
+    let mut raster = Raster::new(frame.area, style.glyphs);
     let is_line = |(_, layer): &(Level, Layer)| matches!(layer, Layer::Line(..));
     for run in layers.chunk_by(|a, b| is_line(a) && is_line(b)) {
         if run.len() > 1 {
@@ -150,7 +150,7 @@ pub(super) fn draw(
             Some([x?, y?])
         };
         let marks = Marks::of(q, place);
-        marks.draw(&mut raster, &frame, &Pen::new(look.theme[Role::Warn], level));
+        marks.draw(&mut raster, &frame, &Pen::new(style.theme[Role::Warn], level));
         marks
     });
     prediction::draw(canvas, &mut raster, &frame, (q, plot));
@@ -192,15 +192,15 @@ fn axis_upwards(q: &Quantities<'_>, upwards: &Upwards, viewport: Viewport) -> Dr
         }
         Upwards::Annotated { channel, range, words } => {
             let axis = q.axis(*channel, *range, (viewport, 1));
-            let words = q.look.glyphs.text(words);
+            let words = q.style.glyphs.text(words);
             let unit =
                 if axis.unit.is_empty() { String::new() } else { format!(" [{}]", axis.unit) };
             DrawnAxis::new(format!("{}{unit}   {words}", axis.title), "", axis.scale)
         }
         Upwards::Named(name, [low, high]) => {
             let (lo, hi) = nice_range(*low, *high);
-            let name = with_powers(name, q.look.glyphs);
-            let name = q.look.glyphs.text(&name);
+            let name = with_powers(name, q.style.glyphs);
+            let name = q.style.glyphs.text(&name);
             DrawnAxis::new(name, "", through(Scale::linear(lo, hi), (viewport, 1)))
         }
     }
@@ -215,7 +215,7 @@ fn draw_lines(
 ) {
     let mut cache = std::mem::take(&mut canvas.cache);
     raster.lay(cache.lines(lines, frame, || {
-        let mut fresh = Raster::new(frame.area, canvas.look.glyphs);
+        let mut fresh = Raster::new(frame.area, canvas.style.glyphs);
         for (level, layer) in lines {
             draw_layer(canvas, &mut fresh, (frame, q), (*level, layer));
         }
@@ -230,12 +230,12 @@ fn draw_layer(
     (frame, q): (&PlotFrame, &Quantities<'_>),
     (level, layer): (Level, &Layer),
 ) {
-    let look = canvas.look;
+    let style = canvas.style;
     match layer {
         Layer::Landscape(landscape) => {
             let mut cache = std::mem::take(&mut canvas.cache);
             raster.lay(cache.levels(landscape, (frame, level), || {
-                let mut fresh = Raster::new(frame.area, look.glyphs);
+                let mut fresh = Raster::new(frame.area, style.glyphs);
                 level_curves::draw(canvas, &mut fresh, frame, landscape, level);
                 fresh
             }));
@@ -250,22 +250,22 @@ fn draw_layer(
                 _ => (Track::Channels([*x, *y]), f64::NEG_INFINITY),
             };
             let key = TrailKey { epoch: q.snapshot.epoch, motion: 0, frame: *frame, track };
-            let trail = canvas.cache.trail(key, (rows, look.glyphs), |row| {
+            let trail = canvas.cache.trail(key, (rows, style.glyphs), |row| {
                 let recent = rows.order(*row.first()?) >= begin;
                 recent.then_some([*row.get(1 + x)?, *row.get(1 + y)?, 0.0])
             });
-            let ramp = look.theme.trail(0);
+            let ramp = style.theme.trail(0);
             let since = cache::since(rows, ramp.len());
             let ages = Ages { since: &since, ramp, layer: level, behind: None };
             trail.draw(raster, ages, [q.value(*x), q.value(*y)]);
         }
         Layer::Curve { index, channel } => {
             let now = [q.snapshot.time, q.value(*channel)];
-            let shade = look.theme.series(*index);
+            let shade = style.theme.series(*index);
             let since = frame.x.lo - (frame.x.hi - frame.x.lo);
             let track = Track::Curve(*channel, shade.dash, since);
             let key = TrailKey { epoch: q.snapshot.epoch, motion: 0, frame: *frame, track };
-            let trail = canvas.cache.trail(key, (&q.snapshot.trail, look.glyphs), |row| {
+            let trail = canvas.cache.trail(key, (&q.snapshot.trail, style.glyphs), |row| {
                 Some([*row.first()?, *row.get(1 + channel)?, 0.0])
             });
             let since = [f64::MIN];
@@ -274,7 +274,7 @@ fn draw_layer(
         Layer::Line(points, stroke) => {
             let pen = match stroke.ink {
                 // Without colour, or where colours repeat, a curve differs from others by its dashes.
-                Ink::Curve(index) => Pen::shaded(canvas.look.theme.series(index), level),
+                Ink::Curve(index) => Pen::shaded(canvas.style.theme.series(index), level),
                 ink => pen(canvas, ink, level),
             };
             let pen = match stroke.covering {
@@ -294,10 +294,10 @@ fn draw_layer(
             }
         }
         Layer::Cloud(points) => {
-            raster.cloud(frame, points.iter().copied(), look.theme.density(), level);
+            raster.cloud(frame, points.iter().copied(), style.theme.density(), level);
         }
         Layer::Bands(points, curve) => {
-            raster.bands(frame, points.iter().copied(), look.theme.trail(*curve), level);
+            raster.bands(frame, points.iter().copied(), style.theme.trail(*curve), level);
         }
         Layer::Field(found) => field::draw(canvas, frame, found),
         Layer::Crossings { section, channels, ink } => {

@@ -28,7 +28,7 @@ pub(super) fn title(
         pieces = keys(canvas, q, &heading, &curves, room);
     }
     if let Some(eye) = plot.eye().filter(|eye| eye.zoom != 1.0) {
-        let zoom = super::number::brief(eye.zoom, 2, canvas.look.glyphs);
+        let zoom = super::number::brief(eye.zoom, 2, canvas.style.glyphs);
         pieces.push(vec![canvas.span(Role::Dim, format!("  ×{zoom}"))]);
     }
     if let Some(status) = q.lab.under_way(plot).and_then(crate::app::UnderWay::status) {
@@ -40,7 +40,7 @@ pub(super) fn title(
 /// An entry of a heading other than a curve.
 fn piece(canvas: &Canvas<'_>, q: &Quantities<'_>, entry: &Entry) -> Vec<Span> {
     let valued = |name: &str, value: f64| {
-        let value = readable(value, 4, canvas.look.glyphs);
+        let value = readable(value, 4, canvas.style.glyphs);
         vec![
             canvas.span(Role::Dim, format!("  {name}")),
             canvas.span(Role::Accent, format!(" {value:<8}")),
@@ -50,11 +50,11 @@ fn piece(canvas: &Canvas<'_>, q: &Quantities<'_>, entry: &Entry) -> Vec<Span> {
         Entry::Channel(channel) => valued(&q.name(*channel), q.value(*channel)),
         Entry::Number(name, value) => valued(name, *value),
         Entry::Words(words) => {
-            let words = with_powers(words, canvas.look.glyphs);
+            let words = with_powers(words, canvas.style.glyphs);
             vec![canvas.span(Role::Dim, format!("  {words}"))]
         }
         Entry::Key(ink, words) => {
-            let glyphs = canvas.look.glyphs;
+            let glyphs = canvas.style.glyphs;
             let (mark, style) = match (colourless_mark(canvas, *ink), ink) {
                 (Some(shape), _) => (marker(shape).symbol(glyphs), canvas.style(Role::Text)),
                 (None, Ink::Level) if is_colourless(canvas) => {
@@ -89,7 +89,7 @@ fn keys(
     let head = vec![canvas.span(Role::Title, &heading.title)];
     let named = || curves.iter().map(|(index, channel)| key(canvas, q, *index, *channel));
     let valued = named().zip(curves).map(|(mut key, (_, channel))| {
-        let value = readable(q.value(*channel), 4, canvas.look.glyphs);
+        let value = readable(q.value(*channel), 4, canvas.style.glyphs);
         key.push(canvas.span(Role::Accent, format!(" {value:<8}")));
         key
     });
@@ -111,13 +111,13 @@ fn keys(
 
 /// A sample of a curve's line, and its name.
 fn key(canvas: &Canvas<'_>, q: &Quantities<'_>, index: usize, channel: usize) -> Vec<Span> {
-    let theme = &canvas.look.theme;
+    let theme = &canvas.style.theme;
     let dash = theme.series(index).dash;
     let [unicode, ascii] = dash.sample();
-    let sample = canvas.look.glyphs.pick(unicode, ascii);
+    let sample = canvas.style.glyphs.pick(unicode, ascii);
     // A colour is visible on one character; a pattern needs three.
     let plain = theme.depth() != ColourDepth::None && dash == Dash::Full;
-    let mark = if plain { canvas.look.glyphs.pick("━", "-") } else { sample };
+    let mark = if plain { canvas.style.glyphs.pick("━", "-") } else { sample };
     vec![(format!("  {mark} "), theme.curve(index)), canvas.span(Role::Dim, q.name(channel))]
 }
 

@@ -18,7 +18,7 @@ const PLACES: [Place; 3] = [Place::Plain, Place::Experiment, Place::Anywhere];
 /// Builds the page.
 pub(super) fn document(q: &Quantities<'_>) -> TextPage {
     let mut page = TextPage::default();
-    let mut write = |text: String| page.line(&q.look.glyphs.text(&text));
+    let mut write = |text: String| page.line(&q.style.glyphs.text(&text));
     let (lab, snapshot) = (q.lab, q.snapshot);
     let info = &lab.loaded.model.info;
     write(format!("{}.", info.title));
@@ -46,27 +46,27 @@ pub(super) fn document(q: &Quantities<'_>) -> TextPage {
         if channel.name.is_empty() || channels[..index].iter().any(|c| c.name == channel.name) {
             continue;
         }
-        let is = readable(q.value(index), 8, q.look.glyphs);
+        let is = readable(q.value(index), 8, q.style.glyphs);
         write(format!("{} is {is}{}", q.name(index), after(&channel.unit)));
     }
     write(format!("Gauges, {}:", snapshot.gauges.len()));
     for gauge in snapshot.gauges.iter() {
-        let shown = q.look.glyphs.pick(&gauge.shown, &gauge.name);
+        let shown = q.style.glyphs.pick(&gauge.shown, &gauge.name);
         let called =
             if *shown == gauge.name { String::new() } else { format!(" ({})", gauge.name) };
         let verdict = match in_full(&gauge.verdict).0 {
             "…" => "open",
             word => word,
         };
-        let moved = match change(gauge, usize::MAX, q.look.glyphs) {
+        let moved = match change(gauge, usize::MAX, q.style.glyphs) {
             Some(by) => format!("changed by {by}"),
-            None => format!("drift {}", drift(gauge.drift, q.look.glyphs)),
+            None => format!("drift {}", drift(gauge.drift, q.style.glyphs)),
         };
         write(format!(
             "{shown}{called} is {}; {moved} since t = {}; {verdict}: {}. Reason: {}.",
-            readable(gauge.value, 8, q.look.glyphs),
-            brief(gauge.reference_time, 6, q.look.glyphs),
-            finding(gauge, q.look.glyphs),
+            readable(gauge.value, 8, q.style.glyphs),
+            brief(gauge.reference_time, 6, q.style.glyphs),
+            finding(gauge, q.style.glyphs),
             gauge.reason
         ));
     }
@@ -74,7 +74,7 @@ pub(super) fn document(q: &Quantities<'_>) -> TextPage {
         write(format!("Beside this motion, {}:", snapshot.companions.len()));
     }
     for (one, (_, separation)) in snapshot.companions.iter().zip(snapshot.separations.iter()) {
-        let (name, value, rest) = companions::words(one, separation, q.look.glyphs);
+        let (name, value, rest) = companions::words(one, separation, q.style.glyphs);
         write(format!("{name}: {value}; {rest}"));
     }
     notifications(snapshot, q, &mut write);
@@ -104,7 +104,7 @@ fn notifications(snapshot: &Snapshot, q: &Quantities<'_>, write: &mut impl FnMut
             write(format!(
                 "{} at t = {}",
                 occurrence.name,
-                brief(occurrence.time, 6, q.look.glyphs)
+                brief(occurrence.time, 6, q.style.glyphs)
             ));
         }
     }
@@ -125,17 +125,17 @@ fn value(q: &Quantities<'_>, target: ValueId) -> String {
         }
         ValueId::Initial(index) => q.snapshot.initial.get(index).copied(),
     };
-    let is = number.map_or_else(|| "not known".to_owned(), |v| brief(v, 6, q.look.glyphs));
+    let is = number.map_or_else(|| "not known".to_owned(), |v| brief(v, 6, q.style.glyphs));
     let is = if facts.ramped { format!("now {is}, ramped") } else { is };
     let about = if facts.about.is_empty() { String::new() } else { format!(", {}", facts.about) };
     let range = facts.range.map_or_else(String::new, |(min, max, _)| {
-        format!(", from {} to {}", brief(min, 4, q.look.glyphs), brief(max, 4, q.look.glyphs))
+        format!(", from {} to {}", brief(min, 4, q.style.glyphs), brief(max, 4, q.style.glyphs))
     });
     format!("{} is {is}{}{about}{range}", name(q, &facts), after(&facts.unit))
 }
 
 fn name(q: &Quantities<'_>, facts: &ValueInfo) -> String {
-    q.look.glyphs.pick(&facts.shown, &facts.name).clone()
+    q.style.glyphs.pick(&facts.shown, &facts.name).clone()
 }
 
 /// A unit after its number.

@@ -27,7 +27,7 @@ pub(super) fn draw(
     (q, plot): (&Quantities<'_>, &Plot),
 ) {
     let Some(prediction) = shown(q, plot) else { return };
-    let pen = |role: Role, level| Pen::new(canvas.look.theme[role], level);
+    let pen = |role: Role, level| Pen::new(canvas.style.theme[role], level);
     let (found, predicted) = (pen(Role::Good, FOUND), pen(Role::Warn, PREDICTED));
     raster.polyline(frame, prediction.outcome.iter().copied(), &found);
     if let ([only], false) = (prediction.outcome.as_slice(), prediction.is_curve) {

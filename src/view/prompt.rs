@@ -180,7 +180,7 @@ impl PromptRows<'_, '_> {
         let body = if inquiry.weight(e) > MOST {
             format!("… ({} pieces: phaselab bracket prints them)", inquiry.weight(e))
         } else {
-            inquiry.written(e, !self.canvas.look.glyphs.is_ascii())
+            inquiry.written(e, !self.canvas.style.glyphs.is_ascii())
         };
         let (head, body) = (self.canvas.text(head), self.canvas.text(&body));
         let beside = head.width() <= self.width / 2;
@@ -208,7 +208,7 @@ impl PromptRows<'_, '_> {
 
     /// The bracket in the new variables of a transformation: its value and, if it is known, its form.
     fn chart(&mut self, lab: &Lab, inquiry: &Inquiry, chart: &ChartBracket) {
-        let variables = inquiry.variables(chart, !self.canvas.look.glyphs.is_ascii());
+        let variables = inquiry.variables(chart, !self.canvas.style.glyphs.is_ascii());
         let what = self.canvas.text(&format!("In {variables} of `{}`", chart.name));
         self.number(&what, inquiry.value_in(chart, &lab.valuation()));
         if let Ok(e) = chart.bracket {
@@ -219,7 +219,7 @@ impl PromptRows<'_, '_> {
     fn number(&mut self, what: &str, value: Option<f64>) {
         let text = value.map_or_else(
             || "not known here".to_owned(),
-            |value| readable(value, 10, self.canvas.look.glyphs),
+            |value| readable(value, 10, self.canvas.style.glyphs),
         );
         self.lines.push(vec![
             (format!("{what} "), self.canvas.style(Role::Dim)),

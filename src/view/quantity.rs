@@ -16,18 +16,18 @@ use crate::model::Point;
 pub(super) struct Quantities<'a> {
     pub(super) lab: &'a Lab,
     pub(super) snapshot: &'a Snapshot,
-    pub(super) look: &'a RenderStyle,
+    pub(super) style: &'a RenderStyle,
 }
 
 impl<'a> Quantities<'a> {
     /// The quantities in the lab's newest snapshot, or `None` if there is none.
-    pub(super) fn of(lab: &'a Lab, look: &'a RenderStyle) -> Option<Self> {
-        Some(Self { lab, snapshot: lab.seen()?, look })
+    pub(super) fn of(lab: &'a Lab, style: &'a RenderStyle) -> Option<Self> {
+        Some(Self { lab, snapshot: lab.seen()?, style })
     }
 
     /// The quantities in a snapshot, or `None` if it does not fit the system.
-    pub(super) fn at(lab: &'a Lab, snapshot: &'a Snapshot, look: &'a RenderStyle) -> Option<Self> {
-        lab.fits(snapshot).then_some(Self { lab, snapshot, look })
+    pub(super) fn at(lab: &'a Lab, snapshot: &'a Snapshot, style: &'a RenderStyle) -> Option<Self> {
+        lab.fits(snapshot).then_some(Self { lab, snapshot, style })
     }
 
     /// The same data in the form that instruments take.
@@ -38,9 +38,9 @@ impl<'a> Quantities<'a> {
     /// A channel's name as this terminal shows it.
     pub(super) fn name(&self, channel: usize) -> String {
         let channels = self.lab.loaded.system.channels();
-        let name = |c: &crate::system::Channel| self.look.glyphs.pick(&c.shown, &c.name).clone();
+        let name = |c: &crate::system::Channel| self.style.glyphs.pick(&c.shown, &c.name).clone();
         let name = channels.get(channel).map_or_else(|| "?".to_owned(), name);
-        self.look.glyphs.text(&name).into_owned()
+        self.style.glyphs.text(&name).into_owned()
     }
 
     /// A channel's unit, or an empty text.

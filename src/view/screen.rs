@@ -12,7 +12,6 @@ use super::equations;
 use super::help;
 use super::lab_page;
 use super::layout::{LEAST, ScreenLayout, split_rows};
-use super::look::RenderStyle;
 use super::menu;
 use super::notes;
 use super::numbers;
@@ -20,6 +19,7 @@ use super::picker;
 use super::plain;
 use super::prompt;
 use super::quantity::Quantities;
+use super::render_style::RenderStyle;
 use super::report;
 use super::text_page::{TextPage, measure};
 use super::theme::Role;
@@ -29,8 +29,8 @@ use super::{footer, header};
 use crate::app::{App, Drawn, EquationsSection, HitTarget, KeyHints, Lab, Overlay, Page};
 
 /// Draws the whole screen over a blank area, and returns how far its page of text can be scrolled.
-pub fn draw(app: &App, look: &RenderStyle, area: Rect, buffer: &mut Buffer) -> Drawn {
-    Painter::default().draw(app, look, area, buffer)
+pub fn draw(app: &App, style: &RenderStyle, area: Rect, buffer: &mut Buffer) -> Drawn {
+    Painter::default().draw(app, style, area, buffer)
 }
 
 /// Draws one screen after the other, the same as [`draw`], and keeps what does not change between them.
@@ -50,15 +50,15 @@ impl Painter {
     pub fn draw(
         &mut self,
         app: &App,
-        look: &RenderStyle,
+        style: &RenderStyle,
         area: Rect,
         buffer: &mut Buffer,
     ) -> Drawn {
-        let themed = look.chosen_by(app);
-        let look = themed.as_ref().unwrap_or(look);
-        let mut canvas = Canvas::over(buffer, look);
+        let themed = style.chosen_by(app);
+        let style = themed.as_ref().unwrap_or(style);
+        let mut canvas = Canvas::over(buffer, style);
         canvas.cache = std::mem::take(&mut self.cache);
-        canvas.cache.begin(look);
+        canvas.cache.begin(style);
         let drawn = paint(&mut canvas, app, area);
         let cursor = canvas.cursor.map(|at| (at.x, at.y));
         self.cache = canvas.cache;
@@ -152,11 +152,11 @@ fn body(canvas: &mut Canvas<'_>, area: Rect, app: &App) -> Drawn {
 }
 
 fn text_page(canvas: &mut Canvas<'_>, area: Rect, (app, lab): (&App, &Lab), page: Page) -> Drawn {
-    let look = canvas.look;
+    let style = canvas.style;
     if page == Page::Plain {
         canvas.target(area, HitTarget::Text);
         let snapshot = app.reading.snapshot.as_deref().or(lab.seen());
-        let read = snapshot.and_then(|seen| Quantities::at(lab, seen, look));
+        let read = snapshot.and_then(|seen| Quantities::at(lab, seen, style));
         let document = read.map(|q| plain::document(&q)).unwrap_or_default();
         return document.read(canvas, area, app.reading.line);
     }
@@ -166,11 +166,11 @@ fn text_page(canvas: &mut Canvas<'_>, area: Rect, (app, lab): (&App, &Lab), page
                 EquationsSection::Constants => constants::CONSTANTS,
                 EquationsSection::Brackets => constants::BRACKETS,
             });
-            ("Equations", equations::document(lab, look).from(section))
+            ("Equations", equations::document(lab, style).from(section))
         }
-        Page::Notes => ("Notes", notes::document(lab, look)),
+        Page::Notes => ("Notes", notes::document(lab, style)),
         _ => {
-            let numbers = Quantities::of(lab, look).map(|q| numbers::document(&q).balanced());
+            let numbers = Quantities::of(lab, style).map(|q| numbers::document(&q).balanced());
             ("Numbers", numbers.unwrap_or_default())
         }
     };

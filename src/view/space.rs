@@ -78,7 +78,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
     let (above, area) = legend_above(area, &lines);
     legend(canvas, above, &lines);
     let frame = scene.frame(&camera, area);
-    let raster = Raster::new(area, canvas.look.glyphs);
+    let raster = Raster::new(area, canvas.style.glyphs);
     let depth = DepthBuffer::new(&frame, raster.size());
     let mut artist = ScenePainter {
         mechanics,
@@ -88,8 +88,8 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
         labels: Vec::new(),
         surfaces: Vec::new(),
         depth,
-        shading: Shading::new(area, canvas.look.glyphs),
-        edges: Raster::new(area, canvas.look.glyphs),
+        shading: Shading::new(area, canvas.style.glyphs),
+        edges: Raster::new(area, canvas.style.glyphs),
         raster,
         frame,
         camera,
@@ -132,7 +132,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
     artist
         .edges
         .draw_on_blank(canvas.buffer, |index, at| shading.has_edges(index) && !is_written(at));
-    shading.draw(canvas.buffer, &canvas.look.theme, is_written);
+    shading.draw(canvas.buffer, &canvas.style.theme, is_written);
 }
 
 /// Draws the shapes of a scene.
@@ -180,7 +180,7 @@ impl<'a> ScenePainter<'a> {
 
 impl ScenePainter<'_> {
     fn shape(&mut self, shape: &Shape, cache: &mut FrameCache) {
-        let theme = &self.q.look.theme;
+        let theme = &self.q.style.theme;
         let solid = Pen::new(theme[Role::Text], SOLID);
         let ground = Pen::shaded(theme.line(Role::Level), GROUND);
         match shape {
@@ -336,7 +336,7 @@ impl ScenePainter<'_> {
     /// Draws a point mass: a disc of its radius, or a marker if that is smaller than a cell.
     fn mass(&mut self, point: &Point, radius: Option<f64>) {
         let at = self.point(point);
-        let style = self.q.look.theme.curve(self.colour(point));
+        let style = self.q.style.theme.curve(self.colour(point));
         let pen = Pen::new(style, BODY);
         let centre = self.flat(at);
         let drawn = radius.map(f64::abs).filter(|radius| self.cells(*radius).is_some());
@@ -367,7 +367,7 @@ impl ScenePainter<'_> {
         let edges: Vec<_> =
             outline.pieces.iter().map(|piece| (piece.extents, placed(&piece.edges))).collect();
         let points: Vec<_> = outline.points.iter().map(place).collect();
-        let theme = &self.q.look.theme;
+        let theme = &self.q.style.theme;
         for line in axes {
             self.curve(&line, &Pen::shaded(theme.line(Role::Separatrix), TRACK));
         }

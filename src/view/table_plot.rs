@@ -39,7 +39,7 @@ pub struct TablePlot {
 
 /// The lines of the drawing.
 pub fn drawn(plot: &TablePlot, [columns, rows]: [u16; 2], glyphs: Glyphs) -> String {
-    let look = RenderStyle { theme: Theme::new(&PALETTES[0], ColourDepth::None), glyphs };
+    let style = RenderStyle { theme: Theme::new(&PALETTES[0], ColourDepth::None), glyphs };
     let area = Rect::new(0, 0, columns, rows);
     let mut buffer = Buffer::empty(area);
     let ends = |k: usize| {
@@ -65,7 +65,7 @@ pub fn drawn(plot: &TablePlot, [columns, rows]: [u16; 2], glyphs: Glyphs) -> Str
     let above = u16::from(!head.is_empty());
     let inside = Rect { y: above, height: rows - above, ..area };
     let axes = Axes::new(axis(&plot.x, 0), axis(&plot.y, 1));
-    let frame = axes.draw(inside, &mut buffer, &look.theme, glyphs);
+    let frame = axes.draw(inside, &mut buffer, &style.theme, glyphs);
     if plot.of.is_some() {
         let wide = usize::from(frame.area.width);
         // halves, since the difference of two numbers may be larger than any
@@ -96,7 +96,7 @@ pub fn drawn(plot: &TablePlot, [columns, rows]: [u16; 2], glyphs: Glyphs) -> Str
         }
     } else {
         let mut raster = Raster::new(frame.area, glyphs);
-        let pen = Pen::new(look.theme[Role::Text], 0);
+        let pen = Pen::new(style.theme[Role::Text], 0);
         let points = plot.points.iter().map(|[x, y, _]| [*x, *y]);
         if plot.stems {
             for at in points {

@@ -68,7 +68,7 @@ pub(super) fn of(
         sharing.iter().filter_map(|index| Some((*index, q.lab.plots.get(*index)?))).collect();
     let labels = distinct(q, &all);
     let place = all.iter().position(|(index, _)| *index == shown)?;
-    let line = canvas.look.glyphs.pick(" │ ", " | ");
+    let line = canvas.style.glyphs.pick(" │ ", " | ");
     let fitting = |from: usize| {
         let mut used = 0;
         let fits = |(count, label): &(usize, &String)| {

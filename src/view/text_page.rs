@@ -422,9 +422,9 @@ fn scroll_bar(canvas: &mut Canvas<'_>, area: Rect, first: usize, total: usize) {
     for index in 0..rows {
         let inside = (start..start + long).contains(&index);
         let symbol = if inside {
-            canvas.look.glyphs.pick("┃", "#")
+            canvas.style.glyphs.pick("┃", "#")
         } else {
-            canvas.look.glyphs.pick("│", "|")
+            canvas.style.glyphs.pick("│", "|")
         };
         canvas.left(row(column, index), if inside { Role::Dim } else { Role::Border }, symbol);
     }

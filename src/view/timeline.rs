@@ -31,7 +31,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, snapshot: &Sn
     let Recorded { from, to, .. } = snapshot.recorded;
     // time runs to the right, whichever way the motion took
     let (low, high) = (from.min(to), from.max(to));
-    let glyphs = canvas.look.glyphs;
+    let glyphs = canvas.style.glyphs;
     let ends = [low, high].map(|time| brief(time, 4, glyphs));
     let words = ends.iter().map(|text| text.width() as u16 + 1).sum::<u16>();
     if area.width < words + SHORTEST {

@@ -80,7 +80,7 @@ impl ValueList<'_> {
 
     /// The bars have what names, numbers and units leave.
     fn columns(&self, canvas: &Canvas<'_>, count: usize, width: u16) -> ListColumns {
-        let glyphs = canvas.look.glyphs;
+        let glyphs = canvas.style.glyphs;
         let facts: Vec<ValueInfo> =
             (0..count).filter_map(|i| self.lab.value_info((self.kind)(i))).collect();
         let widest = |text: &dyn Fn(&ValueInfo) -> String, most: u16| {
@@ -97,7 +97,7 @@ impl ValueList<'_> {
         let target = (self.kind)(index);
         let Some(facts) = self.lab.value_info(target) else { return };
         let value = self.lab.current_value(target);
-        let glyphs = canvas.look.glyphs;
+        let glyphs = canvas.style.glyphs;
         canvas.target(area, HitTarget::Value(target));
         let here = self.selected == index;
         let mark = if here { glyphs.pick("›", ">") } else { " " };
@@ -168,7 +168,7 @@ fn bar(
     };
     let filled = canvas.style(if here { Role::Focus } else { Role::Level });
     let rest = canvas.style(Role::Border);
-    let bar = RangeBar { value, scale, filled, rest, glyphs: canvas.look.glyphs };
+    let bar = RangeBar { value, scale, filled, rest, glyphs: canvas.style.glyphs };
     let place = columns(area, 0, area.width.saturating_sub(1).min(30));
     bar.render(place, canvas.buffer);
     canvas.region(place, ScreenRegion::Bar(target, scale));

@@ -32,7 +32,7 @@ const FOOT: u16 = 4;
 const FEW: u16 = 3;
 
 /// Draws the workbench, and the lab if there is room beside it.
-pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App, sheet: &SourceBuffer) -> Drawn {
+pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App, file: &SourceBuffer) -> Drawn {
     let mut left = area;
     if let Some(lab) = app.lab.as_ref().filter(|_| area.width >= WIDE) {
         let (text, beside) = split_columns(area, area.width * 11 / 20);
@@ -50,10 +50,10 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App, sheet: &Sourc
         canvas.beside = false;
         left = text;
     }
-    let place = sheet.editor.cursor();
+    let place = file.editor.cursor();
     let title = [
-        canvas.span(Role::Title, &sheet.title),
-        canvas.span(Role::Warn, if sheet.is_modified() { "  unsaved" } else { "" }),
+        canvas.span(Role::Title, &file.title),
+        canvas.span(Role::Warn, if file.is_modified() { "  unsaved" } else { "" }),
         canvas.span(Role::Dim, format!("  {}:{}", place.row + 1, place.column + 1)),
     ];
     let inner = canvas.pane(left, &title, true);
@@ -63,21 +63,21 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App, sheet: &Sourc
         .shown
         .as_ref()
         .map(|notice| words(&canvas.text(&notice.text), room).len());
-    let foot = rows_below(sheet, notice.unwrap_or(0) as u16, inner.height);
+    let foot = rows_below(file, notice.unwrap_or(0) as u16, inner.height);
     let (text, below) = split_rows(inner, inner.height - foot);
-    let drawn = lines(canvas, text, sheet);
+    let drawn = lines(canvas, text, file);
     let below = columns(below, 1, below.width.saturating_sub(2));
-    self::foot(canvas, below, sheet, (app.notifications.shown.as_ref(), app.lab.is_some()));
+    self::foot(canvas, below, file, (app.notifications.shown.as_ref(), app.lab.is_some()));
     drawn
 }
 
 /// The rows below the text: one for its status, as many as a notification of so many rows needs, or more where there are
 /// errors; a third of few rows, or two where the text is wrong.
-fn rows_below(sheet: &SourceBuffer, notice: u16, height: u16) -> u16 {
-    let wrong = sheet.state == BufferState::Wrong;
-    let wanted = if wrong || sheet.asking.is_some() || !sheet.diagnostics.is_empty() {
-        let others = sheet.diagnostics.len().saturating_sub(1) as u16;
-        FOOT.saturating_add(if sheet.asking.is_some() { 0 } else { others })
+fn rows_below(file: &SourceBuffer, notice: u16, height: u16) -> u16 {
+    let wrong = file.state == BufferState::Wrong;
+    let wanted = if wrong || file.asking.is_some() || !file.diagnostics.is_empty() {
+        let others = file.diagnostics.len().saturating_sub(1) as u16;
+        FOOT.saturating_add(if file.asking.is_some() { 0 } else { others })
     } else {
         notice.clamp(1, FOOT)
     };
@@ -85,21 +85,21 @@ fn rows_below(sheet: &SourceBuffer, notice: u16, height: u16) -> u16 {
 }
 
 /// Draws the text with line numbers and diagnostic marks at its left.
-fn lines(canvas: &mut Canvas<'_>, area: Rect, sheet: &SourceBuffer) -> Drawn {
-    let all = sheet.editor.lines();
+fn lines(canvas: &mut Canvas<'_>, area: Rect, file: &SourceBuffer) -> Drawn {
+    let all = file.editor.lines();
     let digits = all.len().to_string().len().max(2) as u16;
     let margin = digits + 3;
     let body = columns(area, margin, area.width.saturating_sub(margin));
     // The last column is for the mark of a line that continues.
     let wide = body.width.saturating_sub(1);
-    let (first, from) = sheet.follow(area.height.into(), wide.into());
-    let from = in_sight(canvas, sheet, from, wide);
-    let glyphs = canvas.look.glyphs;
+    let (first, from) = file.follow(area.height.into(), wide.into());
+    let from = in_sight(canvas, file, from, wide);
+    let glyphs = canvas.style.glyphs;
     for (index, line) in all.iter().enumerate().skip(first).take(area.height.into()) {
         let at = row(area, index - first);
         let diagnostics: Vec<&BufferDiagnostic> =
-            sheet.diagnostics.iter().filter(|f| f.from.row == index).collect();
-        let here = sheet.editor.cursor().row == index;
+            file.diagnostics.iter().filter(|f| f.from.row == index).collect();
+        let here = file.editor.cursor().row == index;
         if let Some(diagnostic) = diagnostics.first() {
             let role = if diagnostic.warning { Role::Warn } else { Role::Bad };
             canvas.left(columns(at, 0, 1), role, glyphs.pick("✗", "x"));
@@ -108,7 +108,7 @@ fn lines(canvas: &mut Canvas<'_>, area: Rect, sheet: &SourceBuffer) -> Drawn {
         canvas.right(columns(at, 1, digits), role, &(index + 1).to_string());
         // Only the line of the cursor scrolls sideways.
         let from = if here { from } else { 0 };
-        write(canvas, row(body, index - first), (index, line), from, &diagnostics, sheet);
+        write(canvas, row(body, index - first), (index, line), from, &diagnostics, file);
     }
     Drawn { rows: area.height, columns: wide, ..Drawn::default() }
 }
@@ -120,10 +120,10 @@ fn write(
     (index, line): (usize, &str),
     from: usize,
     diagnostics: &[&BufferDiagnostic],
-    sheet: &SourceBuffer,
+    file: &SourceBuffer,
 ) {
-    let selection = sheet.editor.selection();
-    let cursor = sheet.editor.cursor();
+    let selection = file.editor.selection();
+    let cursor = file.editor.cursor();
     let comment = comment(line);
     let plain = if line.trim_start().starts_with('[') { Role::Title } else { Role::Text };
     let mut used = 0;
@@ -135,7 +135,7 @@ fn write(
         if used + width > at.width {
             // The line continues.
             let mark = Rect { x: at.right().saturating_sub(1), width: 1, ..at };
-            canvas.left(mark, Role::Dim, canvas.look.glyphs.pick("…", ">"));
+            canvas.left(mark, Role::Dim, canvas.style.glyphs.pick("…", ">"));
             break;
         }
         let caret = Caret { row: index, column };
@@ -148,7 +148,7 @@ fn write(
         if selection.is_some_and(|(from, to)| from <= caret && caret < to) {
             style = canvas.style(Role::Selected);
         }
-        if caret == cursor && sheet.asking.is_none() {
+        if caret == cursor && file.asking.is_none() {
             style = style.add_modifier(Modifier::REVERSED);
         }
         put(canvas, Position::new(at.x + used, at.y), &shown, style);
@@ -156,7 +156,7 @@ fn write(
     }
     let covered = Caret { row: index, column: from };
     if from > 0 && !line.is_empty() && cursor != covered {
-        canvas.left(columns(at, 0, 1), Role::Dim, canvas.look.glyphs.pick("…", "<"));
+        canvas.left(columns(at, 0, 1), Role::Dim, canvas.style.glyphs.pick("…", "<"));
     }
 }
 
@@ -171,7 +171,7 @@ fn put(canvas: &mut Canvas<'_>, at: Position, shown: &str, style: Style) {
 fn shown<'r>(canvas: &Canvas<'_>, c: char, room: &'r mut [u8; 4]) -> Cow<'r, str> {
     let itself = c.width().is_some_and(|width| width > 0);
     let text: &'r str = c.encode_utf8(room);
-    if itself && (c.is_ascii() || !canvas.look.glyphs.is_ascii()) {
+    if itself && (c.is_ascii() || !canvas.style.glyphs.is_ascii()) {
         return Cow::Borrowed(text);
     }
     let named = canvas.text(text);
@@ -181,9 +181,9 @@ fn shown<'r>(canvas: &Canvas<'_>, c: char, room: &'r mut [u8; 4]) -> Cow<'r, str
 }
 
 /// The first column shown, chosen so that the cursor is visible even if characters take several cells.
-fn in_sight(canvas: &Canvas<'_>, sheet: &SourceBuffer, from: usize, wide: u16) -> usize {
-    let cursor = sheet.editor.cursor();
-    let line = sheet.editor.lines().get(cursor.row).map_or("", String::as_str);
+fn in_sight(canvas: &Canvas<'_>, file: &SourceBuffer, from: usize, wide: u16) -> usize {
+    let cursor = file.editor.cursor();
+    let line = file.editor.lines().get(cursor.row).map_or("", String::as_str);
     let cells = |c: char| shown(canvas, c, &mut [0; 4]).width();
     // This includes the character under the cursor, or the blank after the last.
     let seen = line.chars().chain([' ']).take(cursor.column + 1);
@@ -220,14 +220,14 @@ fn comment(line: &str) -> Option<usize> {
 fn foot(
     canvas: &mut Canvas<'_>,
     area: Rect,
-    sheet: &SourceBuffer,
+    file: &SourceBuffer,
     (notice, runs): (Option<&Notification>, bool),
 ) {
-    if let Some(asking) = &sheet.asking {
+    if let Some(asking) = &file.asking {
         return self::asking(canvas, area, asking, notice);
     }
-    let count = sheet.error_count();
-    let (role, text) = match sheet.state {
+    let count = file.error_count();
+    let (role, text) = match file.state {
         BufferState::Runs => (Role::Dim, "Running this version.".to_owned()),
         BufferState::Rebuilt(None) => {
             (Role::Good, "No errors: this version runs; the motion continues.".to_owned())
@@ -237,7 +237,7 @@ fn foot(
             let time = if time < 10.0 { format!("{time:.1}") } else { format!("{time:.0}") };
             (Role::Good, format!("No errors: rebuilt in {time} ms; the motion continues."))
         }
-        BufferState::Changed if sheet.is_long_checked() => {
+        BufferState::Changed if file.is_long_checked() => {
             (Role::Dim, "This check is slow; Esc stops it.".to_owned())
         }
         BufferState::Changed | BufferState::Left => (Role::Dim, "Checking…".to_owned()),
@@ -258,14 +258,14 @@ fn foot(
         }
     };
     // where there are few rows, the diagnostic is worth more than that there is one
-    let few = area.height < FEW && sheet.diagnostic().is_some();
+    let few = area.height < FEW && file.diagnostic().is_some();
     let used = match notice {
         Some(notice) => draw_notification(canvas, area, notice),
         None if few => 0,
         None => usize::from(canvas.left(row(area, 0), role, &text) > 0),
     };
     let area = Rect { y: area.y + used as u16, height: area.height - used as u16, ..area };
-    let Some(diagnostic) = sheet.diagnostic() else { return };
+    let Some(diagnostic) = file.diagnostic() else { return };
     let (row_of, column) = (diagnostic.from.row + 1, diagnostic.from.column + 1);
     let text = format!("{row_of}:{column} {}", diagnostic.message);
     let help = diagnostic.help.as_ref().map(|help| format!("help: {help}"));
@@ -277,7 +277,7 @@ fn foot(
     let room = usize::from(area.height).saturating_sub(usize::from(!help.is_empty()));
     let shown = message.iter().take(room).map(|line| (role, line.clone()));
     let helped = help.iter().map(|line| (Role::Accent, line.clone()));
-    let others = others(sheet, diagnostic).map(|text| (Role::Dim, text));
+    let others = others(file, diagnostic).map(|text| (Role::Dim, text));
     for (index, (role, line)) in shown.chain(helped).chain(others).enumerate() {
         if index < area.height.into() {
             canvas.left(row(area, index), role, &line);
@@ -287,10 +287,10 @@ fn foot(
 
 /// The places and messages of the other diagnostics, from the one after this on.
 fn others<'s>(
-    sheet: &'s SourceBuffer,
+    file: &'s SourceBuffer,
     shown: &'s BufferDiagnostic,
 ) -> impl Iterator<Item = String> + 's {
-    let all = &sheet.diagnostics;
+    let all = &file.diagnostics;
     let at = all.iter().position(|other| std::ptr::eq(other, shown)).unwrap_or(0);
     let others = all.iter().cycle().skip(at + 1).take(all.len().saturating_sub(1));
     others

@@ -58,20 +58,20 @@ impl Worker {
     ///
     /// # Errors
     /// Returns an error if the system cannot create a thread.
-    pub fn spawn(subject: impl Runnable + 'static) -> io::Result<Worker> {
+    pub fn spawn(runnable: impl Runnable + 'static) -> io::Result<Worker> {
         let mut worker = Worker::idle()?;
-        worker.load(subject);
+        worker.load(runnable);
         Ok(worker)
     }
 
     /// Replaces the experiment. Its snapshots have the returned epoch, and no snapshot of another
     /// epoch follows them.
-    pub fn load(&mut self, mut subject: impl Runnable + 'static) -> u64 {
+    pub fn load(&mut self, mut runnable: impl Runnable + 'static) -> u64 {
         self.epoch += 1;
         self.cancel.cancel();
-        self.cancel = subject.cancel();
-        subject.set_epoch(self.epoch);
-        self.send(Message::Load(self.epoch, Box::new(subject)));
+        self.cancel = runnable.cancel();
+        runnable.set_epoch(self.epoch);
+        self.send(Message::Load(self.epoch, Box::new(runnable)));
         self.epoch
     }
 

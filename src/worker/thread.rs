@@ -34,7 +34,7 @@ pub(super) fn run(messages: &Receiver<Message>, slot: &ArcSwapOption<Snapshot>) 
     let mut worker = WorkerLoop {
         messages,
         slot,
-        subject: None,
+        runnable: None,
         epoch: 0,
         pace: Pace::new(Instant::now(), 0.0, 1.0),
         slice: Slice::new(),
@@ -48,7 +48,7 @@ struct WorkerLoop<'a> {
     messages: &'a Receiver<Message>,
     slot: &'a ArcSwapOption<Snapshot>,
     /// `None` before the first one, and after one has panicked.
-    subject: Option<Box<dyn Runnable>>,
+    runnable: Option<Box<dyn Runnable>>,
     epoch: u64,
     pace: Pace,
     slice: Slice,
@@ -59,18 +59,18 @@ impl WorkerLoop<'_> {
     /// One iteration: messages, a slice of work, a snapshot, and sleep if there is time.
     fn iterate(&mut self) -> Result<(), Stopped> {
         self.read_messages()?;
-        let Some(subject) = self.running() else {
+        let Some(runnable) = self.running() else {
             if self.catches_up() {
                 return Ok(());
             }
             let message = self.messages.recv().map_err(|_| Stopped)?;
             return self.handle(message);
         };
-        let time = subject.time();
+        let time = runnable.time();
         let began = Instant::now();
         let target = self.pace.target(began, time);
         let budget = self.slice.budget();
-        let progress = self.guarded(|subject| subject.advance(target, budget));
+        let progress = self.guarded(|runnable| runnable.advance(target, budget));
         if progress == Some(AdvanceOutcome::Underway) {
             self.slice.learn(began.elapsed());
         }
@@ -79,7 +79,7 @@ impl WorkerLoop<'_> {
             || matches!(progress, Some(AdvanceOutcome::Stuck | AdvanceOutcome::Ended))
         {
             self.publish();
-            self.guarded(|subject| subject.shown());
+            self.guarded(|runnable| runnable.shown());
         } else if progress == Some(AdvanceOutcome::Arrived) {
             return self.wait(BETWEEN_SNAPSHOTS.saturating_sub(since));
         }
@@ -88,15 +88,16 @@ impl WorkerLoop<'_> {
 
     /// Lets what is behind catch up by a slice while time does not run. Returns whether there was anything to do.
     fn catches_up(&mut self) -> bool {
-        let Some(subject) = self.subject.as_deref().filter(|subject| subject.is_behind()) else {
+        let Some(runnable) = self.runnable.as_deref().filter(|runnable| runnable.is_behind())
+        else {
             return false;
         };
-        let time = subject.time();
+        let time = runnable.time();
         let began = Instant::now();
         let budget = self.slice.budget();
-        self.guarded(|subject| subject.advance(time, budget));
+        self.guarded(|runnable| runnable.advance(time, budget));
         self.slice.learn(began.elapsed());
-        let done = !self.subject.as_deref().is_some_and(Runnable::is_behind);
+        let done = !self.runnable.as_deref().is_some_and(Runnable::is_behind);
         if done || self.published.elapsed() >= BETWEEN_SNAPSHOTS {
             self.publish();
         }
@@ -105,7 +106,7 @@ impl WorkerLoop<'_> {
 
     /// The subject, if time runs in it.
     fn running(&self) -> Option<&dyn Runnable> {
-        self.subject.as_deref().filter(|subject| subject.status() == Status::Running)
+        self.runnable.as_deref().filter(|runnable| runnable.status() == Status::Running)
     }
 
     /// Sleeps for this long, or until a message comes.
@@ -134,12 +135,12 @@ impl WorkerLoop<'_> {
         let before = self.pace_inputs();
         match message {
             Message::Stop => return Err(Stopped),
-            Message::Load(epoch, subject) => {
+            Message::Load(epoch, runnable) => {
                 self.epoch = epoch;
-                self.subject = Some(subject);
+                self.runnable = Some(runnable);
             }
             Message::Execute(command) => {
-                self.guarded(|subject| subject.execute(command));
+                self.guarded(|runnable| runnable.execute(command));
             }
         }
         let after = self.pace_inputs();
@@ -154,13 +155,13 @@ impl WorkerLoop<'_> {
 
     /// The inputs of the pacing: whether time runs, the current time, and the speed.
     fn pace_inputs(&self) -> Option<(bool, f64, f64)> {
-        let subject = self.subject.as_deref()?;
-        Some((subject.status() == Status::Running, subject.time(), subject.speed()))
+        let runnable = self.runnable.as_deref()?;
+        Some((runnable.status() == Status::Running, runnable.time(), runnable.speed()))
     }
 
     /// Publishes a snapshot.
     fn publish(&mut self) {
-        if let Some(snapshot) = self.guarded(|subject| subject.snapshot()) {
+        if let Some(snapshot) = self.guarded(|runnable| runnable.snapshot()) {
             self.slot.store(Some(Arc::new(snapshot)));
         }
         self.published = Instant::now();
@@ -169,12 +170,12 @@ impl WorkerLoop<'_> {
     /// Lets the subject do something. If it panics, it is dropped, and the newest snapshot reports
     /// the panic.
     fn guarded<T>(&mut self, act: impl FnOnce(&mut dyn Runnable) -> T) -> Option<T> {
-        let subject = self.subject.as_deref_mut()?;
+        let runnable = self.runnable.as_deref_mut()?;
         // the subject is dropped if it panics, so its half-done state is never seen
-        match catch_unwind(AssertUnwindSafe(|| act(subject))) {
+        match catch_unwind(AssertUnwindSafe(|| act(runnable))) {
             Ok(result) => Some(result),
             Err(panic) => {
-                self.subject = None;
+                self.runnable = None;
                 self.report_panic(panic.as_ref());
                 None
             }

@@ -87,7 +87,7 @@ fn error(x: DoubleDouble, (high, low): (f64, f64)) -> f64 {
 #[test]
 fn elementary_functions_are_right_to_twenty_seven_digits() {
     for &(function, x, exact) in VALUES {
-        let error = error(apply(function, DoubleDouble::written(x)), exact);
+        let error = error(apply(function, DoubleDouble::from_decimal(x)), exact);
         assert!(error < 1e-27, "{function}({x}): relative error {error:e}");
     }
 }
@@ -101,7 +101,8 @@ fn powers_are_right_to_thirty_digits() {
         (0.01, -7.0, (100000000000000.0, 0.0)),
         (3.3, 1.7, (7.611560396624157, 4.278794546759554e-16)),
     ] {
-        let error = error(DoubleDouble::written(x).power(DoubleDouble::written(exponent)), exact);
+        let error =
+            error(DoubleDouble::from_decimal(x).power(DoubleDouble::from_decimal(exponent)), exact);
         assert!(error < 1e-29, "{x}^{exponent}: relative error {error:e}");
     }
 }
@@ -114,7 +115,8 @@ fn angles_are_right_in_every_quadrant() {
         (1e-5, 7.0, (1.4285714285704567e-06, 9.66494753728605e-23)),
         (-3.0, 0.001, (-1.570462993473909, -2.267643401254332e-17)),
     ] {
-        let error = error(DoubleDouble::written(y).atan2(DoubleDouble::written(x)), exact);
+        let error =
+            error(DoubleDouble::from_decimal(y).atan2(DoubleDouble::from_decimal(x)), exact);
         assert!(error < 1e-29, "atan2({y}, {x}): relative error {error:e}");
     }
 }
@@ -142,7 +144,7 @@ fn by_text(x: f64) -> DoubleDouble {
 #[test]
 fn the_digits_of_a_number_are_found_without_its_text() {
     let check = |x: f64| {
-        let (found, expected) = (DoubleDouble::written(x), by_text(x));
+        let (found, expected) = (DoubleDouble::from_decimal(x), by_text(x));
         let bits = |x: DoubleDouble| (x.high.to_bits(), x.low.to_bits());
         assert_eq!(bits(found), bits(expected), "{x:e}");
     };
@@ -165,13 +167,15 @@ fn the_digits_of_a_number_are_found_without_its_text() {
 #[test]
 fn what_is_written_is_meant() {
     // 0.1 = 0.1000000000000000055511151231257827… − 5.551115123125783e-18
-    assert_eq!(DoubleDouble::written(0.1).low, -5.551115123125783e-18);
-    assert_eq!(DoubleDouble::written(-2.5).low, 0.0);
+    assert_eq!(DoubleDouble::from_decimal(0.1).low, -5.551115123125783e-18);
+    assert_eq!(DoubleDouble::from_decimal(-2.5).low, 0.0);
     let third = DoubleDouble::ONE / DoubleDouble::from(3.0);
     assert_eq!((third * 3.0 - DoubleDouble::ONE).high.abs().max(1e-31), 1e-31);
-    let small = DoubleDouble::written(9.109_383_701_5e-31);
+    let small = DoubleDouble::from_decimal(9.109_383_701_5e-31);
     assert!(
-        (small * DoubleDouble::written(1e31) - DoubleDouble::written(9.109_383_701_5)).high.abs()
+        (small * DoubleDouble::from_decimal(1e31) - DoubleDouble::from_decimal(9.109_383_701_5))
+            .high
+            .abs()
             < 1e-30
     );
 }

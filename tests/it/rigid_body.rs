@@ -275,7 +275,7 @@ fn a_turned_body_has_the_same_moments_about_turned_axes() {
 
 #[test]
 fn moments_are_ascending_and_exact_where_the_tensor_is_diagonal() {
-    let tenth = DoubleDouble::written(0.1);
+    let tenth = DoubleDouble::from_decimal(0.1);
     let diagonal = [DoubleDouble::integer(3), tenth, DoubleDouble::integer(2)];
     let zero = [DoubleDouble::ZERO; 3];
     let tensor: [DoubleDouble; 6] = [diagonal, zero].concat().try_into().unwrap();

@@ -4,7 +4,7 @@
 
 use std::sync::Arc;
 
-use super::invariant_monitor::{InvariantMonitor, Subject};
+use super::invariant_monitor::{InvariantMonitor, MonitoredInvariant};
 use crate::analysis::Errors;
 use crate::experiment::{FoundConstant, Gauge, Reference};
 use crate::expr::{Expr, Pool, Symbol};
@@ -64,7 +64,7 @@ impl FormulaMonitors {
     pub(super) fn new(pool: Arc<Pool>, formulas: impl IntoIterator<Item = Formula>) -> Self {
         let monitor = |(place, formula): (usize, Formula)| {
             let Formula { name, shown, reason, proved, broken, expression } = formula;
-            InvariantMonitor::new(Subject {
+            InvariantMonitor::new(MonitoredInvariant {
                 name,
                 shown,
                 reason,
@@ -100,9 +100,9 @@ impl FormulaMonitors {
         let pool = &*self.pool;
         let value = |symbol: Symbol| at.of(symbol, pool, &self.constants);
         let of = |monitor: &InvariantMonitor| {
-            let (number, error) = pool.evaluate_with_error(monitor.subject.expression, &value);
+            let (number, error) = pool.evaluate_with_error(monitor.invariant.expression, &value);
             let underflows =
-                error < f64::MIN_POSITIVE && pool.underflows(monitor.subject.expression, &value);
+                error < f64::MIN_POSITIVE && pool.underflows(monitor.invariant.expression, &value);
             (number, (error, underflows))
         };
         let (values, errors) = self.monitors.iter().map(of).unzip();
@@ -136,7 +136,7 @@ impl FormulaMonitors {
     ) {
         let FormulaValues { values, .. } = self.values(now);
         for (monitor, value) in self.monitors.iter_mut().zip(values) {
-            let Some(reference) = known(&monitor.subject.name, value) else { continue };
+            let Some(reference) = known(&monitor.invariant.name, value) else { continue };
             monitor.restore(&reference, now.time);
             self.since = reference.since;
         }

@@ -31,7 +31,7 @@ const ERROR: f64 = 1e3;
 /// The state of one gauge.
 #[derive(Clone, Debug)]
 pub(super) struct InvariantMonitor {
-    pub(super) subject: Subject,
+    pub(super) invariant: MonitoredInvariant,
     /// Whether its reference jumps with an impulse.
     jumps: bool,
     reference: ReferenceValue,
@@ -77,7 +77,7 @@ pub(in crate::experiment) struct MonitoredStep {
 
 /// The quantity that a monitor watches.
 #[derive(Clone, Debug)]
-pub(super) struct Subject {
+pub(super) struct MonitoredInvariant {
     pub(super) name: String,
     pub(super) shown: String,
     pub(super) reason: String,
@@ -93,11 +93,11 @@ pub(super) struct Subject {
 }
 
 impl InvariantMonitor {
-    pub(super) fn new(subject: Subject) -> InvariantMonitor {
+    pub(super) fn new(invariant: MonitoredInvariant) -> InvariantMonitor {
         let unknown = f64::NAN;
         InvariantMonitor {
-            jumps: subject.name != ENERGY_BALANCE,
-            subject,
+            jumps: invariant.name != ENERGY_BALANCE,
+            invariant,
             reference: ReferenceValue {
                 initial: unknown,
                 value: unknown,
@@ -112,8 +112,8 @@ impl InvariantMonitor {
 
     /// Takes the current value as the reference.
     pub(super) fn refer(&mut self, time: f64, values: &[f64], terms: &TermWatch) {
-        let initial = values[self.subject.channel];
-        let quantity = self.subject.quantity;
+        let initial = values[self.invariant.channel];
+        let quantity = self.invariant.quantity;
         let varying = self.summed(terms).map_or(0.0, |sums| sums.size);
         let offset = quantity.is_some_and(|quantity| terms.has_offset(quantity))
             && varying * LARGE < initial.abs();
@@ -141,12 +141,12 @@ impl InvariantMonitor {
 
     /// Shifts the reference by the jump of an impulse.
     pub(super) fn shift(&mut self, before: &[f64], after: &[f64]) {
-        let jump = after[self.subject.channel] - before[self.subject.channel];
+        let jump = after[self.invariant.channel] - before[self.invariant.channel];
         if self.jumps && jump.is_finite() {
             self.reference.value += jump;
             self.reference.rough += jump;
             self.forget_digits(
-                before[self.subject.channel].abs().max(after[self.subject.channel].abs()),
+                before[self.invariant.channel].abs().max(after[self.invariant.channel].abs()),
             );
         }
     }
@@ -174,7 +174,7 @@ impl InvariantMonitor {
 
     /// The sums over its terms, if it has terms.
     fn summed(&self, terms: &TermWatch) -> Option<TermSums> {
-        let quantity = self.subject.quantity.filter(|&quantity| terms.has(quantity))?;
+        let quantity = self.invariant.quantity.filter(|&quantity| terms.has(quantity))?;
         Some(terms.sums(quantity, &self.reference.at_rest))
     }
 
@@ -191,7 +191,7 @@ impl InvariantMonitor {
         terms: &TermWatch,
         floor: f64,
     ) -> f64 {
-        let mut distance = values[self.subject.channel] - self.reference.value;
+        let mut distance = values[self.invariant.channel] - self.reference.value;
         let mut moving = 0.0;
         if let Some(sums) = self.summed(terms) {
             // the terms may have grown
@@ -224,7 +224,7 @@ impl InvariantMonitor {
 
     /// Records the values at the ends of several steps.
     pub(super) fn steps(&mut self, terms: &BatchTerms, ends: &[MonitoredStep]) {
-        let Some(quantity) = self.subject.quantity.filter(|&quantity| terms.has(quantity)) else {
+        let Some(quantity) = self.invariant.quantity.filter(|&quantity| terms.has(quantity)) else {
             return;
         };
         let sums = terms.sums(quantity, &self.reference.at_rest);
@@ -295,7 +295,7 @@ impl InvariantMonitor {
         let is_lost = analysis::rounding_floor(0) * self.rounding.greatest > LOST * moving;
         let within_rounding = self.drift.farthest <= self.rounding.explained;
         // the terms of others may all be constant, so that what moves of them is rounding
-        (self.subject.quantity == Some(ENERGY) && moving > 0.0 && is_lost && within_rounding)
+        (self.invariant.quantity == Some(ENERGY) && moving > 0.0 && is_lost && within_rounding)
             .then(|| Unseen::Unresolved(self.rounding.greatest / moving))
     }
 
@@ -330,7 +330,7 @@ impl InvariantMonitor {
     }
 
     pub(super) fn show(&self, values: &[f64], since: f64, floor: f64, errors: Errors) -> Gauge {
-        let value = values[self.subject.channel];
+        let value = values[self.invariant.channel];
         let (scale, rounding) = (self.scale(), floor * self.rounding.greatest);
         // a rounding error is small compared with the terms
         let drift = |distance: f64| match distance {
@@ -350,10 +350,10 @@ impl InvariantMonitor {
         let drift_now = drift(distance).min(max_drift);
         let left = beyond && max_drift > LEFT;
         // what is only supposed to be conserved may change with the motion
-        let errors = if self.subject.proved { errors } else { Errors::Accumulated };
+        let errors = if self.invariant.proved { errors } else { Errors::Accumulated };
         let unseen = self.unseen();
         let is_unknown = unseen.is_some();
-        let verdict = match (&self.subject.broken, unseen) {
+        let verdict = match (&self.invariant.broken, unseen) {
             (Some(law), _) => Verdict::Broken(law.clone()),
             (None, Some(unseen)) => Verdict::Unknown(unseen),
             (None, None) if beyond && max_drift > LOST => Verdict::Lost,
@@ -367,14 +367,14 @@ impl InvariantMonitor {
         };
         let history = self.drift.distances.stretches().iter().map(Stretch::peak);
         Gauge {
-            name: self.subject.name.clone(),
-            shown: self.subject.shown.clone(),
+            name: self.invariant.name.clone(),
+            shown: self.invariant.shown.clone(),
             reason: match unseen {
-                Some(Unseen::Underflow) => format!("{}; {UNDERFLOW}", self.subject.reason),
-                Some(Unseen::Unresolved(_)) => format!("{}; {UNRESOLVED}", self.subject.reason),
-                None => self.subject.reason.clone(),
+                Some(Unseen::Underflow) => format!("{}; {UNDERFLOW}", self.invariant.reason),
+                Some(Unseen::Unresolved(_)) => format!("{}; {UNRESOLVED}", self.invariant.reason),
+                None => self.invariant.reason.clone(),
             },
-            proved: self.subject.proved && self.subject.broken.is_none(),
+            proved: self.invariant.proved && self.invariant.broken.is_none(),
             value,
             initial: self.reference.initial,
             scale,
@@ -383,7 +383,7 @@ impl InvariantMonitor {
             reference_time: since,
             drift: if is_unknown { f64::NAN } else { drift_now },
             max_drift: if is_unknown { f64::NAN } else { max_drift },
-            left: (left && !is_unknown && self.subject.broken.is_none())
+            left: (left && !is_unknown && self.invariant.broken.is_none())
                 .then(|| since_when.unwrap_or(since)),
             history: if is_unknown {
                 Arc::default()

@@ -243,10 +243,12 @@ impl Propagator {
     /// Enforces those of redundant constraints that are most independent.
     fn choose_enforced(&mut self) -> Result<(), MotionError> {
         let state = self.stepper.state();
-        let Some(system) = self.system.hold_better(state, &self.parameters) else { return Ok(()) };
+        let Some(system) = self.system.enforce_more_independent(state, &self.parameters) else {
+            return Ok(());
+        };
         let state = state.clone();
-        self.holdings += 1;
-        self.take_holding(system, &state)
+        self.active_set_changes += 1;
+        self.take_active_set(system, &state)
     }
 }
 

@@ -112,11 +112,11 @@ impl Propagator {
     /// Releases a constraint at the current state, which is `state` in the system's native form.
     pub(super) fn release(&mut self, constraint: usize, state: &State) -> Result<(), MotionError> {
         let system = self.system.release(constraint, state, &self.parameters);
-        self.take_holding(system, state)
+        self.take_active_set(system, state)
     }
 
     /// Continues at a state with another set of enforced constraints.
-    pub(super) fn take_holding(
+    pub(super) fn take_active_set(
         &mut self,
         system: System,
         state: &State,

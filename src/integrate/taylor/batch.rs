@@ -213,7 +213,7 @@ impl TaylorBatch {
         let state = &self.lanes[lane].state;
         out.copy_from(state);
         if time != state.time {
-            self.write_state(lane, DoubleDouble::written(time), out);
+            self.write_state(lane, DoubleDouble::from_decimal(time), out);
             out.time = time;
         }
     }
@@ -223,7 +223,7 @@ impl TaylorLane {
     /// The time to go.
     fn left(&mut self, limit: f64) -> DoubleDouble {
         if self.limit.0 != limit {
-            self.limit = (limit, DoubleDouble::written(limit));
+            self.limit = (limit, DoubleDouble::from_decimal(limit));
         }
         self.limit.1 - self.state.exact_time()
     }

@@ -66,7 +66,7 @@ impl Still {
 
     /// Continues at rest from a state up to a time, or until it starts moving. Returns the state
     /// there.
-    pub(super) fn go_on(
+    pub(super) fn advance(
         &mut self,
         system: &System,
         rates: &mut ExactRates,
@@ -100,7 +100,7 @@ impl Still {
                 return self.begin(rates, (onset, first), limit);
             }
         }
-        self.at(rates, DoubleDouble::written(end))
+        self.at(rates, DoubleDouble::from_decimal(end))
     }
 
     /// The end of a step so short that the forces are followed in time, which the next may exceed.
@@ -143,7 +143,7 @@ impl Still {
 
     /// Continues along the beginning of the motion, up to its end or a limit.
     fn set_out(&mut self, rates: &mut ExactRates, limit: f64) -> Result<State, MotionError> {
-        let limit = DoubleDouble::written(limit);
+        let limit = DoubleDouble::from_decimal(limit);
         let end = self.onset.as_ref().map_or(limit, Onset::end);
         let begin = self.from.exact_time();
         self.over = (end - begin).high.abs() <= (limit - begin).high.abs();

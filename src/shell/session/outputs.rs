@@ -72,11 +72,11 @@ impl Session {
     /// Saves a drawing of the screen, with all colours and the finest dots whatever the terminal supports.
     pub(super) fn still(&mut self) {
         let palette = self.palette();
-        let look =
+        let style =
             RenderStyle { theme: Theme::new(palette, ColourDepth::True), glyphs: Glyphs::Braille };
         let area = Rect::from(self.size);
         let mut screen = Buffer::empty(area);
-        view::draw(&self.app, &look, area, &mut screen);
+        view::draw(&self.app, &style, area, &mut screen);
         plain(&mut screen);
         let (stem, title) = (self.stem(), self.title());
         self.write_file(move || {
@@ -146,7 +146,7 @@ impl Session {
     /// Returns the palette shown.
     fn palette(&self) -> &'static Palette {
         let named = |p: &&Palette| Some(p.name) == self.app.theme_shown();
-        PALETTES.iter().find(named).unwrap_or_else(|| self.look.theme.palette())
+        PALETTES.iter().find(named).unwrap_or_else(|| self.style.theme.palette())
     }
 }
 

@@ -32,7 +32,7 @@ pub(super) fn compass(canvas: &mut Canvas<'_>, area: Rect, camera: &Camera) {
         Scale::linear(least - 0.1, least + 2.5)
     };
     let frame = PlotFrame::equal(reach(0), reach(1), corner);
-    let mut arms = Raster::new(corner, canvas.look.glyphs);
+    let mut arms = Raster::new(corner, canvas.style.glyphs);
     let pen = Pen::new(canvas.style(Role::Dim), 0);
     for (_, tip) in tips {
         arms.line(&frame, [0.0; 2], tip.map(|v| 0.7 * v), &pen);
@@ -122,13 +122,13 @@ pub(super) type LegendLine = (String, usize);
 
 /// The names of these apparent forces.
 pub(super) fn forces(canvas: &Canvas<'_>, forces: &[usize]) -> Vec<LegendLine> {
-    let arrow = canvas.look.glyphs.pick("→", "->");
+    let arrow = canvas.style.glyphs.pick("→", "->");
     forces.iter().map(|&force| (format!("{arrow} {}", FORCES[force]), force + 1)).collect()
 }
 
 /// The names of the right mechanics and of the wrong one beside it, whose traces have these colours.
 pub(super) fn mechanics(canvas: &Canvas<'_>, [right, wrong]: [usize; 2]) -> Vec<LegendLine> {
-    let sign = canvas.look.glyphs.pick("━", "-");
+    let sign = canvas.style.glyphs.pick("━", "-");
     vec![(format!("{sign} right mechanics"), right), (format!("{sign} wrong mechanics"), wrong)]
 }
 
@@ -146,7 +146,7 @@ pub(super) fn legend_above(area: Rect, lines: &[LegendLine]) -> (Rect, Rect) {
 pub(super) fn legend(canvas: &mut Canvas<'_>, area: Rect, lines: &[LegendLine]) {
     for (place, (text, curve)) in legend_places(area, lines).zip(lines) {
         if area.contains(place.as_position()) {
-            let style = canvas.look.theme.curve(*curve);
+            let style = canvas.style.theme.curve(*curve);
             canvas.write(place.as_position(), place.width, text, style);
         }
     }

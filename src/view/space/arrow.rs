@@ -50,7 +50,7 @@ impl ScenePainter<'_> {
             for (index, vector) in forces(particle).iter().enumerate() {
                 if greatest(self.q, vector) > 0.0 {
                     let along = vector.map(|e| scale * self.q.number(e));
-                    let pen = Pen::new(self.q.look.theme.curve(index + 1), SOLID);
+                    let pen = Pen::new(self.q.style.theme.curve(index + 1), SOLID);
                     self.arrow(at, along, &pen);
                 }
             }

@@ -49,7 +49,7 @@ pub(super) fn ramp<'a>(
     at: &Point,
     series: usize,
 ) -> &'a [Shade] {
-    let ramp = q.look.theme.trail(series);
+    let ramp = q.style.theme.trail(series);
     let is_dim = !points.contains(at) && points.iter().any(|mass| is_shadow(q, at, mass));
     if is_dim { &ramp[..(ramp.len() / 3).max(1)] } else { ramp }
 }

@@ -17,7 +17,7 @@ impl ScenePainter<'_> {
         // what rests is where that of the main motion is, unless the parameters differ
         let moves = |point: &Point| !scene::rests(q, point) || q.point(point) != main.point(point);
         let number = self.beside.unwrap_or(0);
-        let pen = Pen::new(companions::ink(&self.q.look.theme, number), TRACK);
+        let pen = Pen::new(companions::ink(&self.q.style.theme, number), TRACK);
         match shape {
             Shape::Line { from, to } if moves(from) || moves(to) => {
                 let (from, to) = (self.point(from), self.point(to));

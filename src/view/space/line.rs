@@ -48,7 +48,7 @@ impl ScenePainter<'_> {
         if let Some((_, styles)) = self.receding.iter().find(|(known, _)| *known == style) {
             return *styles;
         }
-        let theme = &self.q.look.theme;
+        let theme = &self.q.style.theme;
         let share = |step: usize| step as f64 / (DISTANCES - 1) as f64;
         let styles = std::array::from_fn(|step| theme.receding(style, share(step)));
         self.receding.push((style, styles));

@@ -15,15 +15,15 @@ impl ScenePainter<'_> {
     pub(super) fn label(&mut self, at: [f64; 3], foot: Option<[f64; 3]>, text: &str, style: Style) {
         let veiled = self.sight(at) == Visibility::Veiled;
         let [tip, foot] = [at, foot.unwrap_or(at)].map(|point| self.flat(point));
-        let style = if veiled { self.q.look.theme[Role::Dim] } else { style };
-        let text = self.q.look.glyphs.text(text).into_owned();
+        let style = if veiled { self.q.style.theme[Role::Dim] } else { style };
+        let text = self.q.style.glyphs.text(text).into_owned();
         self.labels.push(Label { tip, leftwards: tip[0] < foot[0], text, style });
     }
 
     /// The style of a vector: that of the trace at its foot or, of a vector from the origin, at its tip. Several without such a
     /// trace at one foot have colours of their own, behind those of masses and traces.
     pub(super) fn vector_style(&self, at: &Point, components: &Point) -> Style {
-        let theme = &self.q.look.theme;
+        let theme = &self.q.style.theme;
         if let Some(trace) = self.trace_of_vector(at, components) {
             return theme.curve(self.colour(&trace));
         }
@@ -64,7 +64,7 @@ impl ScenePainter<'_> {
 
     /// A pen in the colour of the body about this point.
     pub(super) fn own_pen(&self, centre: &Point, pen: Pen) -> Pen {
-        let own = self.own_colour(centre).map(|series| self.q.look.theme.curve(series));
+        let own = self.own_colour(centre).map(|series| self.q.style.theme.curve(series));
         Pen { style: own.unwrap_or(pen.style), ..pen }
     }
 }

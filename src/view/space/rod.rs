@@ -11,10 +11,10 @@ use crate::view::theme::Role;
 impl ScenePainter<'_> {
     /// Draws a rod: in a plane a line two dots wide where dots are fine enough, else a line.
     pub(super) fn rod(&mut self, from: &Point, to: &Point) {
-        let pen = Pen::new(self.q.look.theme[Role::Text], SOLID);
+        let pen = Pen::new(self.q.style.theme[Role::Text], SOLID);
         let (from, to) = (self.point(from), self.point(to));
         self.curve(&[from, to], &pen);
-        let fine = matches!(self.q.look.glyphs, Glyphs::Braille | Glyphs::Octant);
+        let fine = matches!(self.q.style.glyphs, Glyphs::Braille | Glyphs::Octant);
         if self.range.is_some() || !fine {
             return;
         }

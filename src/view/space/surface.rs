@@ -31,7 +31,7 @@ impl ScenePainter<'_> {
         if !in_space && !matches!(shape, Shape::Disc { .. } | Shape::Mass { .. }) {
             return;
         }
-        let theme = &self.q.look.theme;
+        let theme = &self.q.style.theme;
         let faint = |own: Option<usize>| {
             let style = own.map_or(theme[Role::Level], |series| theme.curve(series));
             (Pen::new(style, SURFACE), OPAQUE)
@@ -106,11 +106,12 @@ impl ScenePainter<'_> {
     /// with some of the dots.
     pub(super) fn fill(&mut self) {
         let surfaces = std::mem::take(&mut self.surfaces);
-        let look = self.q.look;
+        let style = self.q.style;
         let tones: Vec<Option<usize>> = surfaces
             .iter()
             .map(|surface| {
-                let tones = look.theme.tones(surface.pen.style).filter(|_| !look.glyphs.is_ascii());
+                let tones =
+                    style.theme.tones(surface.pen.style).filter(|_| !style.glyphs.is_ascii());
                 let tones = tones.filter(|_| surface.style != PieceStyle::Lines)?;
                 Some(self.shading.add(*tones, surface.style == PieceStyle::Sheet))
             })

@@ -24,7 +24,7 @@ impl ScenePainter<'_> {
         let [right, up, near] = self.camera.project(self.point(point));
         let present = [right, up];
         // Each past point is transformed to the reference frame at its own time.
-        let drawn = cache.trail(key, (rows, self.q.look.glyphs), |row| {
+        let drawn = cache.trail(key, (rows, self.q.style.glyphs), |row| {
             let row = row.get(1..)?;
             let r = sources.map(|source| source.read(row));
             let seen = self.reference_frame.as_ref().map_or(r, |frame| frame.point(row, r));

@@ -7,7 +7,7 @@ use super::played;
 
 fn pendulum() -> (Buffer, String) {
     let recording = played("pendulum", "Size 110x32\nCaption \"<A & B> \\\"C\\\"\"\nWait 2s");
-    let palette = recording.look.theme.palette();
+    let palette = recording.style.theme.palette();
     let drawing = write(&recording.last, palette, ImageFormat::Svg, "a < b & c");
     (recording.last, drawing)
 }
@@ -59,7 +59,7 @@ fn a_still_in_text_is_drawn_without_colours() {
         played("free-rigid-body", &format!("Size 120x40\nColor {colour}\nMarker \"a\"\nWait 1s"))
     };
     let (coloured, bare) = (of("true"), of("never"));
-    let text = |screen: &Buffer| write(screen, bare.look.theme.palette(), ImageFormat::Text, "");
+    let text = |screen: &Buffer| write(screen, bare.style.theme.palette(), ImageFormat::Text, "");
     let is_block = |c: char| ('▖'..='▟').contains(&c);
     assert!(text(&coloured.last).contains(is_block));
     for (still, other) in [
@@ -74,7 +74,7 @@ fn a_still_in_text_is_drawn_without_colours() {
 #[test]
 fn text_and_colours_are_those_of_the_screen() {
     let recording = played("pendulum", "Size 80x24\nColor 256\nWait 1s");
-    let palette = recording.look.theme.palette();
+    let palette = recording.style.theme.palette();
     let text = write(&recording.last, palette, ImageFormat::Text, "");
     assert_eq!(text.lines().count(), 24);
     let ansi = write(&recording.last, palette, ImageFormat::Ansi, "");

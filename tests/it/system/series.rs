@@ -364,11 +364,11 @@ fn coefficients<R: Real>(program: Arc<Program>, parameters: [f64; 2]) -> Vec<R> 
     let third = R::of(Number::ratio(-1, 10).double());
     let x = [R::of(Number::HALF.double()), R::of(Number::ratio(-1, 7).double())];
     let mut jet = Jet::<R>::new(program, 9);
-    jet.set_parameters(&parameters.map(DoubleDouble::written));
+    jet.set_parameters(&parameters.map(DoubleDouble::from_decimal));
     for k in 0..=9 {
         jet.set_input(0, k, *u.iter().chain([&third]).nth(k).unwrap_or(&R::ZERO));
         jet.set_input(1, k, *x.get(k).unwrap_or(&R::ZERO));
-        jet.advance(k, R::of(DoubleDouble::written(0.4)), 1.0).expect("nothing is solved for");
+        jet.advance(k, R::of(DoubleDouble::from_decimal(0.4)), 1.0).expect("nothing is solved for");
     }
     (0..=9).map(|k| jet.output(0, k)).collect()
 }
