@@ -72,53 +72,56 @@ pub(super) struct EquilibriumSearch<'a> {
 
 impl<'a> EquilibriumSearch<'a> {
     pub(super) fn new(space: &'a PhaseSpace, start: &'a State) -> Result<Self, DynamicsError> {
-        let degrees = space.system().degrees();
-        let canonical = space.form() == Form::Momentum;
-        let cyclic = if canonical { space.cyclic().to_vec() } else { Vec::new() };
         if space.is_constrained() {
-            let allowed = space.state(start).and_then(|s| space.allowed_displacements(&s));
-            if matches!(allowed, Ok((_, 0))) {
-                return Err(DynamicsError::Unsuited(NOTHING_MOVES.to_owned()));
-            }
-            let balance = ConstrainedBalance::new(space, start)?;
-            let (middle, unknowns) = (balance.start(), balance.unknowns());
-            let mut units = coordinate_units(space, &middle[..degrees]);
-            units.extend(middle[degrees..].iter().map(|v| if *v == 0.0 { 1.0 } else { v.abs() }));
-            let law = LawAtRest::Constrained(Box::new(balance));
-            let (casimirs, has_many_momenta) = (Vec::new(), false);
-            return Ok(Self {
-                space,
-                start,
-                law,
-                middle,
-                unknowns,
-                cyclic,
-                degrees,
-                units,
-                casimirs,
-                has_many_momenta,
-            });
+            Self::on_surface(space, start)
+        } else {
+            Self::in_phase_space(space, start)
         }
-        let unknowns =
-            (0..space.dimension()).filter(|i| !cyclic.contains(&(i % degrees))).collect();
-        let mut field = space.vector_field();
-        let units = units(space, start, &mut field);
-        let middle = space.variables(start).to_vec();
-        let casimirs = space.casimirs(start)?;
-        let has_many_momenta =
-            canonical && has_many_momenta(&mut field, start.time, &middle, &units);
-        let law = LawAtRest::Free(Box::new(field));
+    }
+
+    /// The search for coordinates on the surface of the constraints.
+    fn on_surface(space: &'a PhaseSpace, start: &'a State) -> Result<Self, DynamicsError> {
+        let allowed = space.state(start).and_then(|s| space.allowed_displacements(&s));
+        if matches!(allowed, Ok((_, 0))) {
+            return Err(DynamicsError::Unsuited(NOTHING_MOVES.to_owned()));
+        }
+        let degrees = space.system().degrees();
+        let balance = ConstrainedBalance::new(space, start)?;
+        let middle = balance.start();
+        let mut units = coordinate_units(space, &middle[..degrees]);
+        units.extend(middle[degrees..].iter().map(|v| if *v == 0.0 { 1.0 } else { v.abs() }));
         Ok(Self {
             space,
             start,
-            law,
             middle,
-            unknowns,
-            cyclic,
+            unknowns: balance.unknowns(),
+            cyclic: cyclic(space),
             degrees,
             units,
-            casimirs,
-            has_many_momenta,
+            casimirs: Vec::new(),
+            has_many_momenta: false,
+            law: LawAtRest::Constrained(Box::new(balance)),
+        })
+    }
+
+    /// The search for all variables but the cyclic coordinates and their momenta.
+    fn in_phase_space(space: &'a PhaseSpace, start: &'a State) -> Result<Self, DynamicsError> {
+        let (degrees, cyclic) = (space.system().degrees(), cyclic(space));
+        let mut field = space.vector_field();
+        let units = units(space, start, &mut field);
+        let middle = space.variables(start).to_vec();
+        Ok(Self {
+            space,
+            start,
+            unknowns: (0..space.dimension()).filter(|i| !cyclic.contains(&(i % degrees))).collect(),
+            cyclic,
+            degrees,
+            casimirs: space.casimirs(start)?,
+            has_many_momenta: space.form() == Form::Momentum
+                && has_many_momenta(&mut field, start.time, &middle, &units),
+            middle,
+            units,
+            law: LawAtRest::Free(Box::new(field)),
         })
     }
 
@@ -381,6 +384,11 @@ impl<'a> EquilibriumSearch<'a> {
             }
         }
     }
+}
+
+/// The cyclic coordinates of canonical variables.
+fn cyclic(space: &PhaseSpace) -> Vec<usize> {
+    if space.form() == Form::Momentum { space.cyclic().to_vec() } else { Vec::new() }
 }
 
 /// Whether the velocities are not linear in the momenta: then several momenta may belong to rest.
