@@ -13,7 +13,7 @@ mod check;
 mod command;
 mod completions;
 mod config;
-mod crowd;
+mod count_bar;
 mod decimal;
 mod demo;
 mod demo_source;
@@ -35,7 +35,6 @@ mod lyapunov;
 mod manual;
 mod method_options;
 mod methods;
-
 mod motion_options;
 mod new;
 mod number_table;
@@ -61,6 +60,7 @@ mod study;
 mod sweep;
 mod symmetries;
 mod theme;
+mod threads;
 
 pub use command::{command, main};
 pub use exit::{EXITS, Exit};

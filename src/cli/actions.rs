@@ -10,7 +10,6 @@ use serde_json::{Value, json};
 use self::own::{containing, own_start};
 use super::assignment::{number, whole};
 use super::cells::{self, TableCell, TableFormat};
-use super::crowd;
 use super::failure::CommandError;
 use super::interrupt::Interrupt;
 use super::motion_options::{Laid, ModelReading, MotionOptions};
@@ -134,7 +133,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let out = Output::open(arguments.output.as_deref(), arguments.format.form())?;
     let stopped = interrupt.signal().is_some();
     let text = written(arguments.format, &systems.turning, (&rows, &separatrices), stopped);
-    crowd::write(out, &text, interrupt)?;
+    out.write_after_signal(&text, interrupt)?;
     if let Some(signal) = interrupt.signal() {
         return Err(CommandError::Signal(signal));
     }
@@ -355,7 +354,7 @@ fn written(
     let action =
         |row: &ActionRow| if row.kind == RegionKind::Unbounded { f64::NAN } else { row.action };
     if format == TableFormat::Json {
-        let mut members = crowd::members(&laid.header());
+        let mut members = laid.header().members();
         let rows = rows.iter().map(|row| {
             json!({
                 "energy": row.energy,
@@ -421,7 +420,7 @@ fn written(
     let separatrices = separatrices.iter().map(line).collect::<Vec<_>>().concat();
     let end = if stopped { format!("{lead}stopped: {STOPPED}\n") } else { String::new() };
     if csv {
-        crowd::lead(&laid.header())
+        laid.header().lines()
             + &separatrices
             + &cells::record(names)
             + &cells::csv(table.iter().map(Vec::as_slice))

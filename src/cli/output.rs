@@ -8,6 +8,7 @@ use std::io::{self, BufWriter, Stdout, Write};
 use std::path::Path;
 
 use super::failure::CommandError;
+use super::interrupt::{Interrupt, PORTION};
 use super::stderr;
 use crate::printable;
 use crate::shell::atomic_file::{AtomicFile, Durability};
@@ -118,6 +119,38 @@ impl Output {
     /// Writes all of a text, and finishes.
     pub(super) fn write_text(mut self, text: &str) -> Result<(), CommandError> {
         self.write_all(text.as_bytes()).map_err(|error| self.failed(&error))?;
+        self.finish()
+    }
+
+    /// The same. A file that is moved into place is waited for after a signal, and so is a reader that takes what a signal
+    /// left.
+    pub(super) fn write_after_signal(
+        self,
+        text: &str,
+        interrupt: &Interrupt,
+    ) -> Result<(), CommandError> {
+        self.write_pieces(std::iter::once(text.to_owned()), interrupt)
+    }
+
+    /// The same for a text that is put into words piece by piece: that of many rows takes longer than a command has to end
+    /// by itself.
+    pub(super) fn write_pieces(
+        mut self,
+        pieces: impl Iterator<Item = String>,
+        interrupt: &Interrupt,
+    ) -> Result<(), CommandError> {
+        if self.is_file() {
+            interrupt.saves();
+        }
+        for piece in pieces {
+            for portion in piece.as_bytes().chunks(PORTION) {
+                if !self.is_file() && interrupt.signal().is_some() {
+                    interrupt.writes();
+                }
+                self.write_all(portion).map_err(|error| self.failed(&error))?;
+                interrupt.taken();
+            }
+        }
         self.finish()
     }
 

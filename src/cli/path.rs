@@ -1,26 +1,24 @@
 //! `phaselab path`: paths between configurations, and their action.
 
+mod judged;
+
 use std::path::PathBuf;
 
 use serde_json::{Value, json};
 
+use judged::{JudgedPath, PathStudy, VariedPath};
+
 use super::assignment::{self, Assignment, number};
 use super::cells::{self, TableCell, TableFormat};
-use super::crowd;
 use super::decimal::divisions;
 use super::failure::CommandError;
 use super::interrupt::Interrupt;
 use super::motion_options::{Laid, MotionOptions};
 use super::output::Output;
-use super::path_function::{PathFunctions, is_momentum, of_coordinates};
-use super::{stderr, study};
-use crate::dynamics::{
-    DynamicsError, Hamiltonian, Lagrangian, PathKind, PhaseSpace, abbreviated_action,
-    action_at_energy, conjugate_points, morse_index, nearest_stationary_path,
-    stationary_path_between,
-};
+use super::path_function::{is_momentum, of_coordinates};
+use super::stderr;
+use crate::dynamics::PathKind;
 use crate::expr::Expr;
-use crate::mechanics::{Equations, Valuation, body_constants};
 use crate::model::Model;
 use crate::printable;
 use crate::system::InitialOverride;
@@ -92,37 +90,8 @@ impl Epsilons {
     }
 }
 
-/// The number of intervals between rows.
-const INTERVALS: u32 = 200;
-
-/// The equations of motion hold along a written path if what is left of them is below this part of their terms, and a variation
-/// vanishes at an end below this part of its largest value.
-const HOLDS: f64 = 1e-9;
-
-/// A path with what is known of it.
-struct JudgedPath {
-    action: f64,
-    /// ∫ Σ p dq, where it has a value.
-    abbreviated: Option<f64>,
-    /// `None` if it does not make the action stationary.
-    nature: Option<(usize, PathKind)>,
-    conjugate: Option<Vec<f64>>,
-    rows: Vec<Vec<f64>>,
-    varied: Vec<VariedPath>,
-}
-
-/// A varied path.
-struct VariedPath {
-    epsilon: f64,
-    /// Hamilton's action, or that in phase space.
-    action: f64,
-    /// The abbreviated action at the energy of the path that is varied, or why there is none.
-    abbreviated: Result<f64, String>,
-}
-
 pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
-    let duration = arguments.duration;
-    if duration <= 0.0 {
+    if arguments.duration <= 0.0 {
         return Err(CommandError::WrongUse("--in: a path takes a time above zero".to_owned()));
     }
     if arguments.to.is_empty() && arguments.along.is_empty() {
@@ -131,150 +100,38 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     }
     let reading = arguments.motion.read()?;
     let laid = arguments.motion.compile(reading, &[], "--observe", interrupt)?;
-    let model = &*laid.model;
-    let mechanics = &model.mechanics;
+    let mechanics = &laid.model.mechanics;
     let acts = |force: &&Expr| **force != Expr::ZERO;
     if [mechanics.dissipation()].iter().chain(mechanics.forces()).find(acts).is_some() {
         stderr::report(
             "friction or forces act beside L: where ∫ L dt is stationary is no motion of this file, but of L alone",
         );
     }
-    let mut equations = (*laid.equations).clone();
-    let parameters = laid.start.parameters.clone();
-    let constants =
-        Valuation::of_parameters(model, &parameters).with(body_constants(model, &parameters));
-    let mut lagrangian =
-        Lagrangian::of(model, &mut equations, &parameters).map_err(study::failed)?;
-    let read = |equations: &mut Equations, given: &[Assignment], option: &str| {
-        PathFunctions::read(model, equations, given, option)
-    };
-    let along = read(&mut equations, &arguments.along, "--along")?;
-    let near = read(&mut equations, &arguments.near, "--near")?;
-    let (momenta, vary): (Vec<Assignment>, Vec<Assignment>) =
-        arguments.vary.iter().cloned().partition(|one| is_momentum(model, one.name()));
-    let vary = read(&mut equations, &vary, "--vary")?;
-    let momenta = of_coordinates(&momenta);
-    let vary_momenta = read(&mut equations, &momenta, "--vary")?;
-    let failed = study::failed;
-    let mut of_path = Lagrangian::of(model, &mut equations, &parameters).map_err(failed)?;
-    let mut hamiltonian = match &vary_momenta {
-        Some(_) => Some(Hamiltonian::of(model, &mut equations, &parameters).map_err(failed)?),
-        None => None,
-    };
-    let time = model.symbols.time;
-    let at = |equations: &Equations, written: &PathFunctions, t: f64, order: usize| -> Vec<f64> {
-        let point = constants.clone().with([(time, t)]);
-        written.values[order].iter().map(|&e| point.value(&equations.pool, e)).collect()
-    };
-    let pair = |equations: &Equations, written: &PathFunctions, t: f64| {
-        [at(equations, written, t, 0), at(equations, written, t, 1)].concat()
-    };
-    let mut solved = None;
-    let stationary = match &along {
-        Some(along) => stationary(model, &mut equations, along, &constants, duration),
-        None => {
-            let ends = ends(arguments, &laid)?;
-            let [from, to] = &ends;
-            let path = match &near {
-                Some(near) => {
-                    // the ends are those that are asked for
-                    let guess = |t: f64| match t / duration {
-                        part if part <= 0.0 => from.clone(),
-                        part if part >= 1.0 => to.clone(),
-                        _ => at(&equations, near, t, 0),
-                    };
-                    nearest_stationary_path(&mut lagrangian, &guess, duration)
-                }
-                None => stationary_path_between(&mut lagrangian, [from, to], duration),
-            };
-            solved = Some(path.map_err(study::failed)?);
-            true
-        }
-    };
-    let base = |t: f64| -> Vec<f64> {
-        match (&solved, &along) {
-            (Some(path), _) => path.at(t),
-            (None, Some(along)) => pair(&equations, along, t),
-            (None, None) => Vec::new(),
-        }
-    };
-    let action = match &solved {
-        Some(path) => path.action,
-        None => lagrangian.action(&mut |t: f64| base(t), duration).map_err(failed)?,
-    };
-    let nature = match &solved {
-        Some(path) => Some((path.index, path.kind)),
-        None if stationary => Some(morse_index(&mut lagrangian, &base, duration).map_err(failed)?),
-        None => None,
-    };
-    let mut rows = Vec::new();
-    for t in divisions(0.0, duration, INTERVALS) {
-        let state = base(t);
-        let momenta = lagrangian.momenta(t, &state);
-        let energy = lagrangian.energy(t, &state);
-        rows.push([&[t][..], &state, &momenta, &[energy]].concat());
-    }
-    let conjugate = if stationary {
-        let state = base(0.0);
-        let momenta = lagrangian.momenta(0.0, &state);
-        let n = model.coordinates.len();
-        match conjugates(&laid, &equations, &[&state[..n], &momenta].concat(), duration) {
-            Ok(times) => Some(times),
-            Err(why) => {
-                stderr::report(&format!("conjugate points are not known: {why}"));
-                None
-            }
-        }
-    } else {
-        Some(Vec::new())
-    };
-    let abbreviated = abbreviated_action(&mut lagrangian, &mut |t: f64| base(t), duration);
-    let abbreviated = abbreviated.ok();
-    let energy = lagrangian.energy(0.0, &base(0.0));
-    let n = model.coordinates.len();
-    if let Some(vary) = &vary {
-        let size =
-            |t: f64| at(&equations, vary, t, 0).iter().fold(0.0_f64, |most, d| most.max(d.abs()));
-        let greatest = divisions(0.0, duration, INTERVALS).map(size).fold(0.0, f64::max);
-        if size(0.0).max(size(duration)) > HOLDS * greatest {
-            stderr::report(
-                "the variation does not vanish at both ends: where it does not, the action changes by p δq, also on a true path",
-            );
-        }
-    }
-    let mut varied = Vec::new();
-    for &epsilon in vary.iter().chain(&vary_momenta).take(1).flat_map(|_| &arguments.epsilons.0) {
-        let mut path = |t: f64| -> Vec<f64> {
-            let by =
-                vary.as_ref().map_or_else(|| vec![0.0; 2 * n], |vary| pair(&equations, vary, t));
-            base(t).iter().zip(by).map(|(x, d)| x + epsilon * d).collect()
-        };
-        let (action, abbreviated) = match (&vary_momenta, &mut hamiltonian) {
-            (Some(of_momenta), Some(hamiltonian)) => {
-                let mut in_phase_space = |t: f64| -> Vec<f64> {
-                    let own = of_path.momenta(t, &base(t)).into_iter();
-                    let by = at(&equations, of_momenta, t, 0);
-                    let momenta = own.zip(by).map(|(p, d)| p + epsilon * d);
-                    path(t).into_iter().chain(momenta).collect()
-                };
-                let action =
-                    hamiltonian.phase_action(&mut lagrangian, &mut in_phase_space, duration);
-                let why = "its momenta are not those of its velocities".to_owned();
-                (action.map_err(failed)?, Err(why))
-            }
-            _ => {
-                let action = lagrangian.action(&mut path, duration).map_err(failed)?;
-                let at_energy = action_at_energy(&mut lagrangian, &mut path, duration, energy);
-                (action, at_energy.map_err(|why| why.to_string()))
-            }
-        };
-        varied.push(VariedPath { epsilon, action, abbreviated });
-    }
-    let found = JudgedPath { action, abbreviated, nature, conjugate, rows, varied };
+    let found = found(arguments, &laid)?;
     // until here there is nothing to finish, so that a signal ends the search at once
     interrupt.ends_by_itself(|| ());
     let out = Output::open(arguments.output.as_deref(), arguments.format.form())?;
-    crowd::write(out, &found.written(arguments.format, &laid), interrupt)
+    out.write_after_signal(&found.written(arguments.format, &laid), interrupt)
+}
+
+/// The path, and what is known of it.
+fn found(arguments: &Arguments, laid: &Laid) -> Result<JudgedPath, CommandError> {
+    let model = &*laid.model;
+    let mut study = PathStudy::new(laid, arguments.duration)?;
+    let along = study.read(&arguments.along, "--along")?;
+    let near = study.read(&arguments.near, "--near")?;
+    let (momenta, positions): (Vec<Assignment>, Vec<Assignment>) =
+        arguments.vary.iter().cloned().partition(|one| is_momentum(model, one.name()));
+    let variation = study.variation(&positions, &of_coordinates(&momenta))?;
+    let path = match along {
+        Some(along) => study.along(along),
+        None => study.between(&ends(arguments, laid)?, near.as_ref())?,
+    };
+    let mut judged = study.judge(&path)?;
+    if let Some(variation) = variation {
+        judged.varied = study.vary(&path, variation, &arguments.epsilons.0)?;
+    }
+    Ok(judged)
 }
 
 /// Both ends of the path.
@@ -307,60 +164,6 @@ fn ends(arguments: &Arguments, laid: &Laid) -> Result<[Vec<f64>; 2], CommandErro
     Ok([place(&arguments.from, "--from", Some(&own))?, place(&arguments.to, "--to", None)?])
 }
 
-/// Whether d/dt ∂L/∂q̇ − ∂L/∂q vanishes along a written path.
-fn stationary(
-    model: &Model,
-    equations: &mut Equations,
-    along: &PathFunctions,
-    constants: &Valuation,
-    duration: f64,
-) -> bool {
-    let Ok(lagrangian) = equations.lagrangian().clone() else { return false };
-    let time = model.symbols.time;
-    let mut seeds = vec![(time, Expr::ONE)];
-    let pool = &mut equations.pool;
-    for c in &model.coordinates {
-        seeds.push((c.position, pool.variable(c.velocity)));
-        seeds.push((c.velocity, pool.variable(c.acceleration)));
-    }
-    let mut residuals = Vec::new();
-    for c in &model.coordinates {
-        let momentum = pool.derivative(lagrangian, c.velocity);
-        let rate = pool.derivation(momentum, &seeds);
-        let force = pool.derivative(lagrangian, c.position);
-        residuals.push(pool.sub(rate, force));
-    }
-    divisions(0.0, duration, 37).all(|t| {
-        let on_path = constants.clone().with([(time, t)]);
-        let mut point = constants.clone().with([(time, model.run.start + t)]);
-        for (i, c) in model.coordinates.iter().enumerate() {
-            let symbols = [c.position, c.velocity, c.acceleration];
-            for (symbol, values) in symbols.into_iter().zip(&along.values) {
-                point.set(symbol, on_path.value(pool, values[i]));
-            }
-        }
-        residuals.iter().all(|&e| {
-            let (value, size) = pool.evaluate_with_size(e, &|s| point.at(s));
-            value.abs() <= HOLDS * size.max(f64::MIN_POSITIVE)
-        })
-    })
-}
-
-/// The conjugate points of the motion from these canonical variables.
-fn conjugates(
-    laid: &Laid,
-    equations: &Equations,
-    variables: &[f64],
-    duration: f64,
-) -> Result<Vec<f64>, DynamicsError> {
-    let parameters = &laid.start.parameters;
-    let space = PhaseSpace::without_end(&laid.model, equations, &laid.system, parameters)?;
-    let state =
-        laid.start.state(&laid.system).map_err(|why| DynamicsError::Unsuited(why.to_string()))?;
-    let start = space.state_at(&space.state(&state)?, variables);
-    conjugate_points(&space, (laid.method, laid.settings), &start, duration)
-}
-
 fn word(kind: PathKind) -> &'static str {
     match kind {
         PathKind::Minimum => "minimum",
@@ -384,7 +187,7 @@ impl JudgedPath {
         let columns = JudgedPath::columns(&laid.model);
         let (index, kind) = (self.nature.map(|n| n.0), self.nature.map(|n| word(n.1)));
         if format == TableFormat::Json {
-            let mut members = crowd::members(&laid.header());
+            let mut members = laid.header().members();
             let varied = self.varied.iter().map(|varied| {
                 let abbreviated = varied.abbreviated.as_ref().ok();
                 json!({ "epsilon": varied.epsilon, "action": varied.action, "abbreviated": abbreviated })
@@ -442,7 +245,7 @@ impl JudgedPath {
             .collect();
         if csv {
             let rows = cells::csv(table.iter().map(Vec::as_slice));
-            crowd::lead(&laid.header()) + &text + &cells::record(columns) + &rows
+            laid.header().lines() + &text + &cells::record(columns) + &rows
         } else {
             text + "\n" + &cells::text(&columns, &table)
         }

@@ -4,17 +4,29 @@
 
 use super::assignment::Assignment;
 use super::failure::CommandError;
-use crate::expr::Expr;
-use crate::mechanics::Equations;
+use crate::expr::{Expr, Pool, Symbol};
+use crate::mechanics::{Equations, Valuation};
 use crate::model::{Allowed, Model, Scope};
 use crate::printable;
 
 /// Functions of the time, one for each coordinate, with their first two derivatives.
 pub(super) struct PathFunctions {
+    time: Symbol,
     pub(super) values: [Vec<Expr>; 3],
 }
 
 impl PathFunctions {
+    /// Their derivatives of an order, 0 to 2, at a time from the beginning.
+    pub(super) fn at(&self, pool: &Pool, constants: &Valuation, t: f64, order: usize) -> Vec<f64> {
+        let point = constants.clone().with([(self.time, t)]);
+        self.values[order].iter().map(|&e| point.value(pool, e)).collect()
+    }
+
+    /// q and q̇ at a time from the beginning.
+    pub(super) fn state(&self, pool: &Pool, constants: &Valuation, t: f64) -> Vec<f64> {
+        [self.at(pool, constants, t, 0), self.at(pool, constants, t, 1)].concat()
+    }
+
     /// Reads functions of the time, one for each coordinate; `None` if there are none.
     pub(super) fn read(
         model: &Model,
@@ -62,12 +74,12 @@ impl PathFunctions {
         // what is not varied stays
         let first: Vec<Expr> = first.into_iter().map(|e| e.unwrap_or(Expr::ZERO)).collect();
         let pool = &mut equations.pool;
-        let slope = |pool: &mut crate::expr::Pool, all: &[Expr]| -> Vec<Expr> {
+        let slope = |pool: &mut Pool, all: &[Expr]| -> Vec<Expr> {
             all.iter().map(|&e| pool.derivative(e, model.symbols.time)).collect()
         };
         let second = slope(pool, &first);
         let third = slope(pool, &second);
-        Ok(Some(PathFunctions { values: [first, second, third] }))
+        Ok(Some(PathFunctions { time: model.symbols.time, values: [first, second, third] }))
     }
 }
 

@@ -5,6 +5,7 @@ use serde::Serialize;
 use serde_json::{Map, Value};
 
 use super::events::Events;
+use crate::printable;
 
 /// The report before the rows.
 #[derive(Clone, Debug, Serialize)]
@@ -19,6 +20,41 @@ pub(super) struct Header {
     pub(super) method: Map<String, Value>,
     /// The names of the columns.
     pub(super) columns: Vec<String>,
+}
+
+impl Header {
+    /// The members of a report that come first: version, title, parameters, method.
+    pub(super) fn members(&self) -> Map<String, Value> {
+        let mut members = Map::new();
+        members.insert("phaselab".to_owned(), self.phaselab.into());
+        members.insert("title".to_owned(), self.title.clone().into());
+        members.insert("parameters".to_owned(), self.parameters.clone().into());
+        members.insert("method".to_owned(), self.method.clone().into());
+        members
+    }
+
+    /// The same as `#` lines before comma-separated values.
+    pub(super) fn lines(&self) -> String {
+        let fields = |fields: &Map<String, Value>| {
+            let fields = fields.iter().map(|(key, value)| match value {
+                Value::String(text) => format!("{key}={text}"),
+                other => format!("{key}={other}"),
+            });
+            fields.collect::<Vec<_>>().join(" ")
+        };
+        format!(
+            "# phaselab {}: {}\n# parameters: {}\n# method: {}\n",
+            self.phaselab,
+            one_line(&self.title),
+            fields(&self.parameters),
+            fields(&self.method)
+        )
+    }
+}
+
+/// Removes line breaks, because a `#` line must remain one line.
+pub(super) fn one_line(text: &str) -> String {
+    printable::line(&text.split_whitespace().collect::<Vec<_>>().join(" ")).into_owned()
 }
 
 /// The report after the rows.

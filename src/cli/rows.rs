@@ -7,7 +7,7 @@ use std::io::{self, Write};
 use serde_json::{Value, json};
 
 use super::decimal::push_shortest;
-use super::report::{Closing, Header, RunStatus};
+use super::report::{Closing, Header, RunStatus, one_line};
 use crate::printable;
 
 /// How rows are written.
@@ -129,21 +129,9 @@ fn members(out: &mut impl Write, object: &Value) -> io::Result<()> {
 
 /// The version, parameters and method in `#` lines, then the names of the columns.
 fn csv_header(out: &mut impl Write, header: &Header) -> io::Result<()> {
-    writeln!(out, "# phaselab {}: {}", header.phaselab, one_line(&header.title))?;
-    for (name, fields) in [("parameters", &header.parameters), ("method", &header.method)] {
-        let fields = fields.iter().map(|(key, value)| match value {
-            Value::String(text) => format!("{key}={text}"),
-            other => format!("{key}={other}"),
-        });
-        writeln!(out, "# {name}: {}", fields.collect::<Vec<_>>().join(" "))?;
-    }
+    out.write_all(header.lines().as_bytes())?;
     let mut names = csv::WriterBuilder::new().from_writer(Vec::new());
     names.write_record(header.columns.iter().map(|name| printable::line(name).into_owned()))?;
     let names = names.into_inner().map_err(csv::IntoInnerError::into_error)?;
     out.write_all(&names)
-}
-
-/// Removes line breaks, because a `#` line must remain one line.
-fn one_line(text: &str) -> String {
-    printable::line(&text.split_whitespace().collect::<Vec<_>>().join(" ")).into_owned()
 }

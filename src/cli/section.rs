@@ -10,13 +10,13 @@ use self::report::{SectionReport, ShownColumn};
 use self::rotation_columns::RotationColumns;
 use super::assignment::{self, number, whole};
 use super::cells::TableFormat;
-use super::crowd::{self, Crowd};
 use super::failure::CommandError;
 use super::interrupt::Interrupt;
 use super::motion_options::{Laid, MotionOptions};
 use super::output::Output;
 use super::starts::Starts;
 use super::stderr;
+use super::threads::{self, ThreadOptions};
 use crate::diagnostic::{Diagnostic, report};
 use crate::ensemble::{
     Crossings, EnergyShell, Root, SectionPlan, Start, add_section, crossings_of_all, section_group,
@@ -74,7 +74,7 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "A[,B]", allow_hyphen_values = true)]
     rotation: Option<String>,
     #[command(flatten)]
-    crowd: Crowd,
+    threads: ThreadOptions,
     /// How the crossings are written.
     #[arg(long, value_enum, default_value_t = TableFormat::Csv)]
     format: TableFormat,
@@ -179,7 +179,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     };
     let size = section_group(&laid.system, laid.method, laid.settings);
     let groups = (starts.len(), size);
-    let orbits = crowd::collect(&arguments.crowd, groups, interrupt, group)?;
+    let orbits = threads::collect(&arguments.threads, groups, interrupt, group)?;
     // the rest takes time with many crossings, also after a signal
     interrupt.prepares();
     let section = SectionReport {

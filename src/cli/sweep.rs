@@ -16,13 +16,14 @@ use serde_json::{Value, json};
 use super::advice::size;
 use super::assignment::number;
 use super::cells::{self, TableCell, TableFormat};
-use super::crowd::{self, Crowd, Tally};
+use super::count_bar::CountBar;
 use super::failure::CommandError;
 use super::interrupt::Interrupt;
 use super::motion_options::MotionOptions;
 use super::output::{Output, OutputForm};
 use super::starts::{GridAxis, Starts};
 use super::stderr;
+use super::threads::ThreadOptions;
 use crate::ensemble::in_order;
 use crate::orbits::Departed;
 use crate::printable;
@@ -71,7 +72,7 @@ pub(super) struct Arguments {
     #[arg(conflicts_with_all = ["name", "over", "grid", "measure", "shard", "resume", "until"])]
     merge: Vec<PathBuf>,
     #[command(flatten)]
-    crowd: Crowd,
+    threads: ThreadOptions,
     /// How the rows are written.
     #[arg(long, value_enum, default_value_t = TableFormat::Csv)]
     format: TableFormat,
@@ -206,7 +207,7 @@ impl Sweep<'_> {
 
     /// The lines before the rows.
     fn head(&self) -> String {
-        crowd::lead(&self.table.header())
+        self.table.header().lines()
             + &format!("{}\n", self.identity.line())
             + &cells::record(self.table.columns())
     }
@@ -224,7 +225,7 @@ impl Sweep<'_> {
         note: impl Fn(usize, SweepRow) -> T + Sync,
         mut take: impl FnMut(usize, Option<T>) -> ControlFlow<()>,
     ) -> Result<(), CommandError> {
-        let (threads, cancel) = (self.arguments.crowd.threads(), self.interrupt.cancel());
+        let (threads, cancel) = (self.arguments.threads.count(), self.interrupt.cancel());
         let size = self.table.group(places.len(), threads);
         let groups: Vec<&[usize]> = places.chunks(size).collect();
         let work = |group: usize| {
@@ -246,7 +247,7 @@ impl Sweep<'_> {
     fn into_stream(self, path: Option<&Path>) -> Result<(), CommandError> {
         let mut out = Output::open(path, OutputForm::Text)?;
         let (mut remarks, mut failed) = (Remarks::default(), None);
-        let mut tally = Tally::new(0, self.places.len());
+        let mut bar = CountBar::new(0, self.places.len());
         let head = out.write_all(self.head().as_bytes());
         head.map_err(|error| out.failed(&error))?;
         let mut written = 0;
@@ -259,12 +260,12 @@ impl Sweep<'_> {
                 return ControlFlow::Break(());
             }
             written += 1;
-            tally.add();
+            bar.add();
             ControlFlow::Continue(())
         };
         let places: Vec<usize> = self.places.clone().collect();
         self.compute(&places, |_, row| row, take)?;
-        drop(tally);
+        drop(bar);
         if let Some(failed) = failed {
             return Err(failed);
         }
@@ -288,7 +289,7 @@ impl Sweep<'_> {
         let (journal, mut lines, known) =
             Journal::open(path, &self.identity, self.places.len(), resume)?;
         let missing: Vec<usize> = self.places.clone().filter(|&p| lines[p].is_none()).collect();
-        let mut tally = Tally::new(lines.len() - missing.len(), lines.len());
+        let mut bar = CountBar::new(lines.len() - missing.len(), lines.len());
         let mut failed = None;
         let mut remarks: BTreeMap<usize, RowRemark> = (known.into_iter())
             .filter_map(|(place, remark)| Some((place, serde_json::from_value(remark).ok()?)))
@@ -311,11 +312,11 @@ impl Sweep<'_> {
             }
             remarks.extend(row.remark.map(|remark| (missing[i], remark)));
             lines[missing[i]] = Some(line);
-            tally.add();
+            bar.add();
             ControlFlow::Continue(())
         };
         self.compute(&missing, note, take)?;
-        drop(tally);
+        drop(bar);
         if let Some(failed) = failed {
             return Err(failed);
         }
@@ -328,7 +329,7 @@ impl Sweep<'_> {
         }
         let out = Output::open(Some(path), OutputForm::Text)?;
         let rows: String = lines.into_iter().flatten().collect();
-        crowd::write(out, &(self.head() + &rows), self.interrupt)?;
+        out.write_after_signal(&(self.head() + &rows), self.interrupt)?;
         journal.remove();
         let mut all = Remarks::default();
         for (&place, remark) in &remarks {
@@ -341,16 +342,16 @@ impl Sweep<'_> {
     /// Writes all rows at once, as JSON or for reading.
     fn whole(self) -> Result<(), CommandError> {
         let out = Output::open(self.arguments.output.as_deref(), self.arguments.format.form())?;
-        let (mut rows, mut tally) = (Vec::new(), Tally::new(0, self.places.len()));
+        let (mut rows, mut bar) = (Vec::new(), CountBar::new(0, self.places.len()));
         let places: Vec<usize> = self.places.clone().collect();
         let take = |_, row: Option<SweepRow>| {
             let Some(row) = row else { return ControlFlow::Break(()) };
             rows.push(row);
-            tally.add();
+            bar.add();
             ControlFlow::Continue(())
         };
         self.compute(&places, |_, row| row, take)?;
-        drop(tally);
+        drop(bar);
         let mut remarks = Remarks::default();
         for (i, row) in rows.iter().enumerate() {
             row.remark.iter().for_each(|remark| remarks.note(i, remark));
@@ -359,7 +360,7 @@ impl Sweep<'_> {
         let columns = self.table.columns();
         let text = match self.arguments.format {
             TableFormat::Json => {
-                let mut members = crowd::members(&self.table.header());
+                let mut members = self.table.header().members();
                 members.insert("columns".to_owned(), columns.into());
                 let messages = (1..).zip(&rows).filter_map(|(n, row): (u64, &SweepRow)| {
                     let message = row.remark.as_ref()?.message.as_ref()?;
@@ -377,7 +378,7 @@ impl Sweep<'_> {
             }
             _ => cells::text(&columns, &cells),
         };
-        crowd::write(out, &text, self.interrupt)?;
+        out.write_after_signal(&text, self.interrupt)?;
         remarks.report(&self.table.advice());
         self.ended()
     }

@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use super::Arguments;
 use crate::action_angle::{AngleMoment, FrozenSystem};
 use crate::cli::cells::{self, TableCell, TableFormat};
-use crate::cli::crowd::{self, Tally};
+use crate::cli::count_bar::CountBar;
 use crate::cli::decimal::divisions;
 use crate::cli::failure::CommandError;
 use crate::cli::interrupt::Interrupt;
@@ -52,7 +52,7 @@ pub(super) fn perform(
     }
     let out = Output::open(arguments.output.as_deref(), arguments.format.form())?;
     let text = along.written(arguments.format, &laid, interrupt.signal().is_some());
-    crowd::write(out, &text, interrupt)?;
+    out.write_after_signal(&text, interrupt)?;
     match (interrupt.signal(), along.why) {
         (Some(signal), _) => Err(CommandError::Signal(signal)),
         (None, Some(why)) => Err(CommandError::CouldNot(why)),
@@ -92,7 +92,7 @@ fn followed(
         depends_on_time: frozen.depends_on_time(),
         why: None,
     };
-    let mut tally = Tally::new(0, times.len());
+    let mut bar = CountBar::new(0, times.len());
     for (&time, values) in times.iter().zip(&seen) {
         if interrupt.signal().is_some() {
             return Ok(along);
@@ -109,7 +109,7 @@ fn followed(
                 return Ok(along);
             }
         }
-        tally.add();
+        bar.add();
     }
     if seen.len() < times.len() {
         let at = printable::number(times[seen.len()]);
@@ -140,7 +140,7 @@ impl ActionsAlong {
         let rows: Vec<Vec<f64>> = (0..self.moments.len()).map(row).collect();
         let largest = residuals.as_ref().map(|all| all.iter().fold(0.0_f64, |m, x| m.max(x.abs())));
         if format == TableFormat::Json {
-            let mut members = crowd::members(&laid.header());
+            let mut members = laid.header().members();
             let along = json!({
                 "columns": names,
                 "rows": rows,
@@ -161,7 +161,7 @@ impl ActionsAlong {
         let table: Vec<Vec<TableCell>> =
             rows.into_iter().map(|row| row.into_iter().map(TableCell::Number).collect()).collect();
         if format == TableFormat::Csv {
-            return crowd::lead(&laid.header())
+            return laid.header().lines()
                 + &cells::record(names)
                 + &cells::csv(table.iter().map(Vec::as_slice));
         }

@@ -8,7 +8,6 @@ use std::iter::{once, once_with};
 use serde_json::{Map, Value, json};
 
 use super::super::cells::{self, TableCell, TableFormat};
-use super::super::crowd;
 use super::super::failure::CommandError;
 use super::super::interrupt::Interrupt;
 use super::super::motion_options::Laid;
@@ -45,14 +44,14 @@ impl SectionReport<'_> {
                 let rows = self.rows().map(|row| row.iter().map(TableCell::value).collect());
                 let (head, tail) = (self.head(&columns), self.tail());
                 let pieces = cells::object_in_pieces(&head, ("rows", rows), &tail);
-                crowd::write_pieces(out, pieces, interrupt)
+                out.write_pieces(pieces, interrupt)
             }
             TableFormat::Csv => {
                 let on = format!("# section: {} {}\n", printable::line(self.on), self.direction);
-                let head = crowd::lead(&self.laid.header()) + &on + &cells::record(columns);
+                let head = self.laid.header().lines() + &on + &cells::record(columns);
                 let rows = self.rows().map(|row| cells::csv([row.as_slice()]));
                 let pieces = once(head).chain(rows).chain(once_with(|| self.remarks("# ")));
-                crowd::write_pieces(out, pieces, interrupt)
+                out.write_pieces(pieces, interrupt)
             }
             TableFormat::Text => {
                 // it takes time with many rows, also after a signal
@@ -60,7 +59,7 @@ impl SectionReport<'_> {
                 let rows = self.rows().collect::<Vec<_>>();
                 let text = cells::text(&columns, &rows) + &self.remarks("");
                 interrupt.is_prepared();
-                crowd::write(out, &text, interrupt)
+                out.write_after_signal(&text, interrupt)
             }
         }
     }
@@ -76,7 +75,7 @@ impl SectionReport<'_> {
 
     /// The members of the JSON object before the rows.
     fn head(&self, columns: &[String]) -> Map<String, Value> {
-        let mut members = crowd::members(&self.laid.header());
+        let mut members = self.laid.header().members();
         members.insert("on".to_owned(), self.on.into());
         members.insert("direction".to_owned(), self.direction.into());
         members.insert("columns".to_owned(), json!(columns));
