@@ -14,6 +14,7 @@ mod batch;
 mod batch_step_size;
 mod branches;
 mod collocation_step;
+mod decimal_limit;
 mod departure;
 mod exact_passage;
 mod expansion;
@@ -25,16 +26,20 @@ mod rough_logarithms;
 mod start_slope;
 mod steep;
 mod step_end;
+mod step_history;
 mod step_screen;
 mod step_size;
 mod sticking;
 mod still;
 mod touch;
 mod trial_velocities;
+mod unit_of_time;
 
 pub(super) use batch::TaylorBatch;
 use collocation_step::CollocationStep;
+use decimal_limit::DecimalLimit;
 use kinks::Kinks;
+use step_history::StepHistory;
 use step_size::{EXACT_BELOW, StepSize};
 use still::Still;
 
@@ -83,35 +88,26 @@ struct Taylor {
     tolerance: f64,
     /// Whether the lowest orders are in double-double.
     exact: bool,
-    /// Whether the unit of time in use was determined for this motion.
-    scaled: bool,
-    /// The size of the last step, from which the next series takes its unit of time. The current
-    /// series still represents the states inside that step.
-    taken: Option<f64>,
+    history: StepHistory,
     kinks: Kinks,
     rates: ExactRates,
     bridge: CollocationStep,
     /// The sizes of the numbers where the motion began.
     sizes: Vec<f64>,
-    /// The longest step since the last kink, relative to which a step counts as short.
-    stride: f64,
-    /// The last step, and whether it and those before lead away from a point that was passed.
-    last: f64,
-    leaving: bool,
-    /// Whether no series continues from the current state.
-    landed: bool,
-    /// Set if the last step was a collocation step from this state, with these rates there if it
-    /// has none itself.
-    leapt: Option<(State, Option<Vec<DoubleDouble>>)>,
-    /// A motion at rest, until it starts moving.
-    resting: Option<Still>,
-    /// The step before which the motion was last taken to touch rest, and did not.
-    touch_tried: f64,
+    course: StepCourse,
     parameters: Vec<f64>,
-    /// The last limit of a step, and the decimal number it is written as.
-    limit: (f64, DoubleDouble),
-    /// The number of collocation steps, and the time at the end of their last round.
-    leaps: (u32, f64),
+    limit: DecimalLimit,
+}
+
+/// What the last step followed, which its dense output follows too.
+#[derive(Debug)]
+enum StepCourse {
+    /// The series.
+    Series,
+    /// A collocation step from this state, with these rates there if it has none itself.
+    Collocation(State, Option<Vec<DoubleDouble>>),
+    /// A motion at rest, until it starts moving.
+    Rest(Still),
 }
 
 impl Taylor {
@@ -137,22 +133,14 @@ impl Taylor {
             step_size: StepSize::new(tolerance, order),
             state,
             begin: 0.0,
-            scaled: false,
-            taken: None,
+            history: StepHistory::default(),
             kinks: Kinks::default(),
             rates,
             bridge,
             sizes: Vec::new(),
-            stride: 0.0,
-            last: f64::INFINITY,
-            leaving: false,
-            landed: false,
-            leapt: None,
-            resting: None,
-            touch_tried: f64::INFINITY,
+            course: StepCourse::Series,
             parameters: Vec::new(),
-            limit: (f64::NAN, DoubleDouble::ZERO),
-            leaps: (0, f64::NAN),
+            limit: DecimalLimit::NONE,
         })
     }
 
@@ -171,25 +159,21 @@ impl Taylor {
 
     /// Writes the state at a time within the last step into `out`.
     fn write_state(&mut self, time: DoubleDouble, out: &mut State) -> Result<(), MotionError> {
-        if let Some(still) = &self.resting {
-            let begin = still.step_begin();
-            let after = part_of_step(time - begin, self.state.exact_time() - begin);
-            out.copy_from(&still.at(&mut self.rates, begin + after)?);
-            return Ok(());
-        }
-        let Some((from, toward)) = &self.leapt else {
-            let begin = self.series.time();
-            let after = part_of_step(time - begin, self.state.exact_time() - begin);
-            self.series.state_after(after, out);
-            return Ok(());
+        let begin = match &self.course {
+            StepCourse::Series => self.series.time(),
+            StepCourse::Collocation(from, _) => from.exact_time(),
+            StepCourse::Rest(still) => still.step_begin(),
         };
-        let begin = from.exact_time();
         let after = part_of_step(time - begin, self.state.exact_time() - begin);
-        if after.high == 0.0 {
-            out.copy_from(from);
-            return Ok(());
+        match &self.course {
+            StepCourse::Series => self.series.state_after(after, out),
+            StepCourse::Collocation(from, _) if after.high == 0.0 => out.copy_from(from),
+            StepCourse::Collocation(from, toward) => {
+                self.bridge.inside(&mut self.rates, from, after, toward.as_deref(), out)?;
+            }
+            StepCourse::Rest(still) => out.copy_from(&still.at(&mut self.rates, begin + after)?),
         }
-        self.bridge.inside(&mut self.rates, from, after, toward.as_deref(), out)
+        Ok(())
     }
 }
 
@@ -214,16 +198,13 @@ impl Taylor {
             return Ok(());
         }
         let time = self.state.exact_time();
-        if self.limit.0 != limit {
-            self.limit = (limit, DoubleDouble::from_decimal(limit));
-        }
-        let left = self.limit.1 - time;
-        if self.resting.as_ref().is_some_and(Still::is_over) {
-            self.resting = None;
+        let left = self.limit.exact(limit) - time;
+        if matches!(&self.course, StepCourse::Rest(still) if still.is_over()) {
+            self.course = StepCourse::Series;
             self.kinks.begin(&mut self.series, &mut self.rates, &self.state)?;
-            self.stride = 0.0;
+            self.history.stride = 0.0;
         }
-        if let Some(still) = &mut self.resting {
+        if let StepCourse::Rest(still) = &mut self.course {
             let (rates, parameters) = (&mut self.rates, &self.parameters);
             let place = (&self.state, limit);
             let state = still.advance(&self.system, rates, parameters, place)?;
@@ -232,7 +213,7 @@ impl Taylor {
             return Ok(());
         }
         self.aim(left.high);
-        if self.landed {
+        if self.history.landed {
             if self.leap(left.high, 0.0)? {
                 return Ok(());
             }
@@ -250,7 +231,7 @@ impl Taylor {
         if self.cross_near_touch(step, limit)? || self.rest_nearby(step)? {
             return Ok(());
         }
-        self.leapt = None;
+        self.course = StepCourse::Series;
         match self.end_of_step(step, left)? {
             Some(end) if end.is_branch_point() && self.cross_touch(step, limit)? => Ok(()),
             Some(end) => self.go_to(end, step, (left.high, limit)),
@@ -263,24 +244,15 @@ impl Stepper for Taylor {
     fn start(&mut self, state: &State, parameters: &[f64]) -> Result<(), MotionError> {
         let mut state = self.system.convert(state, self.system.form(), parameters)?;
         let before = self.before(&state)?;
-        self.end_passage(true);
         if self.series.switches() > 0 {
             start_slope::settle(&mut state, &before);
         }
+        self.end_passage(true);
         self.sizes = start_slope::sizes(&state, &before);
         self.state = state;
         self.begin = self.state.time;
-        self.scaled = false;
-        self.taken = None;
-        self.stride = 0.0;
-        self.last = f64::INFINITY;
-        self.leaving = false;
-        self.landed = false;
-        self.leapt = None;
-        self.resting = None;
-        self.touch_tried = f64::INFINITY;
+        (self.history, self.course) = (StepHistory::default(), StepCourse::Series);
         self.parameters = parameters.to_vec();
-        self.leaps = (0, f64::NAN);
         let parameters = self.system.inputs(parameters);
         self.series.set_parameters(&parameters);
         self.series.set_scale(1.0);
@@ -339,7 +311,7 @@ impl DenseOutput for Taylor {
     }
 
     fn series(&self) -> Option<&dyn StepSeries> {
-        let taken = self.resting.is_none() && self.leapt.is_none() && self.begin != self.state.time;
-        if taken { Some(&self.series) } else { None }
+        let taken = matches!(self.course, StepCourse::Series) && self.begin != self.state.time;
+        taken.then_some(&self.series as &dyn StepSeries)
     }
 }

@@ -6,8 +6,10 @@
 //! given back as [`LaneStatus::Irregular`]. Never here: kinks, occurrences.
 
 use super::batch_step_size::BatchStepSize;
+use super::decimal_limit::DecimalLimit;
 use super::expansion::{NEARBY_UNITS, UnitTrial, UnitTrials};
 use super::step_end::{SOON_STALLED, VANISHING_IN_F64};
+use super::unit_of_time::UnitOfTime;
 use super::{EXACT_BELOW, METHOD, part_of_step, step_size};
 use crate::integrate::lane_status::LaneStatus;
 use crate::integrate::method::{Method, Settings};
@@ -19,14 +21,10 @@ use crate::system::{BatchSeries, State, System};
 struct TaylorLane {
     status: LaneStatus,
     state: State,
-    /// The size of the last step, from which the next series takes its unit of time.
-    taken: Option<f64>,
-    /// Whether that unit was determined for this orbit.
-    scaled: bool,
+    unit: UnitOfTime,
     /// The longest step.
     stride: f64,
-    /// The last limit of a step, and the decimal number it is written as.
-    limit: (f64, DoubleDouble),
+    limit: DecimalLimit,
 }
 
 /// Orbits by Taylor series, side by side.
@@ -53,10 +51,9 @@ impl TaylorBatch {
         let lane = TaylorLane {
             status: LaneStatus::Empty,
             state: State::new(0.0, system.form(), vec![0.0; system.state_len()]),
-            taken: None,
-            scaled: false,
+            unit: UnitOfTime::default(),
             stride: 0.0,
-            limit: (f64::NAN, DoubleDouble::ZERO),
+            limit: DecimalLimit::NONE,
         };
         Some(TaylorBatch {
             system: system.clone(),
@@ -82,8 +79,7 @@ impl TaylorBatch {
             }
             _ => LaneStatus::Irregular,
         };
-        (own.taken, own.scaled, own.stride) = (None, false, 0.0);
-        own.limit.0 = f64::NAN;
+        (own.unit, own.stride) = (UnitOfTime::default(), 0.0);
         self.series.set_scale(lane, 1.0);
         own.status
     }
@@ -110,11 +106,9 @@ impl TaylorBatch {
         });
         for (i, lane) in self.lanes.iter_mut().enumerate() {
             if going[i] {
-                left[i] = lane.left(limits[i]);
-                let scale = if lane.scaled { self.series.scale().0[i] } else { left[i].high };
-                let step = lane.taken.take().unwrap_or(scale).abs();
-                self.series.set_scale(i, step.clamp(1e-300, 1e300).copysign(left[i].high));
-                lane.scaled = true;
+                left[i] = lane.limit.exact(limits[i]) - lane.state.exact_time();
+                let scale = lane.unit.next(self.series.scale().0[i], left[i].high);
+                self.series.set_scale(i, scale);
                 self.series.set_state(i, &lane.state);
             }
         }
@@ -220,14 +214,6 @@ impl TaylorBatch {
 }
 
 impl TaylorLane {
-    /// The time to go.
-    fn left(&mut self, limit: f64) -> DoubleDouble {
-        if self.limit.0 != limit {
-            self.limit = (limit, DoubleDouble::from_decimal(limit));
-        }
-        self.limit.1 - self.state.exact_time()
-    }
-
     /// The time to step, where the series allows `step` in its unit `scale`; `None` where that is out
     /// of the ordinary.
     fn choose(&mut self, step: f64, scale: f64, left: DoubleDouble) -> Option<DoubleDouble> {
@@ -241,13 +227,15 @@ impl TaylorLane {
         let last = step >= left.high.abs();
         let after = if last { left } else { DoubleDouble::from(step.copysign(left.high)) };
         self.stride = self.stride.max(after.high.abs());
-        self.taken = (!last).then(|| step.min(left.high.abs()).min(4.0 * after.high.abs()));
+        if !last {
+            self.unit.take(after.high.abs(), step, left.high);
+        }
         Some(after)
     }
 
     /// Ends a step that began at a time.
     fn arrive(&mut self, begin: DoubleDouble, limit: f64, left: DoubleDouble) {
-        if self.taken.is_none() {
+        if self.unit.taken.is_none() {
             self.state.time = limit;
         }
         let moved = (self.state.exact_time() - begin).high.abs() > 0.0;

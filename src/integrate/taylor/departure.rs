@@ -5,12 +5,8 @@
 
 use super::step_end::SOON_STALLED;
 use super::sticking::{self, Sticking};
-use super::{Taylor, start_slope};
+use super::{StepCourse, Taylor, start_slope};
 use crate::system::{MotionError, MotionErrorKind, Side};
-
-/// This many collocation steps must advance the time by this part of the time that has passed.
-const ROUND: u32 = 64;
-const LEAST: f64 = 1e-15;
 
 /// On a surface, a step this short relative to those before it is no better than none.
 const HOPELESS: f64 = 1e-9;
@@ -31,8 +27,8 @@ impl Taylor {
         for sides in choices {
             self.kinks.choose(&mut self.series, sides);
             match self.expand_on_surface(left) {
-                Ok(step) if self.kinks.leads_on(&self.series, step, self.stride) => {
-                    let hopeless = step < HOPELESS * self.stride && !rough;
+                Ok(step) if self.kinks.leads_on(&self.series, step, self.history.stride) => {
+                    let hopeless = step < HOPELESS * self.history.stride && !rough;
                     if hopeless && self.leap_beside(Some(step), left, 0.0)? {
                         return Ok(None);
                     }
@@ -60,10 +56,10 @@ impl Taylor {
     /// Comes to rest where friction holds a motion that is next to rest, whose steps are so short that it would take ever so many of
     /// them to arrive. Returns false elsewhere.
     pub(super) fn rest_nearby(&mut self, step: f64) -> Result<bool, MotionError> {
-        if step >= IDLE * self.stride {
+        if step >= IDLE * self.history.stride {
             return Ok(false);
         }
-        let (rates, from, stride) = (&mut self.rates, &self.state, self.stride);
+        let (rates, from, stride) = (&mut self.rates, &self.state, self.history.stride);
         let Sticking::Stays { still, dry: true } =
             sticking::of(&self.system, rates, &self.parameters, from, stride)?
         else {
@@ -71,8 +67,7 @@ impl Taylor {
         };
         self.begin = self.state.time;
         self.state = still.at(&mut self.rates, self.state.exact_time())?;
-        self.leapt = None;
-        self.resting = Some(still);
+        self.course = StepCourse::Rest(still);
         Ok(true)
     }
 
@@ -80,7 +75,7 @@ impl Taylor {
     /// out as well.
     fn expand_on_surface(&mut self, left: f64) -> Result<f64, MotionError> {
         let step = self.expand(left)?;
-        if self.stride == 0.0 {
+        if self.history.stride == 0.0 {
             let here = self.kinks.on_surface(&self.series);
             let beside = start_slope::beside(&self.state, &self.sizes);
             let known = match self.series.build(&beside) {
@@ -107,15 +102,11 @@ impl Taylor {
         left: f64,
         least: f64,
     ) -> Result<bool, MotionError> {
-        self.leaps.0 += 1;
-        if self.leaps.0.is_multiple_of(ROUND) {
-            let (before, now) = (self.leaps.1, self.state.time);
-            self.leaps.1 = now;
-            if (now - before).abs() <= LEAST * (now.abs() + left.abs()) {
-                return Ok(false);
-            }
+        if !self.history.count_leap(self.state.time, left) {
+            return Ok(false);
         }
-        let stride = if self.stride > 0.0 { self.stride.min(left.abs()) } else { left.abs() };
+        let longest = self.history.stride;
+        let stride = if longest > 0.0 { longest.min(left.abs()) } else { left.abs() };
         let wanted = stride.copysign(left);
         let mut from = self.state.clone();
         let mut toward = None;
@@ -130,7 +121,7 @@ impl Taylor {
             return Ok(false);
         }
         // next to rest, dry friction leaves steps that lead nowhere; at the start of a motion no step has shown what is short
-        let is_hopeless = |step: f64| self.stride > 0.0 && step.abs() < HOPELESS * stride;
+        let is_hopeless = |step: f64| longest > 0.0 && step.abs() < HOPELESS * stride;
         if found.is_none_or(is_hopeless) {
             match sticking::of(&self.system, rates, &self.parameters, &from, stride)? {
                 Sticking::Unknown | Sticking::SetsOut(..) | Sticking::Stays { dry: false, .. }
@@ -139,7 +130,7 @@ impl Taylor {
                 Sticking::Stays { still, .. } => {
                     self.state = still.at(rates, from.exact_time())?;
                     self.begin = self.state.time;
-                    self.resting = Some(still);
+                    self.course = StepCourse::Rest(still);
                     return Ok(true);
                 }
                 Sticking::SetsOut(state, rates) => {
@@ -153,12 +144,12 @@ impl Taylor {
                             rates,
                             &self.parameters,
                             &from,
-                            (wanted, self.limit.0),
+                            (wanted, self.limit.rounded),
                         )?;
                         let Some((still, state)) = first else { return Ok(false) };
                         self.begin = from.time;
                         self.state = state;
-                        self.resting = Some(still);
+                        self.course = StepCourse::Rest(still);
                         return Ok(true);
                     }
                 }
@@ -167,12 +158,8 @@ impl Taylor {
         let Some(step) = found else { return Ok(false) };
         self.kinks.begin(&mut self.series, &mut self.rates, &self.state)?;
         self.begin = from.time;
-        self.leapt = Some((from, toward));
-        self.landed = false;
-        self.stride = step.abs();
-        self.last = step.abs();
-        self.leaving = true;
-        self.taken = Some(step.abs());
+        self.course = StepCourse::Collocation(from, toward);
+        self.history.leapt(step.abs());
         Ok(true)
     }
 }

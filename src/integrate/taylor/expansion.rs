@@ -12,10 +12,7 @@ pub(super) const NEARBY_UNITS: (f64, f64) = (1e-4, 1e3);
 impl Taylor {
     /// Points the series in the direction of `left`, the time to go.
     pub(super) fn aim(&mut self, left: f64) {
-        let scale = if self.scaled { self.series.scale() } else { left };
-        let step = self.taken.take().unwrap_or(scale).abs();
-        self.series.set_scale(step.clamp(1e-300, 1e300).copysign(left));
-        self.scaled = true;
+        self.series.set_scale(self.history.unit.next(self.series.scale(), left));
     }
 
     /// Builds the series at the current state in a unit of time near the step it allows, and

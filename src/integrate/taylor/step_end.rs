@@ -41,9 +41,6 @@ const LAST_DIGIT: f64 = 1e-17;
 /// cannot be reached.
 const NEARLY: f64 = 1e-6;
 
-/// Steps that lead away from a point do not shrink by more than this factor.
-const SHRINKING: f64 = 0.1;
-
 /// How far beyond such a short step the point is searched for, in steps.
 const BEYOND: f64 = 8.0;
 
@@ -91,18 +88,16 @@ impl Taylor {
         let time = self.state.time.abs();
         let scale = self.series.scale();
         let part = if self.exact { VANISHING } else { VANISHING_IN_F64 };
-        let vanishing = step < part * self.stride || step < SOON_STALLED * time;
+        let vanishing = step < part * self.history.stride || step < SOON_STALLED * time;
         let last = step >= left.high.abs();
         let after = if last { left } else { DoubleDouble::from(step.copysign(left.high)) };
         // what makes the steps vanish lies a little farther than they reach
         let end = if vanishing { BEYOND * step / scale.abs() } else { after.high / scale };
         let end = end.min((left.high / scale).abs());
-        let found = self.kinks.first(&self.series, end, self.stride);
+        let found = self.kinks.first(&self.series, end, self.history.stride);
         let approaching = vanishing && found.is_some();
         let nearest = approaching && step <= NEAREST * time;
-        // steps away from a point that was passed become longer by themselves
-        let leaving = self.leaving && step > SHRINKING * self.last;
-        self.leaving &= step <= SMALLEST * time;
+        let leaving = self.history.leads_away(step, SMALLEST * time);
         let known = if nearest { NEARLY } else { LAST_DIGIT };
         let crossing =
             found.filter(|crossing| !vanishing || crossing.is_known(&self.series, known));
@@ -123,7 +118,7 @@ impl Taylor {
             if let Some(x) = branches::predicted(&self.series, end) {
                 (end_of_step.last, end_of_step.landed) = (false, true);
                 end_of_step.after = DoubleDouble::from(x * scale);
-            } else if (step < TOUCHING * self.stride || step < STALLED * time)
+            } else if (step < TOUCHING * self.history.stride || step < STALLED * time)
                 && self.leap(left.high, BEYOND * step)?
             {
                 return Ok(None);
@@ -146,7 +141,7 @@ impl Taylor {
             reach = reach.min(end.after.high.abs() / scale.abs());
         }
         let Some(passing) = branches::first(&self.series, reach) else { return };
-        let within = TOUCHING * self.stride / scale.abs();
+        let within = TOUCHING * self.history.stride / scale.abs();
         let behind = self.behind(&passing, end.crossing.take(), (within, left));
         let (passing, crossing) = behind.unwrap_or((passing, None));
         if let Some(crossing) = crossing {
@@ -156,7 +151,7 @@ impl Taylor {
         }
         let there = passing.after * scale;
         end.landed = self.is_zero_at(&passing, passing.after, within) == Some(true)
-            || there.high.abs() < TOUCHING * self.stride;
+            || there.high.abs() < TOUCHING * self.history.stride;
         (end.last, end.crossing) = (false, None);
         end.after = if end.landed { there } else { there * NEARER };
     }
@@ -170,7 +165,7 @@ impl Taylor {
         (within, left): (f64, f64),
     ) -> Option<(Passing, Option<KinkCrossing>)> {
         let end = (passing.after.high * (1.0 + BEHIND)).min(left);
-        let crossing = known.or_else(|| self.kinks.first(&self.series, end, self.stride));
+        let crossing = known.or_else(|| self.kinks.first(&self.series, end, self.history.stride));
         let crossing = crossing.filter(|crossing| crossing.after.high <= end);
         if let Some(crossing) = crossing
             && self.is_zero_at(passing, crossing.after, within) != Some(false)
@@ -210,13 +205,12 @@ impl Taylor {
             }
         }
         let size = end.after.high.abs();
-        (self.last, self.landed) = (size, end.landed);
         let turned = end.crossing.is_some() && !end.vanishing;
-        self.stride = if turned { size } else { self.stride.max(size) };
+        self.history.stepped(size, end.landed, turned);
         if end.last {
             self.state.time = limit;
         } else {
-            self.taken = Some(step.min(left.abs()).min(4.0 * size));
+            self.history.unit.take(size, step, left);
         }
         if !self.kinks.arrive(end.crossing, &self.series, &mut self.state) {
             return Err(self.system.fault(MotionErrorKind::Sticks, begin, &self.state.values));

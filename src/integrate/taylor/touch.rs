@@ -9,10 +9,10 @@
 //! In: the series before the touch, the step it allows. Out: the motion across, or nothing where it does not touch rest.
 //! Never here: what comes to rest, or begins to move.
 
-use super::Taylor;
 use super::onset::{Onset, points};
 use super::still::Still;
 use super::trial_velocities::TrialVelocities;
+use super::{StepCourse, Taylor};
 use crate::num::DoubleDouble;
 use crate::system::{Form, MotionError, State};
 
@@ -32,11 +32,11 @@ impl Taylor {
     /// Continues across a point in which the motion touches rest, where steps as short as this lead to one. Returns false
     /// where they do not.
     pub(super) fn cross_near_touch(&mut self, step: f64, limit: f64) -> Result<bool, MotionError> {
-        if step >= SHORT * self.stride {
-            self.touch_tried = f64::INFINITY;
+        if step >= SHORT * self.history.stride {
+            self.history.touch_tried = f64::INFINITY;
             return Ok(false);
         }
-        if step >= AGAIN * self.touch_tried {
+        if step >= AGAIN * self.history.touch_tried {
             return Ok(false);
         }
         self.cross_touch(step, limit)
@@ -47,7 +47,7 @@ impl Taylor {
         let n = self.system.degrees();
         let is_due = self.state.form != Form::Variables;
         let Some(time) = is_due.then(|| self.time_to_touch(n)).flatten() else { return Ok(false) };
-        self.touch_tried = step;
+        self.history.touch_tried = step;
         let mut still = self.state.clone();
         for i in n..2 * n {
             still.set(i, DoubleDouble::ZERO);
@@ -97,9 +97,8 @@ impl Taylor {
             Still::new(from.clone(), none, (n, self.system.moving()), (size, time.abs()));
         self.state = still.begin(rates, (Some(whole), from), limit)?;
         self.begin = still.step_begin().high;
-        self.leapt = None;
-        self.resting = Some(still);
-        self.touch_tried = f64::INFINITY;
+        self.course = StepCourse::Rest(still);
+        self.history.touch_tried = f64::INFINITY;
         Ok(true)
     }
 

@@ -1,0 +1,86 @@
+//! What is remembered of the steps of a motion, until it begins again.
+//!
+//! In: the size of each step, and where it ended. Out: what the next steps are compared with. Never here: where a step ends.
+
+use super::unit_of_time::UnitOfTime;
+
+/// This many collocation steps must advance the time by this part of the time that has passed.
+const ROUND: u32 = 64;
+const LEAST: f64 = 1e-15;
+
+/// Steps that lead away from a point do not shrink by more than this factor.
+const SHRINKING: f64 = 0.1;
+
+/// The steps of a motion so far.
+#[derive(Debug)]
+pub(super) struct StepHistory {
+    pub(super) unit: UnitOfTime,
+    /// The longest step since the last kink, relative to which a step counts as short.
+    pub(super) stride: f64,
+    /// The last step, and whether it and those before lead away from a point that was passed.
+    last: f64,
+    is_leaving: bool,
+    /// Whether no series continues from the current state.
+    pub(super) landed: bool,
+    /// The step before which the motion was last taken to touch rest, and did not.
+    pub(super) touch_tried: f64,
+    /// The number of collocation steps, and the time at the end of their last round.
+    leaps: (u32, f64),
+}
+
+impl Default for StepHistory {
+    fn default() -> StepHistory {
+        StepHistory {
+            unit: UnitOfTime::default(),
+            stride: 0.0,
+            last: f64::INFINITY,
+            is_leaving: false,
+            landed: false,
+            touch_tried: f64::INFINITY,
+            leaps: (0, f64::NAN),
+        }
+    }
+}
+
+/// A step is long from this part of the longest one on.
+const LONG: f64 = 0.1;
+
+impl StepHistory {
+    /// Whether the last step was about as long as any since the last kink.
+    pub(super) fn is_long(&self) -> bool {
+        self.last >= LONG * self.stride
+    }
+
+    /// Whether a step leads away from a point that was passed: such steps become longer by themselves. Those after one that is
+    /// not `tiny` do not count as such.
+    pub(super) fn leads_away(&mut self, step: f64, tiny: f64) -> bool {
+        let leads_away = self.is_leaving && step > SHRINKING * self.last;
+        self.is_leaving &= step <= tiny;
+        leads_away
+    }
+
+    /// Counts a collocation step at a time. Returns false if these no longer advance the time.
+    pub(super) fn count_leap(&mut self, time: f64, left: f64) -> bool {
+        self.leaps.0 += 1;
+        if !self.leaps.0.is_multiple_of(ROUND) {
+            return true;
+        }
+        let before = std::mem::replace(&mut self.leaps.1, time);
+        // the time of the round before is not a number in the first one
+        let stands = (time - before).abs() <= LEAST * (time.abs() + left.abs());
+        !stands
+    }
+
+    /// Records a collocation step of this size.
+    pub(super) fn leapt(&mut self, size: f64) {
+        self.landed = false;
+        (self.stride, self.last, self.is_leaving) = (size, size, true);
+        self.unit.taken = Some(size);
+    }
+
+    /// Records a step along a series of this size, which may have `landed` where no series continues, or `turned` on a kink.
+    pub(super) fn stepped(&mut self, size: f64, landed: bool, turned: bool) {
+        (self.last, self.landed) = (size, landed);
+        self.stride = if turned { size } else { self.stride.max(size) };
+    }
+}
