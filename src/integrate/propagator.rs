@@ -7,6 +7,7 @@
 mod advance;
 mod comparison_watch;
 mod constraint_watch;
+mod domain;
 mod occurrence;
 mod occurrence_search;
 mod passed_event;
@@ -17,7 +18,8 @@ mod trial;
 
 use super::{Method, MethodError, Settings, Stepper, Stepping, Unstable};
 use crate::num::DoubleDouble;
-use crate::system::{Branch, ConstraintProjector, Form, Logarithms, MotionError, State, System};
+use crate::system::{ConstraintProjector, Form, MotionError, State, System};
+use domain::MotionDomain;
 pub use occurrence::{Occurrence, OccurrenceKind};
 use occurrence_search::OccurrenceSearch;
 use passed_event::PassedEvents;
@@ -59,10 +61,7 @@ pub struct Propagator {
     stalled: u32,
     watch: SingularityRecord,
     passed: PassedEvents,
-    /// The branch of the velocities, if several belong to the momenta.
-    branch: Option<Branch>,
-    /// The logarithms of the energy, if it has any.
-    logarithms: Option<Logarithms>,
+    domain: MotionDomain,
     /// The number of changes of the enforced constraints among redundant ones.
     active_set_changes: u64,
     ended: bool,
@@ -99,8 +98,7 @@ impl Propagator {
             stalled: 0,
             watch: SingularityRecord::default(),
             passed: PassedEvents::default(),
-            branch: None,
-            logarithms: None,
+            domain: MotionDomain::default(),
             active_set_changes: 0,
             ended: false,
             impulse: None,
@@ -246,8 +244,7 @@ impl Propagator {
         self.near.copy_from(&self.state);
         self.search.continue_from(state.time);
         self.watch_from_here();
-        self.branch = self.system.branch(&self.state, &self.parameters);
-        self.logarithms = self.system.logarithms(&self.parameters);
+        self.domain = MotionDomain::around(&self.system, &self.state, &self.parameters);
         self.stepper.start(&self.state, &self.parameters)
     }
 

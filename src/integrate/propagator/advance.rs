@@ -114,8 +114,7 @@ impl Propagator {
     fn is_undisturbed(&self) -> bool {
         self.method.stepping == Stepping::Fixed
             && self.whole.constraints() == 0
-            && self.branch.is_none()
-            && self.logarithms.is_none()
+            && self.domain.is_unbounded()
             && self.system.attitude_place().is_none()
             && self.search.is_empty()
     }
@@ -192,9 +191,7 @@ impl Propagator {
             self.state.copy_from(self.stepper.state());
         } else {
             self.stepper.at(time, &mut self.state)?;
-            if let (Some(projector), Form::Velocity) = (&mut self.projector, self.state.form) {
-                projector.project(&mut self.state)?;
-            }
+            self.project_state()?;
         }
         Ok(())
     }
@@ -208,17 +205,21 @@ impl Propagator {
             return Ok(());
         }
         self.stepper.at_exactly(time, &mut self.state)?;
-        if let (Some(projector), Form::Velocity) = (&mut self.projector, self.state.form) {
-            projector.project(&mut self.state)?;
+        self.project_state()
+    }
+
+    /// Projects the current state onto the constraints.
+    fn project_state(&mut self) -> Result<(), MotionError> {
+        match (&mut self.projector, self.state.form) {
+            (Some(projector), Form::Velocity) => projector.project(&mut self.state),
+            _ => Ok(()),
         }
-        Ok(())
     }
 
     /// Returns an error if a step has led to velocities on another branch, across a fold of p =
     /// ∂L/∂q̇.
     fn check_branch(&mut self) -> Result<(), MotionError> {
-        let Some(branch) = &mut self.branch else { return Ok(()) };
-        if branch.holds(self.stepper.state()) {
+        if self.domain.is_on_branch(self.stepper.state()) {
             return Ok(());
         }
         let (begin, _) = self.stepper.interval();
@@ -228,8 +229,7 @@ impl Propagator {
 
     /// Whether the logarithms of the energy have values in the current state, or at the end of the last step.
     fn energy_has_a_value(&mut self, at_end: bool) -> bool {
-        let Some(logarithms) = &mut self.logarithms else { return true };
-        logarithms.have_values(if at_end { self.stepper.state() } else { &self.state })
+        self.domain.has_energy(if at_end { self.stepper.state() } else { &self.state })
     }
 
     /// The error for a step that has led to where they have none; what lies before the step, and what was reached, stays.

@@ -134,9 +134,7 @@ impl Propagator {
             }
             stepper.step(until).ok()?;
             state.copy_from(stepper.state());
-            if let Some(logarithms) = &mut self.logarithms
-                && !logarithms.have_values(&state)
-            {
+            if !self.domain.has_energy(&state) {
                 return None;
             }
             if let Some(projector) = &mut self.projector {
