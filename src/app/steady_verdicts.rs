@@ -149,23 +149,7 @@ mod tests {
     }
 
     fn gauge(verdict: Verdict, max_drift: f64) -> Gauge {
-        Gauge {
-            name: "energy".to_owned(),
-            shown: "E".to_owned(),
-            reason: String::new(),
-            proved: true,
-            value: 1.0,
-            initial: 1.0,
-            scale: 1.0,
-            farthest: max_drift,
-            reference: 1.0,
-            reference_time: 0.0,
-            drift: max_drift,
-            max_drift,
-            left: None,
-            history: Arc::default(),
-            verdict,
-        }
+        Gauge { verdict, ..Gauge::drifted(max_drift) }
     }
 
     #[test]

@@ -7,11 +7,10 @@ use std::sync::Arc;
 
 use super::companions::Companions;
 use super::echo::Echo;
-use super::energy_jump::EnergyJump;
 use super::event_log::EventLog;
 use super::gauges::{GaugeInputs, Gauges};
 use super::hull::Hulls;
-use super::last_change::LastChange;
+use super::law_changes::LawChanges;
 use super::notices::Notices;
 use super::observed_motion::ObservedMotion;
 use super::recorder::Recorder;
@@ -41,10 +40,8 @@ pub struct Experiment {
     pub(super) other_way: Option<System>,
     /// The reading of the clock at which time was reversed last, or the motion began.
     pub(super) began: f64,
-    /// Where the law was changed last, if it was since the restart.
-    pub(super) changed: Option<Arc<LastChange>>,
-    /// The jump of the energy where a parameter was changed last.
-    pub(super) jump: Option<EnergyJump>,
+    /// Where the law was changed since the restart.
+    pub(super) changes: LawChanges,
     /// The run before time was reversed.
     pub(super) echo: Option<Box<Echo>>,
     /// The time in the past that is shown.
@@ -87,8 +84,7 @@ impl Experiment {
             equations: Arc::clone(equations),
             other_way: None,
             began: setup.start,
-            changed: None,
-            jump: None,
+            changes: LawChanges::default(),
             echo: None,
             scrubbed: None,
             initial: Arc::default(),
@@ -306,7 +302,7 @@ impl Experiment {
     pub(super) fn recorded(&self) -> Recorded {
         let from = self.motion.known_from().unwrap_or(self.clock());
         let from = self.motion.sign() * from.max(self.began);
-        let (scrubbed, changed) = (self.scrubbed.is_some(), self.changed.clone());
+        let (scrubbed, changed) = (self.scrubbed.is_some(), self.changes.last.clone());
         Recorded { from, to: self.time(), scrubbed, changed, run: self.motion.log.run() }
     }
 
@@ -315,8 +311,7 @@ impl Experiment {
         self.face_forwards();
         self.scrubbed = None;
         self.began = self.setup.start;
-        self.changed = None;
-        self.jump = None;
+        self.changes = LawChanges::default();
         self.fault = None;
         self.ended = None;
         self.log.clear();

@@ -5,7 +5,6 @@
 
 use std::sync::Arc;
 
-use super::energy_jump::EnergyJump;
 use super::gauges::Gauges;
 use super::last_change::LastChange;
 use super::setup::{choose_method, with_override};
@@ -38,7 +37,7 @@ impl Experiment {
                 self.notify(format!("a speed must be above zero; {speed} is not"));
             }
             Command::Parameter { index, value } => {
-                self.jump = None;
+                self.changes.end_jump();
                 self.change_parameter(index, value);
             }
             Command::MoveParameter { index, value } => self.change_parameter(index, value),
@@ -148,21 +147,19 @@ impl Experiment {
                 && first.form == state.form
                 && first.values[moving] == state.values[moving]
         });
-        if is_start { self.changed = None } else { self.changed_here(what) }
+        if is_start { self.changes.last = None } else { self.changed_here(what) }
     }
 
     /// From its current state on the motion follows another law, or continues from another state.
     pub(super) fn changed_here(&mut self, what: String) {
         let state = Arc::new(self.motion.dated_state());
-        self.changed = Some(Arc::new(LastChange { what, state }));
+        self.changes.last = Some(Arc::new(LastChange { what, state }));
     }
 
     /// Reports a jump in energy beyond its rounding, and what did not jump. The steps in which a parameter is changed
     /// are one jump.
     fn report_jump(&mut self, index: usize, jump: f64, rounding: f64) {
-        let earlier = self.jump.filter(|earlier| earlier.parameter == index);
-        let by = jump + earlier.map_or(0.0, |earlier| earlier.by);
-        self.jump = Some(EnergyJump { parameter: index, by });
+        let by = self.changes.add_jump(index, jump);
         let lead = format!("{}: energy jumped by", self.model.parameters[index].shown);
         self.notices.withdraw(&lead);
         if by.abs() <= rounding {
@@ -257,7 +254,7 @@ impl Experiment {
         self.continue_from(Ok(self.motion.state().clone()));
         // where the law was changed at this very time, that is what is said of it
         let time = self.motion.state().time;
-        let is_known = self.changed.as_ref().is_some_and(|last| last.state.time == time);
+        let is_known = self.changes.last.as_ref().is_some_and(|last| last.state.time == time);
         if !is_same && !is_known {
             let initial = self.initial_state();
             self.changed_unless_at(initial.ok().as_ref(), "the method".to_owned());

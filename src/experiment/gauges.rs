@@ -56,91 +56,17 @@ impl Gauges {
     /// include the energy with its law of change, and the energy balance, which is constant by that law.
     pub(super) fn new(model: &Model, equations: &Arc<Equations>, system: &System) -> Gauges {
         let equations = &with_energy_opened(equations);
-        let find = |kind: ChannelKind| system.channels().iter().position(|c| c.kind == kind);
-        let mut monitors = Vec::new();
-        let mut add = |name: &str, reason: String, broken, kind, quantity, expression| {
-            let Some(channel) = find(kind) else { return };
-            let shown = system.channels()[channel].shown.clone();
-            let name = name.to_owned();
-            let invariant = MonitoredInvariant {
-                name,
-                shown,
-                reason,
-                proved: true,
-                broken,
-                channel,
-                quantity,
-                expression,
-            };
-            monitors.push(InvariantMonitor::new(invariant));
-        };
-        // the first quantity of a `TermWatch`
-        let energy = Some(0);
-        if !equations.conserved.iter().any(|c| c.name == "energy") {
-            let law = EnergyLaw::of(model, equations);
-            let kind = ChannelKind::Energy;
-            add("energy", law.cause, Some(law.rate), kind, energy, equations.energy);
-            let reason = "E − work done on it".to_owned();
-            add(ENERGY_BALANCE, reason, None, ChannelKind::EnergyBalance, energy, equations.energy);
-        } else if !model.impulses.is_empty() {
-            let reason = "E − impulse work".to_owned();
-            add(ENERGY_BALANCE, reason, None, ChannelKind::EnergyBalance, energy, equations.energy);
-        }
-        for (i, (name, casimir, law)) in changing_casimirs(model, equations) {
-            let reason = "Casimir; a force acts".to_owned();
-            add(&name, reason, Some(law), ChannelKind::Casimir(i), None, casimir);
-        }
-        for (i, conserved) in equations.conserved.iter().enumerate() {
-            let is_energy = conserved.name == "energy";
-            let kind = if is_energy { ChannelKind::Energy } else { ChannelKind::Conserved(i) };
-            let quantity = Some(if is_energy { 0 } else { i + 1 });
-            monitors.extend(find(kind).map(|channel| {
-                InvariantMonitor::new(MonitoredInvariant {
-                    name: conserved.name.clone(),
-                    shown: system.channels()[channel].shown.clone(),
-                    reason: conserved.reason.to_string(),
-                    proved: conserved.reason.is_proved(),
-                    broken: None,
-                    channel,
-                    quantity,
-                    expression: conserved.expression,
-                })
-            }));
-        }
-        // the energy comes first
-        monitors.sort_by_key(|monitor| {
-            monitor.invariant.channel != find(ChannelKind::Energy).unwrap_or(0)
-        });
-        let mut places = Vec::new();
-        for (i, c) in equations.coordinates.iter().enumerate() {
-            for (symbol, kind) in [
-                (c.position, ChannelKind::Position(i)),
-                (c.velocity, ChannelKind::Velocity(i)),
-                (c.momentum, ChannelKind::Momentum(i)),
-            ] {
-                places.extend(find(kind).map(|channel| (symbol, channel)));
-            }
-        }
-        places.extend(find(ChannelKind::Energy).map(|channel| (equations.symbols.energy, channel)));
-        for (i, symbol) in
-            equations.supplements.attitude_symbols.iter().flatten().flatten().enumerate()
-        {
-            places.extend(find(ChannelKind::Attitude(i)).map(|channel| (*symbol, channel)));
-        }
-        let names =
-            monitors.iter().map(|monitor: &InvariantMonitor| monitor.invariant.name.clone());
-        let integration = IntegrationConstants::of(model, equations, &names.collect::<Vec<_>>());
-        let residuals = ResidualGauge::all(model, equations, system);
-        let attitude = AttitudeGauge::of(system);
-        let equations = Arc::clone(equations);
+        let monitors = monitors(model, equations, system);
+        let names: Vec<String> =
+            monitors.iter().map(|monitor| monitor.invariant.name.clone()).collect();
         Gauges {
-            equations,
             monitors,
             found: FormulaMonitors::default(),
-            integration,
-            residuals,
-            attitude,
-            places,
+            integration: IntegrationConstants::of(model, equations, &names),
+            residuals: ResidualGauge::all(model, equations, system),
+            attitude: AttitudeGauge::of(system),
+            places: places(equations, system),
+            equations: Arc::clone(equations),
             reference_time: 0.0,
             reference_steps: 0,
             samples: 0,
@@ -408,29 +334,92 @@ impl<'a> GaugeInputs<'a> {
     }
 }
 
+/// The monitors of what is conserved, and of what would be but for something that acts on it; the energy comes first.
+fn monitors(model: &Model, equations: &Equations, system: &System) -> Vec<InvariantMonitor> {
+    let find = |kind: ChannelKind| system.channels().iter().position(|c| c.kind == kind);
+    let mut monitors = Vec::new();
+    let mut add = |name: &str, reason: String, broken, kind, quantity, expression| {
+        let Some(channel) = find(kind) else { return };
+        let shown = system.channels()[channel].shown.clone();
+        let name = name.to_owned();
+        let invariant = MonitoredInvariant {
+            name,
+            shown,
+            reason,
+            proved: true,
+            broken,
+            channel,
+            quantity,
+            expression,
+        };
+        monitors.push(InvariantMonitor::new(invariant));
+    };
+    // the first quantity of a `TermWatch`
+    let energy = Some(0);
+    if !equations.conserved.iter().any(|c| c.name == "energy") {
+        let law = EnergyLaw::of(model, equations);
+        let kind = ChannelKind::Energy;
+        add("energy", law.cause, Some(law.rate), kind, energy, equations.energy);
+        let reason = "E − work done on it".to_owned();
+        add(ENERGY_BALANCE, reason, None, ChannelKind::EnergyBalance, energy, equations.energy);
+    } else if !model.impulses.is_empty() {
+        let reason = "E − impulse work".to_owned();
+        add(ENERGY_BALANCE, reason, None, ChannelKind::EnergyBalance, energy, equations.energy);
+    }
+    for (i, (name, casimir, law)) in changing_casimirs(model, equations) {
+        let reason = "Casimir; a force acts".to_owned();
+        add(&name, reason, Some(law), ChannelKind::Casimir(i), None, casimir);
+    }
+    for (i, conserved) in equations.conserved.iter().enumerate() {
+        let is_energy = conserved.name == "energy";
+        let kind = if is_energy { ChannelKind::Energy } else { ChannelKind::Conserved(i) };
+        let quantity = Some(if is_energy { 0 } else { i + 1 });
+        monitors.extend(find(kind).map(|channel| {
+            InvariantMonitor::new(MonitoredInvariant {
+                name: conserved.name.clone(),
+                shown: system.channels()[channel].shown.clone(),
+                reason: conserved.reason.to_string(),
+                proved: conserved.reason.is_proved(),
+                broken: None,
+                channel,
+                quantity,
+                expression: conserved.expression,
+            })
+        }));
+    }
+    monitors
+        .sort_by_key(|monitor| monitor.invariant.channel != find(ChannelKind::Energy).unwrap_or(0));
+    monitors
+}
+
+/// The channels of the symbols that formulas are made of.
+fn places(equations: &Equations, system: &System) -> Vec<(Symbol, usize)> {
+    let find = |kind: ChannelKind| system.channels().iter().position(|c| c.kind == kind);
+    let mut places = Vec::new();
+    for (i, c) in equations.coordinates.iter().enumerate() {
+        for (symbol, kind) in [
+            (c.position, ChannelKind::Position(i)),
+            (c.velocity, ChannelKind::Velocity(i)),
+            (c.momentum, ChannelKind::Momentum(i)),
+        ] {
+            places.extend(find(kind).map(|channel| (symbol, channel)));
+        }
+    }
+    places.extend(find(ChannelKind::Energy).map(|channel| (equations.symbols.energy, channel)));
+    for (i, symbol) in equations.supplements.attitude_symbols.iter().flatten().flatten().enumerate()
+    {
+        places.extend(find(ChannelKind::Attitude(i)).map(|channel| (*symbol, channel)));
+    }
+    places
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::analysis::Verdict;
 
     fn gauge(proved: bool, max_drift: f64) -> Gauge {
-        Gauge {
-            name: "G".to_owned(),
-            shown: "G".to_owned(),
-            reason: "declared".to_owned(),
-            proved,
-            value: 1.0,
-            initial: 1.0,
-            scale: 1.0,
-            farthest: max_drift,
-            reference: 1.0,
-            reference_time: 0.0,
-            drift: max_drift,
-            max_drift,
-            left: (max_drift > 1e-6).then_some(0.5),
-            history: Arc::default(),
-            verdict: Verdict::Bounded,
-        }
+        let left = (max_drift > 1e-6).then_some(0.5);
+        Gauge { proved, left, ..Gauge::drifted(max_drift) }
     }
 
     /// A drift a hundred times that of a proved invariant is not due to the method.

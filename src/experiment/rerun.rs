@@ -89,7 +89,7 @@ impl Experiment {
         if self.motion.restore((&state, None), &self.setup.parameters, (start, &[])).is_err() {
             return false;
         }
-        self.changed = Some(Arc::new(change));
+        self.changes.last = Some(Arc::new(change));
         self.recorder.restart(state.time);
         self.gauge(Gauges::refer);
         self.record();

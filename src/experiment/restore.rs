@@ -94,13 +94,13 @@ impl Experiment {
 
     /// Restores where the law was changed last: here, if it is another one than before.
     fn restore_change(&mut self, here: Option<String>, present: &MotionState) {
-        self.jump = None;
+        self.changes.end_jump();
         match here {
             Some(what) => self.changed_here(what),
             None => {
                 let saved = present.changed.as_ref();
                 let change = saved.and_then(|saved| saved.of_system(self.system()));
-                self.changed = change.map(Arc::new);
+                self.changes.last = change.map(Arc::new);
             }
         }
     }

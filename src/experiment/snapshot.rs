@@ -176,6 +176,30 @@ impl Gauge {
     }
 }
 
+#[cfg(test)]
+impl Gauge {
+    /// A gauge of a declared quantity that is one, and has drifted this far.
+    pub(crate) fn drifted(max_drift: f64) -> Gauge {
+        Gauge {
+            name: "G".to_owned(),
+            shown: "G".to_owned(),
+            reason: "declared".to_owned(),
+            proved: true,
+            value: 1.0,
+            initial: 1.0,
+            scale: 1.0,
+            farthest: max_drift,
+            reference: 1.0,
+            reference_time: 0.0,
+            drift: max_drift,
+            max_drift,
+            left: None,
+            history: Arc::default(),
+            verdict: Verdict::Bounded,
+        }
+    }
+}
+
 /// The method in use.
 #[derive(Clone, PartialEq, Debug)]
 pub struct MethodFact {
