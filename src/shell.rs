@@ -46,6 +46,7 @@ mod recorder;
 mod recording_ahead;
 mod regular;
 mod request;
+mod screen_style;
 mod session;
 mod session_file;
 mod signals;

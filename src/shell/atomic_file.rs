@@ -224,7 +224,7 @@ fn sweep(place: &Path) {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use std::os::unix::fs::{PermissionsExt, symlink};
 
     use super::*;
@@ -233,7 +233,8 @@ mod tests {
         fs::read_to_string(path).expect("it is there")
     }
 
-    fn names(folder: &Path) -> Vec<String> {
+    /// The names of the files in a folder, in order.
+    pub(in crate::shell) fn names(folder: &Path) -> Vec<String> {
         let listing = fs::read_dir(folder).expect("the folder").flatten();
         let mut names: Vec<_> =
             listing.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();

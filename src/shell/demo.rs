@@ -11,6 +11,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 
 use super::frame_loop::{Screen, ScreenRequest};
+use super::screen_style::ScreenStyle;
 use crate::diagnostic::Diagnostic;
 use crate::record::ScriptRunner;
 use crate::view::colour::Rgb;
@@ -23,8 +24,7 @@ const LONGEST: Duration = Duration::from_secs(1);
 /// A script being performed on the terminal.
 pub(super) struct Demo {
     runner: ScriptRunner,
-    style: RenderStyle,
-    detail: Detail,
+    style: ScreenStyle,
     /// The time since the start, without pauses.
     time: Duration,
     paused: bool,
@@ -35,14 +35,14 @@ pub(super) struct Demo {
 impl Demo {
     /// Creates a demo at its start.
     pub(super) fn new(runner: ScriptRunner, style: RenderStyle) -> Self {
-        let (detail, time) = (Detail::default(), Duration::ZERO);
-        Self { runner, style, detail, time, paused: false, end: None }
+        let style = ScreenStyle::new(style);
+        Self { runner, style, time: Duration::ZERO, paused: false, end: None }
     }
 
     /// Returns the last picture of a demo that was not ended by the user, or what is wrong with the script.
     pub(super) fn outcome(self) -> Result<Option<Buffer>, Diagnostic> {
         let Self { runner, style, end, .. } = self;
-        Ok(end.transpose()?.map(|()| runner.picture(&style)))
+        Ok(end.transpose()?.map(|()| runner.picture(style.full())))
     }
 }
 
@@ -80,7 +80,7 @@ impl Screen for Demo {
     }
 
     fn draw(&mut self, area: Rect, buffer: &mut Buffer) -> Option<Position> {
-        self.runner.draw(&self.style.reduced(self.detail), area, buffer);
+        self.runner.draw(self.style.drawn(), area, buffer);
         // A demo shows no blinking cursor.
         None
     }
@@ -94,10 +94,10 @@ impl Screen for Demo {
     }
 
     fn reduce(&mut self, detail: Detail) {
-        self.detail = detail;
+        self.style.reduce(detail);
     }
 
     fn background(&mut self, colour: Rgb) {
-        self.style = self.style.on(colour);
+        self.style.suit(colour);
     }
 }

@@ -12,6 +12,7 @@ use ratatui::layout::{Position, Rect};
 
 use super::frame_loop::{Screen, ScreenRequest};
 use super::mouse::with_shift;
+use super::screen_style::ScreenStyle;
 use crate::diagnostic::Diagnostic;
 use crate::record::{Lesson, Pressed};
 use crate::view::colour::Rgb;
@@ -23,15 +24,14 @@ const LONGEST: Duration = Duration::from_secs(1);
 /// A lesson on the terminal, its own or borrowed.
 pub(super) struct LessonScreen<L> {
     lesson: L,
-    style: RenderStyle,
-    detail: Detail,
+    style: ScreenStyle,
     diagnostic: Option<Diagnostic>,
 }
 
 impl<L: BorrowMut<Lesson>> LessonScreen<L> {
     /// Creates the screen of a lesson.
     pub(super) fn new(lesson: L, style: RenderStyle) -> Self {
-        Self { lesson, style, detail: Detail::default(), diagnostic: None }
+        Self { lesson, style: ScreenStyle::new(style), diagnostic: None }
     }
 
     /// Returns the lesson, and what is wrong with its script, if anything is.
@@ -44,8 +44,7 @@ impl<L: BorrowMut<Lesson>> Screen for LessonScreen<L> {
     fn input(&mut self, event: Event) -> ScreenRequest {
         if let Event::Mouse(mouse) = event {
             let at = [mouse.column, mouse.row];
-            let style = self.style.reduced(self.detail);
-            self.lesson.borrow_mut().point(with_shift(mouse), &style, at);
+            self.lesson.borrow_mut().point(with_shift(mouse), self.style.drawn(), at);
             let left = self.lesson.borrow().is_left();
             return if left { ScreenRequest::Quit } else { ScreenRequest::Nothing };
         }
@@ -78,7 +77,7 @@ impl<L: BorrowMut<Lesson>> Screen for LessonScreen<L> {
     }
 
     fn draw(&mut self, area: Rect, buffer: &mut Buffer) -> Option<Position> {
-        self.lesson.borrow_mut().draw(&self.style.reduced(self.detail), area, buffer);
+        self.lesson.borrow_mut().draw(self.style.drawn(), area, buffer);
         None
     }
 
@@ -91,10 +90,10 @@ impl<L: BorrowMut<Lesson>> Screen for LessonScreen<L> {
     }
 
     fn reduce(&mut self, detail: Detail) {
-        self.detail = detail;
+        self.style.reduce(detail);
     }
 
     fn background(&mut self, colour: Rgb) {
-        self.style = self.style.on(colour);
+        self.style.suit(colour);
     }
 }

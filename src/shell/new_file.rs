@@ -162,14 +162,7 @@ fn plain(name: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn names(folder: &Path) -> Vec<String> {
-        let listing = fs::read_dir(folder).expect("the folder").flatten();
-        let mut names: Vec<_> =
-            listing.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
-        names.sort();
-        names
-    }
+    use crate::shell::atomic_file::tests::names;
 
     #[test]
     fn new_files_replace_nothing() {

@@ -31,6 +31,7 @@ use super::loader::Loader;
 use super::mouse::with_shift;
 use super::recorder::CastRecorder;
 use super::request::Request;
+use super::screen_style::ScreenStyle;
 use super::store::Store;
 use super::writer::Writer;
 use crate::app::{App, Asker, Computation, Effect, Event, Loaded, Notification, Overlay, Saved};
@@ -46,9 +47,7 @@ use crate::worker::{SideJob, Worker};
 /// The running laboratory.
 pub(super) struct Session {
     app: App,
-    style: RenderStyle,
-    /// The level of detail, reduced over a slow connection.
-    detail: Detail,
+    style: ScreenStyle,
     worker: Worker,
     loader: Loader,
     checker: Checker,
@@ -149,8 +148,7 @@ impl Session {
         let (worker, checker) = (Worker::idle()?, Checker::new());
         let mut session = Self {
             app,
-            style,
-            detail: Detail::default(),
+            style: ScreenStyle::new(style),
             worker,
             loader,
             checker,
@@ -295,7 +293,7 @@ impl Screen for Session {
                     self.app.end_group();
                 }
                 let area = Rect::from((Position::ORIGIN, self.size));
-                match view::hit_test(&self.app, &self.style, area, mouse.column, mouse.row) {
+                match view::hit_test(&self.app, self.style.full(), area, mouse.column, mouse.row) {
                     Some(hit) => Event::Mouse(with_shift(mouse), hit),
                     None => return ScreenRequest::Nothing,
                 }
@@ -368,9 +366,7 @@ impl Screen for Session {
         if let Some(guided) = &mut self.guided {
             return guided.draw(area, buffer);
         }
-        let reduced = (self.detail != Detail::default()).then(|| self.style.reduced(self.detail));
-        let style = reduced.as_ref().unwrap_or(&self.style);
-        let drawn = self.painter.draw(&self.app, style, area, buffer);
+        let drawn = self.painter.draw(&self.app, self.style.drawn(), area, buffer);
         self.size = area.as_size();
         if let Some(recorder) = &mut self.recorder
             && let Err(why) = recorder.take(buffer)
@@ -422,9 +418,9 @@ impl Screen for Session {
 
     /// What the user has chosen in the meantime stays.
     fn background(&mut self, colour: Rgb) {
-        let initial = self.style.theme.palette().name;
-        self.style = self.style.on(colour);
-        let suits = self.style.theme.palette().name;
+        let initial = self.style.full().theme.palette().name;
+        self.style.suit(colour);
+        let suits = self.style.full().theme.palette().name;
         info!("the terminal's background is {colour:?}: the {suits} theme");
         if self.app.themes.chosen == Some(initial) {
             self.app.themes.chosen = Some(suits);
@@ -439,6 +435,6 @@ impl Screen for Session {
         if let Some(guided) = &mut self.guided {
             guided.reduce(detail);
         }
-        self.detail = detail;
+        self.style.reduce(detail);
     }
 }

@@ -19,7 +19,7 @@ impl Session {
     /// Gives the screen to a lesson or demo, while the lab's own motion waits.
     pub(super) fn take_guide(&mut self, guide: &Guide) {
         info!("take {guide:?}");
-        match Guided::open(guide, self.style.clone()) {
+        match Guided::open(guide, self.style.full().clone()) {
             Ok(mut guided) => {
                 let status = self.app.snapshot().map(|snapshot| &snapshot.status);
                 guided.was_running = status == Some(&Status::Running);

@@ -146,7 +146,7 @@ impl Session {
     /// Returns the palette shown.
     fn palette(&self) -> &'static Palette {
         let named = |p: &&Palette| Some(p.name) == self.app.theme_shown();
-        PALETTES.iter().find(named).unwrap_or_else(|| self.style.theme.palette())
+        PALETTES.iter().find(named).unwrap_or_else(|| self.style.full().theme.palette())
     }
 }
 
