@@ -38,8 +38,36 @@ pub(super) fn solve(
     pool.attempt(ALLOWANCE, |pool| {
         let most = pool.built() + MOST_BUILT;
         let mut search = Isolation { wanted: unknowns.to_vec(), budget: BUDGET, most, accept };
-        search.step(pool, equations.to_vec(), unknowns, Vec::new())
+        let (equations, unknowns) = (equations.to_vec(), unknowns.to_vec());
+        search.step(pool, Unsolved { equations, unknowns, found: Vec::new() })
     })
+}
+
+/// What is left to solve, and what is found, which may depend on what is left.
+#[derive(Clone)]
+struct Unsolved {
+    equations: Vec<Expr>,
+    unknowns: Vec<Symbol>,
+    found: Solution,
+}
+
+impl Unsolved {
+    /// What is left once these values are put in, which solve the equations with these indices.
+    fn with(&self, pool: &mut Pool, values: Solution, used: &[usize]) -> Unsolved {
+        let map: HashMap<Symbol, Expr> = values.iter().copied().collect();
+        let left = self.equations.iter().enumerate().filter(|(k, _)| !used.contains(k));
+        let equations = left.map(|(_, &e)| tidy(pool, e, &map)).collect();
+        let mut found: Solution =
+            self.found.iter().map(|&(s, e)| (s, tidy(pool, e, &map))).collect();
+        found.extend(values);
+        let unknowns = self.unknowns.iter().copied().filter(|s| !map.contains_key(s)).collect();
+        Unsolved { equations, unknowns, found }
+    }
+
+    /// The unknowns in an equation.
+    fn unknowns_of(&self, pool: &Pool, e: Expr) -> Vec<Symbol> {
+        self.unknowns.iter().copied().filter(|&s| pool.depends(e, s)).collect()
+    }
 }
 
 struct Isolation<'a> {
@@ -51,14 +79,8 @@ struct Isolation<'a> {
 }
 
 impl Isolation<'_> {
-    /// Goes on from what is left to solve and what is found, which may depend on what is left.
-    fn step(
-        &mut self,
-        pool: &mut Pool,
-        mut equations: Vec<Expr>,
-        unknowns: &[Symbol],
-        found: Solution,
-    ) -> Option<Solution> {
+    /// Continues from what is left to solve.
+    fn step(&mut self, pool: &mut Pool, mut left: Unsolved) -> Option<Solution> {
         if self.budget == 0
             || pool.built() > self.most
             || pool.is_full()
@@ -67,112 +89,90 @@ impl Isolation<'_> {
             return None;
         }
         self.budget -= 1;
-        equations.retain(|&e| pool.depends_on_any(e, unknowns));
-        if unknowns.is_empty() {
-            let wanted = self.wanted.clone();
+        left.equations.retain(|&e| pool.depends_on_any(e, &left.unknowns));
+        if left.unknowns.is_empty() {
             let solution: Solution =
-                found.into_iter().filter(|(s, _)| wanted.contains(s)).collect();
+                left.found.into_iter().filter(|(s, _)| self.wanted.contains(s)).collect();
             return (self.accept)(pool, &solution).then_some(solution);
         }
-        let of = |pool: &Pool, e: Expr| -> Vec<Symbol> {
-            unknowns.iter().copied().filter(|&s| pool.depends(e, s)).collect()
-        };
-        // an equation for one unknown
+        self.by_single_unknowns(pool, &left)
+            .or_else(|| self.by_linear_part(pool, &left))
+            .or_else(|| self.by_angles(pool, &left))
+            .or_else(|| self.by_any_unknown(pool, &left))
+    }
+
+    /// Solves an equation for its only unknown, the lightest one first.
+    fn by_single_unknowns(&mut self, pool: &mut Pool, left: &Unsolved) -> Option<Solution> {
         let mut single: Vec<(u64, usize, Symbol)> = Vec::new();
-        for (k, &e) in equations.iter().enumerate() {
-            if let [one] = of(pool, e)[..] {
+        for (k, &e) in left.equations.iter().enumerate() {
+            if let [one] = left.unknowns_of(pool, e)[..] {
                 single.push((pool.weight(e), k, one));
             }
         }
         single.sort_unstable();
-        for (_, k, unknown) in single {
-            for value in isolate(pool, equations[k], unknown) {
-                let next = self.with(pool, &equations, unknowns, &found, k, (unknown, value));
-                if next.is_some() {
-                    return next;
-                }
-            }
-        }
-        if let Some((rows, values)) = linear_part(pool, &equations, unknowns) {
-            let rest = equations.iter().enumerate().filter(|(k, _)| !rows.contains(k));
-            let mut rest: Vec<Expr> = rest.map(|(_, &e)| e).collect();
-            let map: HashMap<Symbol, Expr> = values.iter().copied().collect();
-            for e in &mut rest {
-                *e = tidy(pool, *e, &map);
-            }
-            let mut found: Solution = found.clone();
-            for (_, e) in &mut found {
-                *e = tidy(pool, *e, &map);
-            }
-            found.extend(values);
-            let left: Vec<Symbol> =
-                unknowns.iter().copied().filter(|s| !map.contains_key(s)).collect();
-            if let Some(solution) = self.step(pool, rest, &left, found) {
-                return Some(solution);
-            }
-        }
-        // y = s sin c, x = s cos c in place of atan2(y, x) = c
-        for (k, &e) in equations.iter().enumerate() {
-            let Some((y, x, angle)) = angle_of_two(pool, e, unknowns) else { continue };
+        single.into_iter().find_map(|(_, k, unknown)| self.by_equation(pool, left, k, unknown))
+    }
+
+    /// Solves the equations that are linear together.
+    fn by_linear_part(&mut self, pool: &mut Pool, left: &Unsolved) -> Option<Solution> {
+        let (rows, values) = linear_part(pool, &left.equations, &left.unknowns)?;
+        let next = left.with(pool, values, &rows);
+        self.step(pool, next)
+    }
+
+    /// Writes y = s sin c, x = s cos c in place of atan2(y, x) = c.
+    fn by_angles(&mut self, pool: &mut Pool, left: &Unsolved) -> Option<Solution> {
+        for (k, &e) in left.equations.iter().enumerate() {
+            let Some((y, x, angle)) = angle_of_two(pool, e, &left.unknowns) else { continue };
             let s = pool.symbol("common factor of sine and cosine");
-            if unknowns.contains(&s) {
+            if left.unknowns.contains(&s) {
                 continue;
             }
             let factor = pool.variable(s);
-            let mut equations = equations.clone();
-            equations.remove(k);
+            let mut next = left.clone();
+            next.equations.remove(k);
             for (side, function) in [(y, FunctionId::Sin), (x, FunctionId::Cos)] {
                 let part = pool.call(function, &[angle]);
                 let part = pool.mul(factor, part);
-                equations.push(pool.sub(side, part));
+                next.equations.push(pool.sub(side, part));
             }
-            let unknowns = [unknowns, &[s]].concat();
-            if let Some(solution) = self.step(pool, equations, &unknowns, found.clone()) {
+            next.unknowns.push(s);
+            if let Some(solution) = self.step(pool, next) {
                 return Some(solution);
             }
         }
-        // one unknown in terms of the others
-        for k in 0..equations.len() {
-            for unknown in of(pool, equations[k]) {
-                for value in isolate(pool, equations[k], unknown) {
-                    let next = self.with(pool, &equations, unknowns, &found, k, (unknown, value));
-                    if next.is_some() {
-                        return next;
-                    }
+        None
+    }
+
+    /// Solves an equation for one unknown in terms of the others.
+    fn by_any_unknown(&mut self, pool: &mut Pool, left: &Unsolved) -> Option<Solution> {
+        for (k, &e) in left.equations.iter().enumerate() {
+            for unknown in left.unknowns_of(pool, e) {
+                if let Some(solution) = self.by_equation(pool, left, k, unknown) {
+                    return Some(solution);
                 }
             }
         }
         None
     }
 
-    /// Goes on with one unknown replaced by its value.
-    fn with(
+    /// Continues with an unknown replaced by one of its values that solve an equation.
+    fn by_equation(
         &mut self,
         pool: &mut Pool,
-        equations: &[Expr],
-        unknowns: &[Symbol],
-        found: &Solution,
-        used: usize,
-        (unknown, value): (Symbol, Expr),
+        left: &Unsolved,
+        equation: usize,
+        unknown: Symbol,
     ) -> Option<Solution> {
-        let value = pool.open_inverses(value);
-        let value = pool.simplify(value);
-        if pool.weight(value) > HEAVIEST {
-            return None;
-        }
-        let map = HashMap::from([(unknown, value)]);
-        let mut rest = equations.to_vec();
-        rest.remove(used);
-        for e in &mut rest {
-            *e = tidy(pool, *e, &map);
-        }
-        let mut found: Solution = found.clone();
-        for (_, e) in &mut found {
-            *e = tidy(pool, *e, &map);
-        }
-        found.push((unknown, value));
-        let left: Vec<Symbol> = unknowns.iter().copied().filter(|&s| s != unknown).collect();
-        self.step(pool, rest, &left, found)
+        isolate(pool, left.equations[equation], unknown).into_iter().find_map(|value| {
+            let value = pool.open_inverses(value);
+            let value = pool.simplify(value);
+            if pool.weight(value) > HEAVIEST {
+                return None;
+            }
+            let next = left.with(pool, vec![(unknown, value)], &[equation]);
+            self.step(pool, next)
+        })
     }
 }
 
