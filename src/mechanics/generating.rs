@@ -29,6 +29,67 @@ const POINTS: u64 = 24;
 /// A determinant counts as zero up to this part of its terms.
 const DEPENDENT: f64 = 1e-10;
 
+/// Whether a function gives a map.
+struct FunctionTest<'a> {
+    model: &'a Model,
+    given: &'a Transformation,
+    types: &'a [GeneratingType],
+    /// The old and the new variables.
+    variables: Vec<Symbol>,
+    /// The new variables as functions of the old ones.
+    map: HashMap<Symbol, Expr>,
+    points: &'a [Valuation],
+}
+
+impl FunctionTest<'_> {
+    /// The function that has this value with the unknowns solved for, if it gives the map, and whether that is proved.
+    fn function(
+        &self,
+        pool: &mut Pool,
+        value: Expr,
+        unknowns: &[Symbol],
+        solution: &Solution,
+    ) -> Option<(Expr, bool)> {
+        let put: HashMap<Symbol, Expr> = solution.iter().copied().collect();
+        let function = isolate::tidy(pool, value, &put);
+        let simplified = pool.simplify(function);
+        // what comes together by itself may be shorter than what is multiplied out
+        let plain = pool.substitute(value, &put);
+        let shorter = pool.weight(plain) < pool.weight(simplified);
+        let function = if shorter { plain } else { simplified };
+        let function = collected(pool, function, &self.variables);
+        if pool.depends_on_any(function, unknowns) {
+            return None;
+        }
+        let relations = self.relations(pool, function);
+        let mut right = 0;
+        for at in self.points {
+            for &e in &relations {
+                let (left, size) = pool.evaluate_with_size(e, &|s| at.at(s));
+                if left.is_finite() && left.abs() > 1e-9 * (1.0 + size) {
+                    return None;
+                }
+                right += usize::from(left.is_finite());
+            }
+        }
+        if right < 2 * relations.len() {
+            return None;
+        }
+        let proved = relations.iter().all(|&e| {
+            let e = pool.substitute(e, &self.map);
+            pool.is_zero(e) == Zero::Proved
+        });
+        Some((function, proved))
+    }
+
+    /// What vanishes where a function gives the map.
+    fn relations(&self, pool: &mut Pool, function: Expr) -> Vec<Expr> {
+        let law = TransformationLaw::Generating { types: self.types.to_vec(), function };
+        let transformation = Transformation { law, ..self.given.clone() };
+        PhaseMap::relations(pool, self.model, &transformation).implicit.relations
+    }
+}
+
 /// A generating function of a map, if it has one of this type.
 #[derive(Clone, Debug)]
 pub struct GeneratingFunction {
@@ -282,49 +343,20 @@ impl PhaseMap {
         ways.splice(0..0, self.of_given(pool, given, types));
         let direct = self.of_linear_map(pool, &images, types);
         ways.splice(0..0, direct.map(|value| (Vec::new(), Vec::new(), value)));
-        let relations_of = |pool: &mut Pool, function: Expr| {
-            let law = TransformationLaw::Generating { types: types.to_vec(), function };
-            PhaseMap::relations(pool, model, &Transformation { law, ..given.clone() })
-                .implicit
-                .relations
+        let test = FunctionTest {
+            model,
+            given,
+            types,
+            variables: [&self.old[..], self.new_variables()].concat(),
+            map: forwards.iter().copied().collect(),
+            points: &points,
         };
-        let variables = [&self.old[..], self.new_variables()].concat();
-        let map: HashMap<Symbol, Expr> = forwards.iter().copied().collect();
         let mut best: Option<(Expr, bool)> = None;
         for (relations, unknowns, value) in ways {
             let mut found: Option<(Expr, bool)> = None;
             let mut accept = |pool: &mut Pool, solution: &Solution| {
-                let put: HashMap<Symbol, Expr> = solution.iter().copied().collect();
-                let function = isolate::tidy(pool, value, &put);
-                let simplified = pool.simplify(function);
-                // what comes together by itself may be shorter than what is multiplied out
-                let plain = pool.substitute(value, &put);
-                let shorter = pool.weight(plain) < pool.weight(simplified);
-                let function = if shorter { plain } else { simplified };
-                let function = collected(pool, function, &variables);
-                if pool.depends_on_any(function, &unknowns) {
-                    return false;
-                }
-                let relations = relations_of(pool, function);
-                let mut right = 0;
-                for at in &points {
-                    for &e in &relations {
-                        let (left, size) = pool.evaluate_with_size(e, &|s| at.at(s));
-                        if left.is_finite() && left.abs() > 1e-9 * (1.0 + size) {
-                            return false;
-                        }
-                        right += usize::from(left.is_finite());
-                    }
-                }
-                if right < 2 * relations.len() {
-                    return false;
-                }
-                let proved = relations.iter().all(|&e| {
-                    let e = pool.substitute(e, &map);
-                    pool.is_zero(e) == Zero::Proved
-                });
-                found = Some((function, proved));
-                true
+                found = test.function(pool, value, &unknowns, solution);
+                found.is_some()
             };
             let pool = &mut equations.pool;
             let (is_direct, solved) = if unknowns.is_empty() {
