@@ -21,6 +21,7 @@ mod lie;
 mod naming;
 mod node_operation;
 mod noether;
+mod occurring_functions;
 mod positive_roots;
 mod quadratic;
 mod radicals;

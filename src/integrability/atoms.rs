@@ -43,7 +43,7 @@ pub(super) struct Atoms {
     momentum_symbols: Vec<Symbol>,
     /// The generator e^(c u) of each primitive argument u.
     exponentials: Vec<(Expr, Number)>,
-    half_angles: bool,
+    pub(super) family: AnsatzFamily,
 }
 
 /// What occurs in a law.
@@ -77,7 +77,7 @@ impl Atoms {
             reflections: Vec::new(),
             momentum_symbols: momentum_symbols.clone(),
             exponentials: Vec::new(),
-            half_angles: family.half_angles,
+            family,
         };
         for &p in &momentum_symbols {
             let p = pool.variable(p);
@@ -240,7 +240,7 @@ impl Atoms {
                     BTreeMap::from([(0, degree.map_or(1, |n| n.unsigned_abs() as u32))])
                 }
                 Node::Call(FunctionId::Sin | FunctionId::Cos, u) => {
-                    let halves = if self.half_angles { 2.0 } else { 1.0 };
+                    let halves = if self.family.half_angles { 2.0 } else { 1.0 };
                     let turns: f64 =
                         terms(pool, u[0]).iter().map(|(c, _)| c.value().abs().ceil()).sum();
                     BTreeMap::from([(0, (halves * turns) as u32)])

@@ -33,6 +33,9 @@ const MOST_LEADS: usize = 12;
 
 /// Coefficients at random parameters, with each parameter quadrupled, and at others for a check.
 struct Sampled<'a> {
+    field: PrimeField,
+    /// The column whose coefficient is one.
+    lead: usize,
     at: &'a FxHashMap<Symbol, Residue>,
     first: Vec<Residue>,
     moved: Vec<(Symbol, Vec<Residue>)>,
@@ -192,8 +195,9 @@ impl Lift<'_> {
             let moved = scaled.iter().map(|(s, all)| Some((*s, scale(all)?)));
             let Some(moved) = moved.collect::<Option<Vec<_>>>() else { continue };
             let (Some(first), Some(check)) = (scale(&first), scale(&check)) else { continue };
-            let sampled = Sampled { at: &at, first, moved, check_at: &check_at, check };
-            let Some(all) = self.functions(pool, field, &sampled, lead, &mut dense, random) else {
+            let sampled =
+                Sampled { field, lead, at: &at, first, moved, check_at: &check_at, check };
+            let Some(all) = self.functions(pool, &sampled, &mut dense, random) else {
                 continue;
             };
             let all = cleared(pool, &all);
@@ -212,13 +216,12 @@ impl Lift<'_> {
     fn functions(
         &self,
         pool: &mut Pool,
-        field: PrimeField,
         sampled: &Sampled<'_>,
-        lead: usize,
         dense: &mut Option<Dense>,
         random: &mut Random,
     ) -> Option<Vec<Expr>> {
-        let Sampled { at, first, moved: scaled, check_at, check } = sampled;
+        let Sampled { field, lead, at, first, moved: scaled, check_at, check } = sampled;
+        let (field, lead) = (*field, *lead);
         // functions of parameters show only in samples that differ in them
         let plain = self.constants.len() == self.parameters.len();
         let mut all = Vec::new();

@@ -11,24 +11,14 @@
 
 use rustc_hash::FxHashMap;
 
-use super::node_operation::{Angle, NodeOperation};
+use super::node_operation::NodeOperation;
+use super::occurring_functions::OccurringFunctions;
 use super::positive_roots::PositiveRoots;
 use super::radicals::Radicals;
 use super::random::Random;
-use super::units::{Units, Unsupported, least_common};
-use crate::expr::{Expr, FunctionId, Node, Pool, Symbol};
+use super::units::{Units, Unsupported};
+use crate::expr::{Expr, Pool, Symbol};
 use crate::num::{Number, PrimeField, Residue};
-
-/// Whether a node itself has a number that is not a short fraction.
-fn has_real(pool: &Pool, e: Expr) -> bool {
-    let real = |n: &Number| matches!(n, Number::Real(_));
-    match pool.node(e) {
-        Node::Number(n) => real(n),
-        Node::Sum(c, terms) => real(c) || terms.iter().any(|(c, _)| real(c)),
-        Node::Product(c, _) => real(c),
-        _ => false,
-    }
-}
 
 /// Compiled expressions.
 #[derive(Clone, Debug)]
@@ -66,113 +56,25 @@ impl ResidueEvaluator {
         let nodes = pool.reachable(roots);
         let index: FxHashMap<Expr, usize> =
             nodes.iter().enumerate().map(|(i, &e)| (e, i)).collect();
-        let (mut circles, mut units) = (Units::default(), Units::default());
-        let mut roots_of: FxHashMap<Expr, u64> = FxHashMap::default();
-        let mut opaque = 0;
-        let inexact = nodes.iter().any(|&e| has_real(pool, e));
-        for &e in &nodes {
-            match &pool.node(e).clone() {
-                Node::Call(
-                    FunctionId::Sin | FunctionId::Cos | FunctionId::Tan | FunctionId::Cot,
-                    u,
-                ) => {
-                    circles.collect(pool, u[0])?;
-                }
-                Node::Call(
-                    FunctionId::Exp | FunctionId::Sinh | FunctionId::Cosh | FunctionId::Tanh,
-                    u,
-                ) => units.collect(pool, u[0])?,
-                Node::Call(FunctionId::Ln | FunctionId::Atan, _) => opaque += 1,
-                Node::Product(_, factors) => {
-                    for &(base, n) in factors {
-                        let Number::Rational(_, d) = n else {
-                            let why = format!("the power {} is not a fraction", pool.text(e));
-                            return Err(Unsupported(why));
-                        };
-                        let known = roots_of.entry(base).or_insert(1);
-                        *known = least_common(*known as i64, d) as u64;
-                    }
-                }
-                _ => {}
-            }
-        }
-        for (&base, _) in roots_of.iter().filter(|(_, d)| **d > 1) {
-            if pool.touches_zero(base, moving) {
-                let why = "no search is made through a root with a kink, where";
-                return Err(Unsupported(format!("{why} {} touches zero", pool.text(base))));
-            }
-        }
-        let turns = circles.order.iter().position(|&t| *pool.node(t) == Node::Pi);
+        let functions = OccurringFunctions::of(pool, &nodes, moving)?;
         let mut steps = Vec::with_capacity(nodes.len());
         for &e in &nodes {
-            let at = |e: Expr| index[&e];
-            let angle = |u: Expr, pool: &mut Pool| -> Result<Angle, Unsupported> {
-                let (mut parts, mut quarters) = (circles.parts(pool, u), 0);
-                if let Some(turn) = turns {
-                    let denominator = circles.denominators[&circles.order[turn]];
-                    for &(_, n) in parts.iter().filter(|(unit, _)| *unit == turn) {
-                        if 2 * n % denominator != 0 {
-                            let why = "an angle is a fraction of π other than a quarter turn";
-                            return Err(Unsupported(why.to_owned()));
-                        }
-                        quarters += 2 * n / denominator;
-                    }
-                    parts.retain(|(unit, _)| *unit != turn);
-                }
-                Ok(Angle { parts, quarters })
-            };
-            let step = match &pool.node(e).clone() {
-                Node::Number(n) => NodeOperation::Number(*n),
-                Node::Pi => NodeOperation::Constant,
-                Node::Symbol(s) => NodeOperation::Symbol(*s),
-                Node::Sum(c, terms) => {
-                    NodeOperation::Sum(*c, terms.iter().map(|&(c, t)| (c, at(t))).collect())
-                }
-                Node::Product(c, factors) => {
-                    let factor = |&(base, n): &(Expr, Number)| {
-                        let d = roots_of[&base];
-                        let Number::Rational(n, own) = n else { return None };
-                        Some((at(base), d, n * (d as i64 / own)))
-                    };
-                    NodeOperation::Product(*c, factors.iter().filter_map(factor).collect())
-                }
-                Node::Power(..) => {
-                    let why =
-                        format!("the power {} has an exponent that is not a number", pool.text(e));
-                    return Err(Unsupported(why));
-                }
-                Node::Call(function, u) => match function {
-                    FunctionId::Sin => NodeOperation::Sine(angle(u[0], pool)?, at(u[0])),
-                    FunctionId::Cos => NodeOperation::Cosine(angle(u[0], pool)?, at(u[0])),
-                    FunctionId::Exp => NodeOperation::Exp(units.parts(pool, u[0]), at(u[0])),
-                    FunctionId::Sinh => NodeOperation::Sinh(units.parts(pool, u[0]), at(u[0])),
-                    FunctionId::Cosh => NodeOperation::Cosh(units.parts(pool, u[0]), at(u[0])),
-                    FunctionId::Ln | FunctionId::Atan if !pool.depends_on_any(e, moving) => {
-                        NodeOperation::Constant
-                    }
-                    FunctionId::Ln => NodeOperation::Ln(at(u[0])),
-                    FunctionId::Atan => NodeOperation::Atan(at(u[0])),
-                    other => {
-                        let name = other.row().name;
-                        return Err(Unsupported(format!("no search is made through `{name}`")));
-                    }
-                },
-            };
-            steps.push(step);
+            steps.push(functions.operation(pool, e, &index, moving)?);
         }
         let fixed = |all: &Units| -> Vec<bool> {
             all.order.iter().map(|&term| !pool.depends_on_any(term, moving)).collect()
         };
-        let radicals = Radicals::new(pool, &roots_of, &index);
+        let OccurringFunctions { circles, units, roots_of, opaque, inexact } = &functions;
+        let radicals = Radicals::new(pool, roots_of, &index);
         let orders = roots_of.iter().map(|(base, &order)| (index[base], order)).collect();
         let positive = PositiveRoots::new(&steps, &orders);
         Ok(ResidueEvaluator {
             steps,
+            circles: fixed(circles),
+            units: fixed(units),
+            overgeneral: *opaque > 1 || *inexact,
+            inexact: *inexact,
             index,
-            circles: fixed(&circles),
-            units: fixed(&units),
-            overgeneral: opaque > 1 || inexact,
-            inexact,
             radicals,
             positive,
         })

@@ -84,7 +84,7 @@ impl ExplicitMotion {
     }
 
     /// D ξ and the η^{i(1)}.
-    pub(super) fn prolonged(&self, pool: &mut Pool, xi: Expr, eta: &[Expr]) -> (Expr, Vec<Expr>) {
+    fn prolonged(&self, pool: &mut Pool, xi: Expr, eta: &[Expr]) -> (Expr, Vec<Expr>) {
         let seeds = self.first(pool);
         let rate = pool.derivation(xi, &seeds);
         let mut all = Vec::new();

@@ -121,44 +121,15 @@ pub fn point_symmetries(
         let ExplicitMotion { time, positions, velocities, .. } = motion.clone();
         ExplicitMotion::of(pool, time, positions, velocities, symbolic)
     });
-    let mut complete = !problem.overgeneral && !generic;
-    let (mut unwritten, mut unfinished) = (0, 0);
-    let mut found = Vec::new();
-    let known = noether.as_deref().into_iter().flat_map(|known| &known.found).filter(|s| s.proved);
-    for s in known {
-        found.push(PointSymmetry {
-            name: s.name.clone(),
-            time: s.time,
-            coordinates: s.coordinates.clone(),
-            noether: Some(true),
-            for_all_parameters: s.for_all_parameters,
-            scaling: motion.scaling(pool, s.time, &s.coordinates),
-        });
-    }
-    for vector in solved {
-        if is_over() {
-            (complete, unfinished) = (false, unfinished + 1);
-            continue;
-        }
-        let Some((xi, eta)) = problem.exact(pool, &vector) else {
-            (complete, unwritten) = (false, unwritten + usize::from(!generic));
-            continue;
-        };
-        let by_name = named.as_ref().is_none_or(|named| named.is_symmetry(pool, xi, &eta));
-        // for stand-ins it need not be one for the values that they are for
-        if !by_name && (generic || !motion.is_symmetry(pool, xi, &eta)) {
-            (complete, unwritten) = (false, unwritten + usize::from(!generic));
-            continue;
-        }
-        found.push(PointSymmetry {
-            name: name_of(pool, motion.time, &motion.positions, xi, &eta),
-            scaling: motion.scaling(pool, xi, &eta),
-            time: xi,
-            coordinates: eta,
-            noether: None,
-            for_all_parameters: by_name,
-        });
-    }
+    let proved = noether.as_deref().map_or(&[][..], |known| &known.found);
+    let mut answer = PointSymmetries {
+        found: of_noether(pool, &motion, proved),
+        searched: String::new(),
+        complete: !problem.overgeneral && !generic,
+        unwritten: 0,
+        unfinished: 0,
+    };
+    problem.write(pool, (solved, named.as_ref()), generic, is_over, &mut answer);
     if let Some(noether) = noether {
         let ExplicitMotion { time, positions, velocities, .. } = motion.clone();
         let varied = VariedLagrangian::of(&mut equations.pool, law, time, positions, velocities);
@@ -166,29 +137,9 @@ pub fn point_symmetries(
         laws.extend(by_names.map(|named| varied.with(&mut equations.pool, named)));
         // what holds for stand-ins need not hold for the values
         laws.extend((!generic).then(|| varied.clone()));
-        let mut others = Vec::new();
-        for mut symmetry in found.split_off(first.len()) {
-            if is_over() {
-                others.push(symmetry);
-                continue;
-            }
-            let change = varied.change(&mut equations.pool, symmetry.time, &symmetry.coordinates);
-            symmetry.noether = equations.gauge(change, Expr::ZERO).total_derivative;
-            let is_noether = symmetry.noether == Some(true);
-            let charge = is_noether.then(|| charge(equations, &laws, &symmetry)).flatten();
-            let Some(mut charge) = charge else {
-                others.push(symmetry);
-                continue;
-            };
-            charge.between_impulses = is_changed_by_impulse(equations, model, charge.conserved);
-            let is_other = |s: &Symmetry| {
-                s.proved || (s.time, &s.coordinates) != (symmetry.time, &symmetry.coordinates)
-            };
-            noether.found.retain(is_other);
-            noether.found.push(charge);
-            found.push(symmetry);
-        }
-        found.extend(others);
+        let others = answer.found.split_off(first.len());
+        let others = with_charges((model, equations), (&varied, &laws), noether, others, is_over);
+        answer.found.extend(others);
     }
     let pool = &mut equations.pool;
     let shown = match by_names {
@@ -198,8 +149,56 @@ pub fn point_symmetries(
         _ => generators,
     };
     let searched = words(pool, &shown, degree);
-    let searched = format!("changes of time and coordinates that are {searched}");
-    Ok(PointSymmetries { found, searched, complete, unwritten, unfinished })
+    answer.searched = format!("changes of time and coordinates that are {searched}");
+    Ok(answer)
+}
+
+/// Those that are proved to come from the Lagrangian.
+fn of_noether(pool: &mut Pool, motion: &ExplicitMotion, known: &[Symmetry]) -> Vec<PointSymmetry> {
+    let point_symmetry = |s: &Symmetry| PointSymmetry {
+        name: s.name.clone(),
+        time: s.time,
+        coordinates: s.coordinates.clone(),
+        noether: Some(true),
+        for_all_parameters: s.for_all_parameters,
+        scaling: motion.scaling(pool, s.time, &s.coordinates),
+    };
+    known.iter().filter(|s| s.proved).map(point_symmetry).collect()
+}
+
+/// Finds out which of these symmetries leave the action stationary, and adds each of those with its constant to `noether`. Returns them
+/// all, those first that do.
+fn with_charges(
+    (model, equations): (&Model, &mut Equations),
+    (varied, laws): (&VariedLagrangian, &[VariedLagrangian]),
+    noether: &mut Symmetries,
+    symmetries: Vec<PointSymmetry>,
+    is_over: &dyn Fn() -> bool,
+) -> Vec<PointSymmetry> {
+    let (mut found, mut others) = (Vec::new(), Vec::new());
+    for mut symmetry in symmetries {
+        if is_over() {
+            others.push(symmetry);
+            continue;
+        }
+        let change = varied.change(&mut equations.pool, symmetry.time, &symmetry.coordinates);
+        symmetry.noether = equations.gauge(change, Expr::ZERO).total_derivative;
+        let is_noether = symmetry.noether == Some(true);
+        let charge = is_noether.then(|| charge(equations, laws, &symmetry)).flatten();
+        let Some(mut charge) = charge else {
+            others.push(symmetry);
+            continue;
+        };
+        charge.between_impulses = is_changed_by_impulse(equations, model, charge.conserved);
+        let is_other = |s: &Symmetry| {
+            s.proved || (s.time, &s.coordinates) != (symmetry.time, &symmetry.coordinates)
+        };
+        noether.found.retain(is_other);
+        noether.found.push(charge);
+        found.push(symmetry);
+    }
+    found.extend(others);
+    found
 }
 
 /// A symmetry of one of some Lagrangians with its gauge term and constant, the first of them for all values of the parameters.
@@ -225,6 +224,46 @@ struct LieProblem {
 }
 
 impl LieProblem {
+    /// Adds the solutions that can be written, and counts the others. `named` is the motion with the parameters by their names, if it
+    /// has any; those that are `generic` may be stand-ins for other values.
+    fn write(
+        &mut self,
+        pool: &mut Pool,
+        (solutions, named): (Vec<Vec<Residue>>, Option<&ExplicitMotion>),
+        generic: bool,
+        is_over: &dyn Fn() -> bool,
+        answer: &mut PointSymmetries,
+    ) {
+        for vector in solutions {
+            if is_over() {
+                answer.complete = false;
+                answer.unfinished += 1;
+                continue;
+            }
+            let exact = self.exact(pool, &vector);
+            let motion = &self.motion;
+            // for stand-ins it need not be one for the values that they are for
+            let symmetry = exact.and_then(|(xi, eta)| {
+                let by_name = named.is_none_or(|named| named.is_symmetry(pool, xi, &eta));
+                let is_one = by_name || (!generic && motion.is_symmetry(pool, xi, &eta));
+                is_one.then_some((xi, eta, by_name))
+            });
+            let Some((xi, eta, by_name)) = symmetry else {
+                answer.complete = false;
+                answer.unwritten += usize::from(!generic);
+                continue;
+            };
+            answer.found.push(PointSymmetry {
+                name: name_of(pool, motion.time, &motion.positions, xi, &eta),
+                scaling: motion.scaling(pool, xi, &eta),
+                time: xi,
+                coordinates: eta,
+                noether: None,
+                for_all_parameters: by_name,
+            });
+        }
+    }
+
     /// The solutions modulo a prime that are not combinations of the `first` ones, as sparse as they come.
     fn solve(
         &mut self,

@@ -9,7 +9,7 @@ use std::collections::HashMap;
 use rustc_hash::FxHashMap;
 
 use super::ansatz::Ansatz;
-use super::atoms::{AnsatzFamily, Atoms};
+use super::atoms::Atoms;
 use super::coefficients::{Lift, rationals};
 use super::evaluator::ResidueEvaluator;
 use super::formula::{cleared, combination, words};
@@ -27,7 +27,7 @@ use super::vanishing::vanishes;
 use crate::expr::{Expr, Pool, Symbol};
 use crate::mechanics::{Class, Equations, class_of, is_changed_by_impulse};
 use crate::model::Model;
-use crate::num::{PRIMES, PrimeField};
+use crate::num::{PRIMES, PrimeField, Residue};
 
 /// The largest number of monomials in an ansatz, so that its matrix stays below 20 MB.
 pub const SIZE_LIMIT: usize = 1_500;
@@ -88,6 +88,15 @@ struct Search<'a> {
     known: Vec<KnownConstant>,
     field: PrimeField,
     random: Random,
+}
+
+/// What has come of a null vector modulo a prime.
+enum NullVector {
+    Constant(Constant),
+    /// It belongs to the stand-ins of numbers, and perhaps not to these.
+    OfStandIns,
+    /// Its coefficients are no short fractions.
+    NotExact,
 }
 
 impl<'a> Search<'a> {
@@ -160,10 +169,10 @@ impl<'a> Search<'a> {
                     let bounds = self.scope.bounds(&mut equations.pool, &atoms, degree, extra);
                     let Some(ansatz) = Ansatz::new(&atoms, bounds, SIZE_LIMIT) else { continue };
                     let (size, overgeneral) =
-                        self.level(model, equations, answer, family, &atoms, &ansatz)?;
+                        self.level(model, equations, answer, &atoms, &ansatz)?;
                     (complete, related) = (true, overgeneral);
                     answer.searched.retain(|s| (s.degree, s.standard) != (degree, i == 0) || i > 0);
-                    let shown = self.shown(&mut equations.pool, &atoms, family);
+                    let shown = self.shown(&mut equations.pool, &atoms);
                     let pool = &equations.pool;
                     let words =
                         |print: &dyn Fn(Expr) -> String| words(&self.law, &shown, &ansatz, print);
@@ -199,14 +208,20 @@ impl<'a> Search<'a> {
     }
 
     /// The generators as they are shown: with the parameters' names where their values are stand-ins.
-    fn shown(&self, pool: &mut Pool, atoms: &Atoms, family: AnsatzFamily) -> Atoms {
+    fn shown(&self, pool: &mut Pool, atoms: &Atoms) -> Atoms {
         if self.generic {
-            let named = Atoms::of(pool, &self.symbolic, &self.scope.angles, family);
+            let named = Atoms::of(pool, &self.symbolic, &self.scope.angles, atoms.family);
             if named.coefficients.len() == atoms.coefficients.len() {
                 return named;
             }
         }
         atoms.clone()
+    }
+
+    /// The highest degree of an ansatz.
+    fn highest_degree(&self, ansatz: &Ansatz) -> u32 {
+        let degree = ansatz.bounds.iter().map(|&(k, _)| k).max().unwrap_or(0);
+        if self.law.positions == 0 { ansatz.bounds[0].1 } else { degree }
     }
 
     /// One ansatz: what is new in it is made exact, proved, and added.
@@ -215,12 +230,9 @@ impl<'a> Search<'a> {
         model: &Model,
         equations: &mut Equations,
         answer: &mut Invariants,
-        family: AnsatzFamily,
         atoms: &Atoms,
         ansatz: &Ansatz,
     ) -> Result<(usize, bool), Broken> {
-        let degree = ansatz.bounds.iter().map(|&(k, _)| k).max().unwrap_or(0);
-        let degree = if self.law.positions == 0 { ansatz.bounds[0].1 } else { degree };
         let known: Vec<(Expr, u32)> = answer
             .known
             .iter()
@@ -229,7 +241,7 @@ impl<'a> Search<'a> {
             .collect();
         let functions: Vec<Expr> = known.iter().map(|(e, _)| *e).collect();
         let degrees: Vec<u32> = known.iter().map(|(_, d)| *d).collect();
-        let mut products = products(&degrees, degree, MOST_PRODUCTS);
+        let mut products = products(&degrees, self.highest_degree(ansatz), MOST_PRODUCTS);
         products.push(Vec::new());
         let mut roots = self.law.expressions();
         roots.extend(&functions);
@@ -252,57 +264,68 @@ impl<'a> Search<'a> {
         let level = level::search(&ground, atoms, ansatz, &functions, &products, random)?;
         for vector in level.new {
             let shape = (atoms, ansatz);
-            let exact = rationals(&ground, shape, &vector, &mut self.random);
-            let pool = &mut equations.pool;
-            let exact: Option<Vec<Expr>> = match exact {
-                Some(all) => Some(all.into_iter().map(|n| pool.number(n)).collect()),
-                None => with_root(pool, &ground, shape, &vector, &mut self.random),
-            };
-            let columns: Vec<usize> = vector.iter().map(|(c, _)| *c).collect();
-            let degree = columns.iter().map(|&c| ansatz.degree(c)).max().unwrap_or(degree);
-            let degree = if self.law.positions == 0 { ansatz.total(&columns) } else { degree };
-            let named = self.named(model, equations, family, ansatz, &columns);
-            let here = exact.map(|exact| {
-                let pool = &mut equations.pool;
-                let exact = cleared(pool, &exact);
-                combination(pool, atoms, ansatz, &columns, &exact)
-            });
-            let constant = match (named, here) {
-                (Some(expression), _) => {
-                    let here = equations.pool.substitute(expression, &self.values);
-                    Constant {
-                        expression,
-                        degree,
-                        proof: Proof::Proved,
-                        independent: false,
-                        between_impulses: false,
-                        here,
-                    }
-                }
+            match self.constant(model, equations, &ground, shape, &vector) {
+                NullVector::Constant(constant) => answer.found.push(constant),
                 // it need not be one for the values that the stand-ins are for
-                (None, Some(_)) if self.generic => continue,
-                (None, Some(here)) => {
-                    let proof = self.proof_here(model, equations, here);
-                    Constant {
-                        expression: here,
-                        degree,
-                        proof,
-                        independent: false,
-                        between_impulses: false,
-                        here,
-                    }
-                }
-                (None, None) => {
+                NullVector::OfStandIns => {}
+                NullVector::NotExact => {
                     answer.ended = Some(
                         "a constant of the motion has coefficients that are not short fractions"
                             .to_owned(),
                     );
                     return Err(Broken::Over);
                 }
-            };
-            answer.found.push(constant);
+            }
         }
         Ok((level.size, evaluator.overgeneral))
+    }
+
+    /// The constant whose coefficients are a null vector modulo a prime.
+    fn constant(
+        &mut self,
+        model: &Model,
+        equations: &mut Equations,
+        ground: &Ground<'_>,
+        (atoms, ansatz): (&Atoms, &Ansatz),
+        vector: &[(usize, Residue)],
+    ) -> NullVector {
+        let shape = (atoms, ansatz);
+        let exact = rationals(ground, shape, vector, &mut self.random);
+        let pool = &mut equations.pool;
+        let exact: Option<Vec<Expr>> = match exact {
+            Some(all) => Some(all.into_iter().map(|n| pool.number(n)).collect()),
+            None => with_root(pool, ground, shape, vector, &mut self.random),
+        };
+        let columns: Vec<usize> = vector.iter().map(|(c, _)| *c).collect();
+        let degree = if self.law.positions == 0 {
+            ansatz.total(&columns)
+        } else {
+            let degrees = columns.iter().map(|&c| ansatz.degree(c));
+            degrees.max().unwrap_or_else(|| self.highest_degree(ansatz))
+        };
+        let named = self.named(model, equations, shape, &columns);
+        let here = exact.map(|exact| {
+            let pool = &mut equations.pool;
+            let exact = cleared(pool, &exact);
+            combination(pool, atoms, ansatz, &columns, &exact)
+        });
+        let (expression, here, proof) = match (named, here) {
+            (Some(named), _) => {
+                (named, equations.pool.substitute(named, &self.values), Proof::Proved)
+            }
+            (None, Some(_)) if self.generic => return NullVector::OfStandIns,
+            (None, Some(here)) => (here, here, self.proof_here(model, equations, here)),
+            (None, None) => return NullVector::NotExact,
+        };
+        let (independent, between_impulses) = (false, false);
+        NullVector::Constant(Constant {
+            expression,
+            degree,
+            proof,
+            independent,
+            between_impulses,
+            here,
+        })
     }
 
     /// The same constant with the parameters' names, if it is one for all their values.
@@ -310,8 +333,7 @@ impl<'a> Search<'a> {
         &mut self,
         model: &Model,
         equations: &mut Equations,
-        family: AnsatzFamily,
-        ansatz: &Ansatz,
+        (numeric, ansatz): (&Atoms, &Ansatz),
         columns: &[usize],
     ) -> Option<Expr> {
         let pool = &mut equations.pool;
@@ -323,8 +345,7 @@ impl<'a> Search<'a> {
             .filter(|&s| used.iter().any(|&e| pool.depends(e, s)))
             .collect();
         let constants = constants_of(pool, &self.symbolic, &parameters);
-        let atoms = Atoms::of(pool, &self.symbolic, &self.scope.angles, family);
-        let numeric = Atoms::of(pool, &self.law, &self.scope.angles, family);
+        let atoms = Atoms::of(pool, &self.symbolic, &self.scope.angles, numeric.family);
         if atoms.coefficients.len() != numeric.coefficients.len() {
             return None;
         }
