@@ -54,7 +54,7 @@ pub(super) fn removed(rates: &DVector<f64>, what: Removed) -> Vec<DVector<f64>> 
 }
 
 /// Takes the components along orthonormal vectors out of a vector, twice against rounding.
-pub(super) fn project_out(v: &mut DVector<f64>, of: &[DVector<f64>]) {
+fn project_out(v: &mut DVector<f64>, of: &[DVector<f64>]) {
     for _ in 0..2 {
         for unit in of {
             let part = unit.dot(v);

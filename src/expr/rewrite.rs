@@ -39,7 +39,7 @@ impl Pool {
     }
 
     /// The same node with its parts replaced as `of` says.
-    pub(super) fn rebuild(&mut self, e: Expr, of: impl Fn(&Pool, Expr) -> Expr) -> Expr {
+    fn rebuild(&mut self, e: Expr, of: impl Fn(&Pool, Expr) -> Expr) -> Expr {
         let mut is_same = true;
         self.node(e).for_each_part(|part| is_same &= of(self, part) == part);
         if is_same {

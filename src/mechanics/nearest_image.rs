@@ -57,7 +57,7 @@ impl Linearized<'_> {
 
 impl PhaseMap {
     /// What each new variable is near to at a point, by a map near this one; `None` where nothing is known.
-    pub(super) fn near_to(&self, pool: &Pool, point: &Valuation) -> Vec<Option<f64>> {
+    fn near_to(&self, pool: &Pool, point: &Valuation) -> Vec<Option<f64>> {
         let own: Vec<f64> = self.old.iter().map(|&s| point.at(s)).collect();
         let n = own.len() / 2;
         if self.is_explicit() || !self.parts.is_empty() {

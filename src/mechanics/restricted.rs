@@ -20,7 +20,7 @@ pub(super) struct Restriction {
 
 impl Equations {
     /// What the constraints determine, or `None` if there are none.
-    pub(super) fn restriction(&mut self) -> Option<Restriction> {
+    fn restriction(&mut self) -> Option<Restriction> {
         if self.constraints.is_empty() {
             return None;
         }

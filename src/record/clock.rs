@@ -38,7 +38,7 @@ impl Clock {
     }
 
     /// The time of a frame.
-    pub(super) fn time_of(&self, frame: u64) -> Micros {
+    fn time_of(&self, frame: u64) -> Micros {
         frame.saturating_mul(SECOND) / u64::from(self.fps)
     }
 

@@ -217,7 +217,7 @@ impl Expansion {
     }
 
     /// Whether the functions are numbers of the motion, whose polynomials in a step are all that there is of them.
-    pub(super) fn is_of_numbers(&self) -> bool {
+    fn is_of_numbers(&self) -> bool {
         self.numbers.is_some()
     }
 

@@ -159,7 +159,7 @@ impl ProgramBuilder<'_> {
 
     /// A program whose inputs are a state (q, p), with the velocities of a Lagrangian system known
     /// too. Returns `None` if these require iteration.
-    pub(super) fn on_canonical_state(&mut self) -> Option<Lowering<'_>> {
+    fn on_canonical_state(&mut self) -> Option<Lowering<'_>> {
         let equations = self.equations;
         let coordinates = &equations.coordinates;
         let Flow::Lagrange { mass, .. } = &equations.flow else {

@@ -71,7 +71,7 @@ fn shrunk_to(turn: &FamilyPoint, beside: [&FamilyPoint; 3]) -> Option<FamilyPoin
 impl Continuation<'_> {
     /// Whether orbits with others of the same value beside them are isolated at the second point: what they have shrunk to, as
     /// rosettes to a circle, belongs to another family of the same system.
-    pub(super) fn isolates(&self, from: &FamilyPoint, to: &FamilyPoint) -> bool {
+    fn isolates(&self, from: &FamilyPoint, to: &FamilyPoint) -> bool {
         let is_same_system = !matches!(self.along, Along::Parameter(_));
         is_same_system && from.unit().is_none() && is_turned(to)
     }
