@@ -26,6 +26,7 @@ mod measure;
 mod memo;
 mod node;
 mod notation;
+mod one_fraction;
 mod other_functions;
 mod parse;
 mod plain;

@@ -23,7 +23,7 @@ impl Pool {
     }
 
     fn divided_once(&mut self, e: Expr) -> Option<Expr> {
-        self.with_quotient(e, Pool::quotient)
+        self.with_quotient(e, Pool::exact_quotient)
     }
 
     /// A fraction with the first sum above that has a quotient by a sum below in its place.
@@ -48,29 +48,21 @@ impl Pool {
         None
     }
 
-    /// The quotient of two sums by long division in a symbol that is a term of the divisor and in none of its others.
-    fn quotient(&mut self, whole: Expr, divisor: Expr) -> Option<Expr> {
-        let terms = self.summands(divisor);
-        let (k, leading) = terms.iter().copied().find(|&(_, term)| {
-            let Some(symbol) = self.as_symbol(term) else { return false };
-            terms.iter().filter(|(_, other)| self.depends(*other, symbol)).count() == 1
-        })?;
+    /// The quotient of two sums, if it is a sum itself: long division by the leading term of the divisor.
+    pub(super) fn exact_quotient(&mut self, whole: Expr, divisor: Expr) -> Option<Expr> {
+        let (k, leading) = self.leading_term(divisor)?;
+        let below = self.monomial_factors(leading);
         let whole = self.expand(whole, TRIAL_TERMS);
         let (mut rest, mut quotient) = (whole, Expr::ZERO);
         for _ in 0..STEPS {
             if rest == Expr::ZERO {
                 return Some(quotient);
             }
-            let degree = |pool: &Pool, term: Expr| match pool.node(term) {
-                Node::Product(_, factors) => {
-                    let power = factors.iter().find(|(base, _)| *base == leading);
-                    power.and_then(|(_, n)| n.as_integer()).unwrap_or(0)
-                }
-                _ => i64::from(term == leading),
-            };
-            let terms = self.summands(rest);
-            let (c, first) = terms.into_iter().max_by_key(|&(_, term)| degree(self, term))?;
-            if degree(self, first) < 1 {
+            let (c, first) = self.leading_term(rest)?;
+            let above = self.monomial_factors(first);
+            let divides =
+                |&(base, n): &Factor| above.iter().any(|&(other, m)| other == base && m >= n);
+            if !below.iter().all(divides) {
                 return None;
             }
             let next = self.div(first, leading);
@@ -81,5 +73,22 @@ impl Pool {
             rest = self.expand(left, TRIAL_TERMS);
         }
         None
+    }
+
+    /// The term with the highest power of the last base, of those the one with the highest power of the last but one, and so
+    /// on: the lexicographic order of monomials.
+    fn leading_term(&self, sum: Expr) -> Option<(Number, Expr)> {
+        self.summands(sum).into_iter().max_by_key(|&(_, term)| self.monomial_factors(term))
+    }
+
+    /// The factors of a term, the last base first.
+    fn monomial_factors(&self, term: Expr) -> Vec<Factor> {
+        let mut factors = match self.node(term) {
+            Node::Number(_) => Vec::new(),
+            Node::Product(_, factors) => factors.to_vec(),
+            _ => vec![(term, Number::ONE)],
+        };
+        factors.sort_unstable_by(|a, b| b.cmp(a));
+        factors
     }
 }

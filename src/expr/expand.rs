@@ -28,7 +28,7 @@ impl Pool {
     }
 
     /// Expands the product at the top of `e`, whose factors are already expanded.
-    fn expand_top(&mut self, e: Expr, most: usize) -> Expr {
+    pub(super) fn expand_top(&mut self, e: Expr, most: usize) -> Expr {
         let shared = self.shared(e);
         let (c, factors) = match &*shared {
             Node::Product(c, factors) => (*c, factors),

@@ -66,8 +66,8 @@ impl Style for Latex {
             return applied(printer, &name, arguments[0]);
         }
         // a dotted symbol takes an exponent directly; a power or a fraction needs parentheses
-        let exponent = self.number(exponent);
-        self.power(&printer.at_least(base, BindingStrength::Atom), &exponent)
+        let (power, exponent) = (exponent, self.number(exponent));
+        self.power(&printer.raised(base, power), &exponent)
     }
 
     fn power(&self, base: &str, exponent: &PrintedPiece) -> PrintedPiece {

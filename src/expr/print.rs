@@ -106,6 +106,20 @@ impl Printer<'_> {
         self.wrap(self.piece(e), level)
     }
 
+    /// The text of what is raised to a numeric power. The sign of what is squared is that of its first term: (p − m x)².
+    pub(super) fn raised(&self, base: Expr, exponent: Number) -> String {
+        let even = exponent.as_integer().is_some_and(|n| n % 2 == 0);
+        if let (true, Node::Sum(constant, terms)) =
+            (even && self.style.textbook(), self.pool.node(base))
+            && let Some(&(first, _)) = terms.iter().min_by_key(|&&(_, t)| self.order_of_term(t))
+            && first.is_negative()
+        {
+            let opposite: Vec<(Number, Expr)> = terms.iter().map(|&(c, t)| (-c, t)).collect();
+            return self.wrap(self.sum(-*constant, &opposite), BindingStrength::Atom);
+        }
+        self.at_least(base, BindingStrength::Atom)
+    }
+
     fn wrap(&self, piece: PrintedPiece, level: BindingStrength) -> String {
         if piece.level < level { self.style.parenthesise(&piece.text) } else { piece.text }
     }
@@ -187,11 +201,14 @@ impl Printer<'_> {
         let constants = above.iter().take_while(|&&(base, _)| self.is_constant(base)).count();
         let (first, rest) = above.split_at(constants);
         let apart = self.style.constants_apart()
-            && rest.last().is_some_and(|&(base, _)| matches!(self.pool.node(base), Node::Call(..)));
+            && above
+                .last()
+                .is_some_and(|&(base, _)| matches!(self.pool.node(base), Node::Call(..)));
         // (5/7) g sin φ, and (g/l) sin θ
         let number_below = below.is_empty() && !under.is_one();
         let constant_below = under.is_one()
             && constants > 0
+            && !rest.is_empty()
             && matches!(below[..], [(base, _)] if self.pool.as_symbol(base).is_some() && self.is_constant(base));
         if apart && (number_below || constant_below) {
             let in_fraction = if number_below { &[] } else { first };

@@ -9,7 +9,7 @@ use crate::num::Number;
 
 /// The largest weight of an expression that is multiplied out on trial; heavier ones are only
 /// combined and factored.
-const TRIAL_LIMIT: u64 = 400;
+pub(super) const TRIAL_LIMIT: u64 = 400;
 
 /// The largest number of sums that are combined into one denominator.
 const MOST_DENOMINATORS: usize = 3;
@@ -104,7 +104,7 @@ impl Pool {
     }
 
     /// A sum with its common factors taken out: `a x² + a x y → a x (x + y)`.
-    fn factor_out(&mut self, e: Expr) -> Expr {
+    pub(super) fn factor_out(&mut self, e: Expr) -> Expr {
         let shared = self.shared(e);
         let Node::Sum(constant, terms) = &*shared else { return e };
         if !constant.is_zero() {

@@ -64,8 +64,8 @@ impl Style for Text {
             let inner = printer.piece(base).text;
             return PrintedPiece { text: format!("sqrt({inner})"), level: BindingStrength::Atom };
         }
-        let exponent = self.number(exponent);
-        self.power(&printer.at_least(base, BindingStrength::Atom), &exponent)
+        let (power, exponent) = (exponent, self.number(exponent));
+        self.power(&printer.raised(base, power), &exponent)
     }
 
     fn call(

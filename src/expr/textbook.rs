@@ -29,21 +29,111 @@ impl Pool {
         }
         let mut pool = self.with_the_same_symbols();
         let copy = pool.copy_from(self, e);
-        let joined = pool.each_part(copy, |pool, part| match pool.node(part) {
+        let opened = pool.shorter_multiplied_out(copy);
+        let joined = pool.each_part(opened, |pool, part| match pool.node(part) {
             Node::Sum(..) => pool.join_fractions(part),
             Node::Product(..) => pool.flatten_fractions(part),
             _ => part,
         });
         let written = pool.each_part(joined, |pool, part| match pool.node(part) {
             Node::Sum(..) => pool.collect_constants(part),
-            Node::Product(..) => pool.quotient_of_sine_and_cosine(part),
+            Node::Product(..) => {
+                let apart = pool.split_fraction(part);
+                pool.quotient_of_sine_and_cosine(apart)
+            }
             _ => part,
         });
         print(&pool, written)
     }
 
+    /// A sum with its products multiplied out where terms combine and it is shorter so: `x (x − y) − ½ (x − y)²` as
+    /// `½ x² − ½ y²`.
+    fn shorter_multiplied_out(&mut self, e: Expr) -> Expr {
+        // what is added to a momentum stays with it in a square
+        let is_square = |&(base, n): &Factor| {
+            n.value() > 1.0
+                && matches!(self.node(base), Node::Sum(..))
+                && self.rank_of(base) == Rank::Momentum
+        };
+        let has_square = |part| matches!(self.node(part), Node::Product(_, factors) if factors.iter().any(is_square));
+        if self.reachable(&[e]).into_iter().any(has_square) {
+            return e;
+        }
+        let mut opened = e;
+        while let (Node::Sum(..), then) =
+            (self.node(opened).clone(), self.expand_top(opened, TRIAL_TERMS))
+        {
+            if then == opened {
+                break;
+            }
+            opened = then;
+        }
+        let opened = self.join_terms(opened);
+        let combine = self.summands(opened).len() < self.terms_multiplied_out(e);
+        if combine && self.cost(opened) < self.cost(e) { opened } else { e }
+    }
+
+    /// The number of terms of an expression that is multiplied out, if none of them combine but those of powers.
+    fn terms_multiplied_out(&self, e: Expr) -> usize {
+        let of = |term: Expr| match self.node(term) {
+            Node::Product(_, factors) => factors
+                .iter()
+                .filter(|(base, _)| matches!(self.node(*base), Node::Sum(..)))
+                .filter_map(|&(base, n)| Some((self.terms_multiplied_out(base), n.as_integer()?)))
+                // n of k terms, with repetition
+                .map(|(k, n)| (1..=n.max(0) as usize).fold(1, |ways, i| ways * (k + i - 1) / i))
+                .product(),
+            _ => 1,
+        };
+        self.summands(e).into_iter().map(|(_, term)| of(term)).sum()
+    }
+
+    /// `(a d − b)/(c d)` as `a/c − b/(c d)` where a term contains all of the denominator, `(a c + b d)/(c d)` as `a/d + b/c` where
+    /// every term contains some of it, and nothing but constants is written twice.
+    fn split_fraction(&mut self, e: Expr) -> Expr {
+        let (above, below) = self.above_and_below(e);
+        let is_sum = |&(base, _): &Factor| matches!(self.node(base), Node::Sum(..));
+        let mut sums = above.iter().filter(|factor| is_sum(factor));
+        let (Some(&(sum, n)), None) = (sums.next(), sums.next()) else { return e };
+        let is_constant = |&(base, _): &Factor| self.rank_of(base) == Rank::Constant;
+        let others = above.iter().filter(|factor| !is_sum(factor)).all(is_constant);
+        if !others
+            || below.is_empty()
+            || below.iter().any(is_sum)
+            || !n.is_one()
+            || is_constant(&(sum, n))
+        {
+            return e;
+        }
+        let terms: Vec<(Number, Expr)> = self.summands(sum);
+        let left = |pool: &mut Pool, term: Expr| {
+            let quotient =
+                pool.monomial(Number::ONE, &[&[(term, Number::ONE)], &below[..]].concat());
+            pool.above_and_below(quotient).1
+        };
+        let left: Vec<Vec<Factor>> = terms.iter().map(|&(_, term)| left(self, term)).collect();
+        let some = |&(base, n): &Factor| below.iter().any(|&(other, m)| other == base && m <= n);
+        let all_shorter = left.iter().all(|left| *left != below && left.iter().all(some));
+        if !all_shorter && !left.iter().any(Vec::is_empty) {
+            return e;
+        }
+        let whole = self.div(e, sum);
+        let (mut apart, mut together) = (Vec::new(), Vec::new());
+        for ((c, term), left) in terms.into_iter().zip(left) {
+            if all_shorter || left.is_empty() {
+                apart.push((c, self.mul(term, whole)));
+            } else {
+                together.push((c, term));
+            }
+        }
+        let together = self.linear(Number::ZERO, &together);
+        let together = self.factor_out(together);
+        apart.push((Number::ONE, self.mul(together, whole)));
+        self.linear(Number::ZERO, &apart)
+    }
+
     /// Returns whether a node is a product with something in its denominator.
-    fn has_quotient(&self, e: Expr) -> bool {
+    pub(super) fn has_quotient(&self, e: Expr) -> bool {
         matches!(self.node(e), Node::Product(_, factors) if factors.iter().any(|(_, n)| n.is_negative()))
     }
 
@@ -72,7 +162,7 @@ impl Pool {
     }
 
     /// Rewrites an expression from its parts upwards, once.
-    fn each_part(&mut self, e: Expr, change: impl Fn(&mut Pool, Expr) -> Expr) -> Expr {
+    pub(super) fn each_part(&mut self, e: Expr, change: impl Fn(&mut Pool, Expr) -> Expr) -> Expr {
         let mut changed: FxHashMap<Expr, Expr> = FxHashMap::default();
         for part in self.reachable(&[e]) {
             let rebuilt = self.rebuild_from(part, &changed);
@@ -97,7 +187,7 @@ impl Pool {
         let mut groups: Vec<(Vec<Factor>, Rank, Vec<(Number, Expr)>)> = Vec::new();
         for &(c, term) in terms {
             let (above, below) = self.above_and_below(term);
-            let rank = self.rank_of(term);
+            let rank = self.rank_of(term).max(Rank::Variable);
             if below.is_empty() {
                 groups.push((below, rank, vec![(c, term)]));
                 continue;
@@ -113,7 +203,8 @@ impl Pool {
             let above = self.linear(Number::ZERO, &above);
             let mut factors = below;
             factors.push((above, Number::ONE));
-            joined.push((Number::ONE, self.monomial(Number::ONE, &factors)));
+            let fraction = self.monomial(Number::ONE, &factors);
+            joined.push((Number::ONE, self.common_factors_of_sums(fraction)));
         }
         let grouped = self.linear(*constant, &joined);
         let momenta = terms.iter().any(|&(_, t)| self.rank_of(t) == Rank::Momentum);
@@ -130,7 +221,7 @@ impl Pool {
     /// A product without fractions inside its factors, where that is no longer; a denominator that is half fractions
     /// has none afterwards.
     fn flatten_fractions(&mut self, e: Expr) -> Expr {
-        let mut flat = e;
+        let mut flat = self.common_factors_of_sums(e);
         // what leaves a denominator may cancel above, so denominators come first
         while let Some(flatter) = self
             .flatter(flat, Number::is_negative)
@@ -139,6 +230,33 @@ impl Pool {
             flat = flatter;
         }
         self.cancel_sums(flat)
+    }
+
+    /// A product with the constants that the terms of a sum have in common, and whatever else cancels, as factors of its own:
+    /// `x/(m a + m)` times m is `x/(a + 1)`.
+    fn common_factors_of_sums(&mut self, e: Expr) -> Expr {
+        let Node::Product(c, factors) = &*self.shared(e) else { return e };
+        let mut apart = factors.to_vec();
+        for factor in &mut apart {
+            let (sum, n) = *factor;
+            if n.as_integer().is_none() || !matches!(self.node(sum), Node::Sum(..)) {
+                continue;
+            }
+            let out = self.factor_out(sum);
+            let cancels = |base| {
+                factors
+                    .iter()
+                    .any(|&(other, m)| other == base && m.is_negative() != n.is_negative())
+            };
+            let Node::Product(_, common) = self.node(out) else { continue };
+            let inner = |base: Expr| matches!(self.node(base), Node::Sum(..));
+            if common.iter().all(|&(base, _)| {
+                inner(base) || self.rank_of(base) == Rank::Constant || cancels(base)
+            }) {
+                factor.0 = out;
+            }
+        }
+        self.monomial(*c, &apart)
     }
 
     /// The product with one fraction fewer inside a factor whose exponent is as `side` says.
@@ -165,27 +283,11 @@ impl Pool {
 
     /// `(M a + m a)/(M + m)` as `a`.
     fn cancel_sums(&mut self, e: Expr) -> Expr {
-        self.with_quotient(e, Pool::quotient_of_sums).unwrap_or(e)
-    }
-
-    /// The quotient of two sums if it is a sum itself, and the divisor has a term that is a symbol.
-    fn quotient_of_sums(&mut self, whole: Expr, divisor: Expr) -> Option<Expr> {
-        let (k, symbol) =
-            self.summands(divisor).into_iter().find(|&(_, term)| self.as_symbol(term).is_some())?;
-        let expanded = self.expand(whole, TRIAL_TERMS);
-        let holds = |pool: &Pool, term: Expr| match pool.node(term) {
-            Node::Product(_, factors) => factors.contains(&(symbol, Number::ONE)),
-            _ => term == symbol,
-        };
-        let parts: Vec<(Number, Expr)> =
-            self.summands(expanded).into_iter().filter(|&(_, term)| holds(self, term)).collect();
-        let parts: Vec<(Number, Expr)> =
-            parts.into_iter().map(|(c, term)| (c, self.div(term, symbol))).collect();
-        let sum = self.linear(Number::ZERO, &parts);
-        let quotient = self.scale(k.recip(), sum);
-        let again = self.mul(quotient, divisor);
-        let again = self.expand(again, TRIAL_TERMS);
-        (again == expanded && quotient != Expr::ZERO).then(|| self.simplify_parts(quotient))
+        self.with_quotient(e, |pool, whole, divisor| {
+            let quotient = pool.exact_quotient(whole, divisor)?;
+            Some(pool.simplify_parts(quotient))
+        })
+        .unwrap_or(e)
     }
 
     /// A sum with fractions as one fraction; `None` if it has none, or is a momentum and what is added to it, as in
@@ -222,8 +324,8 @@ impl Pool {
         Some(self.monomial(Number::ONE, &below))
     }
 
-    /// `m x + M x` as `(m + M) x`.
-    fn collect_constants(&mut self, e: Expr) -> Expr {
+    /// `m x + M x` as `(m + M) x`, and `m g + M g` as `(m + M) g`.
+    pub(super) fn collect_constants(&mut self, e: Expr) -> Expr {
         let Node::Sum(constant, terms) = &*self.shared(e) else { return e };
         let is_constant = |&(base, _): &Factor| self.rank_of(base) == Rank::Constant;
         let mut groups: Vec<(Vec<Factor>, Vec<(Number, Vec<Factor>)>)> = Vec::new();
@@ -234,7 +336,7 @@ impl Pool {
             };
             let (constants, rest): (Vec<Factor>, Vec<Factor>) =
                 factors.into_iter().partition(is_constant);
-            match groups.iter_mut().find(|(known, _)| *known == rest && !rest.is_empty()) {
+            match groups.iter_mut().find(|(known, _)| *known == rest) {
                 Some((_, all)) => all.push((c, constants)),
                 None => groups.push((rest, vec![(c, constants)])),
             }

@@ -107,20 +107,15 @@ impl Style for Unicode {
         format!("({inner})")
     }
 
-    /// One piece over another. A function without parentheses over a number or a name has some around it: (sin θ)/7, and
-    /// of several factors over a name the last one alone: (a + b) (sin θ)/l.
+    /// One piece over another: sin θ/l. Over a number or a function, a function without parentheses has some around it:
+    /// (sin θ)/7.
     fn fraction(&self, above: &PrintedPiece, below: &PrintedPiece) -> PrintedPiece {
         let wrap = |piece: &PrintedPiece, wrapped| {
             if wrapped { self.parenthesise(&piece.text) } else { piece.text.clone() }
         };
-        let bare = below.level >= BindingStrength::Power && ends_bare(&above.text);
-        let number = below.text.starts_with(|c: char| c.is_ascii_digit());
-        let above = match last_call(&above.text) {
-            Some((before, call)) if bare && !number && above.level >= BindingStrength::Product => {
-                format!("{before}{}", self.parenthesise(call))
-            }
-            _ => wrap(above, above.level < BindingStrength::Product || bare),
-        };
+        let name = below.text.starts_with(char::is_alphabetic) && !below.text.contains(' ');
+        let bare = below.level >= BindingStrength::Power && !name && ends_bare(&above.text);
+        let above = wrap(above, above.level < BindingStrength::Product || bare);
         let text = format!("{above}/{}", wrap(below, below.level < BindingStrength::Power));
         PrintedPiece { text, level: BindingStrength::Product }
     }
@@ -164,7 +159,7 @@ impl Style for Unicode {
             let name = format!("{}{}", function.row().unicode, superscript(n));
             return applied(printer, &name, arguments[0]);
         }
-        let text = format!("{}{}", printer.at_least(base, BindingStrength::Atom), superscript(n));
+        let text = format!("{}{}", printer.raised(base, exponent), superscript(n));
         PrintedPiece { text, level: BindingStrength::Power }
     }
 
@@ -206,12 +201,6 @@ fn ends_bare(text: &str) -> bool {
     let function = function.trim_end_matches(|c| raised_digit(c).is_some());
     let function = function.trim_start_matches('−');
     !argument.ends_with([')', '|']) && FUNCTIONS.iter().any(|row| row.unicode == function)
-}
-
-/// What stands before the last function of a text that ends in one without parentheses, and the function.
-fn last_call(text: &str) -> Option<(&str, &str)> {
-    let function = text.rmatch_indices(' ').nth(1).map_or(0, |(blank, _)| blank + 1);
-    text.split_at_checked(function)
 }
 
 /// `sin θ`, `sin(2 θ)`.

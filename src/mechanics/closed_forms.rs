@@ -143,12 +143,16 @@ impl Equations {
         let rows = self.constraints.clone();
         let found = self.worth_eliminating(&mass).and_then(|()| {
             self.within_bounds(|pool| {
-                if rows.is_empty() {
-                    let accelerations = linear::solve(pool, &mass, &force)?.x?;
-                    Ok((accelerations, Vec::new()))
+                let (mut accelerations, mut multipliers) = if rows.is_empty() {
+                    (linear::solve(pool, &mass, &force)?.x?, Vec::new())
                 } else {
-                    constrain::solve(pool, &mass, &force, &rows)
+                    constrain::solve(pool, &mass, &force, &rows)?
+                };
+                // elimination leaves one fraction inside another
+                for e in accelerations.iter_mut().chain(&mut multipliers) {
+                    *e = pool.as_one_fraction(*e);
                 }
+                Ok((accelerations, multipliers))
             })
         });
         let none = self.constraints.is_empty();

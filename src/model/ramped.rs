@@ -317,6 +317,8 @@ impl NamedRamp {
         for RampStage { part, change, stopped, .. } in stages(pool, initial, &parts) {
             let end = pool.add(part.start, part.duration);
             let symbol = unused(pool, numbered("u".to_owned()), taken);
+            let info = pool.symbol_info(symbol).clone();
+            pool.describe(symbol, &info.unicode, &info.latex, Rank::Variable);
             progress.push(RampProgress { symbol, times: [part.start, end], stopped });
             let u = pool.variable(symbol);
             let share = part.form.share(pool, u);

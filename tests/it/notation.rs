@@ -317,10 +317,15 @@ L = "1/2*(m + M)*(x1'^2 + x2'^2 + l^2*theta'^2) - m*g*a*cos(theta)"
     };
     // quotients of constants stand before functions, masses and g before lengths
     check("-g*sin(theta)/l", "−(g/l) sin θ", r"-\frac{g}{l} \sin \theta");
-    // over a name a function does not look as if it were the function of a quotient
-    check("sin(theta)/x1", "(sin θ)/x₁", r"\frac{\sin \theta}{x_{1}}");
-    check("x1*sin(theta)/l", "x₁ (sin θ)/l", r"\frac{x_{1} \sin \theta}{l}");
+    check("sin(theta)/x1", "sin θ/x₁", r"\frac{\sin \theta}{x_{1}}");
+    check("x1*sin(theta)/l", "x₁ sin θ/l", r"\frac{x_{1} \sin \theta}{l}");
+    check(
+        "-(g + a*cos(theta))*sin(theta)/l",
+        "−(g + a cos θ) sin θ/l",
+        r"-\frac{\left(g + a \cos \theta\right) \sin \theta}{l}",
+    );
     check("5/7*sin(theta)*g", "(5/7) g sin θ", r"\frac{5}{7} g \sin \theta");
+    check("5/7*sin(a)*g", "(5/7) g sin a", r"\frac{5}{7} g \sin a");
     check("l*m*cos(2*theta)*g", "m g l cos(2 θ)", r"m g l \cos\left(2 \theta\right)");
     check("x1'*(m + M)/2", "½ (m + M) ẋ₁", r"\frac{1}{2} \left(m + M\right) \dot{x_{1}}");
     // halves go below a line that is there
@@ -334,7 +339,37 @@ L = "1/2*(m + M)*(x1'^2 + x2'^2 + l^2*theta'^2) - m*g*a*cos(theta)"
         r"-\frac{\left(m + M\right) g + l x_{1} \cos \theta}{l \left(M + m \sin^{2} \theta\right)}",
     );
     check("m*x1*x2 + M*x1*x2 + a", "(m + M) x₁ x₂ + a", r"\left(m + M\right) x_{1} x_{2} + a");
+    check("m*g*a + M*g*a", "(m + M) g a", r"\left(m + M\right) g a");
+    // what cancels, or every term has, is not written
+    check("x1*m/(m*x2^2 + m)", "x₁/(x₂² + 1)", r"\frac{x_{1}}{{x_{2}}^{2} + 1}");
+    check(
+        "(m*g*l*sin(theta) + M*l^2*x1)/(m*l^2)",
+        "M x₁/m + (g/l) sin θ",
+        r"\frac{M x_{1}}{m} + \frac{g}{l} \sin \theta",
+    );
+    check(
+        "(m*x1*x2'^2 - M*x2)/m",
+        r"x₁ ẋ₂² − M x₂/m",
+        r"x_{1} {\dot{x_{2}}}^{2} - \frac{M x_{2}}{m}",
+    );
+    check(
+        "x2'^2 - m*x1/l + m*a/l",
+        "ẋ₂² + m (a − x₁)/l",
+        r"{\dot{x_{2}}}^{2} + \frac{m \left(a - x_{1}\right)}{l}",
+    );
+    // terms that combine, and the sign of what is squared
+    check(
+        "x1'*(x1' - x2) - 1/2*(x1' - x2)^2",
+        "½ ẋ₁² − ½ x₂²",
+        r"\frac{1}{2} {\dot{x_{1}}}^{2} - \frac{1}{2} {x_{2}}^{2}",
+    );
+    check("(a - x1')^2/m", "(ẋ₁ − a)²/m", r"\frac{{\left(\dot{x_{1}} - a\right)}^{2}}{m}");
     // a quotient that goes without remainder
+    check(
+        "(x1^2*x2^2 - a^2*(x1^2 + x2^2 - a^2))/(x1^2 - a^2)",
+        "x₂² − a²",
+        "{x_{2}}^{2} - {a}^{2}",
+    );
     check("(M*l + m*l + M*a + m*a)/(m + M)", "l + a", "l + a");
     check("cos(theta)/sin(theta)*x1", "x₁ cot θ", r"x_{1} \cot \theta");
     // what is added to a momentum, and an inverse sum that would only become longer, stay

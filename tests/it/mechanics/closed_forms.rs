@@ -3,6 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use phaselab::diagnostic::Document;
+use phaselab::expr::Zero;
 use phaselab::integrate::{METHODS, Settings, method_named};
 use phaselab::mechanics::{self, Equations};
 use phaselab::model::Model;
@@ -188,4 +189,53 @@ fn a_rate_is_found_though_the_equations_were_not_solved_before() {
     let rate = equations.rate_of(speed).expect("a formula");
     let solved = equations.solved.clone().expect("found on the way");
     assert_eq!(equations.pool.text(rate), equations.pool.text(solved[0]));
+}
+
+/// The accelerations as textbooks have them: of a particle on a relativistic orbit, a = (F − v (v·F)/c²)/(γ m), and of a double
+/// pendulum.
+#[test]
+fn accelerations_have_no_fractions_within_fractions() {
+    let check = |model: &Model, textbook: &[&str], shown: &[&str]| {
+        let mut model = model.clone();
+        let textbook: Vec<_> = textbook.iter().map(|plain| read(&mut model, plain)).collect();
+        let mut equations = mechanics::derive_for_motion(&model).expect("derivable");
+        let solved = equations.solved().clone().expect("a closed form");
+        let printed: Vec<String> = solved.iter().map(|&e| equations.pool.unicode(e)).collect();
+        assert_eq!(printed, shown);
+        for (found, right) in solved.into_iter().zip(textbook) {
+            let difference = equations.pool.sub(found, right);
+            assert_eq!(equations.pool.is_zero(difference), Zero::Proved, "{printed:?}");
+        }
+    };
+    check(
+        &lagrangian(&["r", "a"], &["m", "c", "k"], "k/r - m*c^2*sqrt(1 - (r'^2 + r^2*a'^2)/c^2)"),
+        &[
+            "r*a'^2 - k/(m*r^2)*(1 - r'^2/c^2)*sqrt(1 - (r'^2 + r^2*a'^2)/c^2)",
+            "-2*r'*a'/r + k*r'*a'/(m*c^2*r^2)*sqrt(1 - (r'^2 + r^2*a'^2)/c^2)",
+        ],
+        &[
+            "r ȧ² − k √(1 − ṙ²/c² − r² ȧ²/c²) (c² − ṙ²)/(m c² r²)",
+            "ṙ ȧ (k √(1 − ṙ²/c² − r² ȧ²/c²) − 2 m c² r)/(m c² r²)",
+        ],
+    );
+    check(
+        &lagrangian(
+            &["a", "b"],
+            &["m1", "m2", "l1", "l2", "g"],
+            "1/2*m1*l1^2*a'^2 + 1/2*m2*(l1^2*a'^2 + l2^2*b'^2 + 2*l1*l2*a'*b'*cos(a - b)) \
+             + (m1 + m2)*g*l1*cos(a) + m2*g*l2*cos(b)",
+        ),
+        &[
+            "(m2*g*sin(b)*cos(a - b) - m2*sin(a - b)*(l1*a'^2*cos(a - b) + l2*b'^2) \
+             - (m1 + m2)*g*sin(a))/(l1*(m1 + m2*sin(a - b)^2))",
+            "((m1 + m2)*(l1*a'^2*sin(a - b) - g*sin(b) + g*sin(a)*cos(a - b)) \
+             + m2*l2*b'^2*sin(a - b)*cos(a - b))/(l2*(m1 + m2*sin(a - b)^2))",
+        ],
+        &[
+            "−(m₂ l₂ b\u{307}² sin(a − b) + m₂ (l₁ ȧ² sin(a − b) − g sin b) cos(a − b) + (m₁ + m₂) g sin a)\
+             /(l₁ (m₁ + m₂ sin²(a − b)))",
+            "((m₁ + m₂) l₁ ȧ² sin(a − b) + m₂ l₂ b\u{307}² cos(a − b) sin(a − b) \
+             + (m₁ + m₂) g cos(a − b) sin a − (m₁ + m₂) g sin b)/(l₂ (m₁ + m₂ sin²(a − b)))",
+        ],
+    );
 }
