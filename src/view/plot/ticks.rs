@@ -24,7 +24,7 @@ pub struct Tick {
 pub struct Ticks {
     /// In ascending order, all within the range.
     pub marks: Vec<Tick>,
-    /// The power of ten, a multiple of three, taken out of all labels.
+    /// The power of ten taken out of all labels.
     pub exponent: i32,
 }
 
@@ -141,7 +141,8 @@ fn evenly(lo: f64, hi: f64, most: usize, glyphs: Glyphs) -> Ticks {
     if first.abs().max(last.abs()) > 1e15 {
         return Ticks::default();
     }
-    let exponent = common_exponent(lo.abs().max(hi.abs()));
+    let largest = step.times(first.abs().max(last.abs()) as i64);
+    let exponent = common_exponent(lo.abs().max(hi.abs()), largest, step.exponent);
     let marks = (first as i64..=last as i64)
         .step_by(stride as usize)
         .map(|count| (count, step.times(count)))
@@ -154,9 +155,13 @@ fn evenly(lo: f64, hi: f64, most: usize, glyphs: Glyphs) -> Ticks {
     Ticks { marks, exponent }
 }
 
-/// The power of ten to take out of the labels of an axis that reaches to `size`; 0 for numbers of ordinary magnitude.
-fn common_exponent(size: f64) -> i32 {
-    if (1e-2..1e5).contains(&size) { 0 } else { (math::log10(size) / 3.0).floor() as i32 * 3 }
+/// The power of ten to take out of the labels of an axis that reaches to `size`; 0 for numbers of ordinary magnitude. Labels are
+/// then whole multiples of the step, from 1 to 999; a step that is small beside the largest tick has decimals.
+fn common_exponent(size: f64, largest: f64, of_step: i32) -> i32 {
+    if (1e-2..1e5).contains(&size) || largest == 0.0 {
+        return 0;
+    }
+    of_step.max(math::log10(largest).floor() as i32 - 2)
 }
 
 /// Formats `number` × 10^`exponent` in full; zero needs no decimals.

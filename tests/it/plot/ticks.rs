@@ -32,7 +32,11 @@ fn linear() {
 #[test]
 fn a_common_power_of_ten_is_taken_out() {
     check(Scale::linear(0.0, 4e-6), 5, -6, &["0", "1", "2", "3", "4"]);
-    check(Scale::linear(-2e7, 2e7), 5, 6, &["−20", "−10", "0", "10", "20"]);
+    check(Scale::linear(-2e7, 2e7), 5, 7, &["−2", "−1", "0", "1", "2"]);
+    check(Scale::linear(-2.4e-4, 2.4e-4), 3, -4, &["−2", "0", "2"]);
+    check(Scale::linear(0.0, 2.4e-4), 5, -5, &["0", "5", "10", "15", "20"]);
+    // a step that is small beside the values
+    check(Scale::linear(1.00009e-3, 1.00031e-3), 3, -5, &["100.01", "100.02", "100.03"]);
     check(Scale::linear(0.0, 5e-300), 3, -300, &["0", "2", "4"]);
 }
 
