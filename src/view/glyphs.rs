@@ -195,9 +195,15 @@ fn single(text: &str) -> Cow<'_, str> {
         };
         before = letter;
         if let Some(prime) = prime {
-            // The prime comes after a subscript: θ₁′, not θ′₁.
+            // The prime comes after a subscript: θ₁′ and L_x′, not θ′₁ and L′_x.
             while let Some(low) = letters.next_if(|c| subscript(*c).is_some()) {
                 out.push(low);
+            }
+            if let Some(line) = letters.next_if_eq(&'_') {
+                out.push(line);
+                while let Some(low) = letters.next_if(|c| c.is_alphanumeric()) {
+                    out.push(low);
+                }
             }
             out.push(prime);
         }

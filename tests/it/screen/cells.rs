@@ -44,6 +44,7 @@ fn every_cell_of_every_preset_holds_one_character_of_one_column() {
 fn rates_have_primes_and_words_keep_their_letters() {
     let check = |text: &str, shown: &str| assert_eq!(Glyphs::Braille.text(text), shown);
     check("θ\u{307}₁² − 2 ẋ₂ θ\u{308}", "θ₁′² − 2 x₂′ θ″");
+    check("L\u{307}_x = ẋ_max L_y", "L_x′ = x_max′ L_y");
     check("ẋ = p/m", "x′ = p/m");
     check("Różycki, Ÿ", "Różycki, Ÿ");
     check("e\u{301}", "e");
