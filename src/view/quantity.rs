@@ -35,10 +35,14 @@ impl<'a> Quantities<'a> {
         self.lab.present_of(self.snapshot)
     }
 
-    /// A channel's name as this terminal shows it.
+    /// A channel's name as this terminal shows it: in ASCII a symbol is written as in the file, and words are those of every
+    /// terminal.
     pub(super) fn name(&self, channel: usize) -> String {
         let channels = self.lab.loaded.system.channels();
-        let name = |c: &crate::system::Channel| self.style.glyphs.pick(&c.shown, &c.name).clone();
+        let name = |c: &crate::system::Channel| {
+            let ascii = if c.shown.contains(' ') { &c.shown } else { &c.name };
+            self.style.glyphs.pick(&c.shown, ascii).clone()
+        };
         let name = channels.get(channel).map_or_else(|| "?".to_owned(), name);
         self.style.glyphs.text(&name).into_owned()
     }

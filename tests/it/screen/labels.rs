@@ -448,3 +448,14 @@ fn the_names_of_the_axes_are_not_written_over_each_other() {
         }
     }
 }
+
+/// In ASCII the wrong mechanics has the same name as elsewhere.
+#[test]
+fn the_wrong_mechanics_has_its_name_on_every_terminal() {
+    for glyphs in [Glyphs::Braille, Glyphs::Ascii] {
+        let look = RenderStyle { theme: Theme::dark(ColourDepth::None), glyphs };
+        let rows = rows(&screen(&lab("rolling-disc", 1.0), &look, (120, 40)));
+        assert!(rows.iter().any(|row| row.contains("Time x, x (wrong)")), "{rows:#?}");
+        assert!(!rows.iter().any(|row| row.contains("other_")), "{rows:#?}");
+    }
+}

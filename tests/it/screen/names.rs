@@ -38,10 +38,11 @@ fn a_curve_in_their_row_leaves_the_keys_whole() {
     for _ in 0..100 {
         real.run(3);
         let text = rows(&screen(&real.app, &look, (120, 40)));
-        let title = text.iter().position(|row| row.contains("- Time x, other_x")).expect("a title");
+        let title =
+            text.iter().position(|row| row.contains("- Time x, x (wrong)")).expect("a title");
         let row = &text[title + 1];
-        assert!(row.contains("- x ") && row.contains("- other_x"), "{text:#?}");
-        let after = row.split_once("- other_x").map_or("", |(_, after)| after);
+        assert!(row.contains("- x ") && row.contains("- x (wrong)"), "{text:#?}");
+        let after = row.split_once("- x (wrong)").map_or("", |(_, after)| after);
         beside += usize::from(after[..after.find('|').unwrap_or(0)].contains('@'));
     }
     assert!(beside > 0, "no curve ends in the row of the keys");
