@@ -206,6 +206,8 @@ pub struct Viewpoint {
 pub struct Follow {
     /// The point in the middle of the picture.
     pub at: Point,
+    /// The same point of the comparison motion, which the picture holds as well.
+    pub beside: Option<Point>,
     /// How far the picture reaches from it.
     pub reach: Expr,
 }

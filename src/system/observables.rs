@@ -400,7 +400,9 @@ fn bind_derived(
 
 /// The expressions that decide where the camera is.
 fn followed(model: &Model) -> Vec<Expr> {
-    let numbers = |follow: &Follow| [&follow.at[..], &[follow.reach]].concat();
+    let numbers = |follow: &Follow| {
+        [&follow.at[..], follow.beside.as_ref().map_or(&[][..], |at| at), &[follow.reach]].concat()
+    };
     model.picture.follow.as_ref().map(numbers).unwrap_or_default()
 }
 

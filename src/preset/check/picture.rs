@@ -259,7 +259,17 @@ impl Check<'_> {
         let mut scope = Scope::new(&self.model, Allowed::Observable, "the camera");
         let at = self.point(written.at.as_ref(), &mut scope);
         let reach = self.size(written.reach.as_ref(), &mut scope);
-        Some(Follow { at: at?, reach: reach? })
+        let at = at?;
+        let beside = self.model.comparison.as_ref().map(|comparison| {
+            let pool = &mut self.model.pool;
+            let others = self.model.coordinates.iter().zip(&comparison.symbols);
+            let others: HashMap<Symbol, Expr> = others
+                .flat_map(|(c, &(place, rate))| [(c.position, place), (c.velocity, rate)])
+                .map(|(of, other)| (of, pool.variable(other)))
+                .collect();
+            at.map(|e| pool.substitute(e, &others))
+        });
+        Some(Follow { at, beside, reach: reach? })
     }
 
     /// Reads a shape other than a path or a body. All parts are read, even if one of them is missing or wrong.

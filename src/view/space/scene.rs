@@ -218,7 +218,8 @@ impl Scene {
     }
 }
 
-/// The ball around the point that the camera follows, in the picture of the model in its own axes.
+/// What is around the point that the camera follows, and around the same point of the comparison motion, in the picture of the
+/// model in its own axes.
 fn followed(
     q: &Quantities<'_>,
     eye: CameraPose,
@@ -230,10 +231,14 @@ fn followed(
         return None;
     }
     let (at, radius) = (q.point(&follow.at), q.number(follow.reach).abs());
-    let ends = grown([at, at], radius, false);
-    (radius > 0.0 && ends.as_flattened().iter().all(|v| v.is_finite())).then_some(Extent {
-        low: at,
-        high: at,
+    let finite = |ends: Span3| ends.as_flattened().iter().all(|v| v.is_finite());
+    let beside = follow.beside.map(|at| q.point(&at)).filter(|other| finite([*other, at]));
+    let other = beside.unwrap_or(at);
+    let low = [0, 1, 2].map(|k| at[k].min(other[k]));
+    let high = [0, 1, 2].map(|k| at[k].max(other[k]));
+    (radius > 0.0 && finite(grown([low, high], radius, false))).then_some(Extent {
+        low,
+        high,
         radius,
         hull: None,
     })

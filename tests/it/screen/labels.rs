@@ -459,3 +459,25 @@ fn the_wrong_mechanics_has_its_name_on_every_terminal() {
         assert!(!rows.iter().any(|row| row.contains("other_")), "{rows:#?}");
     }
 }
+
+/// A camera that follows a body keeps the same body of the wrong mechanics in the picture, however far they part.
+#[test]
+fn a_camera_holds_both_of_two_mechanics() {
+    for (name, right, wrong) in [
+        ("rolling-disc", ["cx", "y", "cz"], ["ox", "other_y", "oz"]),
+        ("knife-edge", ["x*c", "y", "-x*s"], ["other_x*c", "other_y", "-other_x*s"]),
+    ] {
+        let text = std::fs::read_to_string(format!("presets/constraints/{name}.toml")).unwrap();
+        let caption =
+            |at: [&str; 3], text: &str| format!("  {{ caption = {at:?}, text = \"{text}\" }},\n");
+        let captions = caption(right, "Q") + &caption(wrong, "W");
+        let text = text.replace("shapes = [\n", &format!("shapes = [\n{captions}"));
+        let mut real = Real::with(lowered(&text));
+        for _ in 0..4 {
+            real.run(45);
+            let rows = rows(&screen(&real.app, &rich(), (120, 40)));
+            let pane: String = rows[3..22].iter().flat_map(|row| row.chars().take(39)).collect();
+            assert!(pane.contains('Q') && pane.contains('W'), "{name}: {rows:#?}");
+        }
+    }
+}
