@@ -344,7 +344,8 @@ impl ScenePainter<'_> {
             if !self.is_ball(radius) {
                 self.raster.disc(&self.frame, centre, radius, &pen);
             }
-        } else if let Some(pen) = self.seen_at(at, &pen) {
+        } else if self.sight(at) != Visibility::Hidden {
+            // a mass is as bright behind what it is seen through, so that it is never lost
             self.raster.marker(&self.frame, centre, Marker::Disc, &pen);
         }
     }

@@ -14,7 +14,7 @@ use ratatui::style::Color;
 
 use super::{rich, rows, screen};
 use crate::app::real::Real;
-use crate::hand::{begun, catalog, gauge, in_lab, lab, loaded, press, snapshot};
+use crate::hand::{begun, catalog, gauge, in_lab, lab, loaded, lowered, press, snapshot};
 use crate::nonempty;
 
 /// The arrows of a picture in space, as their labels.
@@ -249,12 +249,12 @@ fn a_notification_leaves_no_part_of_a_word_in_the_frame() {
     }
 }
 
-/// Neumann's particle on a sphere that is solid.
+/// Neumann's particle on its sphere.
 fn on_a_solid_sphere() -> App {
     let text = include_str!("../../../presets/constraints/neumann.toml");
-    let circles = text.find("  { circle").unwrap()..text.find("  { trace").unwrap();
+    let axes = text.find("  { line").unwrap()..text.find("  { trace").unwrap();
     let mut text = text.to_owned();
-    text.replace_range(circles, "  { sphere = [\"0\", \"0\", \"0\"], radius = \"1\" },\n");
+    text.replace_range(axes, "");
     // without the axes around it, it fills the picture
     begun(&text.replace("reach = \"1.3\"", "reach = \"1.05\""))
 }
@@ -316,7 +316,8 @@ fn no_line_of_a_formula_hangs_left_of_its_sign() {
     assert!(further > 5, "{further}");
 }
 
-/// Neumann's particle is as bright behind as in front, so that it is never lost in its first seconds.
+/// Neumann's particle is never darker than its curve, whether it is behind the sphere or on its bright side, so that it is not lost
+/// in its first seconds.
 #[test]
 fn a_particle_on_a_sphere_is_never_dimmed_by_it() {
     let mut real = Real::of("neumann");
@@ -333,7 +334,12 @@ fn a_particle_on_a_sphere_is_never_dimmed_by_it() {
         assert_eq!(bodies.len(), 1, "{:#?}", rows(&buffer));
         colours.extend(bodies);
     }
-    assert!(colours.iter().all(|colour| *colour == colours[0]), "{colours:?}");
+    let brightness = |colour: &Color| match colour {
+        Color::Rgb(r, g, b) => u32::from(*r) + u32::from(*g) + u32::from(*b),
+        other => panic!("{other:?}"),
+    };
+    let own = rich().theme.curve(0).fg.expect("a colour");
+    assert!(colours.iter().all(|colour| brightness(colour) >= brightness(&own)), "{colours:?}");
 }
 
 /// Kovalevskaya's top is a body beside the sphere of its vertical.
@@ -480,4 +486,16 @@ fn a_camera_holds_both_of_two_mechanics() {
             assert!(pane.contains('Q') && pane.contains('W'), "{name}: {rows:#?}");
         }
     }
+}
+
+/// Neumann's sphere has light and shade.
+#[test]
+fn a_particle_on_a_sphere_moves_on_a_ball() {
+    let buffer = screen(&lab("neumann", 1.0), &rich(), (120, 40));
+    let cells = (2..22).flat_map(|y| (1..39).map(move |x| (x, y)));
+    let mut tones: Vec<Color> = cells.map(|at| buffer[at].bg).collect();
+    let shaded = tones.iter().filter(|tone| **tone != Color::Reset).count();
+    tones.sort_by_key(|tone| format!("{tone:?}"));
+    tones.dedup();
+    assert!(shaded > 200 && tones.len() > 4, "{shaded} cells, {tones:?}");
 }
