@@ -52,5 +52,5 @@ pub(super) fn document(lab: &Lab, style: &RenderStyle) -> TextPage {
             if value.source.is_empty() { String::new() } else { format!(" — {}", value.source) };
         page.words(Role::Dim, format!("{is} at t = {when}{source}"));
     }
-    page
+    page.balanced()
 }

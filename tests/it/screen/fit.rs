@@ -335,3 +335,13 @@ fn a_note_without_room_loses_its_last_part() {
         }
     }
 }
+
+/// On a wide screen the notes stand in two columns.
+#[test]
+fn notes_use_the_width_of_the_screen() {
+    let mut app = opened("double-pendulum");
+    press(&mut app, "3");
+    let rows = rows(&screen(&app, &rich(), (200, 60)));
+    let right = rows.iter().filter(|row| row.chars().skip(110).take(80).any(char::is_alphabetic));
+    assert!(right.count() > 8, "{rows:#?}");
+}
