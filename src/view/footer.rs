@@ -38,11 +38,8 @@ pub(super) fn footer(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
         Some((text, role)) => (vec![canvas.text(&text)], role),
         None => (meaning, role),
     };
-    let mut hints = match app.footer.hints {
-        KeyHints::Hidden => Vec::new(),
-        KeyHints::Lab | KeyHints::LabInLesson => hints(canvas, app),
-    };
-    let long = |hint: &Hint| hint.spans.iter().map(|(text, _)| text.width()).sum::<usize>();
+    let mut hints = hints(canvas, app);
+    let long = Hint::width;
     let mut wide = hints.iter().map(long).sum::<usize>() + 3 * hints.len();
     // The last two hints, help and quit, are always shown; the others are dropped to make room for the meaning.
     let room = usize::from(area.width);
@@ -57,7 +54,12 @@ pub(super) fn footer(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
     }
     let all = (wide as u16).saturating_sub(3).min(area.width);
     canvas.left(columns(area, 0, area.width.saturating_sub(all + 2)), role, &meaning);
-    let mut start = if meaning.is_empty() { 0 } else { area.width - all };
+    let start = if meaning.is_empty() { 0 } else { area.width - all };
+    draw_hints(canvas, columns(area, start, area.width), &hints);
+}
+
+fn draw_hints(canvas: &mut Canvas<'_>, area: Rect, hints: &[Hint]) {
+    let mut start = 0;
     for hint in hints {
         let place = columns(area, start, area.width);
         let used = canvas.spans(place, &hint.spans);
@@ -201,8 +203,17 @@ struct Hint {
     action: Action,
 }
 
-/// The most useful keys in the current context, innermost first; help and quit come last.
+impl Hint {
+    fn width(&self) -> usize {
+        self.spans.iter().map(|(text, _)| text.width()).sum()
+    }
+}
+
+/// The most useful keys in the current context, innermost first; help and quit come last. None where a script hides them.
 fn hints(canvas: &Canvas<'_>, app: &App) -> Vec<Hint> {
+    if app.footer.hints == KeyHints::Hidden {
+        return Vec::new();
+    }
     // A text that is edited is kept, and a list is closed, when it is left.
     let closes_with_esc =
         app.places().iter().any(|place| matches!(place, Place::Workbench | Place::Menu));
@@ -238,7 +249,7 @@ fn hints(canvas: &Canvas<'_>, app: &App) -> Vec<Hint> {
     rows.map(hint).collect()
 }
 
-/// Draws the text being typed, and what is wrong with it.
+/// Draws the text being typed, what is wrong with it, and at the right the keys that end it: at least how to leave.
 fn open_field(canvas: &mut Canvas<'_>, area: Rect, app: &App, field: &InputField) {
     let facts = match (&app.lab, field.purpose) {
         (Some(lab), Purpose::Value(target)) => lab.value_info(target),
@@ -281,7 +292,15 @@ fn open_field(canvas: &mut Canvas<'_>, area: Rect, app: &App, field: &InputField
             (Role::Dim, "x = 0, rising (falling, either); every 2*pi/w; event NAME".to_owned())
         }
         (None, Some(facts)) => (Role::Dim, format!("{} {}", facts.unit, facts.about)),
-        (None, None) => (Role::Dim, "Enter accepts, Esc cancels".to_owned()),
+        (None, None) => (Role::Dim, String::new()),
     };
-    canvas.left(rest, role, &text);
+    let mut hints = hints(canvas, app);
+    let wide = |hints: &[Hint]| hints.iter().map(|hint| hint.width() + 3).sum::<usize>();
+    let room = usize::from(rest.width);
+    while hints.len() > 1 && canvas.text(&text).width() + wide(&hints) > room {
+        hints.remove(0);
+    }
+    let wide = wide(&hints).min(room) as u16;
+    canvas.left(columns(rest, 0, rest.width - wide), role, &text);
+    draw_hints(canvas, columns(rest, (rest.width + 3).saturating_sub(wide), rest.width), &hints);
 }

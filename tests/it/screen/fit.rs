@@ -345,3 +345,17 @@ fn notes_use_the_width_of_the_screen() {
     let right = rows.iter().filter(|row| row.chars().skip(110).take(80).any(char::is_alphabetic));
     assert!(right.count() > 8, "{rows:#?}");
 }
+
+/// Whatever is typed, the last line says how to leave.
+#[test]
+fn every_field_says_how_to_leave_it() {
+    for keys in ["Enter", "a", "g"] {
+        let mut app = opened("pendulum");
+        press(&mut app, keys);
+        assert!(app.overlay.is_some(), "{keys}");
+        for size in [(80, 24), (120, 40)] {
+            let last = rows(&screen(&app, &rich(), size)).pop().expect("a footer");
+            assert!(last.contains("Esc cancel"), "{keys} at {size:?}: {last}");
+        }
+    }
+}
