@@ -341,6 +341,7 @@ impl Lab {
         // The experiment reports the resulting other initial values.
         self.pending.values.retain(|(target, _)| matches!(target, ValueId::Parameter(_)));
         self.pending.given = Some(given.clone());
+        self.keep_windows();
         Effect::Execute(Command::Start(given))
     }
 

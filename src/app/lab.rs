@@ -53,6 +53,8 @@ pub struct Lab {
     pub marks: Vec<f64>,
     /// The motion that the experiment is to restore.
     pub(super) restoration: Restoration,
+    /// The least and greatest value that each channel has had before the motion was begun elsewhere.
+    pub(super) bounds_before: Vec<(f64, f64)>,
 }
 
 /// For each shape whether it is a rod, a line of constant length: of the spatial picture, then of each view with
@@ -115,6 +117,7 @@ impl Lab {
             prediction: None,
             marks: Vec::new(),
             restoration: Restoration::default(),
+            bounds_before: Vec::new(),
         }
     }
 
@@ -164,6 +167,21 @@ impl Lab {
             returned: returned(snapshot),
             turned: snapshot.returned.as_ref().map(|seen| (&seen.state, seen.start)),
         }
+    }
+
+    /// Returns the range that a channel had before the motion was begun at a point of a picture.
+    pub fn window_before(&self, channel: usize) -> Option<(f64, f64)> {
+        self.bounds_before.get(channel).copied()
+    }
+
+    /// Keeps what the pictures show for the motion that is begun next.
+    pub(super) fn keep_windows(&mut self) {
+        let Some(snapshot) = &self.snapshot else { return };
+        let joined = |(k, &(lo, hi)): (usize, &(f64, f64))| {
+            let (least, greatest) = self.window_before(k).unwrap_or((lo, hi));
+            (least.min(lo), greatest.max(hi))
+        };
+        self.bounds_before = snapshot.bounds.iter().enumerate().map(joined).collect();
     }
 
     /// Returns the current values of the system's symbols, which are empty before the first snapshot.

@@ -106,8 +106,14 @@ impl App {
                 lab.pending.speed = Some(speed);
                 vec![Effect::Execute(Command::Speed(speed))]
             }
-            Action::Reset => vec![Effect::Execute(Command::Reset)],
-            Action::FullReset => lab.full_reset(),
+            Action::Reset => {
+                lab.bounds_before.clear();
+                vec![Effect::Execute(Command::Reset)]
+            }
+            Action::FullReset => {
+                lab.bounds_before.clear();
+                lab.full_reset()
+            }
             Action::Reference => vec![Effect::Execute(Command::Reference)],
             Action::Undo => match lab.undo() {
                 Some((effects, report)) => self.report(report, effects),

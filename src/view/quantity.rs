@@ -123,6 +123,11 @@ impl<'a> Quantities<'a> {
         viewport: (Viewport, usize),
     ) -> DrawnAxis {
         let (lo, hi) = self.extent(channel);
+        // a motion that was begun in the picture keeps its window
+        let (lo, hi) = self
+            .lab
+            .window_before(channel)
+            .map_or((lo, hi), |before| (before.0.min(lo), before.1.max(hi)));
         let range = self
             .lab
             .predicted_range(Some(channel))

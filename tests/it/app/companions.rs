@@ -62,6 +62,46 @@ fn the_right_button_adds_a_motion_and_the_left_one_begins_the_main_one() {
     );
 }
 
+/// The numbers at the axes of the picture in the middle of the upper row.
+fn ticks(real: &Real) -> Vec<String> {
+    let look = RenderStyle { theme: Theme::dark(ColourDepth::True), glyphs: Glyphs::Braille };
+    let rows = screen(real, &look);
+    let pane = rows[2..21].iter().map(|row| row.chars().skip(41).take(38).collect::<String>());
+    let numbers = pane.filter_map(|row| match row.split_once('┤') {
+        Some((label, _)) => Some(label.trim().to_owned()),
+        None => row.contains('.').then(|| row.trim().to_owned()),
+    });
+    numbers.collect()
+}
+
+#[test]
+fn a_portrait_keeps_its_window_where_a_motion_begins_in_it() {
+    let mut real = Real::of("elastic-pendulum");
+    real.run(300);
+    let before = ticks(&real);
+    assert!(before.len() > 4, "{before:?}");
+    let index = picture(&real, "phase");
+    // an orbit within that of the file
+    let hit = HitTarget::Plot { index, place: [0.5, 0.5], at: [1.4, 0.2] };
+    click(&mut real, MouseButton::Left, hit);
+    assert_eq!(real.seen().values[0], 1.4);
+    assert_eq!(ticks(&real), before);
+    real.run(30);
+    assert_eq!(ticks(&real), before);
+    // one that leaves it
+    let hit = HitTarget::Plot { index, place: [0.5, 0.5], at: [1.4, 6.0] };
+    click(&mut real, MouseButton::Left, hit);
+    assert_ne!(ticks(&real), before);
+    // a reset fits the picture to the motion again
+    let hit = HitTarget::Plot { index, place: [0.5, 0.5], at: [1.4, 0.2] };
+    click(&mut real, MouseButton::Left, hit);
+    real.press("r");
+    real.look();
+    real.run(60);
+    let fitted = ticks(&real);
+    assert!(fitted != before && fitted.len() > 4, "{fitted:?}");
+}
+
 #[test]
 fn each_motion_has_its_number_in_every_portrait_in_the_scene_and_against_time() {
     let mut real = Real::of("double-pendulum");
