@@ -151,7 +151,7 @@ impl Pool {
     }
 
     /// The switch of the innermost kink.
-    fn first_switch(&mut self, e: Expr) -> Option<Expr> {
+    pub(super) fn first_switch(&mut self, e: Expr) -> Option<Expr> {
         let parts = self.reachable(&[e]);
         parts.into_iter().find_map(|part| self.switch_of(part)).map(|(switch, _)| switch)
     }

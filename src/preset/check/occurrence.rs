@@ -6,7 +6,7 @@ use super::Check;
 use super::names::report_twice;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::nearest;
-use crate::expr::{Expr, is_never_negative};
+use crate::expr::{Expr, keeps_its_sign};
 use crate::model::{Allowed, Direction, Event, EventAction, Impulse, Mechanics, Scope};
 use crate::preset::draft::{Draft, DraftEvent, DraftImpulse, Formula};
 use crate::printable::number;
@@ -163,19 +163,12 @@ impl Check<'_> {
             let diagnostic = Diagnostic::error(formula.span(), "this does not change in time");
             let help = "an event happens where its expression crosses zero";
             self.diagnostics.push(diagnostic.with_help(help));
-        } else if self.keeps_its_sign(e) {
+        } else if keeps_its_sign(&mut self.model.pool, e) {
             let message = "this never changes its sign, at most it touches zero: it never happens";
             let help = "an event is where the expression crosses zero: x - 2 does in place of abs(x - 2) or (x - 2)^2";
             self.diagnostics.push(Diagnostic::warning(formula.span(), message).with_help(help));
         }
         moves
-    }
-
-    /// Whether the form of an expression shows that it is negative nowhere, or positive nowhere.
-    fn keeps_its_sign(&mut self, e: Expr) -> bool {
-        let pool = &mut self.model.pool;
-        let opposite = pool.neg(e);
-        is_never_negative(pool, e) || is_never_negative(pool, opposite)
     }
 
     pub(super) fn sense(&mut self, written: &Spanned<String>) -> Direction {

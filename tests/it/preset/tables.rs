@@ -217,7 +217,32 @@ fn an_event_that_only_touches_zero_is_a_warning() {
     for when in ["abs(x - 2)", "(x - 2)^2", "x^2 - 4*x + 4", "-abs(x)", "sqrt(x^2)", "x^2 + 1"] {
         assert!(warned(when), "{when}");
     }
-    for when in ["x - 2", "x^3", "abs(x) - 2", "x^2 - 1", "x*abs(x)", "sin(t)"] {
+    // zero on one side of a kink, and of one sign on the other
+    for when in [
+        "abs(x) - x",
+        "abs(x - 2) + x - 2",
+        "abs(4 - 2*x) - 2*x + 4",
+        "max(x, t) - t",
+        "x - sqrt(x^2)",
+        "x^3 - abs(x)^3",
+        "max(x, 0) - min(x, 0)",
+        "x*abs(x) - x^2",
+    ] {
+        assert!(warned(when), "{when}");
+    }
+    for when in [
+        "x - 2",
+        "x^3",
+        "abs(x) - 2",
+        "x^2 - 1",
+        "x*abs(x)",
+        "sin(t)",
+        "abs(x) - x - 1e-9",
+        "abs(x) - 2*x",
+        "abs(x - 2) - x",
+        "max(x, t) - x + min(x, 0)",
+        "x^3 + abs(x)^3 + x",
+    ] {
         assert!(!warned(when), "{when}");
     }
 }
