@@ -3,7 +3,7 @@
 //! In: an expression, and the sides of some kinks. Out: proofs that it vanishes there, and values beyond rounding that it
 //! has elsewhere. Never here: where a motion goes.
 
-use super::node::{Expr, FunctionId, Node};
+use super::node::Expr;
 use super::pool::Pool;
 use super::symbol::Symbol;
 use super::vanishing::on_lines;
@@ -75,12 +75,12 @@ impl Pool {
         })
     }
 
-    /// The arguments of the signs in an expression.
-    pub fn signs(&mut self, e: Expr) -> Vec<Switch> {
-        let parts = self.reachable(&[e]);
-        let is_sign = |pool: &Pool, e| matches!(pool.node(e), Node::Call(FunctionId::Sign, _));
-        let signs: Vec<Expr> = parts.into_iter().filter(|&part| is_sign(self, part)).collect();
-        signs.into_iter().filter_map(|part| Some(self.switch_of(part)?.0)).collect()
+    /// By how much an expression jumps at the cut of an angle, atan2(y, x), which is π on one side and −π on the other.
+    pub fn jump_of_angle(&mut self, e: Expr, angle: Expr) -> Expr {
+        let pi = self.pi();
+        let opposite = self.neg(pi);
+        let [above, below] = [pi, opposite].map(|value| self.replace(e, angle, value));
+        self.sub(above, below)
     }
 
     fn some_place(

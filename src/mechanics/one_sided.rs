@@ -21,6 +21,7 @@ pub struct OneSided {
     rate: Expr,
     observable: Expr,
     kinks: Vec<Expr>,
+    /// The kinks of the observable, some of which may be jumps.
     jumps: Vec<Expr>,
 }
 
@@ -46,8 +47,8 @@ impl OneSided {
         let rate = pool.substitute(rate, &values);
         let (rate, mut kinks) = pool.switches(rate);
         let observable = pool.substitute(observable, &values);
-        let (observable, _) = pool.switches(observable);
-        let mut jumps = pool.signs(observable);
+        // a sign is also a quotient, as x/|x|
+        let (observable, mut jumps) = pool.switches(observable);
         if kinks.len() + jumps.len() > MOST {
             return None;
         }

@@ -336,7 +336,14 @@ fn a_claim_that_holds_on_one_side_of_a_kink_only_is_false() {
     let of = |expression: &str| {
         format!("[[observables]]\nname = \"s\"\nexpression = \"{expression}\"\nconserved = true")
     };
-    let [far, near] = ["sign(x + 1.0001)", "max(x, 2)"].map(of);
+    let [far, near, quotient, disguised, root] = [
+        "sign(x + 1.0001)",
+        "max(x, 2)",
+        "(x + 10)/abs(x + 10)",
+        "(x + 10)/sqrt((x + 10)^2)",
+        "sqrt((x + 10)^2)/(x + 10)",
+    ]
+    .map(of);
     let oscillator = "L = \"1/2*x'^2 - 1/2*x^2\"";
     let ramp = "L = \"1/2*x'^2 - k*x^2/2\"\n[parameters]\nk = 1\n[[ramps]]\nparameter = \"k\"\nto = 2\nstart = 50\n\
                 duration = 5";
@@ -360,6 +367,9 @@ fn a_claim_that_holds_on_one_side_of_a_kink_only_is_false() {
         (ramp, energy, "< 0"),
         (oscillator, &far, "x + 1.0001 > 0"),
         (oscillator, &near, "x − 2 < 0"),
+        (oscillator, &quotient, "x + 10 > 0"),
+        (oscillator, &disguised, "x + 10 > 0"),
+        (oscillator, &root, "x + 10 > 0"),
     ] {
         with_file(&file(law, claim), &["check", "system.toml"]).fails(
             65,
