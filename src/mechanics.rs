@@ -35,6 +35,7 @@ mod invariants;
 mod isolate;
 mod lagrange;
 mod latex;
+mod law_steps;
 mod legendre;
 mod linear;
 mod missing_functions;

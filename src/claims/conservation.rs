@@ -166,7 +166,8 @@ impl Claim {
         let mut help = format!("it drifts by {drift:.1e} of its size until t = {end}");
         if name == "energy" {
             let rate = equations.pool.unicode(equations.energy_rate);
-            help = format!("{help}; dE/dt = {rate}");
+            let between = if equations.law_jumps() { " between steps" } else { "" };
+            help = format!("{help}; dE/dt = {rate}{between}");
         }
         Some(Diagnostic::error(self.place.clone(), message).with_help(help))
     }

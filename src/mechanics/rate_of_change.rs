@@ -11,7 +11,7 @@ use crate::expr::{Expr, FunctionId, Node, Pool, Symbol, Zero};
 use crate::num::Number;
 
 /// Whether two expressions as they stand are multiples of each other.
-fn is_multiple(pool: &Pool, a: Expr, b: Expr) -> bool {
+pub(super) fn is_multiple(pool: &Pool, a: Expr, b: Expr) -> bool {
     have_one_ratio(pool, [a, b], true)
 }
 
@@ -37,22 +37,6 @@ fn have_one_ratio(pool: &Pool, both: [Expr; 2], constants_count: bool) -> bool {
     terms.len() == others.len()
         && (!constants_count || same(c, ratio * d))
         && pairs().all(|(&(m, a), &(n, b))| a == b && same(m, ratio * n))
-}
-
-/// Whether a product has the factors of an expression, so that it vanishes where that does; what does not depend on the
-/// `moving` symbols never does.
-fn has_factors_of(pool: &Pool, factors: &[(Expr, Number)], of: Expr, moving: &[Symbol]) -> bool {
-    let among = |wanted: Expr, power: Number| {
-        let enough = |n: Number| n.value() >= power.value();
-        factors.iter().any(|&(e, n)| enough(n) && is_multiple(pool, e, wanted))
-    };
-    match pool.node(of) {
-        Node::Product(_, parts) => {
-            let mut varying = parts.iter().filter(|(e, _)| pool.depends_on_any(*e, moving));
-            varying.all(|&(e, n)| n.value() > 0.0 && among(e, n)) || among(of, Number::ONE)
-        }
-        _ => among(of, Number::ONE),
-    }
 }
 
 /// How it is known that a quantity is conserved.
@@ -225,27 +209,6 @@ impl Equations {
         moving.extend(self.supplements.ramp_rates.iter().map(|(symbol, _)| *symbol));
         moving.extend(self.coordinates.iter().flat_map(|c| [c.position, c.velocity, c.momentum]));
         moving
-    }
-
-    /// Returns whether L (or H) has a step, where the force is an impulse that no derivative shows.
-    pub fn law_jumps(&self) -> bool {
-        let moving = self.moving();
-        let pool = &self.pool;
-        let steps = |e: Expr| match pool.node(e) {
-            Node::Call(FunctionId::Sign, argument) => {
-                pool.depends_on_any(e, &moving).then_some(argument[0])
-            }
-            _ => None,
-        };
-        let jumps = |e: Expr| {
-            let node = pool.node(e);
-            node.parts().into_iter().filter_map(steps).any(|argument| match node {
-                // u sign(c u) = ±|u|
-                Node::Product(_, factors) => !has_factors_of(pool, factors, argument, &moving),
-                _ => true,
-            })
-        };
-        steps(self.law).is_some() || pool.reachable(&[self.law]).into_iter().any(jumps)
     }
 
     /// dG/dt of a function of q, p, t and the energy of a Lagrangian system, in the symbols of q,

@@ -10,8 +10,14 @@ use crate::system::System;
 
 /// Warns before the run about a law with a step, and about a method that ignores the kinks of the motion.
 pub(super) fn before(model: &Model, system: &System, equations: &Equations, method: &Method) {
-    if equations.law_jumps() {
-        let law = if equations.is_lagrangian() { "L" } else { "H" };
+    let law = if equations.is_lagrangian() { "L" } else { "H" };
+    if let Some(angle) = equations.law_cut() {
+        let angle = equations.pool.text(angle);
+        stderr::report(&format!(
+            "{law} jumps at the cut of {angle}, where the angle goes from pi to -pi and the force is an impulse that no \
+             derivative shows: the motion goes over it without one; an angle that is a coordinate has no cut"
+        ));
+    } else if equations.law_jumps() {
         stderr::report(&format!(
             "{law} has a step, where the force is an impulse that no derivative shows: the motion goes over it without one; \
              make the step a steep slope, as with tanh, or give the impulse as an event"

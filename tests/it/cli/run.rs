@@ -816,6 +816,37 @@ fn a_step_of_the_law_is_told() {
     law("abs(x)").success();
 }
 
+/// An angle jumps by 2π at its cut, y = 0 and x < 0, and with it a law that is no function on the circle.
+#[test]
+fn a_law_that_jumps_at_the_cut_of_an_angle_is_told() {
+    let law = |potential: &str| {
+        let text = format!(
+            "title = \"A cut\"\n[coordinates]\nx = {{ initial = -1.0 }}\ny = {{ initial = 0.5, velocity = -3.0 }}\n\
+             [parameters]\nk = 2\n[lagrangian]\nL = \"1/2*(x'^2 + y'^2) - {potential}\"\n"
+        );
+        with_file(&text, &["run", "system.toml", "--until", "1", "--at", "1"])
+    };
+    for jumping in ["atan2(y, x)", "k*atan2(2*y, 2*x + 1)^3", "sin(atan2(y, x)/2)", "atan2(y, -1)"]
+    {
+        let done = law(jumping);
+        let told = done.stderr.contains("phaselab: L jumps at the cut of atan2(");
+        assert!(done.code == 0 && told && !done.stderr.contains("lost"), "{}", done.stderr);
+    }
+    for continuous in [
+        "atan2(y, x)^2/10",
+        "sin(3*atan2(y, x))",
+        "abs(atan2(y, x))",
+        "y*atan2(y, x)",
+        "atan2(y, 1)",
+        "atan2(y, k)",
+        "atan2(y, 1 + x^2)",
+        "atan2(abs(y), x)",
+    ] {
+        let done = law(continuous);
+        assert_eq!((done.code, done.stderr.as_str()), (0, ""), "{continuous}");
+    }
+}
+
 /// cosh t overflows at t = 710.5, far from all singularities.
 #[test]
 fn what_grows_beyond_the_range_of_numbers_is_not_called_a_collision() {

@@ -1,0 +1,86 @@
+//! Where the law itself jumps, not only its derivatives.
+//!
+//! In: L (or H). Out: whether a sign or the cut of an angle is a step of it, where the force is an impulse that no derivative
+//! shows. Never here: where a motion meets it.
+
+use super::equations::Equations;
+use super::rate_of_change::is_multiple;
+use crate::expr::{Expr, FunctionId, Node, Pool, Symbol, Zero, is_never_negative, keeps_its_sign};
+use crate::num::Number;
+
+/// Whether a product has the factors of an expression, so that it vanishes where that does; what does not depend on the
+/// `moving` symbols never does.
+fn has_factors_of(pool: &Pool, factors: &[(Expr, Number)], of: Expr, moving: &[Symbol]) -> bool {
+    let among = |wanted: Expr, power: Number| {
+        let enough = |n: Number| n.value() >= power.value();
+        factors.iter().any(|&(e, n)| enough(n) && is_multiple(pool, e, wanted))
+    };
+    match pool.node(of) {
+        Node::Product(_, parts) => {
+            let mut varying = parts.iter().filter(|(e, _)| pool.depends_on_any(*e, moving));
+            varying.all(|&(e, n)| n.value() > 0.0 && among(e, n)) || among(of, Number::ONE)
+        }
+        _ => among(of, Number::ONE),
+    }
+}
+
+impl Equations {
+    /// Returns whether L (or H) has a step, where the force is an impulse that no derivative shows.
+    pub fn law_jumps(&self) -> bool {
+        self.law_has_sign() || self.law_cut().is_some()
+    }
+
+    /// Whether L (or H) jumps with a sign in it.
+    fn law_has_sign(&self) -> bool {
+        let moving = self.moving();
+        let pool = &self.pool;
+        let steps = |e: Expr| match pool.node(e) {
+            Node::Call(FunctionId::Sign, argument) => {
+                pool.depends_on_any(e, &moving).then_some(argument[0])
+            }
+            _ => None,
+        };
+        let jumps = |e: Expr| {
+            let node = pool.node(e);
+            node.parts().into_iter().filter_map(steps).any(|argument| match node {
+                // u sign(c u) = ±|u|
+                Node::Product(_, factors) => !has_factors_of(pool, factors, argument, &moving),
+                _ => true,
+            })
+        };
+        steps(self.law).is_some() || pool.reachable(&[self.law]).into_iter().any(jumps)
+    }
+
+    /// An angle in L (or H), atan2(y, x), at whose cut, y = 0 and x < 0, that jumps. A parameter is taken for positive.
+    pub fn law_cut(&self) -> Option<Expr> {
+        let moving = self.moving();
+        let is_cut = |e: &Expr| {
+            let Node::Call(FunctionId::Atan2, arguments) = self.pool.node(*e) else { return false };
+            let (y, x) = (arguments[0], arguments[1]);
+            let may_be_negative = self.pool.depends_on_any(x, &moving)
+                || matches!(self.pool.node(x), Node::Number(_));
+            self.pool.depends_on_any(y, &moving)
+                && may_be_negative
+                && !is_never_negative(&self.pool, x)
+        };
+        let cuts: Vec<Expr> = self.pool.reachable(&[self.law]).into_iter().filter(is_cut).collect();
+        if cuts.is_empty() {
+            return None;
+        }
+        let mut pool = self.pool.clone();
+        cuts.into_iter().find(|&angle| {
+            let Node::Call(_, arguments) = pool.node(angle) else { return false };
+            let y = arguments[0];
+            // an angle that has one sign comes to its cut from one side only
+            if keeps_its_sign(&mut pool, y) {
+                return false;
+            }
+            let jump = pool.jump_of_angle(self.law, angle);
+            let vanishes_with = match pool.node(jump) {
+                Node::Product(_, factors) => has_factors_of(&pool, factors, y, &moving),
+                _ => is_multiple(&pool, jump, y),
+            };
+            !vanishes_with && !matches!(pool.is_zero(jump), Zero::Proved | Zero::Numerically)
+        })
+    }
+}
