@@ -24,9 +24,11 @@ impl Taylor {
         left: f64,
     ) -> Result<Option<f64>, MotionError> {
         let mut rough = false;
+        let before = self.series.sides().to_vec();
         for sides in choices {
+            self.set_sides(&before);
             self.kinks.choose(&mut self.series, sides);
-            match self.expand_on_surface(left) {
+            match self.expand_beyond_jumps(left) {
                 Ok(step) if self.kinks.leads_on(&self.series, step, self.history.stride) => {
                     let hopeless = step < HOPELESS * self.history.stride && !rough;
                     if hopeless && self.leap_beside(Some(step), left, 0.0)? {
@@ -47,6 +49,7 @@ impl Taylor {
             }
         }
         if !rough && self.kinks.touch() {
+            self.set_sides(&before);
             return self.decide(choices, left);
         }
         let kind = if rough { MotionErrorKind::Rough } else { MotionErrorKind::NoSide };
@@ -69,6 +72,52 @@ impl Taylor {
         self.state = still.at(&mut self.rates, self.state.exact_time())?;
         self.course = StepCourse::Rest(still);
         Ok(true)
+    }
+
+    fn set_sides(&mut self, sides: &[Side]) {
+        for (i, &side) in sides.iter().enumerate() {
+            self.series.set_side(i, side);
+        }
+    }
+
+    /// Builds the series at a state on a surface. The other switches have the side of their value, which jumps where a switch in
+    /// them has changed its side.
+    fn expand_beyond_jumps(&mut self, left: f64) -> Result<f64, MotionError> {
+        let mut step = self.expand_on_surface(left)?;
+        for _ in 0..self.series.switches() {
+            let opposite = self.kinks.opposite(&self.series);
+            if opposite.is_empty() {
+                break;
+            }
+            let sides = self.series.sides().to_vec();
+            for &(i, side) in &opposite {
+                self.series.set_side(i, side);
+            }
+            let tried = self.expand_on_surface(left);
+            // a motion on a surface is on neither side of it, and there may be no law beside it
+            let slides = opposite.iter().all(|&(i, _)| sides[i] == Side::Between);
+            let back: Vec<usize> = match tried {
+                Err(fault) if fault.kind == MotionErrorKind::Cancelled => return Err(fault),
+                Err(_) if slides => opposite.iter().map(|&(i, _)| i).collect(),
+                Err(fault) => return Err(fault),
+                Ok(longest) => {
+                    step = longest;
+                    let (kinks, stride) = (&self.kinks, self.history.stride);
+                    let is_off = |i: usize| kinks.is_off(&self.series, i, longest, stride);
+                    opposite.iter().map(|&(i, _)| i).filter(|&i| !is_off(i)).collect()
+                }
+            };
+            for &i in &back {
+                self.series.set_side(i, sides[i]);
+            }
+            if !back.is_empty() {
+                step = self.expand_on_surface(left)?;
+            }
+            if back.len() == opposite.len() {
+                break;
+            }
+        }
+        Ok(step)
     }
 
     /// Builds the series at a state on a surface. Where the motion begins there, what is certain of the switches is found

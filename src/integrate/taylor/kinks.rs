@@ -177,6 +177,28 @@ impl Kinks {
         self.on_surface.iter().all(|&i| self.leads_on_at(series, i, reach))
     }
 
+    /// The switches beside the surfaces whose values at the origin are not those of their sides, with the sides of the values:
+    /// they have jumped, or they are zero to rounding.
+    pub(super) fn opposite(&self, series: &Series) -> Vec<(usize, Side)> {
+        let beside = (0..series.switches()).filter(|i| !self.on_surface.contains(i));
+        let opposite = |i: usize| {
+            let value = series.switch(i)[0];
+            let side = if value > 0.0 { Side::Positive } else { Side::Negative };
+            (value.abs() > 0.0 && side != series.sides()[i]).then_some((i, side))
+        };
+        beside.filter_map(opposite).collect()
+    }
+
+    /// Whether the motion is off the surface of a switch, beyond the rounding of one that it is on; `step` and `stride` as in
+    /// [`leads_on`](Kinks::leads_on).
+    pub(super) fn is_off(&self, series: &Series, i: usize, step: f64, stride: f64) -> bool {
+        let reach = (step / series.scale().abs()).min(1.0).min(known_ahead(series, stride));
+        let switch = series.switch(i);
+        let powers = std::iter::successors(Some(reach), |x| Some(x * reach));
+        let terms = switch.iter().skip(1).zip(powers).map(|(c, x)| (c * x).abs());
+        switch[0].abs() > SIGNIFICANT * terms.fold(0.0, f64::max)
+    }
+
     /// The first surface that the series meets before `end`, in its unit of time; `stride` as in
     /// [`leads_on`](Kinks::leads_on).
     pub(super) fn first(&self, series: &Series, end: f64, stride: f64) -> Option<KinkCrossing> {

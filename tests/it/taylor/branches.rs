@@ -140,6 +140,11 @@ fn an_angle_is_followed_to_its_cut_and_begins_anew_there() {
     run.to(30.0);
     // the potential itself is the same on both sides
     near(&run.columns()[6..7], &[energy], 1e-14);
+    // a switch that jumps at the cut
+    let mut run = plane([-1.0, 0.5], [0.0, -3.0], "L = \"1/2*(x'^2 + y'^2) - abs(atan2(y, x))\"");
+    let energy = run.columns()[6];
+    run.to(1.0);
+    near(&run.columns()[6..7], &[energy], 1e-14);
 }
 
 #[test]

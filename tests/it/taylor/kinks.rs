@@ -123,6 +123,28 @@ fn a_square_wave_switches_with_the_clock() {
     near(&run.to(21.0), &[10.5, 1.0], 2e-15);
 }
 
+/// A switch with another in it jumps where that one changes its side, and no root of its series shows it.
+#[test]
+fn a_switch_that_jumps_with_another_is_on_the_side_of_its_value() {
+    // drawn to where the target is: x < 4 with x' > 0 when it jumps from −4 to 4
+    let mut run = one("0.0", "2.0", "1/2*x'^2", "0", "-sign(x - 4*sign(t - 1))");
+    near(&run.to(1.0), &[1.5, 1.0], 0.0);
+    near(&run.to(2.0), &[3.0, 2.0], 1e-16);
+    // with x' < 0
+    let mut run = one("0.0", "0.0", "1/2*x'^2", "0", "-sign(x - 4*sign(t - 1))");
+    near(&run.to(2.0), &[-1.0, 0.0], 1e-16);
+    // and once more, through a third: max(0, u) + 4 for t > 1 and max(0, u) − 4 before
+    let third = "-sign(max(0, x - 4*sign(t - 1)) - 1)";
+    let mut run = one("0.0", "1.0", "1/2*x'^2", "0", third);
+    near(&run.to(2.0), &[0.5 + 0.5, 0.0 + 1.0], 1e-16);
+    // carried by a belt that is turned back at t = 1, and overtaken by it at t = 2
+    let belt = "-2*sign(x' - sign(t - 1))";
+    let mut run = one("0.0", "0.0", "1/2*x'^2", "0", belt);
+    near(&run.to(1.0), &[-0.75, -1.0], 1e-16);
+    near(&run.to(1.5), &[-1.0, 0.0], 1e-16);
+    near(&run.to(3.0), &[0.25, 1.0], 1e-16);
+}
+
 #[test]
 fn a_live_exponent_makes_no_kink_where_it_is_an_integer() {
     // V = x^n/2 with n = 2 known only at run time: the oscillator, through x = 0
