@@ -3,10 +3,12 @@
 //! In: an expression, and the sides of some kinks. Out: proofs that it vanishes there, and values beyond rounding that it
 //! has elsewhere. Never here: where a motion goes.
 
-use super::node::Expr;
+use super::function::KinkBranches;
+use super::node::{Expr, Node};
 use super::pool::Pool;
 use super::symbol::Symbol;
 use super::vanishing::on_lines;
+use crate::num::Number;
 
 /// A kink: the function that changes its sign there.
 type Switch = Expr;
@@ -73,6 +75,36 @@ impl Pool {
                 [above, below].map(|side| self.evaluate_with_size(side, here));
             (a - b).abs() > SEEN * (size_of_a + size_of_b)
         })
+    }
+
+    /// The two sides of a product that is 0/0 on one side of a kink, as (1 + sign u)/√max(0, u) where u < 0: there it is the
+    /// zero of its numerator.
+    pub fn one_sided_quotient(&mut self, e: Expr) -> Option<KinkBranches> {
+        let shared = self.shared(e);
+        let Node::Product(_, factors) = &*shared else { return None };
+        let divisor = |&(base, exponent): &(Expr, Number)| match *self.node(base) {
+            // the exponent is a parameter, or made of some
+            Node::Power(base, _) => Some(base),
+            _ => exponent.is_negative().then_some(base),
+        };
+        let divisors: Vec<Expr> = factors.iter().filter_map(divisor).collect();
+        for divisor in divisors {
+            let Some((switch, _)) = self.switch_of(divisor) else { continue };
+            for positive in [true, false] {
+                let mut vanishes = |e: Expr| self.on_side(e, switch, positive) == Expr::ZERO;
+                let above = |&&(base, exponent): &&(Expr, Number)| {
+                    base != divisor && !exponent.is_negative()
+                };
+                if !vanishes(divisor) || !factors.iter().filter(above).any(|f| vanishes(f.0)) {
+                    continue;
+                }
+                let other = self.on_side(e, switch, !positive);
+                let (positive, negative) =
+                    if positive { (Expr::ZERO, other) } else { (other, Expr::ZERO) };
+                return Some(KinkBranches { switch, positive, negative });
+            }
+        }
+        None
     }
 
     /// By how much an expression jumps at the cut of an angle, atan2(y, x), which is π on one side and −π on the other.

@@ -27,7 +27,10 @@ impl Lowering<'_> {
                     terms.iter().map(|(c, t)| (*c, self.known[t])).collect();
                 self.linear(*constant, &terms)
             }
-            Node::Product(coefficient, factors) => self.lower_product(*coefficient, factors),
+            Node::Product(coefficient, factors) => match self.pool.one_sided_quotient(e) {
+                Some(sides) => self.select(sides),
+                None => self.lower_product(*coefficient, factors),
+            },
             Node::Power(base, exponent) => {
                 let (base, exponent) = (self.known[base], self.known[exponent]);
                 self.lower_power(base, exponent)

@@ -123,6 +123,27 @@ fn a_square_wave_switches_with_the_clock() {
     near(&run.to(21.0), &[10.5, 1.0], 2e-15);
 }
 
+/// √max(0, 1 − x²) is 0 beyond the unit interval, and its slope 0/0 as it is written; at x = 1 the force grows without bound.
+#[test]
+fn a_root_of_what_vanishes_on_one_side_exerts_no_force_there() {
+    for height in ["sqrt(max(0, 1 - x^2))", "max(0, 1 - x^2)^(1/n)"] {
+        let mut run = one("2.0", "-1.0", &format!("1/2*x'^2 - {height}"), "0", "0");
+        near(&run.to(0.9), &[1.1, -1.0], 1e-16);
+        // too slow to pass: V = 1/2 at x = √3/2; thrown back as fast as it came
+        let back = run.to(5.0);
+        near(&back[1..], &[1.0], 1e-14);
+        // fast enough, through both ends
+        let mut run = one("2.0", "-2.0", &format!("1/2*x'^2 - {height}"), "0", "0");
+        let through = run.to(5.0);
+        assert!(through[0] < -1.0);
+        near(&through[1..], &[-2.0], 1e-14);
+    }
+    let mut run = one("-1.0", "1.0", "1/2*x'^2 - sqrt(max(0, x))", "0", "0");
+    // s = √x turns at 1/2, after ∫ 2 s ds/√(1 − 2 s) = 2/3
+    near(&run.to(1.0 + 2.0 / 3.0), &[0.25, 0.0], 1e-14);
+    near(&run.to(1.0 + 4.0 / 3.0 + 1.0), &[-1.0, -1.0], 1e-14);
+}
+
 /// A switch with another in it jumps where that one changes its side, and no root of its series shows it.
 #[test]
 fn a_switch_that_jumps_with_another_is_on_the_side_of_its_value() {
