@@ -68,19 +68,33 @@ const LAST: f64 = 0.1;
 
 impl KinkCrossing {
     /// Whether the series are still valid there, beyond the step they allow: those of the switches,
-    /// and to this part those of every number.
-    pub(super) fn is_known(&self, series: &Series, part: f64) -> bool {
-        let last_of = |c: &[f64]| {
-            let term = |k: usize| (c[k] * math::powi(self.after.high, k as i32)).abs();
-            let last = c.len() - 1;
-            (term(last).max(term(last - 1)), (0..last).map(term).fold(0.0, f64::max))
-        };
-        let switches = self.switches.iter().map(|&i| series.switch(i));
-        switches.map(|c| (last_of(c).0, c[0].abs())).all(|(last, first)| last <= LAST * first)
-            && (0..series.inputs())
-                .map(|i| last_of(series.coefficients(i)))
-                .all(|(last, size)| last <= part * size)
+    /// and those of every number as in [`represents`].
+    pub(super) fn is_known(&self, series: &Series, part: f64, sizes: Option<&[f64]>) -> bool {
+        let mut switches = self.switches.iter().map(|&i| series.switch(i));
+        switches.all(|c| last_of(c, self.after.high).0 <= LAST * c[0].abs())
+            && represents(series, self.after.high, (part, sizes))
     }
+}
+
+/// Whether the last terms of the series of every number are no more than a part of its largest a time `after` the origin, or
+/// of the `sizes` of the numbers.
+pub(super) fn represents(
+    series: &Series,
+    after: f64,
+    (part, sizes): (f64, Option<&[f64]>),
+) -> bool {
+    (0..series.inputs()).all(|i| {
+        let (last, largest) = last_of(series.coefficients(i), after);
+        let size = sizes.map_or(0.0, |sizes| sizes[i] / series.unit(i));
+        last <= part * largest.max(size)
+    })
+}
+
+/// The larger of the last two terms of a series, and the largest before the last.
+fn last_of(c: &[f64], after: f64) -> (f64, f64) {
+    let term = |k: usize| (c[k] * math::powi(after, k as i32)).abs();
+    let last = c.len() - 1;
+    (term(last).max(term(last - 1)), (0..last).map(term).fold(0.0, f64::max))
 }
 
 impl Kinks {

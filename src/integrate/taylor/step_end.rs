@@ -5,7 +5,7 @@
 //! the state there. Never here: building series, and what continues from a point without one.
 
 use super::branches::Passing;
-use super::kinks::KinkCrossing;
+use super::kinks::{KinkCrossing, represents};
 use super::{Taylor, branches, steep};
 use crate::num::DoubleDouble;
 use crate::system::{MotionError, MotionErrorKind, Side};
@@ -29,11 +29,11 @@ const STALLED: f64 = 5e-17;
 /// A step this short relative to the time cannot continue; …
 const SMALLEST: f64 = 1e-17;
 
-/// … but a surface where forces grow without bound is approached up to this part, since the time is
+/// … but a surface or a point where forces grow without bound is approached up to this part, since the time is
 /// in double-double. A nearer one counts as reached.
 const NEAREST: f64 = 1e-30;
 
-/// The last terms of all series may be this part of their largest at a surface that is reached
+/// The last terms of all series may be this part of their largest at a surface or point that is reached
 /// beyond the step, …
 const LAST_DIGIT: f64 = 1e-17;
 
@@ -95,14 +95,23 @@ impl Taylor {
         let end = if vanishing { BEYOND * step / scale.abs() } else { after.high / scale };
         let end = end.min((left.high / scale).abs());
         let found = self.kinks.first(&self.series, end, self.history.stride);
-        let approaching = vanishing && found.is_some();
+        let zero = if vanishing && found.is_none() {
+            branches::predicted(&self.series, end)
+        } else {
+            None
+        };
+        // beside such a point the steps are as short as the distance from it
+        self.history.is_passing = zero.is_some() || (self.history.is_passing && vanishing);
+        let approaching = self.history.is_passing || (vanishing && found.is_some());
         let nearest = approaching && step <= NEAREST * time;
         let leaving = self.history.leads_away(step, SMALLEST * time);
-        let known = if nearest { NEARLY } else { LAST_DIGIT };
-        let crossing =
-            found.filter(|crossing| !vanishing || crossing.is_known(&self.series, known));
+        // nearer than that a number which goes to zero as well has no digits to gain
+        let known = if nearest { (NEARLY, Some(&self.sizes[..])) } else { (LAST_DIGIT, None) };
+        let crossing = found
+            .filter(|crossing| !vanishing || crossing.is_known(&self.series, known.0, known.1));
+        let zero = zero.filter(|&x| represents(&self.series, x, known));
         let short = step <= SMALLEST * time && !approaching && !leaving;
-        if short || (nearest && crossing.is_none()) {
+        if short || (nearest && crossing.is_none() && zero.is_none()) {
             let kind = MotionErrorKind::StepUnderflow(step);
             return Err(self.system.fault(kind, self.state.time, &self.state.values));
         }
@@ -114,15 +123,16 @@ impl Taylor {
             }
             None => StepEnd { after, crossing: None, last, landed: false, vanishing },
         };
-        if vanishing && !approaching {
-            if let Some(x) = branches::predicted(&self.series, end) {
-                (end_of_step.last, end_of_step.landed) = (false, true);
-                end_of_step.after = DoubleDouble::from(x * scale);
-            } else if (step < TOUCHING * self.history.stride || step < STALLED * time)
-                && self.leap(left.high, BEYOND * step)?
-            {
-                return Ok(None);
-            }
+        let hardly_moves = step < TOUCHING * self.history.stride || step < STALLED * time;
+        if let Some(x) = zero {
+            (end_of_step.last, end_of_step.landed) = (false, true);
+            end_of_step.after = DoubleDouble::from(x * scale);
+        } else if vanishing
+            && !approaching
+            && hardly_moves
+            && self.leap(left.high, BEYOND * step)?
+        {
+            return Ok(None);
         }
         if !(end_of_step.landed || approaching) {
             // near a branch point rounding alone makes steps short

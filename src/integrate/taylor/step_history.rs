@@ -20,6 +20,8 @@ pub(super) struct StepHistory {
     /// The last step, and whether it and those before lead away from a point that was passed.
     last: f64,
     is_leaving: bool,
+    /// Whether the motion approaches, or passes closely, a point where a power is zero.
+    pub(super) is_passing: bool,
     /// Whether no series continues from the current state.
     pub(super) landed: bool,
     /// The step before which the motion was last taken to touch rest, and did not.
@@ -35,6 +37,7 @@ impl Default for StepHistory {
             stride: 0.0,
             last: f64::INFINITY,
             is_leaving: false,
+            is_passing: false,
             landed: false,
             touch_tried: f64::INFINITY,
             leaps: (0, f64::NAN),

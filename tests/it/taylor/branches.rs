@@ -147,6 +147,48 @@ fn an_angle_is_followed_to_its_cut_and_begins_anew_there() {
     near(&run.columns()[6..7], &[energy], 1e-14);
 }
 
+/// √r is as √|x| on a line through the origin, where its force grows without bound in every direction.
+#[test]
+fn a_motion_passes_through_and_beside_the_tip_of_a_radial_root() {
+    // to r = 0 in ∫ dr/√(3 − 2 √r) = 2 √3 − 8/3, and as far beyond
+    let there = 2.0 * 3.0_f64.sqrt() - 8.0 / 3.0;
+    let law = "L = \"1/2*(x'^2 + y'^2) - sqrt(sqrt(x^2 + y^2))\"";
+    let mut run = plane([-1.0, 0.0], [1.0, 0.0], law);
+    near(&run.to(2.0 * there)[..4], &[1.0, 0.0, 1.0, 0.0], 2e-15);
+    // a line on which x and y are rounded, to 1e-22 beside the origin: that deflects the motion by its root
+    let (c, s) = (0.8, 0.6);
+    let mut run = plane([-c, -s], [c, s], law);
+    near(&run.to(2.0 * there)[..4], &[c, s, c, s], 1e-11);
+    // beside it, where the motion is deflected, it keeps E and the angular momentum
+    for beside in [1e-26, 1e-20, 1e-17, 1e-15, 1e-13, 1e-11, 1e-9] {
+        let mut run = plane([-1.0, beside], [1.0, 0.0], law);
+        let passed = run.to(2.0 * there);
+        let [x, y, vx, vy] = [passed[0], passed[1], passed[2], passed[3]];
+        assert!(x > 0.9, "{beside:e}: {passed:?}");
+        let energy = 0.5 * (vx * vx + vy * vy) + (x * x + y * y).sqrt().sqrt();
+        assert!((energy - 1.5).abs() < 2e-14, "{beside:e}: {energy}");
+        let momentum = x * vy - y * vx;
+        assert!((momentum + beside).abs() < 1e-15, "{beside:e}: {momentum:e}");
+    }
+}
+
+/// The curve y = |x|^(5/2) has a curvature everywhere, though no series at x = 0.
+#[test]
+fn a_bead_passes_the_vertex_of_a_curve_that_has_two_derivatives_there() {
+    let mut bead = plane(
+        [-1.0, 1.0],
+        [1.0, -2.5],
+        "L = \"1/2*(x'^2 + y'^2) - y\"\n[[constraints]]\nname = \"wire\"\nexpression = \"y - abs(x)^2.5\"",
+    );
+    // the same in one coordinate
+    let mut along = line("-1.0", "1.0", "L = \"1/2*x'^2*(1 + 25/4*abs(x)^3) - abs(x)^2.5\"");
+    for t in [0.4, 0.6, 5.0] {
+        let [bead, along] = [bead.to(t), along.to(t)];
+        near(&[bead[0], bead[2]], &along[..2], 2e-14);
+        near(&bead[1..2], &[along[0].abs().powf(2.5)], 2e-14);
+    }
+}
+
 #[test]
 fn drag_with_a_fractional_power_turns_the_motion() {
     // v' = −0.36 |v|^0.8: |v|^0.2 falls by 0.072 a second and ends at rest
