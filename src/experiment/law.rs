@@ -47,7 +47,12 @@ impl EnergyLaw {
         let steps = equations.law_jumps();
         if steps {
             let law = if equations.is_lagrangian() { "L" } else { "H" };
-            cause = format!("a step of {law}, where the force is an impulse");
+            let what = if equations.has_impulses_at_steps() {
+                ", where the force is an impulse"
+            } else {
+                " in time"
+            };
+            cause = format!("a step of {law}{what}");
         } else if cause.is_empty() {
             // along the flow of another generator
             "[H,G] is not 0".clone_into(&mut cause);

@@ -25,21 +25,37 @@ fn has_factors_of(pool: &Pool, factors: &[(Expr, Number)], of: Expr, moving: &[S
 }
 
 impl Equations {
-    /// Returns whether L (or H) has a step, where the force is an impulse that no derivative shows.
+    /// Returns whether L (or H) has a step, so that its derivatives are not the whole answer.
     pub fn law_jumps(&self) -> bool {
-        self.law_has_sign() || self.law_cut().is_some()
+        self.has_sign_of(self.law, &self.moving()) || self.law_cut().is_some()
     }
 
-    /// Whether L (or H) jumps with a sign in it.
-    fn law_has_sign(&self) -> bool {
-        let moving = self.moving();
+    /// Returns whether a motion may come to a step of L (or H), where the force is an impulse that no derivative shows. At a step in
+    /// time there is none: forces jump there, or velocities.
+    pub fn has_impulses_at_steps(&self) -> bool {
+        let time = self.symbols.time;
+        let moving: Vec<Symbol> = self.moving().into_iter().filter(|s| *s != time).collect();
+        self.has_sign_of(self.law, &moving) || self.law_cut().is_some()
+    }
+
+    /// Returns whether a momentum of L, as a function of the velocities, jumps at a time. The momentum itself does not, so that the
+    /// velocities do.
+    pub fn momenta_jump(&self) -> bool {
+        let time = [self.symbols.time];
+        self.is_lagrangian()
+            && self.momenta.iter().any(|&momentum| self.has_sign_of(momentum, &time))
+    }
+
+    /// Whether a function jumps with the sign of something that depends on some symbols.
+    fn has_sign_of(&self, function: Expr, symbols: &[Symbol]) -> bool {
         let pool = &self.pool;
         let steps = |e: Expr| match pool.node(e) {
             Node::Call(FunctionId::Sign, argument) => {
-                pool.depends_on_any(e, &moving).then_some(argument[0])
+                pool.depends_on_any(e, symbols).then_some(argument[0])
             }
             _ => None,
         };
+        let moving = self.moving();
         let jumps = |e: Expr| {
             let node = pool.node(e);
             node.parts().into_iter().filter_map(steps).any(|argument| match node {
@@ -48,7 +64,7 @@ impl Equations {
                 _ => true,
             })
         };
-        steps(self.law).is_some() || pool.reachable(&[self.law]).into_iter().any(jumps)
+        steps(function).is_some() || pool.reachable(&[function]).into_iter().any(jumps)
     }
 
     /// An angle in L (or H), atan2(y, x), at whose cut, y = 0 and x < 0, that jumps. A parameter is taken for positive.

@@ -17,7 +17,12 @@ pub(super) fn before(model: &Model, system: &System, equations: &Equations, meth
             "{law} jumps at the cut of {angle}, where the angle goes from pi to -pi and the force is an impulse that no \
              derivative shows: the motion goes over it without one; an angle that is a coordinate has no cut"
         ));
-    } else if equations.law_jumps() {
+    } else if equations.momenta_jump() {
+        stderr::report(
+            "L has a step in time in its momenta, which keep their values there while the velocities jump: the motion keeps the \
+             velocities; make the step a steep slope, as with tanh, or write H",
+        );
+    } else if equations.has_impulses_at_steps() {
         stderr::report(&format!(
             "{law} has a step, where the force is an impulse that no derivative shows: the motion goes over it without one; \
              make the step a steep slope, as with tanh, or give the impulse as an event"

@@ -812,6 +812,15 @@ fn a_step_of_the_law_is_told() {
     assert_eq!((slope.code, slope.stderr.as_str()), (0, ""));
     let x: f64 = slope.stdout.lines().last().unwrap().split(',').nth(1).unwrap().parse().unwrap();
     assert!(x < -1.0, "thrown back: {x}");
+    // a step in time makes no impulse where a force jumps, but velocities jump where the mass does
+    let plain = law("0.5*(1 + 0.5*sign(sin(3*t)))*x^2");
+    assert_eq!((plain.code, plain.stderr.as_str()), (0, ""));
+    let mass = law("0 + 1/2*max(0, sign(t - 2))*x'^2");
+    assert!(
+        mass.stderr.contains("phaselab: L has a step in time in its momenta"),
+        "{}",
+        mass.stderr
+    );
     // |x| has a kink and no step
     law("abs(x)").success();
 }
