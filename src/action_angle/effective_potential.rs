@@ -16,6 +16,10 @@ const PLACES: usize = 4001;
 /// How far they reach on each side: sinh of this, in units of the distance of the start from zero (1 if it is at zero).
 const REACH: f64 = 12.0;
 
+/// Where the energy is not reached so far, places are this many times as far from the start each, up to this distance.
+const FARTHER: f64 = 4.0;
+const FARTHEST: f64 = 1e150;
+
 /// A top or a bottom that is greater by this factor than what is around it is a pole.
 const POLE: f64 = 1e12;
 
@@ -307,7 +311,14 @@ impl<'a> EffectivePotential<'a> {
         let noise = NOISE * (energy.abs() + self.height);
         let at_a_top = self.tops.iter().any(|top| (top[1] - energy).abs() <= noise);
         let level = if at_a_top { energy - noise } else { energy };
-        let nodes = self.nodes.clone();
+        let mut nodes = self.nodes.clone();
+        if let (None, Some(&[first, ..]), Some(&[last, ..])) =
+            (self.period, nodes.first(), nodes.last())
+        {
+            let walls = [self.wall_beyond(first, level), self.wall_beyond(last, level)];
+            nodes.splice(0..0, walls[0]);
+            nodes.extend(walls[1]);
+        }
         let mut regions = Vec::new();
         let mut open: Option<Option<f64>> = None;
         let mut last: Option<[f64; 2]> = None;
@@ -353,6 +364,28 @@ impl<'a> EffectivePotential<'a> {
             holds_start || region.left.into_iter().chain(region.right).all(seen)
         });
         regions
+    }
+
+    /// A place beyond one of the outermost, in ever larger distances from the start, with more than an energy; `None` where the
+    /// energy at rest does not come to it, or is not resolved so far away.
+    fn wall_beyond(&mut self, outermost: f64, level: f64) -> Option<[f64; 2]> {
+        let is_resolved = self.resolved.iter().all(|end| end.is_infinite());
+        let mut distance = outermost - self.begin;
+        let mut before = self.at(outermost);
+        while is_resolved && before < level && distance.abs() < FARTHEST {
+            distance *= FARTHER;
+            let place = self.begin + distance;
+            let value = self.at(place);
+            // a bottom without end, or the energy of infinity
+            if value <= before {
+                return None;
+            }
+            if value > level {
+                return Some([place, value]);
+            }
+            before = value;
+        }
+        None
     }
 
     /// The lobes of the separatrix through a top: the regions at its energy that end there.

@@ -49,6 +49,35 @@ fn actions_of_closed_form() {
     }
 }
 
+/// However far from the start a coordinate turns, it is bound; a bottom without end and the energy of infinity bind nothing.
+#[test]
+fn what_turns_far_away_is_bound() {
+    // J = (8/3) √2 E^{3/2}; of ½ x², J = 2π E; of a Kepler orbit with L = 1, J = 2π (1/√(−2E) − 1), with 2π/(−2E)^{3/2} as period
+    let kepler = "1/(2*x^2) - 1/x";
+    let cases: [(&str, f64, Option<[f64; 2]>); 6] = [
+        ("abs(x)", 1e6, Some([8.0 / 3.0 * SQRT_2 * 1e9, 4.0 * SQRT_2 * 1e3])),
+        ("1/2*x^2", 1e14, Some([2.0 * PI * 1e14, 2.0 * PI])),
+        (
+            kepler,
+            -1e-6,
+            Some([2.0 * PI * (1.0 / 2e-6_f64.sqrt() - 1.0), 2.0 * PI / 2e-6_f64.powf(1.5)]),
+        ),
+        (kepler, 1e-3, None),
+        ("-1/2*x^2", 1.0, None),
+        ("-exp(-x^2)", 1e-6, None),
+    ];
+    for (potential, energy, expected) in cases {
+        let object = actions(&line(potential, "1"), &[&format!("--energy={energy}")]);
+        let row = &object["rows"][0];
+        let kind = if expected.is_some() { "libration" } else { "unbounded" };
+        assert_eq!(row["kind"], kind, "{potential}: {object}");
+        if let Some([action, period]) = expected {
+            near(&row["action"], action, 1e-9 * action);
+            near(&row["period"], period, 1e-9 * period);
+        }
+    }
+}
+
 /// A well beside a place from which the potential falls without end: that fall is no scale of energies at the top.
 #[test]
 fn a_well_beside_a_fall_without_end() {
