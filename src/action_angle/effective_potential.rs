@@ -45,6 +45,8 @@ pub struct EffectivePotential<'a> {
     rest_elsewhere: Option<f64>,
     /// Between which places its tops are given.
     resolved: [f64; 2],
+    /// The walls around the start; infinite where there is none.
+    walls: [f64; 2],
     /// Where the coordinate begins.
     begin: f64,
     /// Where the coordinate begins, with its momentum of rest, if the energy is greatest there.
@@ -95,6 +97,7 @@ impl<'a> EffectivePotential<'a> {
             period,
             rest_elsewhere: None,
             resolved: [f64::NEG_INFINITY, f64::INFINITY],
+            walls: [f64::NEG_INFINITY, f64::INFINITY],
             begin: at,
             greatest: None,
         };
@@ -274,6 +277,7 @@ impl<'a> EffectivePotential<'a> {
         walls.extend(nodes.iter().filter(|node| node[1] == f64::INFINITY).map(|node| node[0]));
         let left = walls.iter().copied().filter(|&w| w < at).fold(f64::NEG_INFINITY, f64::max);
         let right = walls.iter().copied().filter(|&w| w > at).fold(f64::INFINITY, f64::min);
+        self.walls = [left, right];
         let inside = |place: f64| (left..=right).contains(&place);
         // nothing is beyond a wall
         self.resolved = [
@@ -315,9 +319,9 @@ impl<'a> EffectivePotential<'a> {
         if let (None, Some(&[first, ..]), Some(&[last, ..])) =
             (self.period, nodes.first(), nodes.last())
         {
-            let walls = [self.wall_beyond(first, level), self.wall_beyond(last, level)];
-            nodes.splice(0..0, walls[0]);
-            nodes.extend(walls[1]);
+            let ends = [self.end_beyond(first, level), self.end_beyond(last, level)];
+            nodes.splice(0..0, ends[0]);
+            nodes.extend(ends[1]);
         }
         let mut regions = Vec::new();
         let mut open: Option<Option<f64>> = None;
@@ -367,10 +371,11 @@ impl<'a> EffectivePotential<'a> {
     }
 
     /// A place beyond one of the outermost, in ever larger distances from the start, with more than an energy; `None` where the
-    /// energy at rest does not come to it, or is not resolved so far away.
-    fn wall_beyond(&mut self, outermost: f64, level: f64) -> Option<[f64; 2]> {
-        let is_resolved = self.resolved.iter().all(|end| end.is_infinite());
+    /// energy at rest does not come to it, where it is not resolved so far away, or where a wall is.
+    fn end_beyond(&mut self, outermost: f64, level: f64) -> Option<[f64; 2]> {
         let mut distance = outermost - self.begin;
+        let side = usize::from(distance > 0.0);
+        let is_resolved = self.resolved[side].is_infinite() && self.walls[side].is_infinite();
         let mut before = self.at(outermost);
         while is_resolved && before < level && distance.abs() < FARTHEST {
             distance *= FARTHER;
