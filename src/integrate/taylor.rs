@@ -217,7 +217,11 @@ impl Taylor {
             if self.leap(left.high, 0.0)? {
                 return Ok(());
             }
-            return Err(self.system.fault(MotionErrorKind::Rough, time.high, &self.state.values));
+            return Err(match self.evaluate_rates() {
+                // no kink, but a mass that vanishes there
+                Err(fault) if fault.kind == MotionErrorKind::SingularMass => fault,
+                _ => self.system.fault(MotionErrorKind::Rough, time.high, &self.state.values),
+            });
         }
         let longest = match self.kinks.undecided(&self.series) {
             Some(sides) => self.decide(&sides, left.high)?,

@@ -5,7 +5,7 @@
 
 use super::step_end::SOON_STALLED;
 use super::sticking::{self, Sticking};
-use super::{StepCourse, Taylor, start_slope};
+use super::{StepCourse, Taylor, kinks, start_slope};
 use crate::system::{MotionError, MotionErrorKind, Side};
 
 /// On a surface, a step this short relative to those before it is no better than none.
@@ -23,7 +23,7 @@ impl Taylor {
         choices: &[Vec<Side>],
         left: f64,
     ) -> Result<Option<f64>, MotionError> {
-        let mut rough = false;
+        let (mut rough, mut massless) = (false, false);
         let before = self.series.sides().to_vec();
         for sides in choices {
             self.set_sides(&before);
@@ -40,8 +40,9 @@ impl Taylor {
                 Err(fault) if fault.kind == MotionErrorKind::Sticks => {}
                 Err(fault) if fault.kind == MotionErrorKind::Cancelled => return Err(fault),
                 Err(_) if rough => {}
-                Err(_) => {
+                Err(fault) => {
                     rough = true;
+                    massless = fault.kind == MotionErrorKind::SingularMass;
                     if self.leap(left, 0.0)? {
                         return Ok(None);
                     }
@@ -52,7 +53,11 @@ impl Taylor {
             self.set_sides(&before);
             return self.decide(choices, left);
         }
-        let kind = if rough { MotionErrorKind::Rough } else { MotionErrorKind::NoSide };
+        let kind = match (rough, massless) {
+            (true, true) => MotionErrorKind::SingularMass,
+            (true, false) => MotionErrorKind::Rough,
+            _ => MotionErrorKind::NoSide,
+        };
         Err(self.system.fault(kind, self.state.time, &self.state.values))
     }
 
@@ -102,8 +107,9 @@ impl Taylor {
                 Err(fault) => return Err(fault),
                 Ok(longest) => {
                     step = longest;
-                    let (kinks, stride) = (&self.kinks, self.history.stride);
-                    let is_off = |i: usize| kinks.is_off(&self.series, i, longest, stride);
+                    let is_off = |i: usize| {
+                        kinks::is_off_surface(&self.series, i, longest, self.history.stride)
+                    };
                     opposite.iter().map(|&(i, _)| i).filter(|&i| !is_off(i)).collect()
                 }
             };

@@ -203,16 +203,6 @@ impl Kinks {
         beside.filter_map(opposite).collect()
     }
 
-    /// Whether the motion is off the surface of a switch, beyond the rounding of one that it is on; `step` and `stride` as in
-    /// [`leads_on`](Kinks::leads_on).
-    pub(super) fn is_off(&self, series: &Series, i: usize, step: f64, stride: f64) -> bool {
-        let reach = (step / series.scale().abs()).min(1.0).min(known_ahead(series, stride));
-        let switch = series.switch(i);
-        let powers = std::iter::successors(Some(reach), |x| Some(x * reach));
-        let terms = switch.iter().skip(1).zip(powers).map(|(c, x)| (c * x).abs());
-        switch[0].abs() > SIGNIFICANT * terms.fold(0.0, f64::max)
-    }
-
     /// The first surface that the series meets before `end`, in its unit of time; `stride` as in
     /// [`leads_on`](Kinks::leads_on).
     pub(super) fn first(&self, series: &Series, end: f64, stride: f64) -> Option<KinkCrossing> {
@@ -331,6 +321,16 @@ fn rate_of_crossing(switch: &[f64], x: f64) -> Option<f64> {
     let term = |(k, c): (usize, &f64)| (c * math::powi(x, k as i32)).abs();
     let largest = switch.iter().enumerate().map(term).fold(0.0, f64::max);
     ((slope * x).abs() > TRANSVERSAL * largest).then_some(slope)
+}
+
+/// Whether the motion is off the surface of a switch, beyond the rounding of one that it is on; `step` and `stride` as in
+/// [`leads_on`](Kinks::leads_on).
+pub(super) fn is_off_surface(series: &Series, i: usize, step: f64, stride: f64) -> bool {
+    let reach = (step / series.scale().abs()).min(1.0).min(known_ahead(series, stride));
+    let switch = series.switch(i);
+    let powers = std::iter::successors(Some(reach), |x| Some(x * reach));
+    let terms = switch.iter().skip(1).zip(powers).map(|(c, x)| (c * x).abs());
+    switch[0].abs() > SIGNIFICANT * terms.fold(0.0, f64::max)
 }
 
 /// How far ahead, in the unit of the series, a direction may be decided; unlimited where there was no step.

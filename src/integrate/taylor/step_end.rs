@@ -229,7 +229,7 @@ impl Taylor {
     }
 
     /// Evaluates the rates at the current state.
-    fn evaluate_rates(&mut self) -> Result<(), MotionError> {
+    pub(super) fn evaluate_rates(&mut self) -> Result<(), MotionError> {
         let state = &self.state;
         let numbers: Vec<DoubleDouble> = (0..state.values.len()).map(|i| state.exact(i)).collect();
         self.rates.evaluate(state.exact_time(), &numbers)
