@@ -142,8 +142,14 @@ impl Run<'_> {
         let (drift, line) =
             departure.map(|departure| (departure.drift, departure.line)).unwrap_or_default();
         let cut_short = matches!(end, Some(EarlyEnd::Fault(_) | EarlyEnd::Signal(_)));
+        // a small drift is the error of steps that are chosen by theirs
+        let by_error = snapshot.method.tolerance.is_some();
         let has_drifted = |gauge: &Gauge| {
-            let drifts = matches!(gauge.verdict, Verdict::Secular(_) | Verdict::Lost);
+            let drifts = match gauge.verdict {
+                Verdict::Secular(_) => !by_error,
+                Verdict::Lost => true,
+                _ => false,
+            };
             // what swings and comes back is the method's own error
             let has_left = gauge.left.is_some() && gauge.verdict != Verdict::Bounded;
             gauge.proved && (drifts || has_left)
