@@ -205,7 +205,10 @@ impl Taylor {
         (left, limit): (f64, f64),
     ) -> Result<(), MotionError> {
         let begin = self.state.time;
-        if end.landed || end.vanishing {
+        // on the surface itself a root may be beyond its branch by rounding
+        let is_there =
+            end.crossing.is_some() && end.after.high.abs() < TOUCHING * self.history.stride;
+        if end.landed || end.vanishing || is_there {
             self.series.state_after(end.after, &mut self.state);
             self.clear(end.after.high / self.series.scale());
         } else {
@@ -215,7 +218,7 @@ impl Taylor {
             }
         }
         let size = end.after.high.abs();
-        let turned = end.crossing.is_some() && !end.vanishing;
+        let turned = end.crossing.is_some() && !(end.vanishing || is_there);
         self.history.stepped(size, end.landed, turned);
         if end.last {
             self.state.time = limit;

@@ -293,6 +293,24 @@ fn a_step_shorter_than_the_last_digit_of_its_time_has_values_at_both_ends() {
     assert!(short > 3, "{short} steps are short");
 }
 
+/// Half-waves of a force to the power 3/2, which begin and end where a root is zero to rounding, 60 times. The velocity grows by the area
+/// under each, a beta function.
+#[test]
+fn a_power_of_half_waves_is_passed_at_every_zero() {
+    for rate in ["1.3", "1.7", "0.9", "2.1"] {
+        let mut run = Run::new(&format!(
+            "title = \"half-waves\"\n[coordinates]\nx = {{ initial = 0.3, velocity = 0.9 }}\n[lagrangian]\nL = \"1/2*x'^2\"\n\
+             forces = {{ x = \"max(0, sin({rate}*t))^1.5\" }}\n"
+        ));
+        let w: f64 = rate.parse().unwrap();
+        let waves = 60.0;
+        let state = run.to(waves * std::f64::consts::TAU / w);
+        // ∫₀^π sin^{3/2} = √π Γ(5/4)/Γ(7/4)
+        let area = std::f64::consts::PI.sqrt() * 0.906_402_477_055_477_1 / 0.919_062_526_848_883_2;
+        near(&state[1..2], &[0.9 + waves * area / w], 1e-12);
+    }
+}
+
 /// Close to a pole, whose power has no branch to land on: an ellipse of eccentricity 1 − v² closes after its period.
 #[test]
 fn close_to_a_pole() {
