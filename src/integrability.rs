@@ -12,6 +12,7 @@ mod echelon;
 mod evaluator;
 mod explicit_motion;
 mod formula;
+mod found_names;
 mod invariants;
 mod involution;
 mod known;
@@ -40,6 +41,7 @@ mod vanishing;
 mod varied_lagrangian;
 mod verdict;
 
+pub use found_names::found_names;
 pub use invariants::{Constant, Invariants, Limits, Proof, Searched};
 pub use involution::Commuting;
 pub use known::KnownConstant;

@@ -8,9 +8,10 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use crate::experiment::FoundConstant;
-use crate::expr::subscripts;
+use crate::expr::unicode_name;
 use crate::integrability::{
-    Invariants, Limits, Proof, Relations, invariants, is_hamiltonian, relations, separates, summary,
+    Invariants, Limits, Proof, Relations, found_names, invariants, is_hamiltonian, relations,
+    separates, summary,
 };
 use crate::job::Progress;
 use crate::mechanics::{Equations, derive};
@@ -47,6 +48,8 @@ pub struct Findings {
     pub hamiltonian: bool,
     /// The names of all constants as shown, known first.
     pub names: Vec<String>,
+    /// The names of those found, as in files.
+    found_names: Vec<String>,
 }
 
 /// The search of a lab.
@@ -107,7 +110,7 @@ pub(super) fn followed(findings: &Findings) -> Vec<FoundConstant> {
             };
             let between = if constant.between_impulses { ", between impulses" } else { "" };
             FoundConstant {
-                name: format!("I{}", i + 1),
+                name: findings.found_names[i].clone(),
                 shown: findings.names[known + i].clone(),
                 expression: pool.text(constant.expression),
                 reason: format!("found at degree {}, {proof}{between}", constant.degree),
@@ -163,10 +166,11 @@ pub(super) fn search(
     let summary = summary(&invariants, &relations);
     let known = invariants.known.iter().map(|k| match k.name.as_str() {
         "energy" => "E".to_owned(),
-        name => crate::expr::unicode_name(name).clone(),
+        name => unicode_name(name),
     });
-    let found = (1..=invariants.found.len()).map(|n| format!("I{}", subscripts(&n.to_string())));
-    let names = known.chain(found).collect();
+    let count = invariants.found.len();
+    let found_names = found_names(&model, &equations.pool, &invariants.known, count);
+    let names = known.chain(found_names.iter().map(|name| unicode_name(name))).collect();
     Ok(Arc::new(Findings {
         model,
         equations,
@@ -176,5 +180,6 @@ pub(super) fn search(
         separates,
         hamiltonian,
         names,
+        found_names,
     }))
 }

@@ -17,8 +17,10 @@ use super::open;
 use super::output::Output;
 use super::script::MathScript;
 use crate::experiment::Derived;
-use crate::expr::Expr;
-use crate::integrability::{Symmetries, Symmetry, Unsupported, point_symmetries, symmetries};
+use crate::expr::{Expr, latex_name};
+use crate::integrability::{
+    Symmetries, Symmetry, Unsupported, found_names, point_symmetries, symmetries,
+};
 use crate::mechanics::Equations;
 use crate::model::Model;
 
@@ -85,7 +87,7 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
             own + &others.text(&equations, script)
         }
         Format::Latex => match &found {
-            Ok(found) => latex(&equations, found) + &others.latex(&equations),
+            Ok(found) => latex(&model, &equations, found) + &others.latex(&equations),
             Err(_) => others.latex(&equations),
         },
         Format::Json => {
@@ -122,12 +124,12 @@ fn text(model: &Model, equations: &Equations, found: &Symmetries, script: MathSc
     text
 }
 
-fn latex(equations: &Equations, found: &Symmetries) -> String {
-    let lines: Vec<String> = found
-        .found
+fn latex(model: &Model, equations: &Equations, found: &Symmetries) -> String {
+    let names = found_names(model, &equations.pool, &[], found.found.len());
+    let lines: Vec<String> = names
         .iter()
-        .enumerate()
-        .map(|(i, s)| format!("I_{{{}}} &= {}", i + 1, equations.pool.latex(s.conserved)))
+        .zip(&found.found)
+        .map(|(name, s)| format!("{} &= {}", latex_name(name), equations.pool.latex(s.conserved)))
         .collect();
     format!("\\begin{{align*}}\n{}\n\\end{{align*}}\n", lines.join(" \\\\\n"))
 }

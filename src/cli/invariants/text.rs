@@ -2,15 +2,16 @@
 
 use super::InvariantsReport;
 use super::MathScript;
-use crate::expr::Expr;
-use crate::integrability::{Proof, Searched};
+use crate::expr::{Expr, latex_name};
+use crate::integrability::{Proof, Searched, found_names};
 
 impl InvariantsReport<'_> {
-    /// The names of all constants: those known, then I1, I2, … for those found.
+    /// The names of all constants: those known, then I1, I2, … for those found, or another letter.
     pub(super) fn names(&self) -> Vec<String> {
-        let known = self.invariants.known.iter().map(|k| k.name.clone());
-        let found = (1..=self.invariants.found.len()).map(|i| format!("I{i}"));
-        known.chain(found).collect()
+        let known = &self.invariants.known;
+        let count = self.invariants.found.len();
+        let found = found_names(self.model, &self.equations.pool, known, count);
+        known.iter().map(|k| k.name.clone()).chain(found).collect()
     }
 
     /// What was searched, word for word: the standard family of the highest degree and the one before it, of the
@@ -125,10 +126,11 @@ pub(super) fn latex(answer: &InvariantsReport<'_>) -> String {
     let known = answer.invariants.known.iter().map(|k| k.expression);
     let all: Vec<Expr> =
         known.chain(answer.invariants.found.iter().map(|c| c.expression)).collect();
-    let lines: Vec<String> = all
+    let names = found_names(answer.model, pool, &answer.invariants.known, all.len());
+    let lines: Vec<String> = names
         .iter()
-        .enumerate()
-        .map(|(i, &e)| format!("I_{{{}}} &= {}", i + 1, pool.latex(e)))
+        .zip(&all)
+        .map(|(name, &e)| format!("{} &= {}", latex_name(name), pool.latex(e)))
         .collect();
     format!("\\begin{{align*}}\n{}\n\\end{{align*}}\n", lines.join(" \\\\\n"))
 }

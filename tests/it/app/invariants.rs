@@ -80,6 +80,26 @@ fn a_followed_formula_that_is_no_constant_drifts() {
     assert!(found(&other)[0].max_drift > 1e-3, "{}", found(&other)[0].max_drift);
 }
 
+/// Beside the moments I₁ and I₃ of a top a constant I₁ would be taken for one of them.
+#[test]
+fn what_is_found_has_a_name_that_the_file_does_not_use() {
+    let mut real = Real::of("sleeping-top");
+    real.press("2 4");
+    let found = found(&real);
+    assert!(!found.is_empty());
+    let model = &real.lab().loaded.model;
+    let parameters: Vec<&str> = model.parameters.iter().map(|p| p.shown.as_str()).collect();
+    assert!(parameters.contains(&"I₁") && parameters.contains(&"I₃"), "{parameters:?}");
+    for gauge in &found {
+        assert!(!gauge.shown.starts_with('I'), "{} beside {parameters:?}", gauge.shown);
+        let findings = real.lab().findings().expect("a search").expect("it can be searched");
+        assert!(findings.names.contains(&gauge.shown), "{:?}", findings.names);
+    }
+    let mut kepler = Real::with(lowered(&self::kepler("k = 1.0", "")));
+    kepler.press("2");
+    assert_eq!(self::found(&kepler)[0].shown, "I₁");
+}
+
 #[test]
 fn where_nothing_else_is_the_line_says_so_and_how_far() {
     let text = "title = \"Hénon–Heiles\"\n[coordinates]\nx = { initial = 0.1, momentum = 0.1 }\n\
