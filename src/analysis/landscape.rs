@@ -6,6 +6,7 @@
 
 mod energy;
 mod level;
+mod orbit;
 mod saddle;
 
 use crate::num::math;
@@ -57,9 +58,9 @@ pub struct Plane<'a> {
 }
 
 impl Landscape {
-    /// Surveys the energy around a motion, given by its least and greatest coordinate and rate.
-    /// Returns `None` if the energy has no finite values there.
-    pub fn survey(plane: &Plane<'_>, motion: [[f64; 2]; 2]) -> Option<Self> {
+    /// Surveys the energy around a motion, given by its least and greatest coordinate and rate and by where it is. The
+    /// window contains all of the orbit if it is bounded. Returns `None` if the energy has no finite values there.
+    pub fn survey(plane: &Plane<'_>, motion: [[f64; 2]; 2], at: [f64; 2]) -> Option<Self> {
         if !motion.as_flattened().iter().all(|v| v.is_finite()) {
             return None;
         }
@@ -74,7 +75,9 @@ impl Landscape {
         let mut tops: Vec<f64> = saddles.iter().map(|s| s.energy).collect();
         tops.sort_by(f64::total_cmp);
         tops.dedup_by(|a, b| (*a - *b).abs() <= 1e-6 * (a.abs() + b.abs()));
-        let window = window(&mut energy, motion, period, [x, y], &tops);
+        let orbit = orbit::extent(&mut energy, into_period(at, period), [x, y], period.is_some());
+        let reached = orbit.map_or(motion, |orbit| [0, 1].map(|k| join(motion[k], orbit[k])));
+        let window = window(&mut energy, reached, period, [x, y], &tops);
         let values = energy.grid(&spread(window[0], GRID[0]), &spread(window[1], GRID[1]));
         let grid = Grid { x: (GRID[0], window[0]), y: (GRID[1], window[1]), values: &values };
         Some(Self {
@@ -84,6 +87,16 @@ impl Landscape {
             saddles: saddles.into_iter().map(|s| s.at).collect(),
         })
     }
+}
+
+/// A point of the phase plane with its coordinate in the period about zero.
+fn into_period([x, y]: [f64; 2], period: Option<f64>) -> [f64; 2] {
+    [period.map_or(x, |period| x - period * (x / period).round()), y]
+}
+
+/// The least range that contains two.
+fn join(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+    [a[0].min(b[0]), a[1].max(b[1])]
 }
 
 /// The region in which saddles are searched for: somewhat more than one period, or than the motion,
@@ -138,7 +151,6 @@ fn window(
         let farthest = if period.is_some() { 1e6 } else { 50.0 };
         let horizontal = if period.is_some() { x } else { wider(search[0], 1.6) };
         if let Some([wide, high]) = reach(energy, horizontal, search[1], top, farthest) {
-            let join = |a: [f64; 2], b: [f64; 2]| [a[0].min(b[0]), a[1].max(b[1])];
             x = if period.is_some() { x } else { join(x, wide) };
             y = join(y, high);
         }

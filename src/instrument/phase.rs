@@ -145,11 +145,12 @@ impl Instrument for Phase {
         let (system, parameters, time) =
             (Arc::clone(system), present.parameters.to_vec(), present.time);
         let period = system.period(channels[0], &parameters);
+        let at = channels.map(|channel| present.value(channel));
         Need::Job(Job::new("level curves of the energy", move |_| {
             let parameters = &parameters;
             let plane = Plane { system: &system, parameters, time, form, period };
             Answer::new(Survey {
-                landscape: Landscape::survey(&plane, motion).map(Arc::new),
+                landscape: Landscape::survey(&plane, motion, at).map(Arc::new),
                 parameters: parameters.clone(),
                 motion,
                 periodic: period.is_some(),

@@ -15,7 +15,7 @@ fn survey(name: &str, set: &[(&str, f64)], form: Form, motion: [[f64; 2]; 2]) ->
     let (system, parameters) = (&*loaded.system, &parameters[..]);
     let period = system.period(0, parameters);
     let plane = Plane { system, parameters, time: 0.0, form, period };
-    Landscape::survey(&plane, motion).unwrap()
+    Landscape::survey(&plane, motion, [motion[0][1], 0.0]).unwrap()
 }
 
 fn greatest(curves: &[Vec<[f64; 2]>], axis: usize) -> f64 {
@@ -71,6 +71,40 @@ fn an_oscillator_has_ellipses_and_no_separatrix() {
     assert!(closed.count() >= 4, "{} curves", found.levels.len());
 }
 
+/// A start is enough for a window that shows all of the orbit: the turning point x₀ and the greatest momentum √(m k) x₀.
+#[test]
+fn the_first_window_contains_a_bounded_orbit() {
+    for (m, k, start) in [(1.0, 4.0, 3.0), (2.0, 9.0, 1e-3), (0.5, 2.0, 40.0)] {
+        let set = [("m", m), ("k", k)];
+        let fastest = f64::sqrt(m * k) * start;
+        let here = [[start, start], [0.0, 0.0]];
+        let window = survey("harmonic-oscillator", &set, Form::Momentum, here).window;
+        for (axis, most) in [(0, start), (1, fastest)] {
+            let [from, to] = window[axis];
+            assert!(from <= -most && most <= to, "{axis}: {window:?} without {most}");
+            assert!(to - from < 3.0 * most, "{axis}: {window:?} around {most}");
+        }
+        // and it stays when the motion has been all along it
+        let whole = [[-start, start], [-fastest, fastest]];
+        let later = survey("harmonic-oscillator", &set, Form::Momentum, whole).window;
+        for (first, later) in window.as_flattened().iter().zip(later.as_flattened()) {
+            assert!((first / later - 1.0).abs() < 0.02, "{window:?}, then {later}");
+        }
+    }
+}
+
+/// A body that falls comes back to no height: the window is that of the motion, with the little that is added around any.
+#[test]
+fn an_unbounded_orbit_leaves_the_window_to_the_motion() {
+    let motion = [[-50.0, 19.0], [-30.0, 19.0]];
+    let window = survey("falling-body", &[], Form::Momentum, motion).window;
+    for axis in 0..2 {
+        let [[from, to], [low, high]] = [window[axis], motion[axis]];
+        assert!(from < low && to > high, "{window:?}");
+        assert!(to - from < 1.5 * (high - low), "{window:?}");
+    }
+}
+
 #[test]
 fn where_nothing_is_finite_there_is_no_landscape() {
     let loaded = loaded("pendulum", 1);
@@ -78,9 +112,9 @@ fn where_nothing_is_finite_there_is_no_landscape() {
     let system = &*loaded.system;
     let plane =
         Plane { system, parameters: &parameters, time: 0.0, form: Form::Momentum, period: None };
-    assert!(Landscape::survey(&plane, [[-1.0, 1.0], [-1.0, 1.0]]).is_none());
+    assert!(Landscape::survey(&plane, [[-1.0, 1.0], [-1.0, 1.0]], [1.0, 0.0]).is_none());
     let plane = Plane { parameters: &loaded.model.parameter_values(), ..plane };
-    assert!(Landscape::survey(&plane, [[f64::NAN, 1.0], [0.0, 1.0]]).is_none());
+    assert!(Landscape::survey(&plane, [[f64::NAN, 1.0], [0.0, 1.0]], [1.0, 0.0]).is_none());
 }
 
 /// A rate of which even a little more is no number has no region around it to be searched.
@@ -93,7 +127,7 @@ fn a_motion_at_the_end_of_the_numbers_has_an_end_to_its_search() {
         let period = Some(std::f64::consts::TAU);
         let plane = Plane { system, parameters: &parameters, time: 0.0, form, period };
         for far in [1e300, 1.5e308] {
-            let found = Landscape::survey(&plane, [[-1.0, 1.0], [-far, far]]);
+            let found = Landscape::survey(&plane, [[-1.0, 1.0], [-far, far]], [1.0, far]);
             assert!(found.is_none_or(|found| found.window[1][1] >= far), "{far}");
         }
     }
