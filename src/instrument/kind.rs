@@ -8,8 +8,8 @@ use std::fmt;
 use std::sync::Arc;
 
 use super::{
-    Across, Answer, Heading, Need, PeriodicOrbits, Physics, Picture, PlotTable, Present, Seed,
-    Sight,
+    Across, Answer, Entry, Heading, Need, PeriodicOrbits, Physics, Picture, PlotTable, Present,
+    Seed, Sight,
 };
 use crate::model::{Variation, View};
 use crate::system::InitialOverride;
@@ -141,6 +141,11 @@ pub trait Instrument: Sync {
 
     /// The line above the picture.
     fn heading(&self, plot: &Plot, present: &Present<'_>) -> Option<Heading>;
+
+    /// What is counted in its picture as it is drawn; it stands first in the line above it.
+    fn counted(&self, _context: PlotContext<'_>) -> Option<Entry> {
+        None
+    }
 
     /// The horizontal range.
     fn across(&self, context: PlotContext<'_>) -> Across;

@@ -84,22 +84,17 @@ impl Instrument for SectionPlot {
     fn heading(&self, plot: &Plot, present: &Present<'_>) -> Option<Heading> {
         let view = view(plot, present.physics)?;
         let section = view.section?;
-        let count = present.crossings.counts().get(section).copied().unwrap_or(0);
         let own = own_rotation(plot, present, section);
         let rotation = own.map(|own| format!("rotation {}", to_its_error(own.number, own.error)));
         let (words, zero) = (surface(present.physics, view), zero(present.physics, view));
         // the title may say it
         let titled = plot.title(present.physics).is_some_and(|title| title.contains(&zero));
         let on = if titled { words.split(", ").nth(1) } else { Some(words.as_str()) };
-        let counted = match count {
-            1 => "1 crossing".to_owned(),
-            _ => format!("{count} crossings"),
-        };
         let is_portrait = present.physics.equations.energy_rate == Expr::ZERO && !by_chaos(plot);
         let coloured = is_portrait.then(|| "each colour one orbit".to_owned());
         let on = on.map(str::to_owned);
         // where there is little room the first are shown
-        let entries = [counted].into_iter().chain(rotation).chain(on).chain(coloured);
+        let entries = rotation.into_iter().chain(on).chain(coloured);
         let mut entries: Vec<Entry> = entries.map(Entry::Words).collect();
         if by_chaos(plot) {
             let keys = [(Some(true), "regular"), (Some(false), "chaotic"), (None, "undecided")];
@@ -108,6 +103,16 @@ impl Instrument for SectionPlot {
             entries.splice(0..0, keys.map(key));
         }
         Some(plot.heading(present.physics, "Section", entries))
+    }
+
+    /// The points of the running motion and those of the orbits beside it.
+    fn counted(&self, PlotContext { plot, present, answer }: PlotContext<'_>) -> Option<Entry> {
+        let view = view(plot, present.physics)?;
+        let own = present.crossings.counts().get(view.section?).copied().unwrap_or(0);
+        let count = own as usize + portrait(answer).map_or(0, crossings);
+        let word = crossing(present.physics, view);
+        let plural = if count == 1 { "" } else { "s" };
+        Some(Entry::Words(format!("{count} {word}{plural}")))
     }
 
     fn across(&self, context: PlotContext<'_>) -> Across {
@@ -269,10 +274,7 @@ impl Instrument for SectionPlot {
             Measure {
                 word: "crossings",
                 about: "how many crossings of other orbits are drawn",
-                value: |context| {
-                    let orbits = &portrait(context.answer)?.orbits;
-                    Some(orbits.iter().map(|orbit| orbit.points.len()).sum::<usize>() as f64)
-                },
+                value: |context| portrait(context.answer).map(|drawn| crossings(drawn) as f64),
             },
             Measure {
                 word: "rotating",
@@ -328,6 +330,34 @@ fn portrait(answer: Option<&Answer>) -> Option<&Portrait> {
 /// The view of the file that has the surface.
 fn view<'a>(plot: &Plot, physics: Physics<'a>) -> Option<&'a View> {
     physics.model.views.get(plot.view?).filter(|view| view.section.is_some())
+}
+
+/// How many crossings the orbits of a portrait have.
+fn crossings(portrait: &Portrait) -> usize {
+    portrait.orbits.iter().map(|orbit| orbit.points.len()).sum()
+}
+
+/// What a crossing is: of a surface, or of an instant, once in a period of the time; if only one impulse is repeated, the time
+/// from each to the next is its period.
+fn crossing<'a>(physics: Physics<'a>, view: &View) -> &'a str {
+    let model = physics.model;
+    let surface = view.section.and_then(|index| model.sections.get(index));
+    let of_state = model
+        .coordinates
+        .iter()
+        .flat_map(|c| [c.position, c.velocity, c.acceleration, c.momentum])
+        .collect::<Vec<_>>();
+    let is_instant = |on: Expr| {
+        model.pool.depends(on, model.symbols.time) && !model.pool.depends_on_any(on, &of_state)
+    };
+    if !surface.is_some_and(|surface| is_instant(surface.when)) {
+        return "crossing";
+    }
+    let mut repeated = model.impulses.iter().filter(|impulse| impulse.period.is_some());
+    match (repeated.next(), repeated.next()) {
+        (Some(impulse), None) => &impulse.name,
+        _ => "period",
+    }
 }
 
 /// The surface in words: `x = 0, rising`.
