@@ -189,11 +189,13 @@ fn plot(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, (index, sharing): (usize
             let named = picture_title::title(canvas, &q, plot, left + label.width());
             let is_named = named.first().is_some_and(|(text, _)| text.trim() == label);
             let own = if is_named { named } else { picture_title::title(canvas, &q, plot, left) };
-            let rest = own.into_iter().filter(|(text, _)| text.trim() != label);
+            let rest: Vec<Span> =
+                own.into_iter().filter(|(text, _)| text.trim() != label).collect();
             let gap = canvas.span(Role::Dim, "  ");
+            let is_alone = rest.is_empty();
             let whole: Vec<Span> = tabs.iter().cloned().chain([gap]).chain(rest).collect();
             // Values are shown beside tabs where all of them fit.
-            if wide(&whole) <= room { whole } else { tabs }
+            if wide(&whole) <= room && !is_alone { whole } else { tabs }
         }
         None => picture_title::title(canvas, &q, plot, room),
     };

@@ -19,11 +19,16 @@ pub(super) fn title(
     plot: &Plot,
     room: usize,
 ) -> Vec<Span> {
-    let Some(heading) = plot.kind.heading(plot, &q.present()) else { return Vec::new() };
+    let present = q.present();
+    let Some(mut heading) = plot.kind.heading(plot, &present) else { return Vec::new() };
+    if let Some(counted) = plot.kind.counted(q.lab.context(plot, &present)) {
+        heading.entries.insert(0, counted);
+    }
     let mut pieces = vec![vec![canvas.span(Role::Title, &heading.title)]];
     let curves = curves(&heading);
     if curves.is_empty() {
-        pieces.extend(heading.entries.iter().map(|entry| piece(canvas, q, entry)));
+        let entries = with_all_keys(canvas, q, &heading, room);
+        pieces.extend(entries.map(|entry| piece(canvas, q, entry)));
     } else {
         pieces = keys(canvas, q, &heading, &curves, room);
     }
@@ -57,7 +62,7 @@ fn piece(canvas: &Canvas<'_>, q: &Quantities<'_>, entry: &Entry) -> Vec<Span> {
             let glyphs = canvas.style.glyphs;
             let (mark, style) = match (colourless_mark(canvas, *ink), ink) {
                 (Some(shape), _) => (marker(shape).symbol(glyphs), canvas.style(Role::Text)),
-                (None, Ink::Level) if is_colourless(canvas) => {
+                (None, Ink::Level) if is_colourless(canvas.look) => {
                     (glyphs.pick('·', '.'), canvas.style(Role::Text))
                 }
                 _ => (glyphs.pick('●', 'o'), pen(canvas, *ink, 0).style),
@@ -78,7 +83,29 @@ fn curves(heading: &Heading) -> Vec<(usize, usize)> {
     heading.entries.iter().filter_map(curve).collect()
 }
 
-/// Each curve in its colour with its current value; without values if they do not all fit.
+/// Whether an entry is the key of a curve or of a kind of points.
+fn is_key(entry: &Entry) -> bool {
+    matches!(entry, Entry::Curve(..) | Entry::Key(..))
+}
+
+/// The entries of a heading: with its keys if all of them fit, else without, as then all are above the axes.
+fn with_all_keys<'a>(
+    canvas: &Canvas<'_>,
+    q: &Quantities<'_>,
+    heading: &'a Heading,
+    room: usize,
+) -> impl Iterator<Item = &'a Entry> {
+    let until_last = heading.entries.iter().rposition(is_key).map_or(0, |last| last + 1);
+    let pieces = heading.entries[..until_last].iter().flat_map(|entry| piece(canvas, q, entry));
+    let all: Vec<Span> =
+        [canvas.span(Role::Title, &heading.title)].into_iter().chain(pieces).collect();
+    let several = heading.entries.iter().filter(|entry| is_key(entry)).count() > 1;
+    let beyond = several && wide(&all) > room;
+    heading.entries.iter().filter(move |entry| !beyond || !is_key(entry))
+}
+
+/// Each curve in its colour with its current value; without values if they do not all fit; none if there are several whose
+/// names do not all fit, as then all are above the axes.
 fn keys(
     canvas: &Canvas<'_>,
     q: &Quantities<'_>,
@@ -98,10 +125,12 @@ fn keys(
         let others = heading.entries.iter().filter(|entry| !matches!(entry, Entry::Curve(..)));
         let others = others.map(|entry| piece(canvas, q, entry)).collect();
         [vec![head], valued, others].concat()
-    } else if heading.given || wide(&[head.clone(), named.concat()].concat()) <= room {
+    } else if wide(&[head.clone(), named.concat()].concat()) <= room {
         [vec![head], named].concat()
+    } else if curves.len() > 1 || heading.given {
+        vec![head]
     } else {
-        // The names of the curves have priority over the name of the picture.
+        // The name of the curve has priority over the name of the picture.
         if let Some((first, _)) = named.first_mut().and_then(|key| key.first_mut()) {
             *first = first.trim_start().to_owned();
         }
@@ -156,9 +185,8 @@ pub(super) fn keys_beyond(
     title: &[Span],
 ) -> Vec<Span> {
     let Some(heading) = plot.kind.heading(plot, &q.present()) else { return Vec::new() };
-    let is_key = |entry: &&Entry| matches!(entry, Entry::Curve(..) | Entry::Key(..));
-    let keys: Vec<Vec<Span>> =
-        heading.entries.iter().filter(is_key).map(|entry| piece(canvas, q, entry)).collect();
+    let keys = heading.entries.iter().filter(|entry| is_key(entry));
+    let keys: Vec<Vec<Span>> = keys.map(|entry| piece(canvas, q, entry)).collect();
     let in_title = |key: &Vec<Span>| title.windows(2).any(|pair| pair[1] == key[1]);
     if keys.len() < 2 {
         return Vec::new();
