@@ -102,6 +102,7 @@ pub(super) fn status(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
         Status::Failed(_) => (glyphs.pick("■", "#"), "stopped", Role::Bad),
     };
     let rate = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), short);
+    let (method, step) = method(snapshot, canvas);
     // The pieces are in order of importance; those that do not fit are dropped from the end.
     let mut pieces: Vec<Vec<Span>> =
         vec![
@@ -117,7 +118,7 @@ pub(super) fn status(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
                 canvas.span(Role::Dim, "speed "),
                 canvas.span(Role::Text, format!("{:<5}", speed(snapshot, glyphs))),
             ],
-            vec![canvas.span(Role::Text, method(snapshot, canvas))],
+            vec![canvas.span(Role::Text, &method)],
         ];
     if let Some((role, text)) = departed(snapshot, glyphs) {
         pieces.insert(1, vec![canvas.span(role, text)]);
@@ -126,12 +127,17 @@ pub(super) fn status(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
         let mark = canvas.span(Role::Bad, format!("{} rec", glyphs.pick("●", "o")));
         pieces.insert(1, vec![mark]);
     }
+    pieces.push(if outlasts(snapshot) {
+        vec![canvas.span(Role::Dim, "longer than the motion so far")]
+    } else {
+        vec![
+            // A shorter step leaves its room to the rate, so that nothing jumps.
+            canvas.span(Role::Text, format!("{:>1$}", rate(app.meter.steps), STEP + 3 - step)),
+            canvas.span(Role::Dim, " steps/s"),
+        ]
+    });
     pieces.push(vec![
-        canvas.span(Role::Text, format!("{:>5}", rate(app.meter.steps))),
-        canvas.span(Role::Dim, " steps/s"),
-    ]);
-    pieces.push(vec![
-        canvas.span(Role::Text, format!("{:>3}", rate(app.meter.frames))),
+        canvas.span(Role::Text, format!("{:>2}", rate(app.meter.frames))),
         canvas.span(
             Role::Dim,
             if area.width < 100 { " fps".to_owned() } else { format!("/{} fps", app.meter.asked) },
@@ -152,6 +158,14 @@ pub(super) fn status(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
     if let Some(lab) = timed {
         timeline::draw(canvas, columns(area, used, area.width.saturating_sub(used)), lab, snapshot);
     }
+}
+
+/// Whether a step is longer than the motion so far and than what is shown of it in a second: a rate of steps would be close to
+/// zero, though the motion is under way.
+fn outlasts(snapshot: &Snapshot) -> bool {
+    let shown = (snapshot.recorded.to - snapshot.recorded.from).abs();
+    let step = snapshot.method.step.abs();
+    snapshot.status == Status::Running && step > shown && step > snapshot.speed
 }
 
 fn speed(snapshot: &Snapshot, glyphs: Glyphs) -> String {
@@ -196,16 +210,20 @@ fn short(value: f64) -> String {
     }
 }
 
-/// The method with its step and tolerance, in a constant width.
-fn method(snapshot: &Snapshot, canvas: &Canvas<'_>) -> String {
+/// The greatest width of a step.
+const STEP: usize = 7;
+
+/// The method with its step and tolerance, and the width of the step.
+fn method(snapshot: &Snapshot, canvas: &Canvas<'_>) -> (String, usize) {
     let glyphs = canvas.style.glyphs;
     // Before the first step there is no length of one.
     let step = match snapshot.method.step {
         0.0 => glyphs.pick("–", "-").to_owned(),
-        step => fitted(rounded(step, 2), 2, 7, glyphs),
+        step => fitted(rounded(step, 2), 2, STEP, glyphs),
     };
     let tolerance = snapshot.method.tolerance.map_or_else(String::new, |tolerance| {
         format!(" {} {}", glyphs.pick("ε", "tol"), brief(tolerance, 2, glyphs))
     });
-    format!("{}{tolerance} h {step:<7}", snapshot.method.name)
+    let width = step.width().min(STEP);
+    (format!("{}{tolerance} step {step}", snapshot.method.name), width)
 }

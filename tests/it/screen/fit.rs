@@ -248,7 +248,7 @@ fn a_step_has_two_digits_whatever_its_size() {
         let mut real = Real::of(name);
         real.run(120);
         let rows = rows(&screen(&real.app, &rich(), (120, 40)));
-        let (_, step) = rows[38].split_once(" h ").expect("a step");
+        let (_, step) = rows[38].split_once(" step ").expect("a step");
         let step = step.split_whitespace().next().unwrap();
         let digits = step.split('×').next().unwrap().replace('.', "");
         assert!(digits.trim_matches('0').len() <= 2, "{name}: {step}");
@@ -264,7 +264,7 @@ fn no_step_is_not_a_step_of_zero() {
     let mut app = opened("pendulum");
     app.update(Event::Snapshot(Arc::new(seen)));
     let rows = rows(&screen(&app, &rich(), (120, 40)));
-    assert!(rows[38].contains(" h – "), "{}", rows[38]);
+    assert!(rows[38].contains(" step – "), "{}", rows[38]);
 }
 
 /// One quantity has one name on the axes and in the list of gauges.
