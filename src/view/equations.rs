@@ -49,6 +49,7 @@ pub(super) fn law(lab: &Lab, style: &RenderStyle) -> TextPage {
         writer.lines(&[report.law]);
         writer.ramps();
         writer.page.gap();
+        writer.released(lab);
         writer.solved();
     } else {
         writer.is_being_derived();
@@ -242,6 +243,22 @@ impl EquationRows<'_> {
                 self.put(&self.left(LeftSide::Rate(coordinate.momentum)), *rate, "");
             }
         }
+    }
+
+    /// Says of which constraints the motion has left the equations are.
+    fn released(&mut self, lab: &Lab) {
+        let constraints = &lab.loaded.model.constraints;
+        let released = lab.seen().map_or(&[][..], |snapshot| &snapshot.released);
+        let names: Vec<&str> =
+            released.iter().filter_map(|&k| Some(&*constraints.get(k)?.name)).collect();
+        let (constraint, hold) = match names.as_slice() {
+            [] => return,
+            [_] => ("constraint", "holds"),
+            _ => ("constraints", "hold"),
+        };
+        let names = names.join(", ");
+        let words = format!("While the {constraint} {names} {hold}, which the motion has left:");
+        self.page.words(Role::Warn, words);
     }
 
     /// Adds the equations solved for q̈, or for q̇ and ṗ.
