@@ -119,15 +119,26 @@ pub(super) fn words(
     let momenta = list(atoms.momenta.iter().map(|&p| print(p)).collect());
     let mut degrees: Vec<(u32, u32)> = ansatz.bounds.clone();
     degrees.sort_unstable_by(|a, b| b.cmp(a));
-    let list_of = |all: Vec<u32>| all.iter().map(u32::to_string).collect::<Vec<_>>().join(", ");
-    let in_momenta = list_of(degrees.iter().map(|(k, _)| *k).collect());
+    let in_momenta = enumerated(degrees.iter().map(|(k, _)| *k));
     if others.is_empty() {
-        return format!("polynomials in {momenta} of degree {in_momenta}");
+        return format!("polynomials in {momenta} with terms of degree {in_momenta}");
     }
-    let in_others = list_of(degrees.iter().map(|(_, n)| *n).collect());
-    let turn = if degrees.len() > 1 { " in turn" } else { "" };
+    let in_others = enumerated(degrees.iter().map(|(_, n)| *n));
+    let each = if degrees.len() > 1 { ", respectively" } else { "" };
     format!(
-        "polynomials in {momenta} of degree {in_momenta} whose coefficients are polynomials in {others} \
-         of degree up to {in_others}{turn}"
+        "polynomials in {momenta} with terms of degree {in_momenta}, whose coefficients are polynomials of \
+         degree up to {in_others} in {others}{each}"
     )
+}
+
+/// Numbers as in a sentence: `3, 2 and 1`.
+fn enumerated(numbers: impl Iterator<Item = u32>) -> String {
+    let all: Vec<String> = numbers.map(|number| number.to_string()).collect();
+    match all.as_slice() {
+        [first @ .., before, last] => {
+            let first: String = first.iter().map(|number| format!("{number}, ")).collect();
+            format!("{first}{before} and {last}")
+        }
+        _ => all.concat(),
+    }
 }

@@ -31,7 +31,10 @@ pub(super) fn verdict(lab: &Lab, page: &mut TextPage) {
         }
         Some(Err(why)) => page.words(Role::Dim, format!("Integrable or not: not known; {why}.")),
         None if lab.searches.constants.was_stopped() => {
-            page.words(Role::Dim, "Integrable or not: the search was stopped; I begins it again.");
+            page.words(
+                Role::Dim,
+                "Integrable or not: the search was stopped; press I to begin it again.",
+            );
         }
         None => page.words(Role::Dim, "Integrable or not: the search has not ended yet."),
     }
@@ -75,7 +78,10 @@ pub(super) fn found(lab: &Lab, style: &RenderStyle, page: &mut TextPage) {
             &remark,
         );
     }
-    page.words(Role::Dim, capital(&findings.relations.verdict));
+    // where the line at the top says no more than the verdict, it has been said
+    if findings.summary != findings.relations.verdict {
+        page.words(Role::Dim, capital(&findings.relations.verdict));
+    }
     let relations = &findings.relations;
     if !relations.completing.is_empty() {
         let names = relations.commuting_names(&findings.names).join(", ");
@@ -91,7 +97,7 @@ pub(super) fn found(lab: &Lab, style: &RenderStyle, page: &mut TextPage) {
     if invariants.is_exhausted() {
         page.words(Role::Dim, "No other constant can be independent of these.");
     } else if let Some(why) = &invariants.ended {
-        page.words(Role::Dim, format!("The search ended: {why}. I searches further."));
+        page.words(Role::Dim, format!("The search ended: {why}. Press I to search further."));
     }
     match findings.separates {
         Some(true) => {
@@ -111,7 +117,7 @@ pub(super) fn found(lab: &Lab, style: &RenderStyle, page: &mut TextPage) {
         let hint = if brackets { "B shows the brackets of the constants; " } else { "" };
         page.words(
             Role::Dim,
-            format!("{hint}J carries the state along the flow of one, or of a symmetry."),
+            format!("{hint}J carries the state along the flow of one of them, or of a symmetry."),
         );
     }
     if lab.searches.constants.brackets {

@@ -291,7 +291,12 @@ impl EquationRows<'_> {
             }
             self.page.heading("Energy");
         }
-        self.put("h", report.energy.right, "");
+        let rate = if self.is_law(report.energy.right) {
+            "dH/dt"
+        } else {
+            self.put("h", report.energy.right, "");
+            "dh/dt"
+        };
         let known = report.conserved.iter().any(|kept| kept.constant == ConservedKind::Energy);
         let rests = known && report.energy_rate == Expr::ZERO;
         let remark = match (rests, report.impulses.is_empty()) {
@@ -299,7 +304,12 @@ impl EquationRows<'_> {
             (true, false) => "conserved between impulses",
             _ => "",
         };
-        self.put("dh/dt", report.energy_rate, remark);
+        self.put(rate, report.energy_rate, remark);
+    }
+
+    /// Whether an expression is the Hamiltonian that the file gives, which has been written.
+    fn is_law(&self, e: Expr) -> bool {
+        !self.report.model.is_lagrangian() && e == self.report.law.right
     }
 
     fn conserved(&mut self) {
@@ -314,7 +324,16 @@ impl EquationRows<'_> {
                 ConservedKind::Energy => self.style.glyphs.pick("E", "energy").to_owned(),
                 ConservedKind::Casimir(name) | ConservedKind::Other(name) => name.to_owned(),
             };
-            self.put(&shown, kept.expression, &kept.reason.to_string());
+            let reason = kept.reason.to_string();
+            match kept.constant {
+                ConservedKind::Energy if self.is_law(kept.expression) => {
+                    self.page.formula(&shown, "H".to_owned(), &reason);
+                }
+                ConservedKind::Energy if kept.expression == report.energy.right => {
+                    self.page.formula(&shown, "h".to_owned(), &reason);
+                }
+                _ => self.put(&shown, kept.expression, &reason),
+            }
         }
     }
 

@@ -451,6 +451,26 @@ fn the_equations_are_written_in_mathematics() {
     }
 }
 
+/// The energy is written once: where it is H, or h, it is called so from then on. And what the first line has said of a law that
+/// contains the time is not said again.
+#[test]
+fn the_page_of_equations_writes_an_energy_once() {
+    let page = |name: &str| {
+        let mut app = lab(name, 1.0);
+        press(&mut app, "2");
+        rows(&screen(&app, &rich(), (160, 90))).join("\n")
+    };
+    let oscillator = page("harmonic-oscillator");
+    assert_eq!(oscillator.matches("p_x²/(2 m) + ½ k x²").count(), 1, "{oscillator}");
+    assert!(oscillator.contains("E = H ") && oscillator.contains("dH/dt = 0"), "{oscillator}");
+    let planet = page("planet");
+    assert_eq!(planet.matches("½ m (r′² + r² θ′²) − k/r").count(), 1, "{planet}");
+    assert!(planet.contains("E = h "), "{planet}");
+    let shaken = page("kapitza");
+    assert_eq!(shaken.matches("a law that contains the time").count(), 1, "{shaken}");
+    assert!(shaken.contains("Press I to search further."), "{shaken}");
+}
+
 #[test]
 fn what_happened_is_marked_where_it_was_and_named() {
     let mut seen = snapshot(&pendulum(), 2.0);
