@@ -53,6 +53,7 @@ mod trail;
 
 pub use crate::analysis::{Growth, Verdict};
 pub use advance::AdvanceOutcome;
+pub use attitude::ATTITUDE_GAUGE;
 pub use checkpoint::{Changed, Checkpoint, ChosenStep, MotionState};
 pub use command::Command;
 pub use companion::{Companion, CompanionOrigin};

@@ -16,10 +16,10 @@ pub(super) struct AttitudeGauge {
     deviation: Deviation,
 }
 
-impl AttitudeGauge {
-    /// The gauge's name.
-    pub(super) const NAME: &'static str = "attitude";
+/// The name of the gauge of an attitude.
+pub const ATTITUDE_GAUGE: &str = "attitude";
 
+impl AttitudeGauge {
     /// Returns the gauge, or `None` if the system has no attitude.
     pub(super) fn of(system: &System) -> Option<AttitudeGauge> {
         let mut kinds = system.channels().iter().map(|c| c.kind);
@@ -60,7 +60,7 @@ impl AttitudeGauge {
         let [x, y, z] = axis.map(|x| if x.abs() < 5e-4 { 0.0 } else { x });
         let reason =
             format!("A Aᵀ = 1, det A = 1; turned by Φ = {angle:.3} about ({x:.3}, {y:.3}, {z:.3})");
-        self.deviation.gauge(Self::NAME, Self::NAME, reason, missing(&a))
+        self.deviation.gauge(ATTITUDE_GAUGE, ATTITUDE_GAUGE, reason, missing(&a))
     }
 }
 

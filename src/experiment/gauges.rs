@@ -13,7 +13,7 @@ mod mean;
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use super::attitude::AttitudeGauge;
+use super::attitude::{ATTITUDE_GAUGE, AttitudeGauge};
 use super::law::{EnergyLaw, LONGEST};
 use super::residual::ResidualGauge;
 use super::{FoundConstant, Gauge, Reference};
@@ -122,7 +122,7 @@ impl Gauges {
             }
         }
         if let Some(attitude) = &mut self.attitude
-            && let Some(reference) = known(AttitudeGauge::NAME, attitude.now(now.values))
+            && let Some(reference) = known(ATTITUDE_GAUGE, attitude.now(now.values))
         {
             attitude.restore(reference);
         }

@@ -18,7 +18,7 @@ use super::values::window;
 use super::wrap::{shortened, shortened_within, words};
 use crate::analysis::{Growth, Unseen, Verdict};
 use crate::app::{HitTarget, Lab};
-use crate::experiment::{Gauge, Snapshot};
+use crate::experiment::{ATTITUDE_GAUGE, Gauge, Snapshot};
 use single_row::SingleRow;
 
 /// The widths, in columns, of a verdict in a word and in full, of a drift and of a value.
@@ -55,9 +55,11 @@ fn single_row(canvas: &Canvas<'_>, width: u16, gauges: &[Gauge]) -> SingleRow {
     SingleRow::of(width, longest, gauges.iter().map(verdict).max().unwrap_or(0))
 }
 
-/// Whether a gauge shows the residual of a constraint: a value that is its own distance from zero.
+/// Whether a gauge shows the residual of a constraint, or of A Aᵀ = 1 of an attitude: a value that is its own distance from zero.
 pub(super) fn is_residual(lab: &Lab, gauge: &Gauge) -> bool {
-    lab.loaded.model.constraints.iter().any(|constraint| constraint.name == gauge.name)
+    let model = &lab.loaded.model;
+    model.constraints.iter().any(|constraint| constraint.name == gauge.name)
+        || model.attitude.is_some() && gauge.name == ATTITUDE_GAUGE
 }
 
 /// Draws the gauges of a lab around the selected one: two rows for each if there is room, else one.

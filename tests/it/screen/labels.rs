@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use phaselab::app::{App, Event, Notification};
+use phaselab::app::{App, Event, Notification, Pane};
 use phaselab::experiment::{Gauge, Growth, Verdict};
 use phaselab::model::{Model, Shape};
 use phaselab::view::RenderStyle;
@@ -409,6 +409,24 @@ fn the_gauge_of_an_attitude_has_one_name() {
     let gauge = gauges.iter().find(|gauge| gauge.name == "attitude").expect("an attitude");
     assert_eq!(gauge.shown, "attitude");
     assert!(gauge.reason.starts_with("A Aᵀ = 1, det A = 1"), "{}", gauge.reason);
+}
+
+/// An attitude is not conserved: what is exact is that A stays a rotation. Its axis has the minus signs of all numbers.
+#[test]
+fn the_gauge_of_an_attitude_is_a_residual() {
+    let mut real = Real::of("sleeping-top");
+    real.run(120);
+    let text = rows(&screen(&real.app, &rich(), (120, 40)));
+    let row = text.iter().find(|row| row.contains("  attitude ")).expect("the gauge");
+    assert!(row.contains("residual") && !row.contains("conserved"), "{row}");
+    let place = real.seen().gauges.iter().position(|gauge| gauge.name == "attitude").unwrap();
+    assert!(real.seen().gauges[place].reason.contains("-0."), "a component is negative");
+    let lab = real.app.lab.as_mut().unwrap();
+    (lab.focus.pane, lab.selection.gauge) = (Pane::Gauges, place);
+    for size in [(120, 40), (160, 30)] {
+        let text = rows(&screen(&real.app, &rich(), size)).join("\n");
+        assert!(text.contains("turned by Φ = ") && !text.contains("-0."), "{text}");
+    }
 }
 
 /// A diagram at a fixed time names the time, and a logarithm over ln 2 is one to that base.
