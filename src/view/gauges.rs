@@ -86,10 +86,9 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, selected: Opt
     let (_, area) = split_rows(area, u16::from(headed));
     let shown = usize::from(area.height) / height;
     // One verdict is given in the same words throughout.
-    let all_in_full =
-        gauges.iter().filter(|gauge| matches!(gauge.verdict, Verdict::Broken(_))).all(|gauge| {
-            fits_in_full(canvas, area.width.saturating_sub(3), gauge) && !is_residual(lab, gauge)
-        });
+    let in_full = gauges.iter().all(|gauge| {
+        fits_in_full(canvas, area.width.saturating_sub(3), gauge) && !is_residual(lab, gauge)
+    });
     let first = window(selected.unwrap_or(0), gauges.len(), shown);
     for (place, gauge) in gauges.iter().skip(first).take(shown).enumerate() {
         let here = selected == Some(first + place);
@@ -105,7 +104,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, selected: Opt
             (single.drift, single.residual) = (single.drift.filter(|_| !residual), residual);
             in_one_row(canvas, at, single, (gauge, gauges), here);
         } else {
-            name_and_reason(canvas, at, (gauge, gauges, residual), (here, all_in_full));
+            name_and_reason(canvas, at, (gauge, gauges, residual), (here, in_full));
             let below = row(columns(area, 2, at.width), place * 2 + 1);
             numbers_and_history(canvas, below, (gauge, residual));
         }
@@ -234,17 +233,15 @@ fn fits_in_full(canvas: &Canvas<'_>, width: u16, gauge: &Gauge) -> bool {
     width >= HEADED - 3 && name + 1 + usize::from(IN_FULL + sign) <= width.into()
 }
 
-/// Draws the name, the reason for its conservation and, at the right, the verdict: in a word where the name leaves no room
-/// for more. A residual is called so; it is satisfied rather than conserved, so its verdict is a word.
+/// Draws the name, the reason for its conservation and, at the right, the verdict, in full or in a word. A residual is called
+/// so; it is satisfied rather than conserved, so its verdict is a word.
 fn name_and_reason(
     canvas: &mut Canvas<'_>,
     area: Rect,
     (gauge, all, residual): (&Gauge, &[Gauge], bool),
-    (here, all_in_full): (bool, bool),
+    (here, full): (bool, bool),
 ) {
     let changed = given_by_impulses(gauge).is_some();
-    let varies = matches!(gauge.verdict, Verdict::Broken(_));
-    let full = fits_in_full(canvas, area.width, gauge) && !residual && (all_in_full || !varies);
     let words = match (full, &gauge.verdict) {
         (false, verdict) => word(verdict),
         (true, Verdict::Exact(_)) if changed => (BETWEEN, word(&gauge.verdict).1),

@@ -99,7 +99,7 @@ fn a_residual_is_called_a_residual() {
     assert!(text[at].contains("residual") && text[at].contains(" exact "), "{text:#?}");
     assert!(!text[at].contains("conserved"), "{text:#?}");
     assert_eq!(text[at + 1].matches("10⁻¹⁶").count(), 1, "{text:#?}");
-    assert_eq!(text.join("\n").matches("conserved (exact)").count(), 1, "that is the energy");
+    assert!(!text.join("\n").contains("conserved (exact)"), "one word for one verdict: {text:#?}");
     press(&mut app, "4");
     let text = rows(&screen(&app, &rich(), (120, 100)));
     let row = text.iter().rfind(|row| row.contains(&format!("  {name} "))).unwrap();
