@@ -239,6 +239,15 @@ impl Lab {
         }
     }
 
+    /// Returns the cameras of the pictures in view that show the system's own shapes.
+    pub fn eyes_in_view(&self) -> impl Iterator<Item = CameraPose> {
+        let model = &self.loaded.model;
+        let seen = |index: usize| self.drawn.plots.has(index);
+        let plots = self.plots.iter().enumerate().filter(move |(index, _)| seen(*index));
+        let eyes = plots.filter_map(|(_, plot)| plot.eye());
+        eyes.filter(|eye| eye.own_shapes(model).is_none())
+    }
+
     /// Returns the pane in which the motion is seen: the first one in space, or else the first picture.
     pub fn motion(&self) -> Option<Pane> {
         let scene = self.plots.iter().position(|plot| plot.kind.is_scene());

@@ -3,6 +3,7 @@
 //! In: an ink, a layer. Out: a pen, or the marker that distinguishes it from others where there is no colour. Never here: what is drawn
 //! with it.
 
+use super::RenderStyle;
 use super::canvas::Canvas;
 use super::colour::ColourDepth;
 use super::companions;
@@ -37,13 +38,13 @@ pub(super) fn marker(shape: MarkerShape) -> Marker {
 /// for what is plain, and dots for the rest.
 pub(super) fn colourless_mark(canvas: &Canvas<'_>, ink: Ink) -> Option<MarkerShape> {
     match ink {
-        _ if !is_colourless(canvas) => None,
+        _ if !is_colourless(canvas.style) => None,
         Ink::Warn => Some(MarkerShape::Cross),
         Ink::Plain => Some(MarkerShape::Ring),
         _ => None,
     }
 }
 
-pub(super) fn is_colourless(canvas: &Canvas<'_>) -> bool {
-    canvas.style.theme.depth() == ColourDepth::None
+pub(super) fn is_colourless(style: &RenderStyle) -> bool {
+    style.theme.depth() == ColourDepth::None
 }

@@ -62,7 +62,7 @@ fn piece(canvas: &Canvas<'_>, q: &Quantities<'_>, entry: &Entry) -> Vec<Span> {
             let glyphs = canvas.style.glyphs;
             let (mark, style) = match (colourless_mark(canvas, *ink), ink) {
                 (Some(shape), _) => (marker(shape).symbol(glyphs), canvas.style(Role::Text)),
-                (None, Ink::Level) if is_colourless(canvas.look) => {
+                (None, Ink::Level) if is_colourless(canvas.style) => {
                     (glyphs.pick('·', '.'), canvas.style(Role::Text))
                 }
                 _ => (glyphs.pick('●', 'o'), pen(canvas, *ink, 0).style),

@@ -7,6 +7,7 @@ mod arrow;
 mod body;
 mod circle;
 mod colours;
+mod common_scale;
 mod filling;
 mod ghost;
 mod line;
@@ -27,13 +28,15 @@ use ratatui::style::Style;
 use super::cache::FrameCache;
 use super::canvas::Canvas;
 use super::companions;
+use super::ink::is_colourless;
 use super::plot::{Camera, DepthBuffer, Marker, Pen, PlotFrame, Raster, Visibility};
 use super::quantity::Quantities;
 use super::theme::Role;
 use crate::instrument::CameraPose;
+use crate::mechanics::Apparent;
 use crate::model::{Point, Shape};
 use crate::num::math;
-use annotation::{Label, compass, legend, legend_above};
+use annotation::{Label, LegendLine, compass, legend, legend_above};
 use body::Outline;
 use colours::colours;
 use filling::Filling;
@@ -70,14 +73,12 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
     let scene = Scene::of((q, outline.as_ref()), *eye, reference_frame.as_ref());
     let colours = colours(q, *eye);
     let mechanics = Mechanics::of(q, *eye, &colours);
-    let seen = eye.frame.and_then(|frame| q.lab.loaded.equations.supplements.frames.get(frame));
-    let seen = seen.map_or(&[][..], Vec::as_slice);
-    let mut lines = annotation::forces(canvas, &arrow::apparent_forces(q, seen));
-    let named = mechanics.iter().flat_map(|both| annotation::mechanics(canvas, both.colours));
-    lines.extend(named);
+    let whole = area;
+    let lines = legend_lines(canvas, q, *eye, mechanics.as_ref());
     let (above, area) = legend_above(area, &lines);
     legend(canvas, above, &lines);
-    let frame = scene.frame(&camera, area);
+    let share = common_scale::share(canvas, whole, q, *eye);
+    let frame = common_scale::widened(scene.frame(&camera, area), share);
     let raster = Raster::new(area, canvas.style.glyphs);
     let depth = DepthBuffer::new(&frame, raster.size());
     let mut artist = ScenePainter {
@@ -120,7 +121,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
     }
     artist.halos();
     canvas.cache = cache;
-    artist.apparent(seen);
+    artist.apparent(apparent(q, *eye));
     artist.raster.draw(canvas.buffer);
     let shading = &artist.shading;
     // What is written comes before the surfaces, so that it has their backgrounds and stands out from them.
@@ -133,6 +134,28 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
         .edges
         .draw_on_blank(canvas.buffer, |index, at| shading.has_edges(index) && !is_written(at));
     shading.draw(canvas.buffer, &canvas.style.theme, is_written);
+}
+
+/// The lines of the legend: what has a colour of its own. Without colours names stand beside what they name.
+fn legend_lines(
+    canvas: &Canvas<'_>,
+    q: &Quantities<'_>,
+    eye: CameraPose,
+    mechanics: Option<&Mechanics>,
+) -> Vec<LegendLine> {
+    if is_colourless(canvas.style) {
+        return Vec::new();
+    }
+    let mut lines = annotation::forces(canvas, &arrow::apparent_forces(q, apparent(q, eye)));
+    lines
+        .extend(mechanics.into_iter().flat_map(|both| annotation::mechanics(canvas, both.colours)));
+    lines
+}
+
+/// The apparent forces in the frame of reference of a picture.
+fn apparent<'a>(q: &Quantities<'a>, eye: CameraPose) -> &'a [Apparent] {
+    let frames = &q.lab.loaded.equations.supplements.frames;
+    eye.frame.and_then(|frame| frames.get(frame)).map_or(&[][..], Vec::as_slice)
 }
 
 /// Draws the shapes of a scene.
@@ -204,7 +227,10 @@ impl ScenePainter<'_> {
                 let radius = radius.map(|radius| self.q.number(radius));
                 self.mass(at, radius);
             }
-            Shape::Trace { at } => self.track(at, cache),
+            Shape::Trace { at } => {
+                self.track(at, cache);
+                self.name_mechanics(at);
+            }
             Shape::Caption { at, text } => {
                 let at = self.point(at);
                 if self.sight(at) == Visibility::Clear {

@@ -13,7 +13,7 @@ use crate::view::plot::{Camera, Pen, PlotFrame, Raster, Scale};
 use crate::view::theme::Role;
 
 /// The apparent forces, in the order of their colours.
-const FORCES: [&str; 4] = ["centrifugal", "Coriolis", "Euler", "of the origin"];
+pub(super) const FORCES: [&str; 4] = ["centrifugal", "Coriolis", "Euler", "of the origin"];
 
 /// Draws the directions of the axes in the lower left corner, each as an arm with its name.
 pub(super) fn compass(canvas: &mut Canvas<'_>, area: Rect, camera: &Camera) {

@@ -1,12 +1,15 @@
 //! Arrows: the apparent forces in a frame of reference.
 //!
-//! In: the apparent forces on each particle. Out: lines. Never here: what they are called.
+//! In: the apparent forces on each particle. Out: lines, and their names where they have no colours.
+//! Never here: the legend.
 
-use super::{SOLID, ScenePainter};
+use super::annotation::{FORCES, Label};
+use super::{SOLID, ScenePainter, is_colourless};
 use crate::mechanics::Apparent;
 use crate::model::Point;
-use crate::view::plot::Pen;
+use crate::view::plot::{Pen, Scale};
 use crate::view::quantity::{Quantities, QuantitySource};
+use crate::view::theme::Role;
 
 /// The length of the longest apparent force so far, as a fraction of the picture.
 const LONGEST: f64 = 0.25;
@@ -52,9 +55,24 @@ impl ScenePainter<'_> {
                     let along = vector.map(|e| scale * self.q.number(e));
                     let pen = Pen::new(self.q.style.theme.curve(index + 1), SOLID);
                     self.arrow(at, along, &pen);
+                    if is_colourless(self.q.style) {
+                        self.name_force(at, along, FORCES[index]);
+                    }
                 }
             }
         }
+    }
+
+    /// Writes the name of a force at the tip of its arrow, or where this leaves the picture.
+    fn name_force(&mut self, foot: [f64; 3], along: [f64; 3], name: &str) {
+        let [foot, tip] = [foot, [0, 1, 2].map(|k| foot[k] + along[k])].map(|at| self.flat(at));
+        let within = |v: f64, scale: Scale| v.clamp(scale.lo.min(scale.hi), scale.hi.max(scale.lo));
+        self.labels.push(Label {
+            tip: [within(tip[0], self.frame.x), within(tip[1], self.frame.y)],
+            leftwards: tip[0] < foot[0],
+            text: self.q.style.glyphs.text(name).into_owned(),
+            style: self.q.style.theme[Role::Text],
+        });
     }
 
     /// Draws a shaft with a head of two strokes, an eighth of its length.

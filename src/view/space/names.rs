@@ -5,12 +5,22 @@
 use ratatui::style::Style;
 
 use super::annotation::Label;
-use super::{ScenePainter, scene};
+use super::{ScenePainter, is_colourless, scene};
 use crate::model::{Point, Shape};
 use crate::view::plot::{Pen, Visibility};
 use crate::view::theme::Role;
 
 impl ScenePainter<'_> {
+    /// Writes beside a point with which of two mechanics it moves, if colours do not say it.
+    pub(super) fn name_mechanics(&mut self, at: &Point) {
+        let q = self.q;
+        let colours = self.mechanics.as_ref().filter(|_| is_colourless(q.style));
+        let Some(colours) = colours else { return };
+        let Some(colour) = colours.colour(&q.lab.loaded.equations.pool, at) else { return };
+        let name = if colour == colours.colours[1] { "wrong" } else { "right" };
+        self.label(self.point(at), None, name, q.style.theme[Role::Text]);
+    }
+
     /// Writes words in a style beside a point, away from another one.
     pub(super) fn label(&mut self, at: [f64; 3], foot: Option<[f64; 3]>, text: &str, style: Style) {
         let veiled = self.sight(at) == Visibility::Veiled;
