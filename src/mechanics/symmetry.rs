@@ -57,8 +57,10 @@ pub(super) fn find(equations: &mut Equations, model: &Model, rates: &[Expr]) {
                 continue;
             }
             let driven = pairs.iter().any(|&(i, j)| is_driven(model, i) || is_driven(model, j));
+            // what also turns has a spin beside this, and the sum of both is another constant
+            let turns = model.coordinates.iter().any(is_angle);
             equations.conserved.push(Conserved {
-                name: format!("L_{axis}"),
+                name: if turns { format!("orbital L_{axis}") } else { format!("L_{axis}") },
                 expression: equations.pool.simplify_terms(momentum),
                 reason: if driven { Reason::Proved } else { Reason::Rotation(axis) },
             });

@@ -203,6 +203,11 @@ fn common_translations_and_rotations_are_found() {
     let apart = "1/2*(x'^2 + y'^2 + X'^2 + Y'^2) - (x^2 + y^2)^2 - X^2 - 2*Y^2";
     let apart = lagrangian(&["x", "y", "X", "Y"], &[], apart);
     assert_eq!(names(&apart), ["energy", "L_z"]);
+    // what turns by itself has more angular momentum than that of its path
+    let mut rod = lagrangian(&["x", "y", "phi"], &[], "1/2*(x'^2 + y'^2) + 1/2*phi'^2");
+    assert!(names(&rod).contains(&"L_z".to_owned()), "{:?}", names(&rod));
+    rod.coordinates[2].unit = "rad".to_owned();
+    assert!(names(&rod).contains(&"orbital L_z".to_owned()), "{:?}", names(&rod));
     let central = hamiltonian(&["x", "y"], &["k"], "1/2*(p_x^2+p_y^2) - k/sqrt(x^2+y^2)");
     assert_eq!(names(&central), ["energy", "L_z"]);
     let oblate = hamiltonian(&["x", "y"], &["k"], "1/2*(p_x^2+p_y^2) - k/sqrt(x^2+2*y^2)");
