@@ -9,7 +9,8 @@ use super::canvas::{Canvas, Span, columns, row};
 use super::gauges::finding;
 use super::glyphs::TextWidth;
 use super::help::keys;
-use super::number::brief;
+use super::layout;
+use super::number::{brief, with_minus_signs};
 use super::theme::Role;
 use super::values::{meaning as value_meaning, typing};
 use super::wrap::words_in;
@@ -20,11 +21,12 @@ use crate::app::{
 };
 use crate::experiment::{Snapshot, Status};
 
-/// Draws the input, the notification or the meaning of the focused item, and at the right the most useful keys.
-pub(super) fn footer(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
+/// Draws the input, the notification or the meaning of the focused item, and at the right the most useful keys for what the body
+/// of the page shows.
+pub(super) fn footer(canvas: &mut Canvas<'_>, area: Rect, (app, body): (&App, Rect)) {
     let area = columns(area, 1, area.width.saturating_sub(2));
     if let Some(Overlay::Field(field)) = &app.overlay {
-        return open_field(canvas, area, app, field);
+        return open_field(canvas, (area, body), app, field);
     }
     let ended = app.snapshot().filter(|_| app.page == Page::Lab).and_then(ended);
     let meaning = match (&app.overlay, &app.lab, app.page) {
@@ -38,7 +40,7 @@ pub(super) fn footer(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
         Some((text, role)) => (vec![canvas.text(&text)], role),
         None => (meaning, role),
     };
-    let mut hints = hints(canvas, app);
+    let mut hints = hints(canvas, (app, body));
     let long = Hint::width;
     let mut wide = hints.iter().map(long).sum::<usize>() + 3 * hints.len();
     // The last two hints, help and quit, are always shown; the others are dropped to make room for the meaning.
@@ -176,9 +178,10 @@ fn meaning(canvas: &Canvas<'_>, lab: &Lab) -> Vec<String> {
         let gauge = lab.snapshot.as_ref().and_then(|s| s.gauges.get(lab.selection.gauge));
         return gauge.map_or_else(Vec::new, |gauge| {
             let name = glyphs.pick(&gauge.shown, &gauge.name);
-            let named = format!("{name} ({})", gauge.reason);
+            let reason = with_minus_signs(&gauge.reason, glyphs);
+            let named = format!("{name} ({reason})");
             let found = format!("{named}: {}", finding(gauge, canvas.style.glyphs));
-            [found, named, gauge.reason.clone()].map(|text| canvas.text(&text)).into()
+            [found, named, reason].map(|text| canvas.text(&text)).into()
         });
     }
     let selected = lab.selected().and_then(|target| Some((target, lab.value_info(target)?)));
@@ -209,8 +212,9 @@ impl Hint {
     }
 }
 
-/// The most useful keys in the current context, innermost first; help and quit come last. None where a script hides them.
-fn hints(canvas: &Canvas<'_>, app: &App) -> Vec<Hint> {
+/// The most useful keys in the current context, innermost first; help and quit come last. None where a script hides them. The key to
+/// the next pane comes before all others where there are panes that the body of the page does not show.
+fn hints(canvas: &Canvas<'_>, (app, body): (&App, Rect)) -> Vec<Hint> {
     if app.footer.hints == KeyHints::Hidden {
         return Vec::new();
     }
@@ -236,7 +240,9 @@ fn hints(canvas: &Canvas<'_>, app: &App) -> Vec<Hint> {
         };
         let leaves = row.action == Action::Quit && app.footer.hints == KeyHints::LabInLesson;
         let pointed = row.action == Action::Cursor && app.lab.as_ref().is_some_and(Lab::has_cursor);
+        let is_paused = app.snapshot().is_some_and(|snapshot| snapshot.status == Status::Paused);
         let word = match row.hint {
+            _ if row.action == Action::PlayPause && is_paused => "resume",
             _ if pointed => "no cursor",
             _ if closes => "close",
             _ if leaves => "leave",
@@ -246,11 +252,16 @@ fn hints(canvas: &Canvas<'_>, app: &App) -> Vec<Hint> {
         let word = canvas.span(Role::Dim, format!(" {word}"));
         Hint { spans: vec![canvas.span(Role::Accent, first), word], action: row.action }
     };
-    rows.map(hint).collect()
+    let mut hints: Vec<Hint> = rows.map(hint).collect();
+    let hides = |lab: &Lab| layout::panes(body, lab).len() < lab.panes().count();
+    if app.page == Page::Lab && app.lab.as_ref().is_some_and(hides) {
+        hints.sort_by_key(|hint| hint.action != Action::NextPane);
+    }
+    hints
 }
 
 /// Draws the text being typed, what is wrong with it, and at the right the keys that end it: at least how to leave.
-fn open_field(canvas: &mut Canvas<'_>, area: Rect, app: &App, field: &InputField) {
+fn open_field(canvas: &mut Canvas<'_>, (area, body): (Rect, Rect), app: &App, field: &InputField) {
     let facts = match (&app.lab, field.purpose) {
         (Some(lab), Purpose::Value(target)) => lab.value_info(target),
         (Some(lab), Purpose::Ramp(index)) => lab.value_info(ValueId::Parameter(index)),
@@ -294,7 +305,7 @@ fn open_field(canvas: &mut Canvas<'_>, area: Rect, app: &App, field: &InputField
         (None, Some(facts)) => (Role::Dim, format!("{} {}", facts.unit, facts.about)),
         (None, None) => (Role::Dim, String::new()),
     };
-    let mut hints = hints(canvas, app);
+    let mut hints = hints(canvas, (app, body));
     let wide = |hints: &[Hint]| hints.iter().map(|hint| hint.width() + 3).sum::<usize>();
     let room = usize::from(rest.width);
     while hints.len() > 1 && canvas.text(&text).width() + wide(&hints) > room {

@@ -86,7 +86,7 @@ pub(super) fn paint(canvas: &mut Canvas<'_>, app: &App, area: Rect) -> Drawn {
         let (above, below) = split_rows(area, area.height - field);
         let drawn = if above.height < LOWEST { Drawn::default() } else { body(canvas, above, app) };
         if field > 0 {
-            footer::footer(canvas, below, app);
+            footer::footer(canvas, below, (app, above));
         }
         return drawn;
     }
@@ -99,7 +99,7 @@ pub(super) fn paint(canvas: &mut Canvas<'_>, app: &App, area: Rect) -> Drawn {
     let drawn = body(canvas, screen.body, app);
     footer::notice(canvas, screen.body, app);
     header::status(canvas, screen.status, app);
-    footer::footer(canvas, screen.footer, app);
+    footer::footer(canvas, screen.footer, (app, screen.body));
     drawn
 }
 

@@ -3,10 +3,12 @@
 mod bytes;
 mod cells;
 mod fit;
+mod footer;
 mod golden;
 mod hit_test;
 mod kept;
 mod labels;
+mod legends;
 mod motion;
 mod names;
 mod panes;

@@ -3,9 +3,9 @@
 //! In: the application's state. Out: files in the current folder, written aside, with a sentence about each. Never
 //! here: what is in a table or a drawing.
 
-use std::io;
 use std::path::Path;
 use std::sync::Arc;
+use std::{env, io};
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -18,6 +18,7 @@ use super::super::writer::WriteReport;
 use super::Session;
 use crate::app::{Event, Lab, Loaded, Notification};
 use crate::experiment::{Export, Snapshot};
+use crate::printable;
 use crate::record::{data, plain, screenshot};
 use crate::view::colour::ColourDepth;
 use crate::view::glyphs::Glyphs;
@@ -92,8 +93,18 @@ impl Session {
             let format = if ending == "tex" { " as LaTeX" } else { "" };
             return self.report(Ok(format!("{what} are copied{format}: paste them anywhere.")));
         }
+        let why = if self.clipboard.is_there {
+            "This is too long for the clipboard"
+        } else {
+            "This terminal is not known to have a clipboard"
+        };
         let stem = self.stem();
-        self.write_file(move || put(&stem, ending, text.as_bytes()));
+        self.write_file(move || {
+            let written = put(&stem, ending, text.as_bytes())?;
+            let folder = env::current_dir().map(|folder| printable::path(&folder));
+            let folder = folder.map_or_else(|_| String::new(), |path| format!(" in {path}"));
+            Ok(format!("{why}: {}{folder}.", written.trim_end_matches('.')))
+        });
     }
 
     /// Saves a table of what the focused instrument has computed, or of the recorded motion.

@@ -334,6 +334,23 @@ fn pendulum_in(folder: &Path) -> Session {
     lab
 }
 
+/// Where the terminal is not known to have a clipboard, `y` says so, and into which file and folder it has written.
+#[test]
+fn equations_that_are_not_copied_are_written_into_a_named_file() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut lab = pendulum_in(folder.path());
+    lab.press("2");
+    lab.shows("Equations");
+    lab.press("y");
+    lab.shows("not known to have a clipboard");
+    let name = folder.path().file_name().expect("a name").to_string_lossy().into_owned();
+    lab.shows(&name);
+    lab.shows("pendulum.tex is written in");
+    lab.press("1q");
+    lab.ends();
+    assert_eq!(written(folder.path(), ".tex").len(), 1);
+}
+
 #[test]
 fn stills_data_and_recordings_are_written_by_keys() {
     let folder = tempfile::tempdir().expect("a folder");

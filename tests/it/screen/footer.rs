@@ -1,0 +1,63 @@
+//! The last lines: keys of what is hidden, what Space does, a step that is longer than the motion.
+
+use super::{rich, rows, screen};
+use crate::app::real::Real;
+
+/// The last row of a screen.
+fn footer(real: &Real, size: (u16, u16)) -> String {
+    rows(&screen(&real.app, &rich(), size)).pop().expect("a footer")
+}
+
+/// Where panes are hidden behind others, the key that leads to them comes first, however little room there is.
+#[test]
+fn tab_comes_first_where_panes_are_hidden() {
+    for name in ["planet", "double-pendulum", "kicked-rotor"] {
+        let real = Real::of(name);
+        let hidden = footer(&real, (80, 24));
+        let [tab, choose] = ["Tab pane", "choose"].map(|word| hidden.find(word));
+        assert!(tab.is_some() && choose.is_none_or(|at| tab.unwrap() < at), "{name}: {hidden}");
+    }
+    // two pictures, three lists and the law all have a place of their own
+    let real = Real::of("harmonic-oscillator");
+    let all = footer(&real, (300, 90));
+    assert!(all.find("choose") < all.find("Tab pane"), "{all}");
+}
+
+#[test]
+fn space_resumes_what_it_has_paused() {
+    let mut real = Real::of("pendulum");
+    real.press("Space");
+    let paused = footer(&real, (120, 40));
+    assert!(paused.contains("Space resume") && !paused.contains("pause"), "{paused}");
+    real.press("Space");
+    let running = footer(&real, (120, 40));
+    assert!(running.contains("Space pause") && !running.contains("resume"), "{running}");
+}
+
+/// A free particle is carried on by one step for as long as anybody looks: no rate of steps is told of it.
+#[test]
+fn a_step_longer_than_the_motion_is_called_so() {
+    for (name, longer) in [("free-particle", true), ("double-pendulum", false)] {
+        let mut real = Real::of(name);
+        real.run(120);
+        let status = &rows(&screen(&real.app, &rich(), (120, 40)))[38];
+        assert_eq!(status.contains("longer than the motion so far"), longer, "{status}");
+        assert_eq!(status.contains("steps/s"), !longer, "{status}");
+        assert!(status.contains("taylor step "), "{status}");
+    }
+}
+
+/// What the motion has left is not told as its law.
+#[test]
+fn a_law_of_a_released_constraint_says_so() {
+    let mut real = Real::of("smooth-sphere");
+    let says_so = |real: &Real| {
+        let text = rows(&screen(&real.app, &rich(), (200, 70))).join("\n");
+        text.contains("While the constraint sphere holds")
+    };
+    assert!(!says_so(&real));
+    // speed 0.2: at 0.8 s it flies
+    real.run(240);
+    assert_eq!(real.seen().released, [0]);
+    assert!(says_so(&real));
+}
