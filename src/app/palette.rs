@@ -251,8 +251,8 @@ impl Lab {
         let line = |target: ValueId| {
             let value_info = self.value_info(target)?;
             let what = match target {
-                ValueId::Parameter(_) => "type",
-                ValueId::Initial(_) => "type the initial",
+                ValueId::Parameter(_) => "set",
+                ValueId::Initial(_) => "set the initial",
             };
             let unit = if value_info.unit.is_empty() {
                 String::new()

@@ -430,10 +430,10 @@ mod tests {
         {
             let mut gauges = [gauge(true, proved), gauge(false, supposed)];
             contradict(&mut gauges);
-            let marked = gauges[1].reason == "declared; contradicted by the run";
+            let marked = gauges[1].reason == "stated by the file; contradicted by the run";
             assert_eq!(marked, contradicted, "{supposed} beside {proved}");
             assert_eq!(gauges[1].left.is_some(), contradicted, "{supposed} beside {proved}");
-            assert_eq!(gauges[0].reason, "declared");
+            assert_eq!(gauges[0].reason, "stated by the file");
         }
     }
 }

@@ -137,7 +137,7 @@ pub struct Gauge {
     pub name: String,
     /// The name as shown: `E`, `p_φ`.
     pub shown: String,
-    /// Why it is conserved: `cyclic φ`, `∂L/∂t = 0`, `declared`.
+    /// Why it is conserved: `cyclic φ`, `∂L/∂t = 0`, `stated by the file`.
     pub reason: String,
     /// Whether it follows from the law of motion, independently of any numbers.
     pub proved: bool,
@@ -183,7 +183,7 @@ impl Gauge {
         Gauge {
             name: "G".to_owned(),
             shown: "G".to_owned(),
-            reason: "declared".to_owned(),
+            reason: "stated by the file".to_owned(),
             proved: true,
             value: 1.0,
             initial: 1.0,

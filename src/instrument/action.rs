@@ -279,7 +279,7 @@ fn sentences(answer: Option<&Answer>, coordinate: Option<&str>) -> Vec<String> {
             vec!["one coordinate: no other way at this H".to_owned()]
         }
         Some([]) if computed.principle == Principle::Maupertuis => {
-            vec!["least of all ways nearby at equal H".to_owned()]
+            vec!["least among nearby paths of equal H".to_owned()]
         }
         None => vec!["not stationary: forces act that have no potential".to_owned()],
         Some([]) => vec!["least of all paths nearby".to_owned()],

@@ -62,7 +62,10 @@ impl Instrument for SeparationPlot {
 
     fn across(&self, PlotContext { present, .. }: PlotContext<'_>) -> Across {
         if let Some(Returned { gone: [_, all], .. }) = present.returned {
-            return Across::Named("time gone back".to_owned(), [0.0, all.max(f64::MIN_POSITIVE)]);
+            return Across::Named(
+                "time run backwards".to_owned(),
+                [0.0, all.max(f64::MIN_POSITIVE)],
+            );
         }
         Across::Times(range(present, 0).unwrap_or([present.time, present.time + 1.0]))
     }

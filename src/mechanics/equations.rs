@@ -425,8 +425,8 @@ impl std::fmt::Display for Reason {
                 f.write_str("dG/dt = 0 on the constraints, proved symbolically")
             }
             Reason::Numerically => f.write_str("checked numerically"),
-            Reason::Declared => f.write_str("declared"),
-            Reason::OfThisMotion => f.write_str("declared, along this motion only"),
+            Reason::Declared => f.write_str("stated by the file"),
+            Reason::OfThisMotion => f.write_str("stated by the file, along this motion only"),
             Reason::BetweenImpulses(reason) => write!(f, "{reason}, between impulses"),
         }
     }

@@ -147,7 +147,7 @@ pub(super) fn meaning(lab: &Lab, target: ValueId, facts: &ValueInfo) -> String {
 fn ramped_in_words(about: &str, before: f64) -> String {
     let about = if about.is_empty() { String::new() } else { format!("{about}; ") };
     let before = significant(before, 6, 1e-4..1e6).replace('-', "−");
-    format!("{about}ramped from {before}, which keys change")
+    format!("{about}ramped from {before}; the keys change that start value")
 }
 
 /// Draws the bar of a value within its range, if it has one and there is room.

@@ -393,7 +393,7 @@ fn a_text_of_a_file_is_shown_with_the_names_of_the_screen() {
         ("1e-3*x1", "1e-3·x₁"),
         ("x1e-3", "x1e−3"),
         ("Vmax - sin(theta)", "Vmax − sin(θ)"),
-        ("energy of running", "energy of running"),
+        ("energy of rotation", "energy of rotation"),
         ("theta^2 - x1^-12", "θ² − x₁⁻¹²"),
         ("2^n", "2ⁿ"),
         ("x1^2^3", "x₁^2³"),

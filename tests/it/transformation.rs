@@ -95,8 +95,8 @@ fn new_coordinates_are_drawn_one_to_one_where_the_old_ones_are() {
     assert_eq!(equal(&lab("angle-of-the-oscillator", 0.1)), [false, false]);
     let text = crate::hand::catalog().find("moving-axes").expect("a preset").text.clone();
     let polar = text.replace(
-        "PX*(x*cos(Omega*t) + y*sin(Omega*t)) + PY*(y*cos(Omega*t) - x*sin(Omega*t))",
-        "PX*sqrt(x^2 + y^2) + PY*atan2(y, x)",
+        "P_X*(x*cos(Omega*t) + y*sin(Omega*t)) + P_Y*(y*cos(Omega*t) - x*sin(Omega*t))",
+        "P_X*sqrt(x^2 + y^2) + P_Y*atan2(y, x)",
     );
     assert_ne!(polar, text);
     assert!(!equal(&begun(&polar))[0]);

@@ -122,6 +122,6 @@ fn a_bracket_is_answered_in_the_new_variables_too() {
             (inquiry.variables(chart, false), inquiry.written(*bracket, false))
         })
         .collect();
-    let expected = [("X, Y, PX, PY", "cos(Omega*t)"), ("x1, x2, p1, p2", "cos(Omega*t)")];
+    let expected = [("X, Y, P_X, P_Y", "cos(Omega*t)"), ("x1, x2, p1, p2", "cos(Omega*t)")];
     assert_eq!(told, expected.map(|(a, b)| (a.to_owned(), b.to_owned())));
 }

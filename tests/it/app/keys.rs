@@ -481,8 +481,8 @@ fn the_palette_opens_types_and_chooses() {
         ("kapitza", "open: Kapitza's pendulum", "Load(\"kapitza\")"),
         ("henon", "open: Hénon–Heiles", "Load(\"henon-heiles\")"),
         ("rk4", "method: rk4", "Method(\"rk4\")"),
-        ("type l", "type l", "over it nothing -> field \"1\""),
-        ("theta0", "type θ₀", "over it nothing -> field \"2\""),
+        ("set l", "set l", "over it nothing -> field \"1\""),
+        ("theta0", "set θ₀", "over it nothing -> field \"2\""),
         ("theme light", "theme: light", "theme None -> Some(\"light\")"),
         ("gauges focus", "focus: gauges", "focus Parameters -> Gauges"),
         (

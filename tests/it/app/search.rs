@@ -64,7 +64,7 @@ fn the_palette_begins_with_what_people_do() {
     for line in moving {
         assert!(first(line) > first("open: "), "{line}");
     }
-    for word in ["step", "reset", "choose the method", "quit", "type l", "type the initial"] {
+    for word in ["step", "reset", "choose the method", "quit", "set l", "set the initial"] {
         let place = first(word).unwrap_or_else(|| panic!("{word} is missing"));
         assert!(place < 30, "{word} is line {place}");
     }

@@ -158,7 +158,7 @@ fn a_bracket_is_told_in_the_new_variables_of_each_transformation() {
         ("X", "p_x", 0.6_f64.cos()),
         ("Y", "p_x", -0.6_f64.sin()),
         ("x1*p1", "p2^2 + x1", 1.0 - 0.2 * 2.0),
-        ("PX", "H", -0.6_f64.cos()),
+        ("P_X", "H", -0.6_f64.cos()),
     ] {
         let (value, charts) = charts("moving-axes", f, g, &at);
         // x1 = x − u t at x = 1, u = 0.2: [x₁ p₁, x₁] = −x₁
@@ -181,7 +181,7 @@ fn a_bracket_is_told_in_the_new_variables_of_each_transformation() {
     near(found("scaled").2, value / 1.5);
     let text = phaselab(&["bracket", "moving-axes", "X", "p_x", "--init", "t=2"]).success();
     assert!(
-        text.contains("in X, Y, PX, PY of rotating axes: cos(Ω t); at the start: 0.82533"),
+        text.contains("in X, Y, P_X, P_Y of rotating axes: cos(Ω t); at the start: 0.82533"),
         "{text}"
     );
     // what no transformation is in has no other charts

@@ -452,7 +452,7 @@ fn what_a_law_changes_is_not_conserved_however_little_is_seen() {
         assert_eq!(with_file(&file("false"), &["check", "system.toml"]).success(), "");
         // and it stands in one place only
         let told = with_file(&file("true"), &["derive", "system.toml"]).success();
-        assert!(!told.contains("(declared)") && told.contains("d(G)/dt"), "{told}");
+        assert!(!told.contains("(stated by the file)") && told.contains("d(G)/dt"), "{told}");
     }
 }
 

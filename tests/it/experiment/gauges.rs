@@ -103,7 +103,7 @@ fn what_is_conserved_along_one_motion_only_is_called_that() {
     run(&mut system, 60.0);
     let snapshot = system.snapshot();
     let radius = gauge(&snapshot, "radius");
-    assert_eq!(radius.reason, "declared, along this motion only");
+    assert_eq!(radius.reason, "stated by the file, along this motion only");
     assert!(!radius.proved && radius.left.is_none());
     let vector = gauge(&snapshot, "A_x");
     assert!(vector.proved && vector.reason.contains("proved"), "{}", vector.reason);
@@ -119,7 +119,7 @@ fn a_young_gauge_is_open_and_a_conserved_declared_one_is_judged_by_its_drift() {
     run(&mut system, 60.0);
     let snapshot = system.snapshot();
     let wrong = gauge(&snapshot, "amplitude");
-    assert_eq!(wrong.reason, "declared, along this motion only; contradicted by the run");
+    assert_eq!(wrong.reason, "stated by the file, along this motion only; contradicted by the run");
     assert_eq!(wrong.verdict, Verdict::Lost);
     assert!(wrong.max_drift > 0.6);
     assert_eq!(gauge(&snapshot, "energy").verdict, Verdict::Exact(Growth::Level));

@@ -282,8 +282,8 @@ fn beyond_a_millionth_of_what_moves_it_is_reported() {
     let (kept, left) = (leaving(0.99e-6), leaving(1.01e-6));
     assert_eq!(kept.left, None, "{kept:?}");
     assert!(left.left.is_some_and(|since| (0.9..=1.0).contains(&since)), "{left:?}");
-    assert_eq!(kept.reason, "declared, along this motion only");
-    assert_eq!(left.reason, "declared, along this motion only; contradicted by the run");
+    assert_eq!(kept.reason, "stated by the file, along this motion only");
+    assert_eq!(left.reason, "stated by the file, along this motion only; contradicted by the run");
 }
 
 /// In equilibrium nothing moves, and nothing drifts.

@@ -127,6 +127,6 @@ fn numbers_stand_in_one_column() {
         let number = blank.unwrap_or_else(|| panic!("{name}: {text:#?}"));
         (number..row.len()).find(|&i| row[i] == ' ').unwrap_or(row.len())
     };
-    let all = ["x", "p_x", "angular momentum about the left sun", "Euler's constant"].map(ends);
+    let all = ["x", "p_x", "angular momentum about the left sun", "Euler's integral"].map(ends);
     assert!(all.windows(2).all(|pair| pair[0] == pair[1]), "{all:?} {text:#?}");
 }
