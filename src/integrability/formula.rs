@@ -135,10 +135,7 @@ pub(super) fn words(
 fn enumerated(numbers: impl Iterator<Item = u32>) -> String {
     let all: Vec<String> = numbers.map(|number| number.to_string()).collect();
     match all.as_slice() {
-        [first @ .., before, last] => {
-            let first: String = first.iter().map(|number| format!("{number}, ")).collect();
-            format!("{first}{before} and {last}")
-        }
+        [first @ .., last] if !first.is_empty() => format!("{} and {last}", first.join(", ")),
         _ => all.concat(),
     }
 }
