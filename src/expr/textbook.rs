@@ -80,12 +80,12 @@ impl Pool {
                 .iter()
                 .filter(|(base, _)| matches!(self.node(*base), Node::Sum(..)))
                 .filter_map(|&(base, n)| Some((self.terms_multiplied_out(base), n.as_integer()?)))
-                // n of k terms, with repetition
-                .map(|(k, n)| (1..=n.max(0) as usize).fold(1, |ways, i| ways * (k + i - 1) / i))
-                .product(),
+                .map(|(k, n)| ways_to_choose(n.max(0) as usize, k))
+                .fold(1, |product, ways| ways.saturating_mul(product).min(MANY)),
             _ => 1,
         };
-        self.summands(e).into_iter().map(|(_, term)| of(term)).sum()
+        let terms = self.summands(e).into_iter().map(|(_, term)| of(term));
+        terms.fold(0, |sum, n| (sum + n).min(MANY))
     }
 
     /// `(a d − b)/(c d)` as `a/c − b/(c d)` where a term contains all of the denominator, `(a c + b d)/(c d)` as `a/d + b/c` where
@@ -390,4 +390,20 @@ impl Pool {
         let ranks = self.symbols_of(e).into_iter().map(|s| self.symbol_info(s).rank);
         ranks.max().unwrap_or_default()
     }
+}
+/// More terms than are ever multiplied out.
+const MANY: usize = 1 << 20;
+
+/// In how many ways n of k terms are chosen with repetition, at most [`MANY`].
+fn ways_to_choose(n: usize, k: usize) -> usize {
+    // n of n + k − 1, or the k − 1 others
+    let all = n.saturating_add(k).saturating_sub(1);
+    let mut ways = 1_usize;
+    for i in 1..=n.min(k.saturating_sub(1)) {
+        ways = ways.saturating_mul(all - i + 1) / i;
+        if ways >= MANY {
+            return MANY;
+        }
+    }
+    ways
 }
