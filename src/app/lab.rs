@@ -99,12 +99,13 @@ impl Lab {
     pub fn new(loaded: Loaded) -> Self {
         let plots = Plot::opening(loaded.physics());
         let rods = rods(&loaded);
+        let focus = Focus::of_list(!loaded.model.parameters.is_empty());
         Self {
             loaded,
             rods,
             snapshot: None,
             plots,
-            focus: Focus::default(),
+            focus,
             selection: Selection::default(),
             law_scroll: 0,
             drawn: DrawnPanes::default(),

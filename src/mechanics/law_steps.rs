@@ -64,6 +64,20 @@ impl Equations {
                 _ => true,
             })
         };
+        // u/|u|, and odd powers of it
+        let is_quotient = |e: Expr| {
+            let Node::Product(_, factors) = pool.node(e) else { return false };
+            factors.iter().any(|&(size, n)| match (pool.node(size), n.as_integer()) {
+                (Node::Call(FunctionId::Abs, argument), Some(n)) if n % 2 != 0 => {
+                    let is_same = |&(base, m): &(Expr, Number)| {
+                        m.as_integer() == Some(-n) && is_multiple(pool, base, argument[0])
+                    };
+                    pool.depends_on_any(size, symbols) && factors.iter().any(is_same)
+                }
+                _ => false,
+            })
+        };
+        let jumps = |e: Expr| jumps(e) || is_quotient(e);
         steps(function).is_some() || pool.reachable(&[function]).into_iter().any(jumps)
     }
 

@@ -20,6 +20,7 @@ use super::times::Times;
 use super::{cautions, invariants};
 use crate::analysis::Verdict;
 use crate::experiment::{self, AdvanceOutcome, Experiment, Gauge};
+use crate::integrate::{Stepping, method_named};
 use crate::printable;
 use crate::system::{State, System};
 
@@ -143,7 +144,8 @@ impl Run<'_> {
             departure.map(|departure| (departure.drift, departure.line)).unwrap_or_default();
         let cut_short = matches!(end, Some(EarlyEnd::Fault(_) | EarlyEnd::Signal(_)));
         // a small drift is the error of steps that are chosen by theirs
-        let by_error = snapshot.method.tolerance.is_some();
+        let by_error = method_named(snapshot.method.name)
+            .is_some_and(|method| method.stepping == Stepping::Adaptive);
         let has_drifted = |gauge: &Gauge| {
             let drifts = match gauge.verdict {
                 Verdict::Secular(_) => !by_error,

@@ -158,7 +158,18 @@ fn a_sign_beside_its_argument_is_no_step() {
     assert_eq!(derived(&file(PLANE, &rounded, "x")).1.conserved.len(), 1);
     let both = l("1/2*(x'^2 + y'^2) - 2*x*y*sign(3*x*y)");
     assert_eq!(derived(&file(PLANE, &both, "x")).1.conserved.len(), 1);
-    for step in ["x*sign(2*x - 1)", "sign(2*x)/x", "(x - 1)*sign(x + 1)"] {
+    for kink in ["x^2/abs(x)", "abs(x - 3)^3/(x - 3)", "x/abs(x - 3)*(x - 3)^2"] {
+        let law = l(&format!("1/2*x'^2 - {kink}"));
+        assert_eq!(derived(&file(LINE, &law, "x")).1.conserved.len(), 1, "{kink}");
+    }
+    for step in [
+        "x*sign(2*x - 1)",
+        "sign(2*x)/x",
+        "(x - 1)*sign(x + 1)",
+        "x/abs(x)",
+        "3*(2*x - 6)/abs(x - 3)",
+        "x^3/abs(x)^3",
+    ] {
         let law = l(&format!("1/2*x'^2 - {step}"));
         let (_, equations) = derived(&file(LINE, &law, "x"));
         assert!(equations.conserved.is_empty(), "{step}");
