@@ -99,13 +99,12 @@ impl Lab {
     pub fn new(loaded: Loaded) -> Self {
         let plots = Plot::opening(loaded.physics());
         let rods = rods(&loaded);
-        let focus = Focus::of_list(!loaded.model.parameters.is_empty());
         Self {
             loaded,
             rods,
             snapshot: None,
             plots,
-            focus,
+            focus: Focus::default(),
             selection: Selection::default(),
             law_scroll: 0,
             drawn: DrawnPanes::default(),

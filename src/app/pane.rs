@@ -44,13 +44,13 @@ pub struct Focus {
     pub untouched: bool,
 }
 
-impl Focus {
-    /// That of a new lab: the parameters, or the initial values where there are none.
-    pub(super) fn of_list(has_parameters: bool) -> Focus {
-        let pane = if has_parameters { Pane::Parameters } else { Pane::Initial };
-        Focus { pane, zoomed: false, recent: Vec::new(), untouched: true }
+impl Default for Focus {
+    fn default() -> Self {
+        Self { pane: Pane::Parameters, zoomed: false, recent: Vec::new(), untouched: true }
     }
+}
 
+impl Focus {
     /// Focuses a pane that was asked for; of the pictures it is then the one focused last.
     pub(super) fn choose(&mut self, pane: Pane) {
         (self.pane, self.untouched) = (pane, false);
