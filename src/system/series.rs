@@ -421,7 +421,10 @@ impl Kernel for Finite<'_> {
     #[inline(always)]
     fn run<const FUSED: bool>(self) -> bool {
         let Finite(series) = self;
-        all_finite(series.high.coefficients())
-            && (0..series.switches()).all(|i| all_finite(series.switch(i)))
+        let mut finite = all_finite(series.high.coefficients());
+        for i in 0..series.switches() {
+            finite &= all_finite(series.switch(i));
+        }
+        finite
     }
 }

@@ -26,7 +26,8 @@ where
     #[inline(always)]
     fn run<const FUSED: bool>(self) {
         let StateSum { low, high, units, x, out } = self;
-        for (i, &unit) in units.iter().enumerate() {
+        for i in 0..units.len() {
+            let unit = units[i];
             let low = low(i);
             let high = &high(i)[low.len()..];
             let number = Polynomial { low, high, x }.with_tail::<FUSED>(tail(high, x.high));

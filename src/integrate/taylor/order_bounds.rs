@@ -129,7 +129,8 @@ impl OrderBounds {
         let (low, own) = (rough_logarithms(low.0), Batch(rough_logarithms(own.0)));
         let mut by_tolerance = Batch([f64::NEG_INFINITY; WIDTH]);
         let mut by_radius = by_tolerance;
-        for (order, &log) in self.lowest.iter().zip(&low) {
+        for j in 0..LANES {
+            let (order, log) = (&self.lowest[j], low[j]);
             let root = (Batch::splat(log) - own) * order.reciprocals;
             by_tolerance = by_tolerance.larger(root + order.by_tolerance);
             by_radius = by_radius.larger(root + order.by_radius);

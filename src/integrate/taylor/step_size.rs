@@ -104,20 +104,21 @@ impl StepSize {
     fn by_coefficients(&mut self, series: &Series) -> f64 {
         let StepSize { motion, integrals: spared, least } = self;
         let mut shortest = ShortestStep::new();
-        let first = *least;
-        if let Some(c) = numbers(series).nth(first) {
-            shortest.take(c, motion);
+        let (first, inputs) = (*least, series.inputs());
+        if first < inputs {
+            shortest.take(series.coefficients(first), motion);
         }
-        for (i, c) in numbers(series).enumerate().filter(|&(i, _)| i != first) {
-            if shortest.take(c, motion) {
+        for i in 0..inputs {
+            if i != first && shortest.take(series.coefficients(i), motion) {
                 *least = i;
             }
         }
         for i in 0..series.switches() {
             shortest.take(series.switch(i), motion);
         }
-        for c in integrals(series) {
-            shortest.take(c, spared);
+        // the integrals
+        for i in inputs..series.len() {
+            shortest.take(series.coefficients(i), spared);
         }
         shortest.step()
     }
@@ -191,11 +192,6 @@ impl Kernel for ByCoefficients<'_> {
 /// The series of the coordinates and rates.
 fn numbers(series: &Series) -> impl Iterator<Item = &[f64]> {
     (0..series.inputs()).map(|i| series.coefficients(i))
-}
-
-/// The series of the integrals.
-fn integrals(series: &Series) -> impl Iterator<Item = &[f64]> {
-    (series.inputs()..series.len()).map(|i| series.coefficients(i))
 }
 
 /// The reciprocals of the differences of two orders, so that those of k − j for j = 0, 1, …, k − 1

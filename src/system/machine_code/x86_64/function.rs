@@ -230,7 +230,10 @@ impl CompiledFunction {
     /// wait for that.
     #[inline]
     fn assert_lengths(&self, lengths: [usize; 6]) {
-        let equal = lengths.iter().zip(&self.lengths).all(|(a, b)| a == b);
+        let mut equal = true;
+        for i in 0..lengths.len() {
+            equal &= lengths[i] == self.lengths[i];
+        }
         assert!(equal, "{lengths:?} instead of {:?}", self.lengths);
     }
 
