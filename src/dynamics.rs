@@ -18,6 +18,7 @@ mod direction;
 mod displacement_units;
 mod drive;
 mod driven_orbit;
+mod eigenvalue_error;
 mod end_state;
 mod equilibria;
 mod equilibrium;

@@ -278,8 +278,10 @@ fn of(trivial: &str) -> String {
 /// one row.
 fn multiplier_rows(orbit: &Orbit) -> Vec<(String, String)> {
     let off_one = |z: &[f64; 2]| crate::num::math::hypot(z[0] - 1.0, z[1]);
-    let (ones, others): (Vec<&[f64; 2]>, Vec<&[f64; 2]>) =
-        orbit.multipliers.iter().partition(|z| orbit.is_one(**z));
+    let (ones, others): (Vec<usize>, Vec<usize>) =
+        (0..orbit.multipliers.len()).partition(|&i| orbit.is_one(i));
+    let values = |places: Vec<usize>| places.into_iter().map(|i| &orbit.multipliers[i]);
+    let (ones, others): (Vec<_>, Vec<_>) = (values(ones).collect(), values(others).collect());
     let mut rows = Vec::new();
     let (small, others): (Vec<&[f64; 2]>, Vec<&[f64; 2]>) =
         others.into_iter().partition(|z| orbit.nearly_vanishes(**z));

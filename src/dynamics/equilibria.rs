@@ -23,7 +23,7 @@ use super::error::DynamicsError;
 use super::kind::{Inertia, Kind};
 use super::linear;
 use super::phase_space::PhaseSpace;
-use super::small_oscillation::{LinearMotion, Mode, linear_motion, modes};
+use super::small_oscillation::{LinearMotion, Mode, growth_errors, linear_motion, modes};
 use super::virtual_work::virtual_work;
 use crate::mechanics::Equations;
 use crate::model::Model;
@@ -36,6 +36,9 @@ const MOST: usize = 100;
 
 /// The error of the second derivative of a potential along the surface of constraints, as a part of its largest entry.
 const ON_SURFACE: f64 = 1e-12;
+
+/// The rounding error of an entry of the derivative of the rates, as a part of it.
+const ENTRY: f64 = 8.0 * f64::EPSILON;
 
 /// Gradients of Casimirs depend on each other up to this part of the largest.
 const DEPENDENT: f64 = 1e-8;
@@ -268,8 +271,13 @@ impl EquilibriumSearch<'_> {
         } else {
             linear::rates_beside_kernel(&in_units, flat)?
         };
-        let within = &eigenvalues[..eigenvalues.len().saturating_sub(across)];
-        let linear = linear_motion(&in_units, within);
+        let error_in_units =
+            DMatrix::from_fn(count, count, |i, j| error[(i, j)] * unit(j) / unit(i));
+        let errors =
+            growth_errors(&in_units, &(error_in_units + in_units.abs() * ENTRY), &eigenvalues);
+        let independent = eigenvalues.len().saturating_sub(across);
+        let within = &eigenvalues[..independent];
+        let linear = linear_motion(&in_units, within, &errors[..independent]);
         let Some(inertia) = inertia else {
             // oscillations in a plane are around an extremum of the energy on the level sets
             let is_extremum = self.space.is_conservative()
@@ -295,7 +303,7 @@ impl EquilibriumSearch<'_> {
             })
         });
         let mass = mass.filter(|mass| mass.clone().cholesky().is_some());
-        let modes = self.modes(&in_units, &eigenvalues, &places, mass.as_ref());
+        let modes = self.modes(&in_units, (&eigenvalues, &errors), &places, mass.as_ref());
         Some(Around { kind: Some(kind), eigenvalues, linear, is_extremum, modes })
     }
 
@@ -316,8 +324,11 @@ impl EquilibriumSearch<'_> {
             }
             _ => Kind::Degenerate,
         });
-        let linear = linear_motion(&around.matrix, &eigenvalues);
-        let mut modes = self.modes(&around.matrix, &eigenvalues, &around.displacements, None);
+        let error = around.matrix.map(|_| ON_SURFACE * around.matrix.amax());
+        let errors = growth_errors(&around.matrix, &error, &eigenvalues);
+        let linear = linear_motion(&around.matrix, &eigenvalues, &errors);
+        let (known, displacements) = ((&eigenvalues[..], &errors[..]), &around.displacements);
+        let mut modes = self.modes(&around.matrix, known, displacements, None);
         for mode in &mut modes {
             mode.frequency /= around.time;
         }
@@ -330,7 +341,7 @@ impl EquilibriumSearch<'_> {
     fn modes(
         &self,
         matrix: &DMatrix<f64>,
-        eigenvalues: &[[f64; 2]],
+        known: (&[[f64; 2]], &[f64]),
         displacements: &DMatrix<f64>,
         mass: Option<&DMatrix<f64>>,
     ) -> Vec<Mode> {
@@ -341,7 +352,7 @@ impl EquilibriumSearch<'_> {
             resting.iter().zip(some).for_each(|(&i, &x)| all[i] = x);
             all
         };
-        let found = modes(matrix, eigenvalues, displacements, (&units, mass)).into_iter();
+        let found = modes(matrix, known, displacements, (&units, mass)).into_iter();
         let whole = found.map(|mode| Mode {
             in_phase: every(&mode.in_phase),
             quadrature: every(&mode.quadrature),

@@ -4,7 +4,6 @@
 
 use super::orbit::Orbit;
 use super::orbit_stability::OrbitStability;
-use super::unit_circle::ON_CIRCLE;
 use crate::num::math;
 
 /// Of a family whose orbits are not isolated.
@@ -63,14 +62,17 @@ impl Member {
             Some(Bifurcation::PeriodDoubling) => -1.0,
             None => return self.orbit.stability(),
         };
-        if (self.orbit.transverse.determinant() - 1.0).abs() > ON_CIRCLE {
+        if !self.orbit.preserves_volume() {
             return self.orbit.stability();
         }
-        let mut others = self.orbit.multipliers.clone();
-        let off = |z: &[f64; 2]| math::hypot(z[0] - meets, z[1]);
+        let known = self.orbit.known();
+        let off = |&i: &usize| {
+            let [re, im] = known.multipliers[i];
+            math::hypot(re - meets, im)
+        };
+        let mut others: Vec<usize> = (0..known.multipliers.len()).collect();
         others.sort_by(|a, b| off(a).total_cmp(&off(b)));
-        let leaves = |z: &[f64; 2]| math::hypot(z[0], z[1]) > 1.0 + ON_CIRCLE;
-        if others.iter().skip(2).any(leaves) {
+        if others.iter().skip(2).any(|&i| known.is_outside(i)) {
             OrbitStability::Unstable
         } else {
             OrbitStability::Parabolic

@@ -58,7 +58,7 @@ pub(super) fn rates(matrix: &DMatrix<f64>) -> Vec<[f64; 2]> {
 
 /// The variables of a matrix in groups that act on each other, directly or by way of others: the matrix is block triangular with
 /// a block for each.
-fn coupled(matrix: &DMatrix<f64>) -> Vec<Vec<usize>> {
+pub(super) fn coupled(matrix: &DMatrix<f64>) -> Vec<Vec<usize>> {
     let n = matrix.nrows();
     let mut acts = DMatrix::from_fn(n, n, |i, j| i == j || matrix[(i, j)] != 0.0);
     for k in 0..n {

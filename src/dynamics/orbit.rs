@@ -9,6 +9,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::direction::FlowDirection;
+use super::eigenvalue_error::eigenvalue_errors;
 use super::error::DynamicsError;
 use super::first_return::{difference, return_near};
 use super::linear;
@@ -19,7 +20,7 @@ use super::resonance::along_resonance;
 use super::search_budget::SearchBudget;
 use super::transverse::{self, Removed};
 use super::unclosed_motion::explained;
-use super::unit_circle::none_is_outside;
+use super::unit_circle::KnownMultipliers;
 use crate::integrate::{Method, Settings};
 use crate::num::short;
 use crate::system::State;
@@ -66,6 +67,10 @@ pub struct Orbit {
     pub transverse: DMatrix<f64>,
     /// The multipliers of these, the largest first.
     pub multipliers: Vec<[f64; 2]>,
+    /// The error of each, to first order in what rounding leaves of the matrix; infinite where that has no bound.
+    pub errors: Vec<f64>,
+    /// Whether the matrix is symplectic.
+    pub(super) is_symplectic: bool,
     /// The trivial directions, whose multipliers are 1.
     pub trivial: Removed,
     /// The functions whose level sets have trivial directions across them too: of a system that is given by brackets, its energy
@@ -119,7 +124,19 @@ impl Orbit {
             let turned = newton.units.map(&circuit.monodromy).abs() * frame;
             error.amax() + DIRECTIONS * turned.amax()
         });
-        let stable = none_is_outside(&multipliers, rounding.unwrap_or(0.0).max(f64::EPSILON));
+        let least = rounding.unwrap_or(0.0).max(f64::EPSILON);
+        let errors = match rounding {
+            Some(_) => eigenvalue_errors(&transverse, &transverse.map(|_| least), &multipliers),
+            None => vec![f64::INFINITY; multipliers.len()],
+        };
+        let is_symplectic = space.is_hamiltonian();
+        let known = KnownMultipliers {
+            multipliers: &multipliers,
+            errors: &errors,
+            rounding: least,
+            is_symplectic,
+        };
+        let stable = known.none_is_outside();
         let size = newton.size(&closed.state);
         Ok(Orbit {
             period: closed.period,
@@ -133,6 +150,8 @@ impl Orbit {
             multipliers,
             trivial,
             levels,
+            errors,
+            is_symplectic,
             rounding,
             stable,
             settings: circuit.settings,

@@ -11,6 +11,9 @@ use crate::num::math;
 /// Rounding up to this size leaves of a multiplier that is smaller that it nearly vanishes.
 const VANISHING: f64 = 1e-3;
 
+/// The error of a determinant in errors of the entries of its matrix, times the largest of them.
+const TIMES: f64 = 16.0;
+
 impl Orbit {
     /// What its trivial multipliers are those of, one after the other.
     pub fn trivial_names(&self) -> Vec<&str> {
@@ -27,8 +30,18 @@ impl Orbit {
     /// 20 (1979) 1183).
     pub fn residue(&self) -> Option<f64> {
         let across = &self.transverse;
-        let preserves = across.nrows() == 2 && (across.determinant() - 1.0).abs() <= ON_CIRCLE;
+        let preserves = across.nrows() == 2 && self.preserves_volume();
         preserves.then(|| (2.0 - across.trace()) / 4.0)
+    }
+
+    /// Whether the flow preserves volumes across the orbit, as far as rounding lets it be known: the product of the multipliers is 1.
+    pub(super) fn preserves_volume(&self) -> bool {
+        let error = self.rounding.map_or(ON_CIRCLE, |rounding| {
+            // each factor of a product of two may be as large as the largest
+            let size = self.transverse.amax().max(1.0);
+            (TIMES * rounding.max(f64::EPSILON) * size).min(ON_CIRCLE)
+        });
+        self.is_symplectic || (self.transverse.determinant() - 1.0).abs() <= error
     }
 
     /// Whether a multiplier is so small that it is lost in rounding.

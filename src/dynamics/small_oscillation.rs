@@ -4,6 +4,7 @@
 
 use nalgebra::{Complex, DMatrix, DVector};
 
+use super::eigenvalue_error::eigenvalue_errors;
 use super::linear;
 use crate::num::math;
 
@@ -41,21 +42,26 @@ pub(super) enum LinearMotion {
     Open,
 }
 
-/// What neighbours do in the linear motion x′ = `matrix` x, by its eigenvalues.
-pub(super) fn linear_motion(matrix: &DMatrix<f64>, eigenvalues: &[[f64; 2]]) -> LinearMotion {
-    let scale = largest(eigenvalues);
-    if eigenvalues.iter().any(|z| z[0] > error_of_growth(*z, scale)) {
+/// What neighbours do in the linear motion x′ = `matrix` x, by its eigenvalues, of whose real parts the errors are given.
+pub(super) fn linear_motion(
+    matrix: &DMatrix<f64>,
+    eigenvalues: &[[f64; 2]],
+    errors: &[f64],
+) -> LinearMotion {
+    let known = || eigenvalues.iter().zip(errors);
+    if known().any(|(z, error)| z[0] > *error) {
         return LinearMotion::Grows;
     }
     if eigenvalues.is_empty() || rests(eigenvalues) {
         return LinearMotion::Open;
     }
-    if eigenvalues.iter().all(|z| z[0] < -error_of_growth(*z, scale)) {
+    if known().all(|(z, error)| z[0] < -*error) {
         return LinearMotion::Damped;
     }
-    let whole = frequencies(eigenvalues).chunk_by(|&one, &other| equal(one, other)).all(|equal| {
-        equal.len() == 1 || linear::null_vectors(matrix, equal[0]).len() >= equal.len()
-    });
+    let whole =
+        frequencies(eigenvalues, errors).chunk_by(|&one, &other| equal(one, other)).all(|equal| {
+            equal.len() == 1 || linear::null_vectors(matrix, equal[0]).len() >= equal.len()
+        });
     if whole { LinearMotion::Bounded } else { LinearMotion::Open }
 }
 
@@ -64,20 +70,29 @@ pub(super) fn rests(eigenvalues: &[[f64; 2]]) -> bool {
     eigenvalues.contains(&[0.0; 2])
 }
 
-/// The error of the real part of an eigenvalue. A pair that is slow beside the fastest differs by the root of what rounding leaves of its
-/// square, and so does one of two equal ones.
-fn error_of_growth(z: [f64; 2], scale: f64) -> f64 {
-    let size = math::hypot(z[0], z[1]);
-    if size > 0.0 { (EQUAL * size).max(ROUNDING * scale * (scale / size)) } else { 0.0 }
+/// The errors of the real parts of the eigenvalues of a matrix whose entries are known to `error`: to first order, but no more than
+/// where that has no bound. A pair that is slow beside the fastest differs by the root of what rounding leaves of its square, and so does
+/// one of two equal ones.
+pub(super) fn growth_errors(
+    matrix: &DMatrix<f64>,
+    error: &DMatrix<f64>,
+    eigenvalues: &[[f64; 2]],
+) -> Vec<f64> {
+    let scale = largest(eigenvalues);
+    let most = |[re, im]: [f64; 2]| {
+        let size = math::hypot(re, im);
+        if size > 0.0 { (EQUAL * size).max(ROUNDING * scale * (scale / size)) } else { 0.0 }
+    };
+    let errors = eigenvalue_errors(matrix, error, eigenvalues);
+    eigenvalues.iter().zip(errors).map(|(z, error)| error.min(most(*z))).collect()
 }
 
 /// The frequencies of what neither grows nor is damped, the slowest first.
-fn frequencies(eigenvalues: &[[f64; 2]]) -> Vec<f64> {
-    let scale = largest(eigenvalues);
-    let oscillates = |z: &&[f64; 2]| {
-        z[1] > 0.0 && z[1] > z[0].abs() && z[0].abs() <= error_of_growth(**z, scale)
-    };
-    let mut frequencies: Vec<f64> = eigenvalues.iter().filter(oscillates).map(|z| z[1]).collect();
+fn frequencies(eigenvalues: &[[f64; 2]], errors: &[f64]) -> Vec<f64> {
+    let oscillates =
+        |(z, error): &(&[f64; 2], &f64)| z[1] > 0.0 && z[1] > z[0].abs() && z[0].abs() <= **error;
+    let oscillating = eigenvalues.iter().zip(errors).filter(oscillates);
+    let mut frequencies: Vec<f64> = oscillating.map(|(z, _)| z[1]).collect();
     frequencies.sort_by(f64::total_cmp);
     frequencies
 }
@@ -91,13 +106,13 @@ fn equal(one: f64, other: f64) -> bool {
 /// one frequency are orthogonal by the kinetic energy, whose matrix in these units is `mass`, where they can be real.
 pub(super) fn modes(
     matrix: &DMatrix<f64>,
-    eigenvalues: &[[f64; 2]],
+    (eigenvalues, errors): (&[[f64; 2]], &[f64]),
     displacements: &DMatrix<f64>,
     (units, mass): (&[f64], Option<&DMatrix<f64>>),
 ) -> Vec<Mode> {
     let complex = displacements.map(|x| Complex::new(x, 0.0));
     let mut modes: Vec<Mode> = Vec::new();
-    for equal in frequencies(eigenvalues).chunk_by(|&one, &other| equal(one, other)) {
+    for equal in frequencies(eigenvalues, errors).chunk_by(|&one, &other| equal(one, other)) {
         let vectors = linear::null_vectors(matrix, equal[0]);
         let vectors = vectors.iter().take(equal.len()).map(|vector| &complex * vector);
         let mut moved: Vec<DVector<Complex<f64>>> = vectors.collect();

@@ -1210,3 +1210,46 @@ fn a_slow_oscillator_beside_a_fast_one_keeps_its_frequency() {
     assert_eq!(frequencies(&found[0])[0], 1.0);
     assert_eq!(found[0].modes[0].in_phase, [0.0, 1.0]);
 }
+
+/// What grows slowly beside something fast, or by a small part of what turns: a pendulum upright on a stiff rod, λ = √g; a saddle of
+/// 10⁻¹⁴; a summit that a magnetic force holds up, with friction (W. Thomson, P. G. Tait, Treatise on Natural Philosophy, §345:
+/// unstable however small it is; λ = a friction of −d/2 (1 ∓ 3/√5)); a force across the displacement, λ ≈ c/2; a push along the velocity, λ = c/2.
+#[test]
+fn slow_growth_is_told_from_rounding() {
+    let file_of = |law: &str, starts: &str| {
+        let text = format!("title = \"t\"\n[coordinates]\n{starts}\n[lagrangian]\n{law}\n");
+        of(&file(&text, &[]))
+    };
+    let at = |found: Vec<Equilibrium>, near: [f64; 2]| {
+        let off = |one: &Equilibrium| {
+            let pairs = one.variables.iter().zip(near);
+            pairs.map(|(x, y)| (x - y).abs()).fold(0.0, f64::max)
+        };
+        found.into_iter().find(|one| off(one) < 0.1).expect("an equilibrium")
+    };
+    let judged = |law: &str, starts: &str, near: [f64; 2], stability: &str, growth: f64| {
+        let one = at(file_of(law, starts), near);
+        assert_eq!(one.stability(), stability, "{law}: {:?}", one.eigenvalues);
+        let fastest = one.eigenvalues.iter().map(|z| z[0]).fold(f64::NEG_INFINITY, f64::max);
+        assert!((fastest / growth - 1.0).abs() < 1e-3, "{law}: {fastest:e} is not {growth:e}");
+    };
+    let plane = "x = 0.01\ny = 0.02";
+    let rod = "L = \"1/2*(r'^2 + r^2*a'^2) - 9.81*r*cos(a) - 1/2*1e14*(r - 1)^2\"";
+    judged(rod, "a = 0.05\nr = 1.0", [0.0, 1.0], "unstable", 9.81_f64.sqrt());
+    let saddle = "L = \"1/2*(x'^2 + y'^2) + 1e-14*x^2/2 - 1e4*y^2/2\"";
+    judged(saddle, plane, [0.0; 2], "unstable", 1e-7);
+    let root = 5.0_f64.sqrt();
+    for size in [1e-6, 1e-9] {
+        let held = "L = \"1/2*(x'^2 + y'^2) + 3/2*(x*y' - y*x') + (x^2 + y^2)/2\"";
+        let held = format!("{held}\ndissipation = \"{size:e}*(x'^2 + y'^2)/2\"");
+        judged(&held, plane, [0.0; 2], "unstable", size * (3.0 / root - 1.0) / 2.0);
+        let across = "L = \"1/2*(x'^2 + y'^2) - (x^2 + y^2)/2\"";
+        let across = format!("{across}\nforces = {{ x = \"{size:e}*y\", y = \"-{size:e}*x\" }}");
+        judged(&across, plane, [0.0; 2], "unstable", size / 2.0);
+        for (sign, stability) in [("-", "unstable"), ("", "stable")] {
+            let growth = if sign == "-" { size / 2.0 } else { -size / 2.0 };
+            let law = format!("L = \"1/2*x'^2 - x^2/2\"\ndissipation = \"{sign}{size:e}*x'^2/2\"");
+            judged(&law, "x = 0.01", [0.0, 0.0], stability, growth);
+        }
+    }
+}

@@ -347,3 +347,35 @@ fn a_multiplier_below_rounding_has_no_exponent() {
         }
     }
 }
+
+/// A multiplier just outside the unit circle is told from rounding: of Mathieu's equation x″ = −(1 + e cos 2t) x, |μ| = e^{±eT/4}
+/// (L. D. Landau, E. M. Lifshitz, Mechanics, § 27); of an oscillator that is pushed along its velocity by c, e^{cT/2}; of van der Pol's cycle run
+/// backwards, e^{cT}. With the other sign the last two are stable.
+#[test]
+fn a_multiplier_just_outside_the_circle_is_unstable() {
+    use core::f64::consts::{PI, TAU};
+    let judged = |law: &str, start: &str, period: Option<f64>, stability: &str, exponent: f64| {
+        let text = format!("title = \"t\"\n[coordinates]\nx = {start}\n[lagrangian]\n{law}\n");
+        let fixed = period.map_or(Fixed::Nothing, Fixed::Period);
+        let found = of(&file(&text, &[]), period, fixed);
+        assert_eq!(found.stability().word(), stability, "{law}: {found:?}");
+        assert_eq!(found.is_stable(), Some(stability == "stable"), "{law}");
+        let size = found.multipliers[0][0].hypot(found.multipliers[0][1]);
+        let off = size.ln() / found.period - exponent;
+        assert!(off.abs() < 1e-4 * exponent.abs(), "{law}: {size} {off:e}");
+    };
+    let rest = "{ initial = 0, velocity = 0 }";
+    for size in [1e-7, 1e-9] {
+        let mathieu = format!("L = \"1/2*x'^2 - 1/2*(1 + {size:e}*cos(2*t))*x^2\"");
+        judged(&mathieu, rest, Some(PI), "unstable", size / 4.0);
+        let turning = "L = \"1/2*x'^2 - 1/2*(1.3 + 0.1*cos(t))*x^2\"";
+        for (sign, stability) in [(1.0, "unstable"), (-1.0, "stable")] {
+            let c = sign * size;
+            let pushed = format!("{turning}\nforces = {{ x = \"{c:e}*x' + 0*t\" }}");
+            judged(&pushed, rest, Some(TAU), stability, c / 2.0);
+            let cycle = "L = \"1/2*x'^2 - 1/2*x^2\"";
+            let cycle = format!("{cycle}\nforces = {{ x = \"{:e}*(1 - x^2)*x'\" }}", -c);
+            judged(&cycle, "{ initial = 2.001, velocity = 0 }", None, stability, c);
+        }
+    }
+}
