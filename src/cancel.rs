@@ -17,11 +17,6 @@ impl Cancel {
         Cancel::default()
     }
 
-    /// Creates a token from a flag that a signal handler may set.
-    pub fn of(flag: Arc<AtomicBool>) -> Cancel {
-        Cancel(flag)
-    }
-
     /// Asks everything that shares the token to stop.
     pub fn cancel(&self) {
         self.0.store(true, Ordering::Relaxed);

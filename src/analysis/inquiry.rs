@@ -26,8 +26,6 @@ pub struct Inquiry {
 pub enum InquiryAnswer {
     /// The bracket of two expressions.
     Bracket {
-        /// The two expressions.
-        sides: [Expr; 2],
         /// \[f, g\] of (q, p, t), or why it is not known in closed form.
         bracket: Result<Expr, NoClosedForm>,
         /// The bracket in terms of names of the file; zero if it vanishes.
@@ -39,8 +37,6 @@ pub enum InquiryAnswer {
     },
     /// Whether an expression is conserved.
     Conservation {
-        /// The expression.
-        of: Expr,
         /// Whether it is conserved, and how that is known.
         class: Class,
         /// Its rate of change along the motion.
@@ -194,7 +190,7 @@ fn bracket(model: &Model, equations: &mut Equations, sides: [Expr; 2]) -> Inquir
         Err(_) => (None, ChainRule::of(equations, f, g).ok().map(Box::new)),
     };
     let charts = ChartBracket::all(model, equations, sides);
-    InquiryAnswer::Bracket { sides, bracket, recognised, rule, charts }
+    InquiryAnswer::Bracket { bracket, recognised, rule, charts }
 }
 
 fn conservation(model: &Model, equations: &mut Equations, of: Expr) -> InquiryAnswer {
@@ -211,11 +207,8 @@ fn conservation(model: &Model, equations: &mut Equations, of: Expr) -> InquiryAn
     asked.observables = vec![observable];
     let classed = mechanics::classes(&asked, equations).pop();
     match classed {
-        Some(classed) => {
-            InquiryAnswer::Conservation { of, class: classed.class, rate: classed.rate }
-        }
+        Some(classed) => InquiryAnswer::Conservation { class: classed.class, rate: classed.rate },
         None => InquiryAnswer::Conservation {
-            of,
             class: Class::Unknown,
             rate: Err(NoClosedForm("it could not be derived".to_owned())),
         },

@@ -99,6 +99,4 @@ pub struct Family {
     /// Whether each orbit is the only one beside it with its value of what changes. Of others the one in whose direction that
     /// changes most is followed.
     pub isolated: bool,
-    /// Whether the work was cancelled.
-    pub cancelled: bool,
 }

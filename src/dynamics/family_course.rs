@@ -159,6 +159,6 @@ impl FamilyCourse {
         }
         let alone = |side: &FamilySide| side.begin.directions == 1 || side.here.directions == 1;
         let isolated = self.sides.as_ref().is_none_or(|sides| sides.iter().any(alone));
-        Family { members, ended, isolated, cancelled: self.cancelled }
+        Family { members, ended, isolated }
     }
 }

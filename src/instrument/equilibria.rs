@@ -225,7 +225,7 @@ pub(super) fn marks(
             "" if present.equilibria.len() > 1 => (index + 1).to_string(),
             name => name.to_owned(),
         };
-        layers.push((level, Layer::Name(at, name, ink)));
+        layers.push((level, Layer::Name(at, name)));
     }
     layers
 }

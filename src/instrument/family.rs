@@ -133,9 +133,8 @@ impl Instrument for FamilyPlot {
         for member in members {
             let Some(bifurcation) = member.bifurcation else { continue };
             let at = [member.value, member.greatest];
-            let ink = Ink::Accent;
-            layers.push((NOW, Layer::Point(at, MarkerShape::Ring, ink)));
-            layers.push((NOW, Layer::Name(at, bifurcation.word().to_owned(), ink)));
+            layers.push((NOW, Layer::Point(at, MarkerShape::Ring, Ink::Accent)));
+            layers.push((NOW, Layer::Name(at, bifurcation.word().to_owned())));
         }
         layers.push((NOW, Layer::Legend(legend(plot, present.physics, answer))));
         let name = format!("greatest {}", present.physics.shown(x));

@@ -150,7 +150,7 @@ pub enum Layer {
     /// A marker at a point.
     Point([f64; 2], MarkerShape, Ink),
     /// A name beside a point, where there is room.
-    Name([f64; 2], String, Ink),
+    Name([f64; 2], String),
     /// Lines of text in a corner, over everything else.
     Legend(Vec<String>),
 }

@@ -131,8 +131,6 @@ pub struct Attitude {
     pub matrix: [[Symbol; 3]; 3],
     /// Where A comes from.
     pub source: AttitudeSource,
-    /// The place of the table in the file.
-    pub place: SourceRange,
 }
 
 impl Attitude {

@@ -17,8 +17,6 @@ pub struct Impulse {
     pub change: Vec<Expr>,
     /// Its description.
     pub about: String,
-    /// Its place in the file.
-    pub place: SourceRange,
 }
 
 /// An event: a crossing to be located on the motion.

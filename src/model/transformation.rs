@@ -113,8 +113,6 @@ pub struct Generator {
     pub name: String,
     /// G, in q, p (or q̇), t and `energy`.
     pub expression: Expr,
-    /// The place of G in the file.
-    pub place: SourceRange,
 }
 
 /// A solution S(q, α, t) of the Hamilton–Jacobi equation that a file calls complete.

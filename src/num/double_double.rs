@@ -104,12 +104,6 @@ impl DoubleDouble {
         (1e-250..1e250).contains(&self.high.abs())
     }
 
-    /// `self²`.
-    #[must_use]
-    pub fn squared(self) -> DoubleDouble {
-        self * self
-    }
-
     /// The square root.
     fn root(self) -> DoubleDouble {
         if self.high <= 0.0 {

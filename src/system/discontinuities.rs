@@ -58,8 +58,6 @@ impl CompiledEvent {
 pub struct CompiledImpulse {
     /// The name in the file.
     pub name: String,
-    /// The description in words.
-    pub about: String,
     pub(super) times: usize,
     /// Whether the impulse recurs.
     pub(super) periodic: bool,
@@ -112,7 +110,6 @@ impl Discontinuities {
                 .iter()
                 .map(|i| CompiledImpulse {
                     name: i.name.clone(),
-                    about: i.about.clone(),
                     times: i.times.len(),
                     periodic: i.period.is_some(),
                     scheduled: !i.times.is_empty() || i.period.is_some(),

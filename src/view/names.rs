@@ -47,7 +47,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, frame: &PlotFrame, layers: &[(Level,
         }
     }
     for (_, layer) in layers {
-        let Layer::Name(at, name, _) = layer else { continue };
+        let Layer::Name(at, name) = layer else { continue };
         let Some(cell) = frame.cell(*at) else { continue };
         let name = canvas.text(name);
         let width = u16::try_from(name.width()).unwrap_or(u16::MAX);
@@ -80,12 +80,11 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, frame: &PlotFrame, layers: &[(Level,
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::instrument::Ink;
 
     #[test]
     fn ranges_are_made_longer_for_what_is_in_reach_alone() {
         let names = |points: &[[f64; 2]]| -> Vec<(Level, Layer)> {
-            let name = |at: &[f64; 2]| (4, Layer::Name(*at, "L".to_owned(), Ink::Plain));
+            let name = |at: &[f64; 2]| (4, Layer::Name(*at, "L".to_owned()));
             points.iter().map(name).collect()
         };
         let shown = [[0.0, 1.0], [0.0, 10.0]];

@@ -79,7 +79,7 @@ fn the_straight_orbit_of_henon_and_heiles_branches_where_it_is_published() {
     assert!(legend(&app).contains("branching at E = 0.16155"), "{}", legend(&app));
     // its name stands at its place in the picture
     let named = layers(&app).into_iter().any(|layer| match layer {
-        Layer::Name(at, name, _) => name == "branching" && (at[0] - published).abs() < 1e-6,
+        Layer::Name(at, name) => name == "branching" && (at[0] - published).abs() < 1e-6,
         _ => false,
     });
     assert!(named);

@@ -152,6 +152,6 @@ fn a_family_is_a_curve_through_the_section() {
     assert!((points[0].0[0] - 0.5).abs() < 1e-9, "{points:?}");
     let named = layers(&app)
         .into_iter()
-        .any(|layer| matches!(layer, Layer::Name(_, name, _) if name == "family"));
+        .any(|layer| matches!(layer, Layer::Name(_, name) if name == "family"));
     assert!(named);
 }

@@ -377,7 +377,7 @@ fn an_attitude_by_angles_is_the_matrix_of_the_books() {
     let angles = ["phi", "theta", "psi"].map(|text| read(&mut model, text));
     let symbol = |model: &mut Model, i, j| model.pool.symbol(&format!("A{i}{j}"));
     let matrix = [1, 2, 3].map(|i| [1, 2, 3].map(|j| symbol(&mut model, i, j)));
-    model.attitude = Some(Attitude { matrix, source: AttitudeSource::Euler(angles), place: 0..0 });
+    model.attitude = Some(Attitude { matrix, source: AttitudeSource::Euler(angles) });
     let trace =
         matrix.concat().iter().step_by(4).map(|&s| model.pool.variable(s)).collect::<Vec<_>>();
     let trace = model.pool.sum(&trace);
@@ -427,7 +427,7 @@ fn turning() -> Model {
     let start = ["0.3", "0.4", "0.5"].map(|text| read(&mut model, text));
     let matrix = [1, 2, 3].map(|i| [1, 2, 3].map(|j| model.pool.symbol(&format!("A{i}{j}"))));
     let source = AttitudeSource::Rate { omega, start };
-    model.attitude = Some(Attitude { matrix, source, place: 0..0 });
+    model.attitude = Some(Attitude { matrix, source });
     model
 }
 
@@ -521,7 +521,7 @@ fn the_attitude_of_a_top_is_that_of_its_angles() {
     let start = ["0.1", "0.4", "0.2"].map(|text| read(&mut model, text));
     let matrix = [1, 2, 3].map(|i| [1, 2, 3].map(|j| model.pool.symbol(&format!("A{i}{j}"))));
     let source = AttitudeSource::Rate { omega, start };
-    model.attitude = Some(Attitude { matrix, source, place: 0..0 });
+    model.attitude = Some(Attitude { matrix, source });
     let written = [
         ("A11", "cos(psi)*cos(phi) - cos(theta)*sin(phi)*sin(psi)"),
         ("A12", "cos(psi)*sin(phi) + cos(theta)*cos(phi)*sin(psi)"),

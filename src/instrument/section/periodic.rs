@@ -77,7 +77,7 @@ pub(super) fn marks(
             let stroke = Stroke { ink: Ink::Plain, covering: Some(SPARSE) };
             let end = curve.last().copied();
             layers.push((MARKS, Layer::Line(curve, stroke)));
-            layers.extend(end.map(|at| (MARKS, Layer::Name(at, "family".to_owned(), Ink::Plain))));
+            layers.extend(end.map(|at| (MARKS, Layer::Name(at, "family".to_owned()))));
         }
     }
     for (stable, points) in points(present, section, channels) {
@@ -86,7 +86,7 @@ pub(super) fn marks(
             Some(false) => (MarkerShape::Cross, "unstable"),
             None => (MarkerShape::Ring, "periodic"),
         };
-        let name = points.first().map(|at| (MARKS, Layer::Name(*at, word.to_owned(), Ink::Plain)));
+        let name = points.first().map(|at| (MARKS, Layer::Name(*at, word.to_owned())));
         layers.extend(points.into_iter().map(|at| (MARKS, Layer::Point(at, shape, Ink::Plain))));
         layers.extend(name);
     }

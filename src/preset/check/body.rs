@@ -30,12 +30,11 @@ impl Check<'_> {
             let place = written.place.clone();
             self.model.body = Some(Body { pieces: Vec::new(), names, place });
         }
-        if let Some(written) = attitude {
+        if attitude.is_some() {
             let matrix =
                 Attitude::WRITTEN.map(|row| row.map(|name| self.introduce(name, Rank::Variable)));
             let source = AttitudeSource::Euler([Expr::ZERO; 3]);
-            let place = written.place.clone();
-            self.model.attitude = Some(Attitude { matrix, source, place });
+            self.model.attitude = Some(Attitude { matrix, source });
         }
     }
 

@@ -68,7 +68,6 @@ impl Check<'_> {
                 period,
                 change,
                 about: impulse.about.clone(),
-                place: impulse.place.clone(),
             });
         }
     }

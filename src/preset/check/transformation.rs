@@ -159,9 +159,8 @@ impl Check<'_> {
                 report_twice(name, first.span(), "a generator", self.diagnostics);
             }
             taken.push(name);
-            if let (Some(expression), Some(formula)) = (e, formula) {
-                let (name, place) = (name.get_ref().clone(), formula.span());
-                self.model.generators.push(Generator { name, expression, place });
+            if let Some(expression) = e {
+                self.model.generators.push(Generator { name: name.get_ref().clone(), expression });
             }
         }
         let Some(written) = &draft.integral else { return };

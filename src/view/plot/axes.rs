@@ -60,8 +60,6 @@ pub struct Axes {
     pub equal: bool,
     /// By which parts of its width and height the window of such axes is moved.
     pub pan: [f64; 2],
-    /// Whether faint dots mark the crossings of ticks.
-    pub grid: bool,
 }
 
 /// The positions of everything.
@@ -73,9 +71,9 @@ struct Plan {
 }
 
 impl Axes {
-    /// Creates axes with free proportions and no grid.
+    /// Creates axes with free proportions.
     pub fn new(x: DrawnAxis, y: DrawnAxis) -> Self {
-        Self { x, y, equal: false, pan: [0.0; 2], grid: false }
+        Self { x, y, equal: false, pan: [0.0; 2] }
     }
 
     /// Makes units equally long on both axes, so that circles are round.
@@ -88,12 +86,6 @@ impl Axes {
     #[must_use]
     pub fn panned(self, pan: [f64; 2]) -> Self {
         Self { pan, ..self }
-    }
-
-    /// Adds a grid of faint dots.
-    #[must_use]
-    pub fn grid(self) -> Self {
-        Self { grid: true, ..self }
     }
 
     /// Returns the frame left for the plot.
@@ -110,14 +102,11 @@ impl Axes {
         glyphs: Glyphs,
     ) -> PlotFrame {
         let plan = self.plan(area, glyphs);
-        let mut sheet = StrokeContext { buffer, area, theme, glyphs };
-        sheet.zero_lines(&plan.frame);
-        if self.grid {
-            sheet.grid(&plan);
-        }
+        let mut context = StrokeContext { buffer, area, theme, glyphs };
+        context.zero_lines(&plan.frame);
         if !plan.bare {
-            sheet.left(&plan, &self.y.heading(plan.y.exponent, glyphs));
-            sheet.below(&plan, &self.x.heading(plan.x.exponent, glyphs));
+            context.left(&plan, &self.y.heading(plan.y.exponent, glyphs));
+            context.below(&plan, &self.x.heading(plan.x.exponent, glyphs));
         }
         plan.frame
     }
@@ -236,17 +225,6 @@ impl StrokeContext<'_> {
         if let Some(column) = column {
             for y in y..frame.area.bottom() {
                 self.put(column.x, y, self.glyphs.pick("┊", "."), style);
-            }
-        }
-    }
-
-    fn grid(&mut self, plan: &Plan) {
-        let style = self.theme[Role::Border];
-        for y in &plan.y.marks {
-            for x in &plan.x.marks {
-                if let Some(cell) = plan.frame.cell([x.value, y.value]) {
-                    self.put(cell.x, cell.y, self.glyphs.pick("·", "."), style);
-                }
             }
         }
     }

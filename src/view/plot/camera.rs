@@ -3,7 +3,7 @@
 //! In: points with z up, angles, zoom. Out: horizontal and vertical coordinates in the units of the scene, and the
 //! depth. Never here: shapes, or hidden surfaces.
 
-use std::f64::consts::{FRAC_PI_2, TAU};
+use std::f64::consts::FRAC_PI_2;
 
 use ratatui::layout::Rect;
 
@@ -29,31 +29,6 @@ impl Camera {
     /// The view for plane systems: the x–y plane seen face on, y up.
     pub const FACE_ON: Self =
         Self { yaw: 0.0, pitch: FRAC_PI_2, zoom: 1.0, pan: [0.0, 0.0], distance: None };
-
-    /// Rotates the camera by angles in radians; the pitch stops at the poles.
-    #[must_use]
-    pub fn turned(self, yaw: f64, pitch: f64) -> Self {
-        let yaw = (self.yaw + yaw).rem_euclid(TAU);
-        let pitch = (self.pitch + pitch).clamp(-FRAC_PI_2, FRAC_PI_2);
-        Self {
-            yaw: if yaw.is_finite() { yaw } else { self.yaw },
-            pitch: if pitch.is_finite() { pitch } else { self.pitch },
-            ..self
-        }
-    }
-
-    /// Changes the magnification by a factor, between a hundredth and a hundredfold.
-    #[must_use]
-    pub fn zoomed(self, factor: f64) -> Self {
-        let zoom = (self.zoom * factor).clamp(0.01, 100.0);
-        Self { zoom: if zoom.is_finite() { zoom } else { self.zoom }, ..self }
-    }
-
-    /// Shifts the picture by fractions of its width and height.
-    #[must_use]
-    pub fn panned(self, right: f64, up: f64) -> Self {
-        Self { pan: [self.pan[0] + right, self.pan[1] + up], ..self }
-    }
 
     /// Projects a point to its horizontal coordinate, its vertical coordinate, and how much nearer to the eye than the
     /// origin it is.

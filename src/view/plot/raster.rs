@@ -190,17 +190,6 @@ impl Raster {
         }
     }
 
-    /// Draws a circle about a point of the frame, with its radius in the units of the axes.
-    pub fn circle(&mut self, frame: &PlotFrame, [x, y]: [f64; 2], radius: f64, pen: &Pen) {
-        let sides = 128;
-        let corner = |side: i32| {
-            let (sin, cos) =
-                math::sin_cos(f64::from(side) * std::f64::consts::TAU / f64::from(sides));
-            [x + radius * cos, y + radius * sin]
-        };
-        self.polyline(frame, (0..=sides).map(corner), pen);
-    }
-
     /// Fills a disc about a point of the frame, with its radius in the units of the axes.
     pub fn disc(&mut self, frame: &PlotFrame, [x, y]: [f64; 2], radius: f64, pen: &Pen) {
         let size = self.size();

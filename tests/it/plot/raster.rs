@@ -1,5 +1,7 @@
 //! Dots: combined where lines cross, thin, round, and styled by the highest layer.
 
+use std::f64::consts::TAU;
+
 use phaselab::view::glyphs::Glyphs;
 use phaselab::view::plot::{Marker, Pen, PlotFrame, Raster, Scale};
 use phaselab::view::theme::{Dash, Shade};
@@ -134,7 +136,8 @@ fn a_circle_is_round_with_equal_units() {
             let scale = Scale::linear(-1.2, 1.2);
             let frame = PlotFrame::equal(scale, scale, area);
             let mut raster = Raster::new(area, glyphs);
-            raster.circle(&frame, [0.0, 0.0], 1.0, &PLAIN);
+            let rim = (0..=128).map(|side| (f64::from(side) * TAU / 128.0).sin_cos());
+            raster.polyline(&frame, rim.map(|(sin, cos)| [cos, sin]), &PLAIN);
             let dots = dots(&raster);
             let extent = |axis: usize| {
                 let along = dots.iter().map(|dot| dot[axis]);
@@ -188,15 +191,15 @@ fn cells_without_dots_and_backgrounds_are_left_alone() {
     assert_eq!((buffer[(1, 0)].symbol(), buffer[(1, 0)].modifier), ("b", Modifier::UNDERLINED));
 }
 
+/// A shade with the colour of this index.
+fn shade(index: u8) -> Shade {
+    let style = Style::new().fg(Color::Indexed(index));
+    Shade { style, coverage: 1.0, dash: Dash::Full }
+}
+
 #[test]
 fn an_even_cloud_has_an_even_shade() {
-    let shades: Vec<Shade> = (0..8)
-        .map(|i| Shade {
-            style: Style::new().fg(Color::Indexed(i)),
-            coverage: 1.0,
-            dash: Dash::Full,
-        })
-        .collect();
+    let shades: Vec<Shade> = (0..8).map(shade).collect();
     let area = Rect::new(0, 0, 20, 10);
     // A lattice of additive recurrences (Roberts' R2) fills the square evenly.
     let points = (0..20_000).map(|i| {
@@ -219,13 +222,7 @@ fn an_even_cloud_has_an_even_shade() {
 
 #[test]
 fn a_denser_cell_has_a_later_shade_and_in_ascii_a_heavier_character() {
-    let shades: Vec<Shade> = (0..8)
-        .map(|i| Shade {
-            style: Style::new().fg(Color::Indexed(i)),
-            coverage: 1.0,
-            dash: Dash::Full,
-        })
-        .collect();
+    let shades: Vec<Shade> = (0..8).map(shade).collect();
     let area = Rect::new(0, 0, 4, 1);
     let points = [1, 10, 100, 1000]
         .into_iter()
@@ -242,8 +239,7 @@ fn a_denser_cell_has_a_later_shade_and_in_ascii_a_heavier_character() {
 /// A curve around a wide cloud is seen at its edge; a cloud so thin that the curve goes through most of its cells is seen itself.
 #[test]
 fn a_thin_cloud_is_seen_in_place_of_the_curve_around_it() {
-    let cloud =
-        [Shade { style: Style::new().fg(Color::Indexed(7)), coverage: 1.0, dash: Dash::Full }];
+    let cloud = [shade(7)];
     let area = Rect::new(0, 0, 40, 20);
     let curve = Pen { style: Style::new().fg(Color::Indexed(1)), ..PLAIN };
     for glyphs in [Glyphs::Braille, Glyphs::Ascii] {

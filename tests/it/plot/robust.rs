@@ -1,5 +1,7 @@
 //! Any bits of any number at any size: something is drawn, or nothing, but never a panic.
 
+use std::f64::consts::FRAC_PI_2;
+
 use phaselab::view::colour::ColourDepth;
 use phaselab::view::glyphs::Glyphs;
 use phaselab::view::plot::{
@@ -65,7 +67,6 @@ fn everything(
         y: DrawnAxis::new("p_θ", "kg m²/s", y),
         equal: false,
         pan: points.first().copied().unwrap_or_default(),
-        grid: true,
     };
     let axes = if area.width.is_multiple_of(2) { axes } else { axes.equal() };
     let frame = axes.draw(area, buffer, theme, glyphs);
@@ -75,7 +76,6 @@ fn everything(
     raster.cloud(&frame, points.iter().copied(), theme.density(), 1);
     raster.points(&frame, points.iter().copied(), &Pen::new(theme.curve(2), 1));
     for point in points.iter().take(2) {
-        raster.circle(&frame, *point, point[0], &Pen::new(theme.curve(3), 1));
         raster.marker(&frame, *point, Marker::Diamond, &Pen::new(theme[Role::Accent], 3));
     }
     raster.draw(buffer);
@@ -117,11 +117,14 @@ proptest! {
         angles in [number(), number(), number(), number()],
         (_, area) in screen(),
     ) {
-        let camera = super::camera::IN_SPACE
-            .turned(angles[0], angles[1])
-            .zoomed(angles[2])
-            .panned(angles[3], angles[0]);
-        let camera = Camera { distance: Some(angles[2]), ..camera };
+        let finite = |x: f64| if x.is_finite() { x } else { 0.0 };
+        let camera = Camera {
+            yaw: finite(angles[0]),
+            pitch: finite(angles[1]).clamp(-FRAC_PI_2, FRAC_PI_2),
+            zoom: finite(angles[2]).clamp(0.01, 100.0),
+            pan: [angles[3], angles[0]],
+            distance: Some(angles[2]),
+        };
         let frame: PlotFrame = camera.frame(&Bounds::around(points.iter().copied()), area);
         prop_assert!(frame.x.lo < frame.x.hi && frame.y.lo < frame.y.hi);
         let mut raster = Raster::new(area, Glyphs::Braille);
