@@ -263,10 +263,10 @@ impl FrozenMotion<'_> {
     pub fn bottom(&self, motion: &OwnMotion) -> f64 {
         let turns = motion.row.as_ref().map_or([None, None], |row| row.turning_points);
         let between = match turns {
-            [Some(from), Some(to)] => self.potential.bottom_between([from, to]),
+            [Some(from), Some(to)] => self.potential.profile.bottom_between([from, to]),
             _ => None,
         };
-        between.unwrap_or_else(|| self.potential.bottom())
+        between.unwrap_or_else(|| self.potential.profile.bottom())
     }
 }
 

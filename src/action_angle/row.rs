@@ -233,7 +233,7 @@ fn libration(
     energy: f64,
 ) -> Result<ActionRow, NoAction> {
     let region = AllowedInterval { left: Some(left), right: Some(right) };
-    if potential.is_separatrix(region, energy) {
+    if potential.profile.is_separatrix(region, energy) {
         let action = action_between(potential, left, right, energy)?;
         let turning_points = [Some(left), Some(right)];
         let (kind, period) = (RegionKind::Libration, f64::INFINITY);
@@ -288,7 +288,7 @@ fn other_rest(
     let kind = potential.momentum();
     let column = systems.turning.channels().iter().position(|channel| channel.kind == kind)?;
     let (place, momentum) = (row[systems.column], row[1 + column]);
-    let depth = energy - potential.bottom_between(ends)?;
+    let depth = energy - potential.profile.bottom_between(ends)?;
     let start = potential.at_rest(place);
     let rest = potential.observed(&start, kind).ok()?;
     let differs = (potential.at(place) - energy).abs() > OTHER_REST * depth;
@@ -347,7 +347,7 @@ pub fn cyclic_row(
     let (Some(left), Some(right)) = (region.left, region.right) else {
         return Err(NoAction::NoReturn("the other coordinate does not return".to_owned()));
     };
-    if potential.is_separatrix(region, energy) {
+    if potential.profile.is_separatrix(region, energy) {
         return Err(NoAction::NoReturn("the other coordinate is on a separatrix".to_owned()));
     }
     let start = potential.at_rest(left);

@@ -65,10 +65,10 @@ impl Separatrix {
 /// period fill it, since it begins at such a top.
 fn connected(potential: &mut EffectivePotential<'_>) -> Vec<Lobes> {
     let mut all: Vec<Lobes> = Vec::new();
-    for top in potential.tops() {
+    for top in potential.profile.tops() {
         let mut lobes = potential.lobes(top);
         if let Some(last) = all.last_mut()
-            && potential.is_same_energy(last.energy, top[1])
+            && potential.profile.is_same_energy(last.energy, top[1])
             && let (Some(before), Some(first)) = (last.lobes.last(), lobes.first())
             && is_same_lobe(*before, *first)
         {
@@ -90,7 +90,7 @@ fn is_same_lobe(one: AllowedInterval, other: AllowedInterval) -> bool {
 
 /// Whether beyond an energy the coordinate goes round and round.
 fn is_of_rotation(potential: &EffectivePotential<'_>, energy: f64) -> bool {
-    let tops = potential.tops();
-    let is_below = |other: f64| other <= energy || potential.is_same_energy(other, energy);
+    let tops = potential.profile.tops();
+    let is_below = |other: f64| other <= energy || potential.profile.is_same_energy(other, energy);
     potential.period().is_some() && tops.iter().all(|top| is_below(top[1]))
 }

@@ -139,7 +139,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     }
     if rows.is_empty() {
         let rest = potential.at(own.place);
-        let is_below = own.energy < rest && !potential.is_same_energy(own.energy, rest);
+        let is_below = own.energy < rest && !potential.profile.is_same_energy(own.energy, rest);
         let why = if arguments.energy.is_none() && is_below {
             "has less energy at the start than at rest there: its motion follows from no effective potential"
         } else {
@@ -159,7 +159,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
              those of their mean"
         ));
     }
-    let [first, last] = potential.resolved();
+    let [first, last] = potential.profile.resolved();
     let range = match (first.is_finite(), last.is_finite()) {
         (false, false) => String::new(),
         (true, true) => format!("from {name} = {first:.4} to {last:.4}"),
