@@ -16,6 +16,7 @@ mod conjugate_root;
 mod conservation;
 mod constrain;
 mod derive;
+mod determinant;
 mod dimension;
 mod domain;
 mod equations;

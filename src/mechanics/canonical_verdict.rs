@@ -7,8 +7,8 @@
 use nalgebra::DMatrix;
 
 use super::canonical::PhaseMap;
+use super::determinant::singular;
 use super::equations::Equations;
-use super::generating::singular;
 use super::implicit_map::{departure, guesses};
 use super::sampling::{FAR_POINTS, POINTS};
 use super::valuation::Valuation;

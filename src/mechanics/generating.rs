@@ -6,12 +6,12 @@
 //! for each pair, those of mixed types too. Never here: whether the map is canonical.
 //! Source: *The Principles of Dynamics*, § 3.2.1.
 
+mod function_test;
+
 use std::collections::HashMap;
 
-use nalgebra::DMatrix;
-
 use super::canonical::{ALLOWANCE, PhaseMap};
-use super::collected::collected;
+use super::determinant::singular;
 use super::equations::Equations;
 use super::isolate::{self, Solution};
 use super::potential::potential;
@@ -19,76 +19,13 @@ use super::valuation::Valuation;
 use crate::expr::{Expr, Pool, Symbol, Zero};
 use crate::model::{GeneratingType, Model, Transformation, TransformationLaw};
 use crate::num::Number;
+use function_test::FunctionTest;
 
 /// Of so many pairs every choice of types is tried, of more those that differ from the given one at a single pair.
 const PAIRS: usize = 2;
 
 /// The points at which a function has to give the map.
 const POINTS: u64 = 24;
-
-/// A determinant counts as zero up to this part of its terms.
-const DEPENDENT: f64 = 1e-10;
-
-/// Whether a function gives a map.
-struct FunctionTest<'a> {
-    model: &'a Model,
-    given: &'a Transformation,
-    types: &'a [GeneratingType],
-    /// The old and the new variables.
-    variables: Vec<Symbol>,
-    /// The new variables as functions of the old ones.
-    map: HashMap<Symbol, Expr>,
-    points: &'a [Valuation],
-}
-
-impl FunctionTest<'_> {
-    /// The function that has this value with the unknowns solved for, if it gives the map, and whether that is proved.
-    fn function(
-        &self,
-        pool: &mut Pool,
-        value: Expr,
-        unknowns: &[Symbol],
-        solution: &Solution,
-    ) -> Option<(Expr, bool)> {
-        let put: HashMap<Symbol, Expr> = solution.iter().copied().collect();
-        let function = isolate::tidy(pool, value, &put);
-        let simplified = pool.simplify(function);
-        // what comes together by itself may be shorter than what is multiplied out
-        let plain = pool.substitute(value, &put);
-        let shorter = pool.weight(plain) < pool.weight(simplified);
-        let function = if shorter { plain } else { simplified };
-        let function = collected(pool, function, &self.variables);
-        if pool.depends_on_any(function, unknowns) {
-            return None;
-        }
-        let relations = self.relations(pool, function);
-        let mut right = 0;
-        for at in self.points {
-            for &e in &relations {
-                let (left, size) = pool.evaluate_with_size(e, &|s| at.at(s));
-                if left.is_finite() && left.abs() > 1e-9 * (1.0 + size) {
-                    return None;
-                }
-                right += usize::from(left.is_finite());
-            }
-        }
-        if right < 2 * relations.len() {
-            return None;
-        }
-        let proved = relations.iter().all(|&e| {
-            let e = pool.substitute(e, &self.map);
-            pool.is_zero(e) == Zero::Proved
-        });
-        Some((function, proved))
-    }
-
-    /// What vanishes where a function gives the map.
-    fn relations(&self, pool: &mut Pool, function: Expr) -> Vec<Expr> {
-        let law = TransformationLaw::Generating { types: self.types.to_vec(), function };
-        let transformation = Transformation { law, ..self.given.clone() };
-        PhaseMap::relations(pool, self.model, &transformation).implicit.relations
-    }
-}
 
 /// A generating function of a map, if it has one of this type.
 #[derive(Clone, Debug)]
@@ -174,38 +111,6 @@ fn variables_of(types: &[GeneratingType]) -> String {
     let old = list(|of| if of.has_position() { "q" } else { "p" });
     let new = list(|of| if of.has_new_position() { "Q" } else { "P" });
     format!("{old} and {new}")
-}
-
-/// Whether the determinant of a square matrix vanishes at all points where it has a value: to rounding of the terms of its
-/// entries, each row relative to its largest.
-pub(super) fn singular(pool: &Pool, matrix: &[Vec<Expr>], points: &[Valuation]) -> bool {
-    let n = matrix.len();
-    let determinants = points.iter().map(|at| {
-        let entry = |i: usize, j: usize| {
-            let (value, size) = pool.evaluate_with_size(matrix[i][j], &|s| at.at(s));
-            if value.abs() <= DEPENDENT * size { 0.0 } else { value }
-        };
-        scaled_determinant(DMatrix::from_fn(n, n, entry))
-    });
-    let known: Vec<f64> = determinants.filter(|size| size.is_finite()).collect();
-    !known.is_empty() && known.iter().all(|size| *size <= DEPENDENT)
-}
-
-/// The size of the determinant of a square matrix with its rows, then its columns, divided by their largest entries.
-pub(super) fn scaled_determinant(mut values: DMatrix<f64>) -> f64 {
-    for k in 0..values.nrows() {
-        let largest = values.row(k).amax();
-        if largest > 0.0 {
-            values.row_mut(k).unscale_mut(largest);
-        }
-    }
-    for k in 0..values.ncols() {
-        let largest = values.column(k).amax();
-        if largest > 0.0 {
-            values.column_mut(k).unscale_mut(largest);
-        }
-    }
-    values.determinant().abs()
 }
 
 impl PhaseMap {

@@ -6,8 +6,8 @@
 
 use std::collections::HashMap;
 
+use super::determinant::singular;
 use super::equations::{Equations, NoClosedForm};
-use super::generating::singular;
 use super::isolate::{self, Solution, tidy};
 use super::sampling::{FAR_POINTS, POINTS};
 use super::slope::{self, tidy_derivative};

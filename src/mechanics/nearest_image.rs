@@ -12,7 +12,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::canonical::{PhaseMap, WITNESSES};
-use super::generating::scaled_determinant;
+use super::determinant::scaled_determinant;
 use super::implicit_map::{guesses, matrix_at};
 use super::isolate::Solution;
 use super::valuation::Valuation;
