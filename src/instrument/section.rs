@@ -4,9 +4,11 @@
 //! the same energy, their starts spread over what the energy allows, and the boundary of that region; it is done in
 //! parts, so that the picture fills as one looks, and begun anew when a parameter, the method or the energy changes.
 
+mod measures;
 mod periodic;
 mod portrait;
 mod regularity;
+mod surface;
 
 use std::sync::Arc;
 
@@ -20,12 +22,15 @@ use crate::expr::Expr;
 use crate::integrate::method_named;
 use crate::job::Job;
 use crate::mechanics::Valuation;
-use crate::model::{Direction, View};
+use crate::model::View;
 use crate::system::InitialOverride;
+use measures::MEASURES;
 use portrait::{
     Begun, COUNT, DrawnOrbit, IDLE, Portrait, SectionConditions, SectionTask, TRANSIENT,
 };
 use regularity::{by_chaos, chaos_ink, newest_rotation, own_rotation, to_its_error};
+pub(super) use surface::zero;
+use surface::{crossing, surface, view};
 
 /// The levels of the picture.
 const BOUNDARY: Level = 0;
@@ -109,7 +114,7 @@ impl Instrument for SectionPlot {
     fn counted(&self, PlotContext { plot, present, answer }: PlotContext<'_>) -> Option<Entry> {
         let view = view(plot, present.physics)?;
         let own = present.crossings.counts().get(view.section?).copied().unwrap_or(0);
-        let count = own as usize + portrait(answer).map_or(0, crossings);
+        let count = own as usize + Portrait::of(answer).map_or(0, Portrait::crossings);
         let word = crossing(present.physics, view);
         let plural = if count == 1 { "" } else { "s" };
         Some(Entry::Words(format!("{count} {word}{plural}")))
@@ -125,7 +130,7 @@ impl Instrument for SectionPlot {
         let channels = [plot.column(0)?, plot.column(1)?];
         let section = view(plot, present.physics)?.section?;
         let mut layers = Vec::new();
-        if let Some(portrait) = portrait(answer) {
+        if let Some(portrait) = Portrait::of(answer) {
             let line = |pair: &[[f64; 2]; 2]| Layer::Line(pair.to_vec(), Ink::Separatrix.into());
             layers.extend(portrait.region.boundary.iter().map(|pair| (BOUNDARY, line(pair))));
             // orbits on an attractor show one thing
@@ -151,7 +156,7 @@ impl Instrument for SectionPlot {
         }));
         layers.extend(periodic::marks(present, section, channels));
         let (channel, range) = (channels[1], range(context, 1));
-        let upwards = match portrait(answer).and_then(newest_rotation) {
+        let upwards = match Portrait::of(answer).and_then(newest_rotation) {
             Some(words) => Upwards::Annotated { channel, range, words },
             None => Upwards::Channel(channel, range),
         };
@@ -193,7 +198,7 @@ impl Instrument for SectionPlot {
             return Need::Nothing;
         };
         let conditions = SectionConditions::of(present);
-        let known = portrait(answer).filter(|known| {
+        let known = Portrait::of(answer).filter(|known| {
             known.conditions.still_hold(&conditions, plane.is_bounded())
                 && plot.seeds.starts_with(&known.seeds)
         });
@@ -245,140 +250,12 @@ impl Instrument for SectionPlot {
     fn table(&self, PlotContext { plot, present, answer }: PlotContext<'_>) -> Option<PlotTable> {
         let channels = present.physics.system.channels();
         let named = |k| Some(channels.get(plot.column(k)?)?.name.clone());
-        Some(portrait(answer)?.table([named(0)?, named(1)?]))
+        Some(Portrait::of(answer)?.table([named(0)?, named(1)?]))
     }
 
     fn measures(&self) -> &'static [Measure] {
-        &[
-            Measure {
-                word: "points",
-                about: "how often the running motion has crossed the surface",
-                value: |PlotContext { plot, present, .. }| {
-                    let section = view(plot, present.physics)?.section?;
-                    present.crossings.counts().get(section).map(|count| *count as f64)
-                },
-            },
-            Measure {
-                word: "own_rotation",
-                about: "the rotation number of the running motion",
-                value: |PlotContext { plot, present, .. }| {
-                    let section = view(plot, present.physics)?.section?;
-                    own_rotation(plot, present, section).map(|found| found.number)
-                },
-            },
-            Measure {
-                word: "orbits",
-                about: "how many other orbits are drawn",
-                value: |context| portrait(context.answer).map(|p| p.orbits.len() as f64),
-            },
-            Measure {
-                word: "crossings",
-                about: "how many crossings of other orbits are drawn",
-                value: |context| portrait(context.answer).map(|drawn| crossings(drawn) as f64),
-            },
-            Measure {
-                word: "rotating",
-                about: "how many of them have a rotation number",
-                value: |context| {
-                    let rotating =
-                        portrait(context.answer)?.orbits.iter().filter(|o| o.rotation.is_ok());
-                    Some(rotating.count() as f64)
-                },
-            },
-            Measure {
-                word: "regular",
-                about: "how many of them are regular: those, and crescents that do not go round their middle",
-                value: |context| {
-                    let orbits = portrait(context.answer)?.orbits.iter();
-                    Some(orbits.filter(|orbit| orbit.regular() == Some(true)).count() as f64)
-                },
-            },
-            Measure {
-                word: "chaotic",
-                about: "how many of them have none, as their average turn differs as that of random numbers does",
-                value: |context| {
-                    let orbits = portrait(context.answer)?.orbits.iter();
-                    Some(orbits.filter(|orbit| orbit.regular() == Some(false)).count() as f64)
-                },
-            },
-            Measure {
-                word: "periodic",
-                about: "how many points of periodic orbits are marked",
-                value: |PlotContext { plot, present, .. }| {
-                    let section = view(plot, present.physics)?.section?;
-                    let channels = [plot.column(0)?, plot.column(1)?];
-                    let orbits = periodic::points(present, section, channels);
-                    Some(orbits.map(|(_, points)| points.len()).sum::<usize>() as f64)
-                },
-            },
-            Measure {
-                word: "rotation",
-                about: "the rotation number of the newest of them",
-                value: |context| {
-                    let newest = portrait(context.answer)?.orbits.last()?.rotation.as_ref().ok();
-                    newest.map(|rotation| rotation.number)
-                },
-            },
-        ]
+        &MEASURES
     }
-}
-
-fn portrait(answer: Option<&Answer>) -> Option<&Portrait> {
-    answer?.of::<Portrait>()
-}
-
-/// The view of the file that has the surface.
-fn view<'a>(plot: &Plot, physics: Physics<'a>) -> Option<&'a View> {
-    physics.model.views.get(plot.view?).filter(|view| view.section.is_some())
-}
-
-/// How many crossings the orbits of a portrait have.
-fn crossings(portrait: &Portrait) -> usize {
-    portrait.orbits.iter().map(|orbit| orbit.points.len()).sum()
-}
-
-/// What a crossing is: of a surface, or of an instant, once in a period of the time; if only one impulse is repeated, the time
-/// from each to the next is its period.
-fn crossing<'a>(physics: Physics<'a>, view: &View) -> &'a str {
-    let model = physics.model;
-    let surface = view.section.and_then(|index| model.sections.get(index));
-    let of_state = model
-        .coordinates
-        .iter()
-        .flat_map(|c| [c.position, c.velocity, c.acceleration, c.momentum])
-        .collect::<Vec<_>>();
-    let is_instant = |on: Expr| {
-        model.pool.depends(on, model.symbols.time) && !model.pool.depends_on_any(on, &of_state)
-    };
-    if !surface.is_some_and(|surface| is_instant(surface.when)) {
-        return "crossing";
-    }
-    let mut repeated = model.impulses.iter().filter(|impulse| impulse.period.is_some());
-    match (repeated.next(), repeated.next()) {
-        (Some(impulse), None) => &impulse.name,
-        _ => "period",
-    }
-}
-
-/// The surface in words: `x = 0, rising`.
-fn surface(physics: Physics<'_>, view: &View) -> String {
-    let section = view.section.and_then(|index| physics.model.sections.get(index));
-    let direction = match section.map_or(Direction::Either, |section| section.direction) {
-        Direction::Rising => ", rising",
-        Direction::Falling => ", falling",
-        Direction::Either => "",
-    };
-    format!("{}{direction}", zero(physics, view))
-}
-
-/// The equation of the surface of a view, in mathematical notation: `sin(ω t) = 0`.
-pub(super) fn zero(physics: Physics<'_>, view: &View) -> String {
-    // the last of the axes, as it was read
-    let on = view.axes.last().and_then(|axis| axis.first());
-    let on = on.map_or_else(String::new, |on| physics.model.pool.unicode(on.expression));
-    // a time, where there is one term beside it
-    let time = on.strip_prefix("t − ").filter(|rest| !rest.contains([' ', '(']));
-    time.map_or_else(|| format!("{on} = 0"), |time| format!("t = {time}"))
 }
 
 /// The plane of a plot, if its points are starts and its quantities are columns of an orbit.
@@ -450,7 +327,7 @@ fn given(plot: &Plot, present: &Present<'_>, axis: usize) -> Option<[f64; 2]> {
 
 /// The range of an axis: the file's, or that of the region.
 fn range(PlotContext { plot, present, answer }: PlotContext<'_>, axis: usize) -> Option<[f64; 2]> {
-    let region = portrait(answer).map(|portrait| portrait.region.window[axis]);
+    let region = Portrait::of(answer).map(|portrait| portrait.region.window[axis]);
     given(plot, present, axis).or(region)
 }
 

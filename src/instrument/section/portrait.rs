@@ -10,7 +10,7 @@ use crate::ensemble::{
     Crossings, PhaseShift, Region, SectionPlan, SectionPlane, Start, crossings, crossings_of_all,
     in_order, section_group, spread,
 };
-use crate::instrument::{MOST_SEEDS, PlotTable, Present, Seed};
+use crate::instrument::{Answer, MOST_SEEDS, PlotTable, Present, Seed};
 use crate::integrate::{Method, Settings};
 use crate::job::Progress;
 use crate::mechanics::Equations;
@@ -56,6 +56,16 @@ pub(super) struct Portrait {
 }
 
 impl Portrait {
+    /// The portrait of an answer.
+    pub(super) fn of(answer: Option<&Answer>) -> Option<&Portrait> {
+        answer?.of::<Portrait>()
+    }
+
+    /// How many crossings its orbits have.
+    pub(super) fn crossings(&self) -> usize {
+        self.orbits.iter().map(|orbit| orbit.points.len()).sum()
+    }
+
     /// A row for each point: the number of its orbit, from 1 on, and its place.
     pub(super) fn table(&self, [x, y]: [String; 2]) -> PlotTable {
         let row = |index: usize, at: &[f64; 2]| vec![(index + 1) as f64, at[0], at[1]];
