@@ -55,12 +55,13 @@ pub struct SourceBuffer {
     /// The time left until the text is checked.
     rest: Option<Duration>,
     /// Whether the text has just been read from disk and may be incomplete; if it is wrong, it is read once more.
-    half: bool,
+    may_be_partial: bool,
     /// Whether the next save overwrites the file although another program has changed it.
-    pub(super) overrule: bool,
-    pub(super) sought: String,
+    pub(super) overwrites: bool,
+    /// What was searched for last.
+    pub(super) searched: String,
     /// Whether it was saved before it was checked; errors found later are then reported.
-    pub(super) unlooked: bool,
+    pub(super) unchecked: bool,
 }
 
 /// An unsaved text, in the form stored between runs of the program.
@@ -173,10 +174,10 @@ impl SourceBuffer {
             checking: None,
             busy: Duration::ZERO,
             rest: None,
-            half: false,
-            overrule: false,
-            sought: String::new(),
-            unlooked: false,
+            may_be_partial: false,
+            overwrites: false,
+            searched: String::new(),
+            unchecked: false,
         }
     }
 
@@ -245,20 +246,20 @@ impl SourceBuffer {
     pub(super) fn touch(&mut self) {
         self.revision += 1;
         self.rest = Some(REST);
-        (self.half, self.unlooked) = (false, false);
+        (self.may_be_partial, self.unchecked) = (false, false);
         self.state = BufferState::Changed;
     }
 
     /// Registers a change that was not typed: the text is checked at the next opportunity.
-    pub(super) fn touch_at_once(&mut self, half: bool) {
+    pub(super) fn touch_at_once(&mut self, may_be_partial: bool) {
         self.touch();
-        (self.rest, self.half) = (Some(Duration::ZERO), half);
+        (self.rest, self.may_be_partial) = (Some(Duration::ZERO), may_be_partial);
     }
 
     /// Marks the buffer as left, since another system was opened.
     pub(super) fn leave(&mut self) {
         (self.checking, self.rest, self.asking) = (None, None, None);
-        (self.half, self.overrule) = (false, false);
+        (self.may_be_partial, self.overwrites) = (false, false);
         self.diagnostics.clear();
         self.state = BufferState::Left;
     }
@@ -303,8 +304,8 @@ impl SourceBuffer {
 
     /// Stores the errors found, unless the text may be an incomplete file that is read once more.
     pub(super) fn is_wrong(&mut self, diagnostics: &[Diagnostic]) {
-        if self.half {
-            (self.half, self.rest) = (false, Some(PATIENCE));
+        if self.may_be_partial {
+            (self.may_be_partial, self.rest) = (false, Some(PATIENCE));
         } else {
             self.note(diagnostics);
             self.state = BufferState::Wrong;

@@ -159,7 +159,7 @@ impl App {
         let changed = match work {
             EditCommand::Save => return self.save_file(),
             EditCommand::Find => {
-                buffer.asking = Some(Asking::Words(Input::new(buffer.sought.clone())));
+                buffer.asking = Some(Asking::Words(Input::new(buffer.searched.clone())));
                 false
             }
             EditCommand::FindNext => return self.find(),
@@ -247,8 +247,8 @@ impl App {
         match buffer.asking.take() {
             None => Vec::new(),
             Some(Asking::Words(input)) => {
-                input.value().clone_into(&mut buffer.sought);
-                if buffer.sought.is_empty() { Vec::new() } else { self.find() }
+                input.value().clone_into(&mut buffer.searched);
+                if buffer.searched.is_empty() { Vec::new() } else { self.find() }
             }
             Some(Asking::Name { input, whole }) => {
                 let name = input.value().trim().to_owned();
@@ -264,7 +264,7 @@ impl App {
 
     fn find(&mut self) -> Vec<Effect> {
         let Some(buffer) = self.buffer() else { return Vec::new() };
-        let sought = buffer.sought.clone();
+        let sought = buffer.searched.clone();
         if sought.is_empty() {
             buffer.asking = Some(Asking::Words(Input::default()));
             return Vec::new();
@@ -280,7 +280,7 @@ impl App {
         let text = buffer.editor.text();
         match &buffer.place {
             Some(place) => {
-                let known = (!buffer.overrule).then(|| buffer.on_disk.clone());
+                let known = (!buffer.overwrites).then(|| buffer.on_disk.clone());
                 vec![Effect::Save { place: place.clone(), text, known }]
             }
             None => {
@@ -294,7 +294,7 @@ impl App {
     /// Handles the result of saving a text.
     pub(super) fn saved_file(&mut self, outcome: Result<(PathBuf, String), SaveError>) {
         let Some(buffer) = self.workbench.top_mut() else { return };
-        buffer.overrule = outcome == Err(SaveError::Changed);
+        buffer.overwrites = outcome == Err(SaveError::Changed);
         self.notifications.show(match outcome {
             Ok((place, text)) => {
                 let shown = place.display().to_string();
@@ -319,7 +319,7 @@ impl App {
                     // a text without a title has that of its file
                     buffer.touch_at_once(false);
                 }
-                buffer.unlooked = unchecked;
+                buffer.unchecked = unchecked;
                 saved
             }
             Err(SaveError::Changed) => Notification::error(format!(
@@ -355,7 +355,7 @@ impl App {
             buffer.editor.become_text(text);
             buffer.touch_at_once(!asked);
         }
-        buffer.overrule = false;
+        buffer.overwrites = false;
     }
 
     /// Handles the disappearance or return of the watched file.
@@ -426,8 +426,8 @@ impl App {
                 if mends {
                     buffer.step_to_first();
                 }
-                let saved = buffer.saved_as().filter(|_| buffer.unlooked);
-                buffer.unlooked = false;
+                let saved = buffer.saved_as().filter(|_| buffer.unchecked);
+                buffer.unchecked = false;
                 if let Some(message) = saved {
                     self.notifications.show(Notification::error(message));
                 }

@@ -42,7 +42,7 @@ impl Equations {
                 self.rates_by_parts(&map, &mut seeds)?;
                 continue;
             }
-            let (sought, given): (Vec<Symbol>, Vec<Symbol>) =
+            let (unknowns, given): (Vec<Symbol>, Vec<Symbol>) =
                 map.new.iter().copied().partition(|symbol| !map.own.contains(symbol));
             let relation_of = |own: &Symbol| map.own.iter().position(|known| known == own);
             // the relations that give old variables have only the new ones of the function in them
@@ -50,8 +50,8 @@ impl Equations {
                 (0..map.own.len()).filter(|&row| !map.new.contains(&map.own[row])).collect();
             let pool = &mut self.pool;
             let relations: Vec<Expr> = rows.iter().map(|&row| map.relations[row]).collect();
-            let rates = rates_of(pool, &relations, &sought, &seeds)?;
-            seeds.extend(sought.into_iter().zip(rates));
+            let rates = rates_of(pool, &relations, &unknowns, &seeds)?;
+            seeds.extend(unknowns.into_iter().zip(rates));
             // and the others give the rest of the new variables one by one
             let known = seeds.clone();
             for symbol in given {
@@ -73,9 +73,9 @@ impl Equations {
         let size = 2 * self.coordinates.len();
         let count = map.relations.len() / size;
         for (part, relations) in map.relations.chunks(size).enumerate() {
-            let sought = &map.new[image_of_part(part, count, size)];
-            let rates = rates_of(&mut self.pool, relations, sought, seeds)?;
-            seeds.extend(sought.iter().copied().zip(rates));
+            let unknowns = &map.new[image_of_part(part, count, size)];
+            let rates = rates_of(&mut self.pool, relations, unknowns, seeds)?;
+            seeds.extend(unknowns.iter().copied().zip(rates));
         }
         Ok(())
     }
@@ -141,12 +141,12 @@ impl Equations {
 fn rates_of(
     pool: &mut Pool,
     relations: &[Expr],
-    sought: &[Symbol],
+    unknowns: &[Symbol],
     seeds: &[(Symbol, Expr)],
 ) -> Result<Vec<Expr>, NoClosedForm> {
     let (mut matrix, mut right) = (Vec::new(), Vec::new());
     for &relation in relations {
-        matrix.push(sought.iter().map(|&s| pool.derivative(relation, s)).collect());
+        matrix.push(unknowns.iter().map(|&s| pool.derivative(relation, s)).collect());
         let change = pool.derivation(relation, seeds);
         right.push(pool.neg(change));
     }

@@ -124,7 +124,7 @@ const HURRIED: Duration = Duration::from_millis(100);
 struct Since {
     saved: Duration,
     texts: Duration,
-    looked: Duration,
+    checked: Duration,
 }
 
 impl Session {

@@ -129,8 +129,8 @@ fn body(canvas: &mut Canvas<'_>, area: Rect, app: &App) -> Drawn {
         canvas.target(area, HitTarget::Text);
         return page.draw(canvas, inner, app.scroll);
     }
-    if let Some(sheet) = app.open_buffer() {
-        return workbench::draw(canvas, area, app, sheet);
+    if let Some(buffer) = app.open_buffer() {
+        return workbench::draw(canvas, area, app, buffer);
     }
     let drawn = match (app.page, &app.lab) {
         (Page::Picker, _) | (_, None) => {

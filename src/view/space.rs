@@ -81,7 +81,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
     let frame = common_scale::widened(scene.frame(&camera, area), share);
     let raster = Raster::new(area, canvas.style.glyphs);
     let depth = DepthBuffer::new(&frame, raster.size());
-    let mut artist = ScenePainter {
+    let mut painter = ScenePainter {
         mechanics,
         range: scene.depths(&camera),
         outline: outline.as_ref(),
@@ -102,35 +102,35 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
         colours,
     };
     for (shape, _) in q.lab.shapes(*eye) {
-        artist.surfaces(shape);
+        painter.surfaces(shape);
     }
-    artist.fill();
+    painter.fill();
     let mut cache = std::mem::take(&mut canvas.cache);
     for (one, there) in q.snapshot.companions.iter().zip(&beside) {
-        artist.take(there, Some(one.number));
+        painter.take(there, Some(one.number));
         for (shape, _) in q.lab.shapes(*eye) {
-            artist.ghost(shape, q, &mut cache);
+            painter.ghost(shape, q, &mut cache);
         }
     }
-    artist.take(q, None);
+    painter.take(q, None);
     for (shape, rod) in q.lab.shapes(*eye) {
         match shape {
-            Shape::Line { from, to } if rod => artist.rod(from, to),
-            _ => artist.shape(shape, &mut cache),
+            Shape::Line { from, to } if rod => painter.rod(from, to),
+            _ => painter.shape(shape, &mut cache),
         }
     }
-    artist.halos();
+    painter.halos();
     canvas.cache = cache;
-    artist.apparent(apparent(q, *eye));
-    artist.raster.draw(canvas.buffer);
-    let shading = &artist.shading;
+    painter.apparent(apparent(q, *eye));
+    painter.raster.draw(canvas.buffer);
+    let shading = &painter.shading;
     // What is written comes before the surfaces, so that it has their backgrounds and stands out from them.
-    let written = annotation::labels(canvas, area, &artist.frame, &artist.labels);
+    let written = annotation::labels(canvas, area, &painter.frame, &painter.labels);
     if eye.pitch < std::f64::consts::FRAC_PI_2 {
         compass(canvas, area, &camera);
     }
     let is_written = |at: Position| written.iter().any(|place| place.contains(at));
-    artist
+    painter
         .edges
         .draw_on_blank(canvas.buffer, |index, at| shading.has_edges(index) && !is_written(at));
     shading.draw(canvas.buffer, &canvas.style.theme, is_written);
@@ -400,7 +400,7 @@ impl ScenePainter<'_> {
         }
         let pen = Pen::new(theme[Role::Text], SOLID);
         for (extents, edges) in edges {
-            self.edge(extents, |artist| edges.iter().for_each(|line| artist.curve(line, &pen)));
+            self.edge(extents, |painter| edges.iter().for_each(|line| painter.curve(line, &pen)));
         }
         for point in points {
             if let Some(pen) = self.seen_at(point, &Pen::new(theme.curve(0), BODY)) {

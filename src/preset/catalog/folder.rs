@@ -20,7 +20,7 @@ pub(super) struct FolderContents {
     pub(super) files: Vec<PathBuf>,
     /// Whether the limits were exceeded.
     pub(super) cut: bool,
-    looked: usize,
+    visited: usize,
 }
 
 /// The presets in a folder and its subfolders.
@@ -35,8 +35,8 @@ impl FolderContents {
         let Ok(listing) = std::fs::read_dir(folder) else { return };
         let mut paths = Vec::new();
         for entry in listing.flatten() {
-            self.looked += 1;
-            if self.looked > MOST {
+            self.visited += 1;
+            if self.visited > MOST {
                 self.cut = true;
                 break;
             }

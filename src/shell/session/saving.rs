@@ -127,11 +127,11 @@ impl Session {
     /// end.
     pub(super) fn save_periodically(&mut self, elapsed: Duration) {
         let since = &mut self.saving.since;
-        for time in [&mut since.saved, &mut since.texts, &mut since.looked] {
+        for time in [&mut since.saved, &mut since.texts, &mut since.checked] {
             *time = time.saturating_add(elapsed);
         }
-        if self.saving.since.looked >= TAKING_OVER {
-            self.saving.since.looked = Duration::ZERO;
+        if self.saving.since.checked >= TAKING_OVER {
+            self.saving.since.checked = Duration::ZERO;
             self.take_over();
         }
         let mut errors = Vec::new();

@@ -14,26 +14,26 @@ impl ScenePainter<'_> {
                 let (centre, normal) = (self.point(centre), self.direction(normal));
                 let radius = self.q.number(*radius);
                 let rim = self.rim(centre, radius, normal);
-                self.edge(solid::disc(radius), |artist| artist.curve(&rim, pen));
+                self.edge(solid::disc(radius), |painter| painter.curve(&rim, pen));
             }
             Shape::Cone { tip, base, radius } => {
                 let (tip, base) = (self.point(tip), self.point(base));
                 let axis = [0, 1, 2].map(|k| base[k] - tip[k]);
                 let radius = self.q.number(*radius);
                 let rim = self.rim(base, radius, axis);
-                self.edge(solid::along(tip, base, radius), |artist| {
-                    artist.curve(&rim, pen);
-                    artist.silhouette(&vec![tip; rim.len()], &rim, pen);
+                self.edge(solid::along(tip, base, radius), |painter| {
+                    painter.curve(&rim, pen);
+                    painter.silhouette(&vec![tip; rim.len()], &rim, pen);
                 });
             }
             Shape::Cylinder { from, to, radius } => {
                 let ends = [self.point(from), self.point(to)];
                 let radius = self.q.number(*radius);
                 let [low, high] = solid::rims(ends, radius, self.spacing(radius));
-                self.edge(solid::along(ends[0], ends[1], radius), |artist| {
-                    artist.curve(&low, pen);
-                    artist.curve(&high, pen);
-                    artist.silhouette(&low, &high, pen);
+                self.edge(solid::along(ends[0], ends[1], radius), |painter| {
+                    painter.curve(&low, pen);
+                    painter.curve(&high, pen);
+                    painter.silhouette(&low, &high, pen);
                 });
             }
             _ => {}
