@@ -9,6 +9,8 @@ mod checkpoint;
 mod command;
 mod companion;
 mod companion_commands;
+mod companion_motion;
+mod companion_record;
 mod companions;
 mod course;
 mod deviation;

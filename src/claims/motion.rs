@@ -340,18 +340,18 @@ impl<'a> ClaimedMotion<'a> {
     fn reach(&mut self, time: f64, limit: f64) -> Result<(), Short> {
         loop {
             match self.course.reach(time, limit, &mut self.budget).map_err(Short::MotionError)? {
-                Reached::There => break,
-                Reached::Underway => {
+                Reached::Arrived => break,
+                Reached::OutOfBudget => {
                     // the state itself is that of the last sample
                     return Err(Short::Long(self.allowed, self.course.undisturbed().1));
                 }
                 Reached::Ended => return Err(Short::Ended(self.course.state().time)),
                 // no claim is made of the crossings of a picture
-                Reached::Happened(integrate::Occurrence {
+                Reached::Occurred(integrate::Occurrence {
                     kind: integrate::OccurrenceKind::Crossing(_),
                     ..
                 }) => {}
-                Reached::Happened(occurrence) => {
+                Reached::Occurred(occurrence) => {
                     if self.budget < EVENT {
                         return Err(Short::Long(self.allowed, occurrence.time));
                     }

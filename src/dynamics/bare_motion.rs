@@ -64,8 +64,8 @@ impl BareMotion<'_> {
             let reached = motion.reach_unexplained(beyond, beyond, &mut 1).ok()?;
             over = over.or_else(|| containing((begin, motion.undisturbed().1), time));
             match reached {
-                Reached::There => return over,
-                Reached::Underway | Reached::Happened(_) => {}
+                Reached::Arrived => return over,
+                Reached::OutOfBudget | Reached::Occurred(_) => {}
                 Reached::Ended => return None,
             }
         }

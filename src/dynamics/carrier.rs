@@ -379,14 +379,14 @@ impl Jumping {
     fn step(&mut self, space: &PhaseSpace, system: &System, limit: f64) -> Result<(), MotionError> {
         let begin = self.span.1;
         let reached = self.motion.reach_unexplained(limit, limit, &mut 1)?;
-        self.pending = reached != Reached::There;
-        self.is_cut = matches!(reached, Reached::Happened(_));
+        self.pending = reached != Reached::Arrived;
+        self.is_cut = matches!(reached, Reached::Occurred(_));
         let ended = |name: String, state: &State| {
             Err(system.fault(MotionErrorKind::Ended(name), state.time, &state.values))
         };
         match reached {
-            Reached::There | Reached::Underway => self.step = self.motion.step_size(),
-            Reached::Happened(found) => match found.kind {
+            Reached::Arrived | Reached::OutOfBudget => self.step = self.motion.step_size(),
+            Reached::Occurred(found) => match found.kind {
                 OccurrenceKind::Mark | OccurrenceKind::Crossing(_) => {}
                 OccurrenceKind::Impulse { .. } => self.jump(space, system, &found.name)?,
                 OccurrenceKind::Stop | OccurrenceKind::Release(_) => {

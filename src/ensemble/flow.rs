@@ -190,9 +190,9 @@ impl SystemFlow {
             loop {
                 let left = self.effort.map_or(u64::MAX, |most| most.saturating_sub(motion.steps()));
                 match motion.reach_unexplained(time, last, &mut STEPS_PER_CHECK.min(left))? {
-                    Reached::There => break,
+                    Reached::Arrived => break,
                     Reached::Ended => return Ok(None),
-                    Reached::Underway | Reached::Happened(_) => {}
+                    Reached::OutOfBudget | Reached::Occurred(_) => {}
                 }
                 let given_up = self.effort.is_some_and(|most| motion.steps() >= most);
                 if given_up || self.system.cancel().is_cancelled() {

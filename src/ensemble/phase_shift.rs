@@ -86,12 +86,12 @@ impl PhaseShift {
         let (end, mut budget) = (-self.time, STEPS);
         loop {
             match motion.reach(end, end, &mut budget)? {
-                Reached::There => return Ok(reversed(motion.state())),
-                Reached::Happened(occurrence) => match occurrence.kind {
+                Reached::Arrived => return Ok(reversed(motion.state())),
+                Reached::Occurred(occurrence) => match occurrence.kind {
                     OccurrenceKind::Mark | OccurrenceKind::Crossing(_) => {}
                     _ => return Err(self.impulse_between()),
                 },
-                Reached::Underway => return Err(NotInPlane::OtherPhase(self.time)),
+                Reached::OutOfBudget => return Err(NotInPlane::OtherPhase(self.time)),
                 Reached::Ended => return Err(self.impulse_between()),
             }
         }

@@ -263,14 +263,14 @@ impl SectionOrbit<'_> {
                 // a step that a signal has cancelled is not a fault of the motion
                 Err(_) if cancel.is_cancelled() => return stopped(),
                 Err(fault) => return (OrbitStatus::Faulted, Some(fault.to_string())),
-                Ok(Reached::There) if self.plan.until.is_some() => {
+                Ok(Reached::Arrived) if self.plan.until.is_some() => {
                     return (OrbitStatus::Completed, None);
                 }
-                Ok(Reached::There) => {
+                Ok(Reached::Arrived) => {
                     (target, limit) = next_limit(target, self.motion.step_size());
                 }
-                Ok(Reached::Underway) => {}
-                Ok(Reached::Happened(occurrence)) => {
+                Ok(Reached::OutOfBudget) => {}
+                Ok(Reached::Occurred(occurrence)) => {
                     if occurrence.name == self.plan.event {
                         last = self.motion.steps();
                         if let Err(fault) = self.record(occurrence.time) {

@@ -86,7 +86,7 @@ impl Experiment {
             let spacing = if self.only_ends { 0.0 } else { self.recorder.spacing() };
             let gauges = (&mut self.gauges, spacing);
             match self.motion.reach(time, limit, budget, gauges) {
-                Ok(Reached::Happened(Occurrence {
+                Ok(Reached::Occurred(Occurrence {
                     kind: OccurrenceKind::Crossing(surface),
                     time,
                     ..
@@ -94,7 +94,7 @@ impl Experiment {
                     let time = self.motion.sign() * time;
                     self.log.crossings.push(surface, time, self.motion.values());
                 }
-                Ok(Reached::Happened(occurrence)) => {
+                Ok(Reached::Occurred(occurrence)) => {
                     let name = occurrence.name.clone();
                     match self.note(occurrence) {
                         Ok(sentence) => self.notices.push_once(name, sentence),
@@ -117,8 +117,8 @@ impl Experiment {
             self.notices.push_once(sentence.clone(), sentence);
         }
         match reached {
-            Ok(Reached::There | Reached::Happened(_)) => AdvanceOutcome::Arrived,
-            Ok(Reached::Underway) => AdvanceOutcome::Underway,
+            Ok(Reached::Arrived | Reached::Occurred(_)) => AdvanceOutcome::Arrived,
+            Ok(Reached::OutOfBudget) => AdvanceOutcome::Underway,
             Ok(Reached::Ended) => AdvanceOutcome::Ended,
             Err(fault) => {
                 // show what was computed before the fault, as far as possible

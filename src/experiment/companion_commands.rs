@@ -3,8 +3,7 @@
 //! In: commands. Out: an experiment with other companions, or a notice why not. Never here: how they are carried along.
 
 use super::advance::HORIZON;
-use super::companion::Change;
-use super::companion::CompanionMotion;
+use super::companion_motion::{Change, CompanionMotion};
 use super::companions::MOST_COMPANIONS;
 use super::recorder::NUMBERS;
 use super::{CompanionOrigin, Experiment};

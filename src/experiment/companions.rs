@@ -11,7 +11,8 @@
 use std::sync::Arc;
 
 use super::Companion;
-use super::companion::{CompanionMotion, Due};
+use super::companion_motion::CompanionMotion;
+use super::companion_record::Due;
 use crate::analysis::DistanceHistory;
 
 /// The most motions beside the main one.

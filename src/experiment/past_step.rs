@@ -35,7 +35,7 @@ impl ObservedMotion {
         self.take_observer();
         // what was seen of each step counts only once
         let mut budget = EQUAL_STEPS * 1000;
-        while let Reached::Happened(occurrence) = self.inner.reach(time, limit, &mut budget)? {
+        while let Reached::Occurred(occurrence) = self.inner.reach(time, limit, &mut budget)? {
             if matches!(occurrence.kind, OccurrenceKind::Impulse { .. }) {
                 self.log.note_impulse();
             }
@@ -146,9 +146,9 @@ impl ObservedMotion {
         let mut budget = EQUAL_STEPS * 1000;
         loop {
             match self.inner.reach(clock, clock + horizon, &mut budget) {
-                Ok(Reached::Happened(_)) => {}
-                Ok(Reached::There) => return self.observe().is_ok(),
-                Ok(Reached::Underway | Reached::Ended) | Err(_) => return false,
+                Ok(Reached::Occurred(_)) => {}
+                Ok(Reached::Arrived) => return self.observe().is_ok(),
+                Ok(Reached::OutOfBudget | Reached::Ended) | Err(_) => return false,
             }
         }
     }

@@ -5,7 +5,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::companion::CompanionMotion;
+use super::companion_motion::CompanionMotion;
 use super::companions::MOST_COMPANIONS;
 use super::exact_state::{exact_numbers, exact_state};
 use super::named::{Named, given, named};

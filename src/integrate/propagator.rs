@@ -29,11 +29,11 @@ use singularity_record::SingularityRecord;
 #[derive(Clone, PartialEq, Debug)]
 pub enum Reached {
     /// To the requested time.
-    There,
+    Arrived,
     /// Less far: the step budget was used up.
-    Underway,
+    OutOfBudget,
     /// To an occurrence on the way; the state is the one after it.
-    Happened(Occurrence),
+    Occurred(Occurrence),
     /// Less far: an event has ended the motion.
     Ended,
 }

@@ -391,7 +391,7 @@ fn events_are_found_in_the_lanes_themselves() {
         let mut motion = Propagator::new(&system, method, settings(1e-12), &parameters).unwrap();
         motion.begin(&start.state(&system).unwrap(), &parameters).unwrap();
         let mut alone = Vec::new();
-        while let Reached::Happened(event) = motion.reach(30.0, 30.0, &mut 10_000).unwrap() {
+        while let Reached::Occurred(event) = motion.reach(30.0, 30.0, &mut 10_000).unwrap() {
             alone.push(event.time);
         }
         assert!(alone.len() >= 3, "{alone:?}");

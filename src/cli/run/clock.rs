@@ -58,8 +58,8 @@ pub(super) fn check(
         let mut longest = 0.0_f64;
         for _ in 0..steps {
             match motion.reach(end, end, &mut 1) {
-                Ok(Reached::Underway | Reached::Happened(_)) => {}
-                Ok(Reached::There | Reached::Ended) | Err(_) => return None,
+                Ok(Reached::OutOfBudget | Reached::Occurred(_)) => {}
+                Ok(Reached::Arrived | Reached::Ended) | Err(_) => return None,
             }
             longest = longest.max(motion.step_size().abs());
         }

@@ -32,17 +32,17 @@ impl ObservedMotion {
                 self.log_step();
             }
             // an impulse ends the step where it acts, and the state there is that after it
-            if let Reached::Happened(occurrence) = &reached
+            if let Reached::Occurred(occurrence) = &reached
                 && !matches!(occurrence.kind, OccurrenceKind::Mark | OccurrenceKind::Crossing(_))
             {
                 self.watch.pending = false;
             }
             self.observe_step(gauges, spacing, new);
             match &reached {
-                Reached::Underway if *budget > 0 => continue,
-                Reached::Happened(occurrence) => self.record(occurrence)?,
-                Reached::There => self.observe()?,
-                Reached::Underway | Reached::Ended => {}
+                Reached::OutOfBudget if *budget > 0 => continue,
+                Reached::Occurred(occurrence) => self.record(occurrence)?,
+                Reached::Arrived => self.observe()?,
+                Reached::OutOfBudget | Reached::Ended => {}
             }
             return Ok(reached);
         }

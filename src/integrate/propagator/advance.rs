@@ -49,16 +49,16 @@ impl Propagator {
                 if self.search.waiting.is_some() || due.is_some() {
                     // there may be infinitely many occurrences
                     if *budget == 0 {
-                        return Ok(Reached::Underway);
+                        return Ok(Reached::OutOfBudget);
                     }
                     *budget -= 1;
                     self.note_passages(self.search.clear);
                 }
                 if let Some(found) = self.search.waiting.take() {
-                    return self.on_event(found).map(Reached::Happened);
+                    return self.on_event(found).map(Reached::Occurred);
                 }
                 if let Some(impulse) = due {
-                    return self.apply_scheduled(impulse).map(Reached::Happened);
+                    return self.apply_scheduled(impulse).map(Reached::Occurred);
                 }
             }
             if self.search.clear >= time
@@ -77,10 +77,10 @@ impl Propagator {
                     return Err(self.left_domain(before));
                 }
                 self.note_passages(time);
-                return Ok(Reached::There);
+                return Ok(Reached::Arrived);
             }
             if *budget == 0 {
-                return Ok(Reached::Underway);
+                return Ok(Reached::OutOfBudget);
             }
             let outcome = if self.stepper.time() > self.search.clear {
                 *budget -= 1;

@@ -44,7 +44,7 @@ fn end_of(case: &Case, until: f64, i: usize, shift: f64) -> Vec<f64> {
     let mut start = case.start.clone();
     start.values[i] += shift;
     motion.begin(&start, parameters).unwrap();
-    while motion.reach(until, until, &mut 1000).unwrap() != Reached::There {}
+    while motion.reach(until, until, &mut 1000).unwrap() != Reached::Arrived {}
     let state = motion.state().clone();
     case.space.variables(&case.space.state(&state).unwrap()).to_vec()
 }
@@ -58,9 +58,9 @@ fn occurrences(case: &Case, until: f64) -> Vec<String> {
     let mut names = Vec::new();
     loop {
         match motion.reach(until, until, &mut 1000).unwrap() {
-            Reached::There => return names,
-            Reached::Happened(found) => names.push(found.name),
-            Reached::Underway | Reached::Ended => {}
+            Reached::Arrived => return names,
+            Reached::Occurred(found) => names.push(found.name),
+            Reached::OutOfBudget | Reached::Ended => {}
         }
     }
 }

@@ -101,9 +101,9 @@ fn by(
     let mut budget = 200_000;
     loop {
         match motion.reach(end, end, &mut budget).map_err(|fault| fault.to_string())? {
-            Reached::There | Reached::Ended => return Ok(motion.state().clone()),
-            Reached::Happened(_) => {}
-            Reached::Underway => return Err("it takes too many steps".to_owned()),
+            Reached::Arrived | Reached::Ended => return Ok(motion.state().clone()),
+            Reached::Occurred(_) => {}
+            Reached::OutOfBudget => return Err("it takes too many steps".to_owned()),
         }
     }
 }
