@@ -4,44 +4,20 @@
 //! Review them afterwards.
 
 use std::fs;
-use std::path::{Path, PathBuf};
 
 use phaselab::diagnostic::Document;
 use phaselab::shell::config;
 use phaselab::shell::options::rows;
 
 use crate::cli::{done, program};
-
-fn corpus() -> Vec<PathBuf> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/bad-config");
-    let files = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
-    let mut files: Vec<PathBuf> =
-        files.filter(|path| path.extension().is_some_and(|e| e == "toml")).collect();
-    files.sort();
-    files
-}
+use crate::report_corpus;
 
 #[test]
 fn each_error_gives_its_report() {
-    let update = std::env::var_os("UPDATE_EXPECT").is_some();
-    let files = corpus();
-    assert!(files.len() >= 20, "the corpus holds {} files", files.len());
-    let mut wrong = Vec::new();
-    for path in files {
-        let mut document = Document::open(&path).unwrap();
-        document.path = format!("{}", path.file_name().unwrap().display());
-        let given = match config::read(&document) {
-            Ok(options) => panic!("{} was read as {options:?}", document.path),
-            Err(diagnostics) => document.report(&diagnostics, false),
-        };
-        let expected = path.with_extension("txt");
-        if update {
-            fs::write(&expected, given).unwrap();
-        } else if fs::read_to_string(&expected).unwrap_or_default() != given {
-            wrong.push(given);
-        }
-    }
-    assert!(wrong.is_empty(), "reports that differ:\n\n{}", wrong.join("\n"));
+    report_corpus::compare("tests/bad-config", 20, |document| match config::read(document) {
+        Ok(options) => panic!("{} was read as {options:?}", document.path),
+        Err(diagnostics) => document.report(&diagnostics, false),
+    });
 }
 
 /// The default configuration lists the default of every option exactly once.

@@ -5,7 +5,7 @@ use std::sync::{Arc, LazyLock, Mutex, OnceLock, PoisonError};
 use std::time::Duration;
 
 use crossterm::event::KeyEvent;
-use phaselab::app::{App, Effect, Event, Loaded, key};
+use phaselab::app::{App, CheckedText, Effect, Event, Loaded, key};
 use phaselab::diagnostic::Document;
 use phaselab::experiment::{Gauge, MethodFact, Prepared, Snapshot, Status, Trail, Verdict};
 use phaselab::mechanics::derive;
@@ -181,4 +181,29 @@ pub(crate) fn begun(text: &str) -> App {
     app.update(Event::Loaded(Ok(Loaded { name, epoch: 1, document, model, equations, system })));
     app.update(Event::Snapshot(Arc::new(experiment.snapshot())));
     app
+}
+
+/// Types into the field that is open, in place of what it has, and accepts it.
+pub(crate) fn write(app: &mut App, typed: &str) -> Vec<Effect> {
+    for c in typed.chars() {
+        press(app, &if c == ' ' { "Space".to_owned() } else { c.to_string() });
+    }
+    press(app, "Enter")
+}
+
+/// Checks the text that waits, as the shell does, and returns it.
+pub(crate) fn checked(app: &mut App) -> String {
+    let effects = app.update(Event::Tick(Duration::from_millis(20)));
+    let found = effects.into_iter().find_map(|effect| match effect {
+        Effect::Check { ticket, title, text } => Some((ticket, title, text)),
+        _ => None,
+    });
+    let (ticket, title, text) = found.expect("a text to be checked");
+    let name = app.lab.as_ref().unwrap().loaded.name.clone();
+    let ready = Prepared::of(&Document::new(title.as_str(), text.as_str()));
+    let Ok(Prepared { document, model, equations, system, .. }) = ready else { panic!("{text}") };
+    let outcome = Ok(Loaded { name, epoch: 2, document, model, equations, system });
+    let took = Some(Duration::from_millis(3));
+    app.update(Event::Checked(Box::new(CheckedText { ticket, outcome, took })));
+    text
 }

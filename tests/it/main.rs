@@ -49,6 +49,7 @@ mod preset;
 mod property;
 mod record;
 mod reference;
+mod report_corpus;
 mod rigid_body;
 mod screen;
 mod section;

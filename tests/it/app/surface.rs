@@ -1,44 +1,15 @@
 //! The surface of a section typed in the lab, and the direction of its crossings turned by a key.
 
-use std::time::Duration;
-
-use phaselab::app::{App, CheckedText, Effect, Event, Loaded, Overlay};
-use phaselab::diagnostic::Document;
-use phaselab::experiment::Prepared;
+use phaselab::app::{App, Overlay};
 use phaselab::model::Direction;
 
-use crate::hand::{lab, press};
+use crate::hand::{checked, lab, press, write};
 
 /// Focuses the first plot of a kind.
 fn focus(app: &mut App, kind: &str) {
     while app.lab.as_ref().unwrap().focused_plot().is_none_or(|(_, p)| p.kind.name() != kind) {
         press(app, "Tab");
     }
-}
-
-/// Types into the field that is open, in place of what it has.
-fn write(app: &mut App, typed: &str) {
-    for c in typed.chars() {
-        press(app, &if c == ' ' { "Space".to_owned() } else { c.to_string() });
-    }
-    press(app, "Enter");
-}
-
-/// Checks the text that waits, as the shell does, and returns it.
-fn checked(app: &mut App) -> String {
-    let effects = app.update(Event::Tick(Duration::from_millis(20)));
-    let found = effects.into_iter().find_map(|effect| match effect {
-        Effect::Check { ticket, title, text } => Some((ticket, title, text)),
-        _ => None,
-    });
-    let (ticket, title, text) = found.expect("a text to be checked");
-    let name = app.lab.as_ref().unwrap().loaded.name.clone();
-    let ready = Prepared::of(&Document::new(title.as_str(), text.as_str()));
-    let Ok(Prepared { document, model, equations, system, .. }) = ready else { panic!("{text}") };
-    let outcome = Ok(Loaded { name, epoch: 2, document, model, equations, system });
-    let took = Some(Duration::from_millis(3));
-    app.update(Event::Checked(Box::new(CheckedText { ticket, outcome, took })));
-    text
 }
 
 /// What is open to type into.

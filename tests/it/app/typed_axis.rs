@@ -2,11 +2,9 @@
 
 use std::time::Duration;
 
-use phaselab::app::{App, CheckedText, Effect, Event, Loaded, Overlay};
-use phaselab::diagnostic::Document;
-use phaselab::experiment::Prepared;
+use phaselab::app::{App, Effect, Event, Overlay};
 
-use crate::hand::{lab, press};
+use crate::hand::{checked, lab, press, write};
 use crate::screen::{rich, rows, screen};
 
 /// Focuses the first phase plane and types into its list.
@@ -18,13 +16,6 @@ fn ask(app: &mut App, typed: &str) -> Vec<Effect> {
     write(app, typed)
 }
 
-fn write(app: &mut App, typed: &str) -> Vec<Effect> {
-    for c in typed.chars() {
-        press(app, &if c == ' ' { "Space".to_owned() } else { c.to_string() });
-    }
-    press(app, "Enter")
-}
-
 /// The channels of the axes of the focused plot, by name.
 fn axes(app: &App) -> Vec<String> {
     let lab = app.lab.as_ref().unwrap();
@@ -32,23 +23,6 @@ fn axes(app: &App) -> Vec<String> {
     let name =
         |axis: usize| plot.column(axis).map(|c| lab.loaded.system.channels()[c].name.clone());
     [0, 1].into_iter().filter_map(name).collect()
-}
-
-/// Checks the text that waits, as the shell does, and returns it.
-fn checked(app: &mut App) -> String {
-    let effects = app.update(Event::Tick(Duration::from_millis(20)));
-    let found = effects.into_iter().find_map(|effect| match effect {
-        Effect::Check { ticket, title, text } => Some((ticket, title, text)),
-        _ => None,
-    });
-    let (ticket, title, text) = found.expect("a text to be checked");
-    let name = app.lab.as_ref().unwrap().loaded.name.clone();
-    let ready = Prepared::of(&Document::new(title.as_str(), text.as_str()));
-    let Ok(Prepared { document, model, equations, system, .. }) = ready else { panic!("{text}") };
-    let outcome = Ok(Loaded { name, epoch: 2, document, model, equations, system });
-    let took = Some(Duration::from_millis(3));
-    app.update(Event::Checked(Box::new(CheckedText { ticket, outcome, took })));
-    text
 }
 
 #[test]

@@ -564,31 +564,34 @@ fn a_picture_may_be_seen_from_a_frame() {
     assert!(find(&screen(&app, &rich(), (120, 40)), "From the ground").is_some());
 }
 
+/// The rows of the screen with the picture of the T-handle at this attitude, A by rows, after these keys in it.
+fn t_handle(matrix: [f64; 9], keys: &str) -> Vec<String> {
+    let handle = loaded("t-handle", 1);
+    let mut now = snapshot(&handle, 1.0);
+    let mut values = now.values.to_vec();
+    for (i, channel) in handle.system.channels().iter().enumerate() {
+        if let ChannelKind::Attitude(k) = channel.kind {
+            values[i] = matrix[k];
+        }
+    }
+    now.values = values.into();
+    let (mut app, _) = phaselab::app::App::new(crate::hand::catalog(), Some("t-handle"));
+    app.update(Event::Loaded(Ok(handle.clone())));
+    app.update(Event::Snapshot(Arc::new(now)));
+    let lab = app.lab.as_ref().unwrap();
+    let drawn = |plot: &Plot| {
+        let Some(eye) = plot.eye() else { return false };
+        eye.shapes(&handle.model).iter().any(|shape| matches!(shape, Shape::Body { .. }))
+    };
+    let place = lab.plots.iter().position(drawn).unwrap();
+    press(&mut app, &["Tab"].repeat(3 + place).join(" "));
+    press(&mut app, keys);
+    rows(&screen(&app, &rich(), (120, 40)))
+}
+
 #[test]
 fn a_body_seen_from_itself_stands_still() {
-    let handle = loaded("t-handle", 1);
-    let picture = |matrix: [f64; 9], keys: &str| {
-        let mut now = snapshot(&handle, 1.0);
-        let mut values = now.values.to_vec();
-        for (i, channel) in handle.system.channels().iter().enumerate() {
-            if let ChannelKind::Attitude(k) = channel.kind {
-                values[i] = matrix[k];
-            }
-        }
-        now.values = values.into();
-        let (mut app, _) = phaselab::app::App::new(crate::hand::catalog(), Some("t-handle"));
-        app.update(Event::Loaded(Ok(handle.clone())));
-        app.update(Event::Snapshot(Arc::new(now)));
-        let lab = app.lab.as_ref().unwrap();
-        let drawn = |plot: &Plot| {
-            let Some(eye) = plot.eye() else { return false };
-            eye.shapes(&handle.model).iter().any(|shape| matches!(shape, Shape::Body { .. }))
-        };
-        let place = lab.plots.iter().position(drawn).unwrap();
-        press(&mut app, &["Tab"].repeat(3 + place).join(" "));
-        press(&mut app, keys);
-        rows(&screen(&app, &rich(), (120, 40))).concat()
-    };
+    let picture = |matrix, keys: &str| t_handle(matrix, keys).concat();
     let still = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
     assert!(picture(still, "z").contains("Motion") && picture(still, "z f").contains("the body"));
     // the fraction of the cells that a quarter turn does not change: all but the arrow of L, which
@@ -726,33 +729,8 @@ fn a_potential_shows_both_turning_points_before_the_motion_reaches_them() {
 
 #[test]
 fn a_body_is_drawn_as_it_stands() {
-    let handle = loaded("t-handle", 1);
-    let picture = |matrix: [f64; 9]| {
-        let mut now = snapshot(&handle, 1.0);
-        let mut values = now.values.to_vec();
-        for (i, channel) in handle.system.channels().iter().enumerate() {
-            if let ChannelKind::Attitude(k) = channel.kind {
-                values[i] = matrix[k];
-            }
-        }
-        now.values = values.into();
-        let (mut app, _) = phaselab::app::App::new(crate::hand::catalog(), Some("t-handle"));
-        app.update(Event::Loaded(Ok(handle.clone())));
-        app.update(Event::Snapshot(Arc::new(now)));
-        let model = &handle.model;
-        let drawn = |plot: &Plot| {
-            let Some(eye) = plot.eye() else { return false };
-            let body = |shape: &Shape| matches!(shape, Shape::Body { .. });
-            eye.shapes(model).iter().any(body)
-        };
-        let lab = app.lab.as_ref().unwrap();
-        let place = lab.plots.iter().position(drawn).unwrap();
-        press(&mut app, &["Tab"].repeat(3 + place).join(" "));
-        press(&mut app, "z");
-        let buffer = screen(&app, &rich(), (120, 40));
-        // inside the frame: its heading and the lines below are the same for all
-        rows(&buffer)[2..37].to_vec()
-    };
+    // inside the frame: its heading and the lines below are the same for all
+    let picture = |matrix| t_handle(matrix, "z")[2..37].to_vec();
     let cells = |rows: &[String]| {
         rows.iter().flat_map(|row| row.chars()).filter(|c| ('⠁'..='⣿').contains(c)).count()
     };

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use super::session::{Session, Setup};
+use super::session::{Session, Setup, quits};
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_phaselab");
 
@@ -40,12 +40,6 @@ fn in_colour(lab: &Session, colour: &str) -> bool {
     let mut top = (0..10).filter_map(|column| screen.cell(0, column));
     let found = top.find(|cell| cell.contents() == "p").map(vt100::Cell::fgcolor);
     matches!(found, Some(vt100::Color::Rgb(r, g, b)) if format!("38;2;{r};{g};{b}") == colour)
-}
-
-fn quits(mut lab: Session) {
-    lab.press("q");
-    assert_eq!(lab.ends().0, 0);
-    lab.assert_restored();
 }
 
 #[test]

@@ -4,7 +4,7 @@ use std::fs;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use super::session::{Session, Setup};
+use super::session::{Session, Setup, quits};
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_phaselab");
 
@@ -12,13 +12,6 @@ fn pendulum() -> Session {
     let mut lab = Setup::new(PROGRAM, &["pendulum"]).size(120, 40).start();
     lab.shows("running");
     lab
-}
-
-#[track_caller]
-fn quits(mut lab: Session) {
-    lab.press("q");
-    assert_eq!(lab.ends().0, 0);
-    lab.assert_restored();
 }
 
 /// The rows that a terminal of that size shows after the last full repaint.

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use rustix::process::Signal;
 
-use super::session::{Session, Setup};
+use super::session::{Session, Setup, quits};
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_phaselab");
 
@@ -21,13 +21,6 @@ fn pendulum() -> Session {
     lab.shows("running");
     lab.shows("fps");
     lab
-}
-
-#[track_caller]
-fn quits(mut lab: Session) {
-    lab.press("q");
-    assert_eq!(lab.ends().0, 0);
-    lab.assert_restored();
 }
 
 #[test]

@@ -326,3 +326,11 @@ fn pty_size(cols: u16, rows: u16) -> PtySize {
 fn settings(master: &dyn MasterPty) -> String {
     format!("{:?}", master.get_termios().expect("a terminal has settings"))
 }
+
+/// Quits the laboratory with its key: it ends well and leaves the terminal as it was.
+#[track_caller]
+pub(super) fn quits(mut lab: Session) {
+    lab.press("q");
+    assert_eq!(lab.ends().0, 0);
+    lab.assert_restored();
+}

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use tempfile::TempDir;
 
-use super::session::{Session, Setup};
+use super::session::{Session, Setup, quits};
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_phaselab");
 
@@ -26,12 +26,6 @@ fn open(options: &[&str]) -> (TempDir, PathBuf, Session) {
     let mut lab = Setup::new(PROGRAM, options).argument(&place).size(120, 40).start();
     lab.shows("running");
     (folder, place, lab)
-}
-
-fn quits(mut lab: Session) {
-    lab.press("q");
-    assert_eq!(lab.ends().0, 0);
-    lab.assert_restored();
 }
 
 #[test]
