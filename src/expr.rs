@@ -19,6 +19,7 @@ mod evaluate;
 mod expand;
 mod function;
 mod inverses;
+mod jump;
 mod juxtaposition;
 mod kinks;
 mod latex;

@@ -102,7 +102,7 @@ pub use report::{
 pub use rigid_body::{
     COMPONENTS, RigidBody, Tensor, body_constants, body_values, matrix, principal,
 };
-pub use sampling::{POINTS, TRIES};
+pub use sampling::{ANY_POINTS, POINTS, TRIES};
 pub use separation::separation;
 pub use similarity::Similarity;
 pub use structure::{Holonomy, Separation};

@@ -113,6 +113,9 @@ impl Experiment {
         if let Some(sentence) = self.passed_event() {
             self.notices.push_once(sentence.clone(), sentence);
         }
+        for sentence in self.vanishing_events() {
+            self.notices.push_once(sentence.clone(), sentence);
+        }
         if let Some(sentence) = self.unstable() {
             self.notices.push_once(sentence.clone(), sentence);
         }

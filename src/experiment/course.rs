@@ -227,6 +227,18 @@ impl Experiment {
         ))
     }
 
+    /// A sentence for each event whose function is zero all along the motion but for rounding: whether it happens cannot be known.
+    pub fn vanishing_events(&self) -> Vec<String> {
+        let sentence = |(name, since): (&str, f64)| {
+            format!(
+                "the function of `{}` is zero all along but for rounding from t = {} on: an event is where it changes its sign",
+                printable::quoted(name),
+                short(self.motion.sign() * since)
+            )
+        };
+        self.motion.vanishing_events().map(sentence).collect()
+    }
+
     /// A sentence for a fixed step beyond the method's stability limit.
     pub fn unstable(&self) -> Option<String> {
         let found = self.motion.unstable()?;

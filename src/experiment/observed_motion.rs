@@ -356,6 +356,11 @@ impl ObservedMotion {
         self.inner.passed_event()
     }
 
+    /// The events whose functions are zero all along but for rounding, and since when.
+    pub(super) fn vanishing_events(&self) -> impl Iterator<Item = (&str, f64)> {
+        self.inner.vanishing_events()
+    }
+
     pub(super) fn step_size(&self) -> f64 {
         self.inner.step_size()
     }

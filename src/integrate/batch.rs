@@ -86,7 +86,8 @@ impl BatchPropagator {
     ) -> Option<BatchPropagator> {
         let mut batch = BatchPropagator::new(&system.without_marks(), method, settings)?;
         let BatchStepper::Taylor(series) = &batch.stepper else { return None };
-        batch.events = Some(Box::new(BatchEvents::new(system, series.series().order())));
+        let tolerance = settings.tolerance.unwrap_or(0.0);
+        batch.events = Some(Box::new(BatchEvents::new(system, series.series().order(), tolerance)));
         Some(batch)
     }
 

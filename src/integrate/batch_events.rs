@@ -33,6 +33,7 @@ pub(super) struct BatchEvents {
     sides: Vec<Batch>,
     lanes: [Option<LaneSearch>; BATCH],
     series: LaneSeries,
+    tolerance: Option<f64>,
 }
 
 /// That of one lane.
@@ -53,13 +54,14 @@ struct LaneStep<'a> {
 
 impl BatchEvents {
     /// Those of a system whose events are all without effect.
-    pub(super) fn new(system: &System, order: usize) -> BatchEvents {
+    pub(super) fn new(system: &System, order: usize, tolerance: f64) -> BatchEvents {
         BatchEvents {
             system: system.clone(),
             signs: system.batch_event_signs(order),
             sides: vec![Batch::ZERO; system.discontinuities().events.len()],
             lanes: std::array::from_fn(|_| None),
             series: LaneSeries::EMPTY,
+            tolerance: Some(tolerance),
         }
     }
 
@@ -68,11 +70,14 @@ impl BatchEvents {
         let events = &self.system.discontinuities().events;
         let blank = State::new(0.0, self.system.form(), Vec::new());
         let functions = self.system.event_functions(parameters);
-        self.lanes[lane] = functions.map(|functions| LaneSearch {
-            locator: EventLocator::new(functions, events, blank),
-            start: state.time,
-            clear: state.time,
-            accumulation: vec![AccumulationDetector::NONE; events.len()],
+        let native = self.system.convert(state, self.system.form(), parameters);
+        self.lanes[lane] = functions.map(|functions| {
+            let mut locator = EventLocator::new(functions, events, blank);
+            if let Ok(native) = &native {
+                locator.find_vanishing(&self.system, native, parameters);
+            }
+            let accumulation = vec![AccumulationDetector::NONE; events.len()];
+            LaneSearch { locator, start: state.time, clear: state.time, accumulation }
         });
         if let Some(signs) = &mut self.signs {
             signs.set_parameters(lane, &self.system.inputs(parameters));
@@ -116,6 +121,7 @@ impl BatchEvents {
     ) -> Result<Option<LaneEvent>, MotionError> {
         let Some(search) = &mut self.lanes[lane] else { return Ok(None) };
         let end = motion.state(lane).time;
+        search.locator.note_departures(motion.state(lane), self.tolerance);
         // what else is at the time of the last event comes before what lies beyond
         let mut waiting = search.locator.next_at(search.clear);
         if waiting.is_none() && search.clear >= end {

@@ -8,6 +8,7 @@
 //! and poles, the functions are sampled.
 
 mod jumps;
+mod vanishing;
 
 use super::DenseOutput;
 use super::clock::{DIGITS, spacing};
@@ -22,6 +23,7 @@ use super::series_piece::SeriesPiece;
 use crate::model::Direction;
 use crate::num::DoubleDouble;
 use crate::system::{CompiledEvent, EventFunctions, MotionError, State};
+use vanishing::VanishingFunction;
 
 /// At a root of its series a function is less than this part of its terms.
 const VANISHES: f64 = 1e-6;
@@ -41,6 +43,8 @@ pub(super) struct EventLocator {
     acts: Vec<bool>,
     /// Whether each function has zeros that are no rounding.
     may_cross: Vec<bool>,
+    /// The functions that are zero all along, which therefore never cross.
+    vanishing: Vec<VanishingFunction>,
     /// The last known side of zero of each function; zero if unknown.
     sides: Vec<f64>,
     /// When each of them last crossed zero in a direction that counts, or left it with an impulse; NaN before it has.
@@ -81,6 +85,7 @@ impl EventLocator {
             directions: events.iter().map(|event| event.direction).collect(),
             acts: events.iter().map(|event| event.action.acts()).collect(),
             may_cross,
+            vanishing: Vec::new(),
             sides: vec![0.0; count],
             last: vec![f64::NAN; count],
             beside: LocatedEvents::default(),

@@ -64,7 +64,16 @@ impl Probe {
         self.event_functions.exactly(event, &self.state)
     }
 
-    /// The same at a time known beyond the last digit of an `f64`.
+    /// One value at a state, in double-double.
+    pub(super) fn exactly_of(
+        &mut self,
+        event: usize,
+        state: &State,
+    ) -> Result<DoubleDouble, MotionError> {
+        self.event_functions.exactly(event, state)
+    }
+
+    /// The same as [`Probe::exactly`] at a time known beyond the last digit of an `f64`.
     pub(super) fn exactly_at(
         &mut self,
         motion: &mut dyn DenseOutput,

@@ -15,6 +15,7 @@ mod passed_event_watch;
 mod singular_mass;
 mod singularity_record;
 mod trial;
+mod vanishing_event_watch;
 
 use super::{Method, MethodError, Settings, Stepper, Stepping, Unstable};
 use crate::num::DoubleDouble;
@@ -245,7 +246,8 @@ impl Propagator {
         self.search.continue_from(state.time);
         self.watch_from_here();
         self.domain = MotionDomain::around(&self.system, &self.state, &self.parameters);
-        self.stepper.start(&self.state, &self.parameters)
+        self.stepper.start(&self.state, &self.parameters)?;
+        self.find_vanishing_events()
     }
 
     /// The current state in the system's native form.

@@ -10,7 +10,7 @@ use super::canonical::PhaseMap;
 use super::determinant::singular;
 use super::equations::Equations;
 use super::implicit_map::{departure, guesses};
-use super::sampling::{FAR_POINTS, POINTS};
+use super::sampling::{ANY_POINTS, POINTS};
 use super::valuation::Valuation;
 use crate::expr::{Expr, FunctionId, Node, Pool, Symbol, Zero};
 use crate::model::Model;
@@ -59,8 +59,8 @@ pub struct FailingBracket {
 impl PhaseMap {
     /// Withdraws the verdict on an explicit map that fails far from the start.
     fn look_far_away(&self, model: &Model, equations: &Equations, verdict: &mut CanonicalVerdict) {
-        for n in 0..FAR_POINTS {
-            let point = Valuation::far_from_start(model, equations, n);
+        for n in 0..ANY_POINTS {
+            let point = Valuation::at_any_distance(model, equations, n);
             let image = self.image(&equations.pool, &point);
             let matrix = image.and_then(|at| self.tangent(&equations.pool, &at));
             let Some(matrix) = matrix.filter(|matrix| matrix.amax() <= LARGEST) else { continue };

@@ -9,7 +9,7 @@ use std::collections::HashMap;
 use super::determinant::singular;
 use super::equations::{Equations, NoClosedForm};
 use super::isolate::{self, Solution, tidy};
-use super::sampling::{FAR_POINTS, POINTS};
+use super::sampling::{ANY_POINTS, POINTS};
 use super::slope::{self, tidy_derivative};
 use super::valuation::Valuation;
 use crate::expr::{Expr, Pool, Symbol, Zero};
@@ -186,12 +186,12 @@ fn remainder(
     let (mut largest, mut relative, mut seen) = (0.0_f64, 0.0_f64, 0);
     // what solves the equation near the start may not do so far from it, beyond a kink
     let near = (0..200).map(|n| (false, n));
-    for (is_far, n) in near.chain((0..FAR_POINTS).map(|n| (true, n))) {
+    for (is_far, n) in near.chain((0..ANY_POINTS).map(|n| (true, n))) {
         if !is_far && seen >= POINTS {
             continue;
         }
         let point = if is_far {
-            Valuation::far_from_start(model, equations, n)
+            Valuation::at_any_distance(model, equations, n)
         } else {
             Valuation::near_start(model, equations, n)
         };

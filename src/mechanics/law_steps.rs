@@ -78,7 +78,46 @@ impl Equations {
             })
         };
         let jumps = |e: Expr| jumps(e) || is_quotient(e);
-        steps(function).is_some() || pool.reachable(&[function]).into_iter().any(jumps)
+        steps(function).is_some()
+            || pool.reachable(&[function]).into_iter().any(jumps)
+            || self.has_saturated_pole(function, symbols)
+    }
+
+    /// Whether a function jumps where a pole that depends on some symbols is the argument of what is bounded there, as in
+    /// arctan(1/x), arctan(tan x) or 1/(1 + e^{1/x}).
+    fn has_saturated_pole(&self, function: Expr, symbols: &[Symbol]) -> bool {
+        let pool = &self.pool;
+        let bounded = pool.reachable(&[function]).into_iter().flat_map(|e| match pool.node(e) {
+            Node::Call(FunctionId::Atan | FunctionId::Tanh | FunctionId::Exp, argument) => {
+                pool.reachable(argument)
+            }
+            _ => Vec::new(),
+        });
+        let mut poles: Vec<Expr> = bounded
+            .flat_map(|part| match pool.node(part) {
+                Node::Call(FunctionId::Tan | FunctionId::Cot, _) => vec![part],
+                _ => self.divisors(part).into_iter().map(|(e, _)| e).collect(),
+            })
+            .collect();
+        poles
+            .extend(pool.reachable(&[function]).into_iter().flat_map(|e| self.even_roots_below(e)));
+        poles.sort_unstable();
+        poles.dedup();
+        let moving = self.moving();
+        poles.into_iter().any(|pole| {
+            pool.depends_on_any(pole, symbols) && pool.jumps_at_zeros(function, pole, &moving)
+        })
+    }
+
+    /// What is u in a divisor √(u²) of a product: u/√(u²) is the sign of u.
+    fn even_roots_below(&self, product: Expr) -> Vec<Expr> {
+        let roots = self.divisors(product).into_iter().filter(|(_, is_root)| *is_root);
+        let squares = roots.flat_map(|(base, _)| match self.pool.node(base) {
+            Node::Product(_, factors) => factors.to_vec(),
+            _ => Vec::new(),
+        });
+        let even = |n: Number| n.as_integer().is_some_and(|n| n % 2 == 0);
+        squares.filter(|&(_, n)| even(n)).map(|(e, _)| e).collect()
     }
 
     /// An angle in L (or H), atan2(y, x), at whose cut, y = 0 and x < 0, that jumps. A parameter is taken for positive.

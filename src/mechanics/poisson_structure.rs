@@ -1,6 +1,6 @@
 //! Checks that given brackets are a Poisson structure (Jacobi's identity), and that given Casimirs
 //! are Casimirs (B ∇C = 0): by proof, or to 1e-10 of the size of the terms at twenty points near
-//! the start and wherever they have values at sixty far from it.
+//! the start and wherever they have values at any distance from it.
 //!
 //! In: a model and its equations. Out: a [`StructureError`] with its place for each
 //! false statement. Never here: antisymmetry, which the reader of files ensures.
@@ -9,7 +9,7 @@
 
 use super::equations::Equations;
 use super::rigid_body;
-use super::sampling::{FAR_POINTS, POINTS, TRIES};
+use super::sampling::{ANY_POINTS, POINTS, TRIES};
 use super::structure_error::StructureError;
 use super::valuation::Valuation;
 use crate::diagnostic::SourceRange;
@@ -37,7 +37,7 @@ pub fn structure_errors(model: &Model, equations: &Equations) -> Vec<StructureEr
     };
     let points: Vec<Valuation> =
         (0..TRIES).map(|n| Valuation::near_start(model, equations, n)).collect();
-    let far = (0..FAR_POINTS).map(|n| Valuation::far_from_start(model, equations, n)).collect();
+    let far = (0..ANY_POINTS).map(|n| Valuation::at_any_distance(model, equations, n)).collect();
     let mut structure = Structure { model, equations: equations.clone(), brackets, points, far };
     structure_errors.extend(structure.jacobi(place));
     for (name, casimir, place) in casimirs {

@@ -11,6 +11,7 @@ use super::rigid_body::body_values;
 use super::valuation::Valuation;
 use crate::expr::{Expr, Symbol};
 use crate::model::Model;
+use crate::num::math;
 
 /// The number of points at which an identity has to hold.
 pub const POINTS: usize = 20;
@@ -27,6 +28,13 @@ const FAR: [f64; 3] = [10.0, 100.0, 1000.0];
 
 /// The number of points far from the start.
 pub(super) const FAR_POINTS: u64 = 60;
+
+/// A term of however small a coefficient, as 10⁻³⁰ x⁹, is large at one of so many powers of ten; beyond them squares and fourth
+/// powers have no value.
+const DECADES: u64 = 36;
+
+/// The number of points at any distance: three at each.
+pub const ANY_POINTS: u64 = 3 * DECADES;
 
 /// The scales tried in turn if all coordinates, or all velocities, start at 0.
 const SIZES: [f64; 6] = [1.0, 1.0, 1e-3, 1e3, 1e-6, 1e-9];
@@ -53,6 +61,12 @@ impl Valuation {
     pub(super) fn far_from_start(model: &Model, equations: &Equations, n: u64) -> Valuation {
         let count = FAR.len() as u64;
         Valuation::around_start(model, equations, n, (n / count, FAR[(n % count) as usize]))
+    }
+
+    /// The n-th point at any distance from the start, by powers of ten.
+    pub fn at_any_distance(model: &Model, equations: &Equations, n: u64) -> Valuation {
+        let width = math::powi(10.0, (n % DECADES) as i32 + 1);
+        Valuation::around_start(model, equations, n, (n / DECADES, width))
     }
 
     /// The n-th point at distances of up to `width` from the start, relative to the largest initial value of a kind, or to the scale of

@@ -1,6 +1,7 @@
 //! Derivations from L or H, compared with equations derived by hand at random states.
 
 mod bracket;
+mod canonical_far;
 mod closed_forms;
 mod conserved;
 mod frames;

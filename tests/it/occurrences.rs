@@ -909,3 +909,71 @@ change = { p_y = \"-2*y'\" }
         assert_eq!(velocity, (-1.0, -1.0), "{method}");
     }
 }
+
+/// The function of an event on a circle about the origin, in whatever form it is written.
+const ON_A_CIRCLE: [&str; 3] = ["x^2 + y^2 - 1", "sqrt(x^2 + y^2) - 1", "x*x' + y*y'"];
+
+fn circle(starts: &str, rest: &str, when: &str, action: &str) -> String {
+    format!(
+        "title = 'a circle'\n[coordinates]\nx = {{ initial = 1.0, velocity = 0.0 }}\n\
+         y = {{ initial = 0.0, velocity = {starts} }}\n{rest}\n\
+         [[events]]\nname = 'circle'\nwhen = \"{when}\"\naction = '{action}'\n"
+    )
+}
+
+const KEPLER: &str = "[lagrangian]\nL = \"1/2*(x'^2 + y'^2) + 1/sqrt(x^2 + y^2)\"";
+
+#[test]
+fn a_function_that_is_zero_all_along_but_for_rounding_never_happens_and_is_named() {
+    let hoop = "[lagrangian]\nL = \"1/2*(x'^2 + y'^2) - y\"\n\
+                [[constraints]]\nname = 'hoop'\nexpression = '(x^2 + y^2)^3 - 1'";
+    for (law, when, method, action) in [
+        (KEPLER, ON_A_CIRCLE[0], "taylor", "mark"),
+        (KEPLER, ON_A_CIRCLE[0], "dop853", "stop"),
+        (KEPLER, ON_A_CIRCLE[1], "gauss4", "mark"),
+        (KEPLER, ON_A_CIRCLE[2], "rk4", "stop"),
+        (hoop, ON_A_CIRCLE[0], "taylor", "stop"),
+        (hoop, ON_A_CIRCLE[1], "dop853", "mark"),
+    ] {
+        let text = circle("1.0", law, when, action);
+        let mut circling = build(&text, |setup| method.clone_into(&mut setup.method));
+        run(&mut circling, 7.0);
+        assert!(times(&circling, "circle").is_empty(), "{method} {when}");
+        let said = circling.vanishing_events();
+        let lead = "the function of `circle` is zero all along but for rounding";
+        assert!(said.len() == 1 && said[0].starts_with(lead), "{method} {when} {said:?}");
+    }
+}
+
+#[test]
+fn a_function_that_leaves_zero_by_more_than_rounding_happens() {
+    // a little more than the speed of the circle: r comes back to 1 after each period, from outside
+    for speed in ["1.000000001", "1.0001"] {
+        let mut ellipse = file(&circle(speed, KEPLER, "x*x' + y*y'", "mark"));
+        run(&mut ellipse, 30.0);
+        // at each apoapsis and periapsis, half a period of 2π apart
+        let found = times(&ellipse, "circle");
+        assert!((8..=10).contains(&found.len()), "{speed}: {found:?}");
+        assert!(ellipse.vanishing_events().is_empty());
+    }
+}
+
+#[test]
+fn a_function_that_was_zero_until_a_force_was_switched_on_happens() {
+    // the spring begins at t = 5: x leaves 0 and comes back
+    let text = "
+title = 'a switch'
+[coordinates]
+x = { initial = 0.0, velocity = 0.0 }
+[lagrangian]
+L = \"1/2*x'^2 - 1/2*x^2 + x*max(0, sin(t - 5))*max(0, t - 5)/(t + 1)\"
+[[events]]
+name = 'back'
+when = 'x'
+";
+    let mut switched = file(text);
+    run(&mut switched, 30.0);
+    let found = times(&switched, "back");
+    assert!(found.len() > 4 && found.iter().all(|t| *t > 5.0), "{found:?}");
+    assert!(switched.vanishing_events().is_empty());
+}

@@ -134,6 +134,9 @@ impl Run<'_> {
         if let Some(passed) = self.experiment.passed_event() {
             stderr::report(&passed);
         }
+        for sentence in self.experiment.vanishing_events() {
+            stderr::report(&sentence);
+        }
         let snapshot = self.experiment.snapshot();
         for line in invariants::unknown(&snapshot.gauges) {
             stderr::report(&line);

@@ -169,6 +169,7 @@ impl Propagator {
         }
         self.steps += 1;
         self.note_side();
+        self.note_departures();
         self.check_branch()?;
         if self.projector.is_some() || self.system.attitude_place().is_some() {
             self.before.copy_from(self.stepper.state());

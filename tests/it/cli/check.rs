@@ -550,3 +550,24 @@ fn a_coordinate_that_no_constraint_has_is_not_eliminated() {
     }
     with_file(&text("x"), &["check", "system.toml"]).success();
 }
+
+#[test]
+fn a_bracket_that_differs_only_far_from_the_start_is_refused() {
+    let file = |f: &str| {
+        format!(
+            "title = 'T'\n[coordinates]\nx = {{ initial = 1.0, velocity = 0.3 }}\n\
+             [lagrangian]\nL = \"1/2*x'^2 - 1/2*x^2\"\n\
+             [expect]\nbrackets = [{{ f = '{f}', g = 'p_x', is = '1' }}]\n"
+        )
+    };
+    for (f, said) in [
+        ("x + 1e-30*x^9", "is not what this says"),
+        ("x + 1e-60*x^9", "is not what this says"),
+        ("x + max(0, x - 9000)", "is not what this says"),
+        ("x + max(0, x - 1e12)", "is not what this says"),
+        ("x + exp(-(x - 9000)^2)", "cannot be checked"),
+    ] {
+        with_file(&file(f), &["check", "system.toml"]).fails(65, &[said, "1 error"]);
+    }
+    assert_eq!(with_file(&file("x + 1e-30*t^9"), &["check", "system.toml"]).success(), "");
+}

@@ -158,7 +158,15 @@ fn a_sign_beside_its_argument_is_no_step() {
     assert_eq!(derived(&file(PLANE, &rounded, "x")).1.conserved.len(), 1);
     let both = l("1/2*(x'^2 + y'^2) - 2*x*y*sign(3*x*y)");
     assert_eq!(derived(&file(PLANE, &both, "x")).1.conserved.len(), 1);
-    for kink in ["x^2/abs(x)", "abs(x - 3)^3/(x - 3)", "x/abs(x - 3)*(x - 3)^2"] {
+    for kink in [
+        "x^2/abs(x)",
+        "abs(x - 3)^3/(x - 3)",
+        "x/abs(x - 3)*(x - 3)^2",
+        "x*atan(1/x)",
+        "atan(1/(x^2 + 1))",
+        "atan(1/x^2)",
+        "tanh(1000*x)",
+    ] {
         let law = l(&format!("1/2*x'^2 - {kink}"));
         assert_eq!(derived(&file(LINE, &law, "x")).1.conserved.len(), 1, "{kink}");
     }
@@ -169,6 +177,13 @@ fn a_sign_beside_its_argument_is_no_step() {
         "x/abs(x)",
         "3*(2*x - 6)/abs(x - 3)",
         "x^3/abs(x)^3",
+        "x/sqrt(x^2)",
+        "atan(1/x)",
+        "tanh(1/(x - 3))",
+        "atan(1/(1000*x))",
+        "1/(1 + exp(1/x))",
+        "atan(tan(x))",
+        "x*atan(2/(x - 1))",
     ] {
         let law = l(&format!("1/2*x'^2 - {step}"));
         let (_, equations) = derived(&file(LINE, &law, "x"));

@@ -1,0 +1,92 @@
+//! Jumps of a function where something that it divides by vanishes: arctan(1/x) has one at x = 0, and so has 1/(1 + e^{1/x});
+//! x arctan(1/x) has none, and 1/x has a pole.
+//!
+//! In: a function and a divisor in it. Out: whether the function has two limits at a zero of the divisor. Never here: jumps of
+//! functions that have names, as sign.
+
+use super::evaluate::Repeated;
+use super::node::Expr;
+use super::pool::Pool;
+use super::sample::sample;
+use super::symbol::Symbol;
+use super::vanishing::on_lines;
+
+/// The distances from a zero at which both sides are compared, in units of its place and 1: with the digits of an `f64` a zero is
+/// known to 1e-16 of these, and of whatever is steeper by a million both limits are seen.
+const DISTANCES: [f64; 3] = [1e-7, 1e-8, 1e-9];
+
+/// A difference of both sides that is more than this part of the values and …
+const SEEN: f64 = 1e-6;
+
+/// … changes by less than this part of it from one distance to the next is a jump: at a pole it grows by ten, beside the tip of a
+/// root it falls by three.
+const SETTLED: f64 = 0.1;
+
+/// The halvings between two places down to neighbouring numbers.
+const HALVINGS: u32 = 120;
+
+impl Pool {
+    /// Whether a function of the `moving` symbols jumps where a divisor in it changes its sign.
+    pub fn jumps_at_zeros(&self, function: Expr, divisor: Expr, moving: &[Symbol]) -> bool {
+        if !self.depends_on_any(divisor, moving) {
+            return false;
+        }
+        let (function, divisor) = (Repeated::of(self, function), Repeated::of(self, divisor));
+        let at_rest = |symbol: Symbol| sample(symbol, 0);
+        on_lines(moving, &at_rest, &mut |along, places| {
+            let below = |place: f64| divisor.at(&|symbol| along(symbol, place));
+            let value = |place: f64| function.at(&|symbol| along(symbol, place));
+            let mut pairs = places.windows(2);
+            pairs.any(|pair| {
+                below(pair[0]) * below(pair[1]) < 0.0
+                    && jumps(&value, change_of_sign(&below, pair[0], pair[1]))
+            })
+        })
+    }
+}
+
+/// Where a function changes its sign between two places.
+fn change_of_sign(at: &dyn Fn(f64) -> f64, mut left: f64, mut right: f64) -> f64 {
+    let side = at(left);
+    for _ in 0..HALVINGS {
+        let middle = f64::midpoint(left, right);
+        if at(middle) * side > 0.0 { left = middle } else { right = middle }
+    }
+    right
+}
+
+/// Whether a function has two limits at a place.
+fn jumps(at: &dyn Fn(f64) -> f64, place: f64) -> bool {
+    let beside = DISTANCES.map(|distance| {
+        let aside = distance * (1.0 + place.abs());
+        (at(place - aside), at(place + aside))
+    });
+    let differences = beside.map(|(before, after)| after - before);
+    let is_seen =
+        |(before, after): (f64, f64)| (after - before).abs() > SEEN * (before.abs() + after.abs());
+    beside.into_iter().all(is_seen)
+        && differences.windows(2).all(|pair| (pair[1] - pair[0]).abs() <= SETTLED * pair[1].abs())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::jumps;
+    use crate::num::math;
+
+    #[test]
+    fn two_limits_are_a_jump_and_a_pole_or_a_root_is_none() {
+        assert!(jumps(&|x| math::atan(1.0 / x), 0.0));
+        assert!(jumps(&|x| 5.0 + math::tanh(1e-3 / (x - 2.0)), 2.0));
+        assert!(jumps(&|x| 1.0 / (1.0 + math::exp(1.0 / x)), 0.0));
+        assert!(!jumps(&|x| x * math::atan(1.0 / x), 0.0));
+        assert!(!jumps(&|x| 1.0 / x, 0.0));
+        assert!(!jumps(&|x| math::cbrt(x), 0.0));
+        assert!(!jumps(&|x| math::atan(1.0 / (x * x)), 0.0));
+    }
+
+    #[test]
+    fn a_millionth_of_the_values_is_where_jumps_are_seen() {
+        assert!(jumps(&|x| 1.0 + 1.1e-6 * x.signum(), 0.0));
+        assert!(!jumps(&|x| 1.0 + 0.9e-6 * x.signum(), 0.0));
+    }
+}
