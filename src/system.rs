@@ -100,6 +100,7 @@ mod stage_machine;
 mod state;
 mod state_layout;
 mod state_sum;
+mod steep_arguments;
 mod step_series;
 mod surface;
 mod tangent;
@@ -142,6 +143,7 @@ pub use split_step::SplitStep;
 pub use stage_list::Composition;
 
 pub use state::{Form, InitialOverride, State};
+pub use steep_arguments::SteepArguments;
 pub use step_series::StepSeries;
 pub use surface::SurfaceRow;
 pub use term_watch::{TermSums, TermWatch};

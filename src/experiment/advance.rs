@@ -116,6 +116,9 @@ impl Experiment {
         for sentence in self.vanishing_events() {
             self.notices.push_once(sentence.clone(), sentence);
         }
+        if let Some(sentence) = self.narrow_passage() {
+            self.notices.push_once(sentence.clone(), sentence);
+        }
         if let Some(sentence) = self.unstable() {
             self.notices.push_once(sentence.clone(), sentence);
         }

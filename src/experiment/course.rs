@@ -239,6 +239,18 @@ impl Experiment {
         self.motion.vanishing_events().map(sentence).collect()
     }
 
+    /// A sentence about the first step that has passed a narrow place of the law without having been there.
+    pub fn narrow_passage(&self) -> Option<String> {
+        let found = self.motion.narrow_passage()?;
+        Some(format!(
+            "{} steps over a narrow place of the law before t = {}, where an exponential function changes by more than a step of {} \
+             can tell: try a shorter one, or the default method",
+            self.motion.method().name,
+            short(self.motion.sign() * found.time),
+            short(found.step)
+        ))
+    }
+
     /// A sentence for a fixed step beyond the method's stability limit.
     pub fn unstable(&self) -> Option<String> {
         let found = self.motion.unstable()?;

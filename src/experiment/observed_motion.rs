@@ -10,7 +10,8 @@ use super::step_log::StepLog;
 use super::step_sampler::StepSampler;
 use crate::analysis::Errors;
 use crate::integrate::{
-    self, Method, MethodError, Occurrence, OccurrenceKind, Preserves, Settings, Unstable,
+    self, Method, MethodError, NarrowPassage, Occurrence, OccurrenceKind, Preserves, Settings,
+    Unstable,
 };
 use crate::mechanics::Valuation;
 use crate::system::{MotionError, Observer, State, System};
@@ -359,6 +360,11 @@ impl ObservedMotion {
     /// The events whose functions are zero all along but for rounding, and since when.
     pub(super) fn vanishing_events(&self) -> impl Iterator<Item = (&str, f64)> {
         self.inner.vanishing_events()
+    }
+
+    /// The first step that has passed a narrow place of the law.
+    pub(super) fn narrow_passage(&self) -> Option<NarrowPassage> {
+        self.inner.narrow_passage()
     }
 
     pub(super) fn step_size(&self) -> f64 {

@@ -16,6 +16,7 @@ mod tableau;
 use self::tableau::{DENSE, FIFTH, METHOD_STAGES, STAGES, THIRD, WeightedStage};
 use super::dense_output::DenseOutput;
 use super::method::{Method, MethodError, Preserves, Settings, Stepping};
+use super::narrow_place::NarrowPlaces;
 use super::stepper::Stepper;
 use super::{initial_step, roundoff};
 use crate::num::{DoubleDouble, math};
@@ -44,6 +45,9 @@ const SHORTEST: f64 = 1e-15;
 
 /// The maximal number of shorter steps tried if one led to a place without rates.
 const TRIES: u32 = 30;
+
+/// A step shorter than this many times the shortest is not divided for what is narrow in the law.
+const SHORT: f64 = 64.0;
 
 /// The bounds of the ratio of a step to the last one.
 const SHORTER: f64 = 0.333;
@@ -95,6 +99,8 @@ struct DormandPrince {
     longest: f64,
     /// The number of short steps in a row that have crossed a kink.
     crossings: u32,
+    /// Where the law may have something narrow in it.
+    narrow: Option<NarrowPlaces>,
     /// The switches and roots whose kink lies within the attempted step.
     parted: (Vec<usize>, Vec<usize>),
 }
@@ -128,6 +134,7 @@ impl DormandPrince {
             stale: false,
             longest: 0.0,
             crossings: 0,
+            narrow: None,
             parted: Default::default(),
         })
     }
@@ -259,6 +266,17 @@ impl DormandPrince {
         Ok(())
     }
 
+    /// The part of the attempted step that shows all of what exponential functions in the law do; 1 for all of it.
+    fn told_part(&mut self, step: f64) -> f64 {
+        if step.abs() <= SHORT * self.shortest() {
+            return 1.0;
+        }
+        let Some(narrow) = &mut self.narrow else { return 1.0 };
+        let begin = (&self.state, &self.slopes[0][..]);
+        // the last stage lies at the end of the step
+        narrow.part(step, begin, (&self.next, &self.slopes[METHOD_STAGES - 1][..]))
+    }
+
     fn last_step(&self) -> f64 {
         (self.state.exact_time() - self.before.exact_time()).high
     }
@@ -288,6 +306,13 @@ impl Stepper for DormandPrince {
     fn start(&mut self, state: &State, parameters: &[f64]) -> Result<(), MotionError> {
         self.state = self.system.convert(state, self.system.form(), parameters)?;
         self.before.copy_from(&self.state);
+        if self.narrow.is_none() {
+            let arguments = self.system.steep_arguments(parameters);
+            self.narrow = arguments.map(|found| NarrowPlaces::new(found, &self.state));
+        }
+        if let Some(narrow) = &mut self.narrow {
+            narrow.set_parameters(parameters);
+        }
         self.rates.set_parameters(parameters);
         self.exact.set_parameters(&self.system.inputs(parameters));
         self.size = initial_step::of(&self.system, state, parameters) * FIRST;
@@ -336,6 +361,12 @@ impl Stepper for DormandPrince {
             let passes_kink = error > 1.0 && self.passes_kink(step)?;
             if passes_kink {
                 error = 1.0;
+            }
+            let part = if error <= 1.0 { self.told_part(step) } else { 1.0 };
+            if part < 1.0 {
+                self.size = step.abs() * part;
+                failures += 1;
+                continue;
             }
             let most = if failures > 0 { 1.0 } else { LONGER };
             let factor = (SAFETY * math::powf(error, -1.0 / 8.0)).clamp(SHORTER, most);

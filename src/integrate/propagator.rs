@@ -8,6 +8,7 @@ mod advance;
 mod comparison_watch;
 mod constraint_watch;
 mod domain;
+mod narrow_watch;
 mod occurrence;
 mod occurrence_search;
 mod passed_event;
@@ -17,10 +18,12 @@ mod singularity_record;
 mod trial;
 mod vanishing_event_watch;
 
+use super::narrow_place::PassedPlaces;
 use super::{Method, MethodError, Settings, Stepper, Stepping, Unstable};
 use crate::num::DoubleDouble;
 use crate::system::{ConstraintProjector, Form, MotionError, State, System};
 use domain::MotionDomain;
+pub use narrow_watch::NarrowPassage;
 pub use occurrence::{Occurrence, OccurrenceKind};
 use occurrence_search::OccurrenceSearch;
 use passed_event::PassedEvents;
@@ -66,6 +69,8 @@ pub struct Propagator {
     /// The number of changes of the enforced constraints among redundant ones.
     active_set_changes: u64,
     ended: bool,
+    narrow: Option<PassedPlaces>,
+    narrow_passage: Option<NarrowPassage>,
     /// The last impulse, and the event that caused it.
     impulse: Option<(usize, Option<usize>)>,
     steps: u64,
@@ -102,6 +107,8 @@ impl Propagator {
             domain: MotionDomain::default(),
             active_set_changes: 0,
             ended: false,
+            narrow: None,
+            narrow_passage: None,
             impulse: None,
             steps: 0,
         };
@@ -124,6 +131,7 @@ impl Propagator {
         self.ended = false;
         self.forget_passages();
         self.passed = PassedEvents::default();
+        self.narrow_passage = None;
         self.search.begin(state.time, self.whole.discontinuities().events.len());
         self.parameters = parameters.to_vec();
         self.system = self.whole.activate_all(state, parameters);
@@ -247,6 +255,7 @@ impl Propagator {
         self.watch_from_here();
         self.domain = MotionDomain::around(&self.system, &self.state, &self.parameters);
         self.stepper.start(&self.state, &self.parameters)?;
+        self.watch_narrow_places();
         self.find_vanishing_events()
     }
 

@@ -204,7 +204,7 @@ impl Equations {
     }
 
     /// The time, coordinates, velocities and momenta.
-    pub(super) fn moving(&self) -> Vec<Symbol> {
+    pub fn moving(&self) -> Vec<Symbol> {
         let mut moving = vec![self.symbols.time];
         moving.extend(self.supplements.ramp_rates.iter().map(|(symbol, _)| *symbol));
         moving.extend(self.coordinates.iter().flat_map(|c| [c.position, c.velocity, c.momentum]));

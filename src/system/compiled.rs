@@ -16,7 +16,7 @@ use super::separability::NotSeparable;
 use super::terms::{ConservedTerms, Terms};
 use super::value::Evaluator;
 use super::variations::Variations;
-use super::{Channel, Discontinuities, Form, State};
+use super::{Channel, Discontinuities, Form, State, steep_arguments};
 use crate::cancel::Cancel;
 use crate::expr::{Expr, Symbol};
 use crate::mechanics::Equations;
@@ -47,6 +47,8 @@ pub(super) struct Shared {
     watch: Observables,
     terms: Terms,
     discontinuities: Discontinuities,
+    /// The arguments of the exponential functions in the law, of (q, native rates, action, work).
+    steep: Arc<Program>,
     inertia: Option<Inertia>,
     legendre: Arc<Program>,
     /// The index, among the auxiliary numbers, at which an attitude begins.
@@ -232,6 +234,7 @@ impl System {
             known: coordinates.iter().map(known).collect(),
             energy,
             discontinuities: Discontinuities::of(model, builder)?,
+            steep: steep_arguments::program(builder)?,
             watch: list.compile(builder)?,
             terms: quantities.compile(builder)?,
             inertia: None,
@@ -336,6 +339,10 @@ impl System {
     /// The events and impulses of the system.
     pub fn discontinuities(&self) -> &Discontinuities {
         &self.shared.discontinuities
+    }
+
+    pub(super) fn steep_program(&self) -> &Arc<Program> {
+        &self.shared.steep
     }
 
     pub(super) fn terms(&self) -> &Terms {

@@ -171,10 +171,18 @@ impl Run<'_> {
                 "{method} has stepped over the end of the motion, and what follows is none: {why}"
             )));
         }
+        let narrow = self.experiment.narrow_passage();
         if refused && !cut_short {
+            narrow.iter().for_each(|narrow| stderr::report(narrow));
             return Err(CommandError::CouldNot(line));
         }
         stderr::report(&line);
+        match narrow {
+            Some(narrow) if self.strict && !cut_short => {
+                return Err(CommandError::CouldNot(narrow));
+            }
+            narrow => narrow.iter().for_each(|narrow| stderr::report(narrow)),
+        }
         match end {
             Some(EarlyEnd::Fault(fault)) => Err(CommandError::CouldNot(fault.message)),
             Some(EarlyEnd::Signal(signal)) => Err(CommandError::Signal(signal)),

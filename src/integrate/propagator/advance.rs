@@ -117,6 +117,7 @@ impl Propagator {
             && self.domain.is_unbounded()
             && self.system.attitude_place().is_none()
             && self.search.is_empty()
+            && self.narrow.is_none()
     }
 
     /// Takes the steps to a time, between which nothing is observed.
@@ -169,6 +170,7 @@ impl Propagator {
         }
         self.steps += 1;
         self.note_side();
+        self.note_narrow_place();
         self.note_departures();
         self.check_branch()?;
         if self.projector.is_some() || self.system.attitude_place().is_some() {

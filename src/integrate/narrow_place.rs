@@ -1,0 +1,224 @@
+//! Narrow places of a law, as a thin barrier or a short pulse, that a step may pass without having been there.
+//!
+//! In: the arguments u of exponential functions at the ends of steps. Out: how much of a step may be taken. Never here: the law.
+//!
+//! e^u, tanh u and their like change where u is small, and show nothing elsewhere. Between the ends of a step u is followed by the
+//! cubic of its values and slopes there, which is exact for a straight path into a Gaussian barrier. A step in which it changes by
+//! much, or turns while it was large, is too long to have seen what the function does.
+
+use crate::system::{State, SteepArguments};
+
+/// The largest change of an argument in one step: e^u is then told by the points within it.
+const FARTHEST: f64 = 6.0;
+
+/// Beyond this argument no exponential is a number: there it may move at once.
+const SATURATED: f64 = 750.0;
+
+/// Beyond this one it is less than the last digit of what is 1.
+const SEEN: f64 = 36.0;
+
+/// An argument that falls below this part of what it is at both ends of a step comes closer to 0 than its cubic is sure of.
+const NEAR: f64 = 0.01;
+
+/// The places at which the cubic is evaluated.
+const PLACES: u32 = 16;
+
+/// The part of a step over which slopes are taken.
+const SLOPE_OVER: f64 = 1e-4;
+
+/// An argument at one end of a step, and its slope, per step.
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+struct End {
+    value: f64,
+    slope: f64,
+}
+
+/// The part of a step after which an argument with these ends is to be evaluated again; 1 where the step shows all of it.
+fn part_of(begin: End, end: End) -> f64 {
+    let at = |k: u32| {
+        let (s, d) = (f64::from(k) / f64::from(PLACES), end.value - begin.value);
+        let (a, b) = (begin.slope - d, d - end.slope);
+        begin.value + s * (d + (1.0 - s) * (a * (1.0 - s) + b * s))
+    };
+    let told = |u: f64| u.clamp(-SATURATED, SATURATED);
+    let turns = |k: u32| {
+        let size = begin.value.abs().min(end.value.abs());
+        size > SATURATED && at(k).abs() < NEAR * size
+    };
+    let first =
+        (1..=PLACES).find(|&k| (told(at(k)) - told(begin.value)).abs() > FARTHEST || turns(k));
+    first.map_or(1.0, |k| f64::from((k - 1).max(1)) / f64::from(PLACES))
+}
+
+/// The arguments along one motion.
+#[derive(Clone, Debug)]
+pub(super) struct NarrowPlaces {
+    arguments: SteepArguments,
+    there: State,
+    here: Vec<f64>,
+    beside: Vec<f64>,
+    begin: Vec<End>,
+    end: Vec<End>,
+}
+
+impl NarrowPlaces {
+    pub(super) fn new(arguments: SteepArguments, blank: &State) -> NarrowPlaces {
+        let count = arguments.count();
+        NarrowPlaces {
+            arguments,
+            there: blank.clone(),
+            here: vec![0.0; count],
+            beside: vec![0.0; count],
+            begin: vec![End::default(); count],
+            end: vec![End::default(); count],
+        }
+    }
+
+    pub(super) fn set_parameters(&mut self, parameters: &[f64]) {
+        self.arguments.set_parameters(parameters);
+    }
+
+    /// The part of a step from a state to another, with the rates at both, that may be taken; 1 for all of it.
+    pub(super) fn part(
+        &mut self,
+        step: f64,
+        (before, slopes): (&State, &[f64]),
+        (after, last_slopes): (&State, &[f64]),
+    ) -> f64 {
+        let (mut begin, mut end) = (std::mem::take(&mut self.begin), std::mem::take(&mut self.end));
+        let known = self.look(step, before, before.time, slopes, &mut begin)
+            && self.look(step, after, before.time + step, last_slopes, &mut end);
+        let ends = begin.iter().zip(&end);
+        let part = ends.map(|(&begin, &end)| part_of(begin, end)).fold(1.0, f64::min);
+        (self.begin, self.end) = (begin, end);
+        if known { part } else { 1.0 }
+    }
+
+    /// The arguments at a state, and their slopes; false where one has no value.
+    fn look(
+        &mut self,
+        step: f64,
+        state: &State,
+        time: f64,
+        slopes: &[f64],
+        out: &mut [End],
+    ) -> bool {
+        self.there.copy_from(state);
+        (self.there.time, self.there.time_carry) = (time, 0.0);
+        if self.arguments.observe(&self.there, &mut self.here).is_err() {
+            return false;
+        }
+        let aside = SLOPE_OVER * step;
+        for (x, slope) in self.there.values.iter_mut().zip(slopes) {
+            *x += aside * slope;
+        }
+        self.there.time += aside;
+        if self.arguments.observe(&self.there, &mut self.beside).is_err() {
+            return false;
+        }
+        for (i, end) in out.iter_mut().enumerate() {
+            *end = End { value: self.here[i], slope: (self.beside[i] - self.here[i]) / SLOPE_OVER };
+        }
+        out.iter().all(|end| end.value.is_finite() && end.slope.is_finite())
+    }
+}
+
+/// The arguments at the ends of the last equal steps.
+#[derive(Clone, Debug)]
+pub(super) struct PassedPlaces {
+    arguments: SteepArguments,
+    /// Those at the last ends, the newest last.
+    ends: Vec<Vec<f64>>,
+}
+
+impl PassedPlaces {
+    pub(super) fn new(arguments: SteepArguments) -> PassedPlaces {
+        PassedPlaces { arguments, ends: Vec::new() }
+    }
+
+    /// Records the end of a step. Returns whether the last one or two of them have passed a place where the law changes by more than
+    /// they could tell.
+    pub(super) fn has_passed(&mut self, state: &State) -> bool {
+        let mut here = vec![0.0; self.arguments.count()];
+        if self.arguments.observe(state, &mut here).is_err() {
+            self.ends.clear();
+            return false;
+        }
+        if self.ends.len() == 3 {
+            self.ends.remove(0);
+        }
+        self.ends.push(here);
+        let told = |u: f64| u.clamp(-SEEN, SEEN);
+        match &self.ends[..] {
+            [first, middle, last] => (0..last.len()).any(|i| {
+                let (a, b, c) = (first[i], middle[i], last[i]);
+                (told(c) - told(b)).abs() > FARTHEST || turns_unseen(a, b, c)
+            }),
+            [before, last] => {
+                before.iter().zip(last).any(|(&b, &c)| (told(c) - told(b)).abs() > FARTHEST)
+            }
+            _ => false,
+        }
+    }
+}
+
+/// Whether the parabola through three values that show nothing comes to where something shows.
+fn turns_unseen(a: f64, b: f64, c: f64) -> bool {
+    let (slope, bend) = (0.5 * (c - a), 0.5 * (a + c) - b);
+    let place = -0.5 * slope / bend;
+    let least = b + 0.5 * slope * place;
+    [a, b, c].iter().all(|u| u.abs() > SEEN)
+        && place.abs() < 1.0
+        && (least.abs() < SEEN || least * b < 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::num::math;
+
+    /// The ends of −((s − at)/width)² over a step from 0 to 1.
+    fn gaussian(at: f64, width: f64) -> (End, End) {
+        let end = |s: f64| End {
+            value: -math::powi((s - at) / width, 2),
+            slope: -2.0 * (s - at) / (width * width),
+        };
+        (end(0.0), end(1.0))
+    }
+
+    #[test]
+    fn a_barrier_within_a_step_ends_it_before() {
+        for width in [1e-2, 1e-4, 1e-8] {
+            for at in [0.2, 0.5, 0.9] {
+                let (begin, end) = gaussian(at, width);
+                let part = part_of(begin, end);
+                assert!(part < at, "{width} {at}: {part}");
+            }
+        }
+        let (begin, end) = gaussian(1.5, 1e-4);
+        assert_eq!(part_of(begin, end), 1.0);
+    }
+
+    #[test]
+    fn a_change_by_six_is_told_and_one_by_more_is_not() {
+        let line = |by: f64| (End { value: 1.0, slope: by }, End { value: 1.0 + by, slope: by });
+        let part = |by: f64| part_of(line(by).0, line(by).1);
+        assert_eq!(part(5.9), 1.0);
+        assert!(part(6.1) < 1.0);
+        // what is no number at either end
+        let far = |value: f64, slope: f64| End { value, slope };
+        assert_eq!(part_of(far(-1000.0, -50.0), far(-1050.0, -50.0)), 1.0);
+    }
+
+    #[test]
+    fn equal_steps_that_pass_a_barrier_between_them_are_seen() {
+        let wall = |x: f64| -x * x / 1e-8;
+        let turns = |begin: f64, step: f64| {
+            turns_unseen(wall(begin), wall(begin + step), wall(begin + 2.0 * step))
+        };
+        assert!(turns(-0.0151, 0.01));
+        assert!(turns(-0.0049, 0.01));
+        assert!(!turns(-0.0351, 0.01));
+        assert!(!turns(0.0051, 0.01));
+    }
+}

@@ -1,0 +1,94 @@
+//! The arguments of the functions that a law may hide in: e^u, tanh u, sinh u and cosh u change only where u is small, and a barrier
+//! or a pulse of theirs may be narrower than the steps of a motion.
+//!
+//! In: states of a system. Out: the arguments there. Never here: steps.
+
+use std::sync::Arc;
+
+use super::native_states::NativeStates;
+use super::observables;
+use super::program::Program;
+use super::rhs::ProgramBuilder;
+use super::value::Evaluator;
+use super::{MotionError, State, System};
+use crate::expr::{Expr, FunctionId, Node, Symbol};
+
+/// Evaluates the arguments in the law of one system at one set of parameters.
+#[derive(Clone, Debug)]
+pub struct SteepArguments {
+    system: System,
+    native: NativeStates,
+    values: Evaluator<f64>,
+    inputs: Vec<f64>,
+    count: usize,
+}
+
+/// The program of the arguments, functions of (q, native rates, action, work).
+pub(super) fn program(builder: &mut ProgramBuilder<'_>) -> Result<Arc<Program>, Symbol> {
+    let law = builder.equations.flow.expressions();
+    let moving = builder.equations.moving();
+    let mut arguments: Vec<Option<Expr>> = Vec::new();
+    for part in builder.pool.reachable(&law) {
+        let argument = match builder.pool.node(part) {
+            Node::Call(
+                FunctionId::Exp | FunctionId::Tanh | FunctionId::Sinh | FunctionId::Cosh,
+                argument,
+            ) => argument[0],
+            _ => continue,
+        };
+        if builder.pool.depends_on_any(argument, &moving) && !arguments.contains(&Some(argument)) {
+            arguments.push(Some(argument));
+        }
+    }
+    observables::program(builder, &arguments)
+}
+
+impl SteepArguments {
+    /// Sets the parameters.
+    pub fn set_parameters(&mut self, parameters: &[f64]) {
+        let inputs = self.system.inputs(parameters);
+        self.native.set_parameters(parameters, &inputs);
+        self.values.set_parameters(&inputs);
+    }
+
+    /// Their number.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// Writes them at a state into `out`.
+    ///
+    /// # Errors
+    /// Returns an error if one has no value there.
+    pub fn observe(&mut self, state: &State, out: &mut [f64]) -> Result<(), MotionError> {
+        self.native.write(state, &mut self.inputs)?;
+        self.values.evaluate(state.time, &self.inputs).map_err(|why| {
+            let program = self.system.steep_program();
+            self.system.singular(program, why, state.time, &state.values)
+        })?;
+        for (i, x) in out.iter_mut().enumerate() {
+            *x = self.values.output(i);
+        }
+        Ok(())
+    }
+}
+
+impl System {
+    /// Returns the evaluator of the arguments of exponential functions in the law; `None` if there are none.
+    pub fn steep_arguments(&self, parameters: &[f64]) -> Option<SteepArguments> {
+        let program = self.steep_program();
+        let count = program.outputs();
+        if count == 0 {
+            return None;
+        }
+        let mut arguments = SteepArguments {
+            system: self.clone(),
+            native: NativeStates::new(self),
+            values: Evaluator::new(Arc::clone(program)),
+            inputs: vec![0.0; self.motion_len() + 2],
+            count,
+        };
+        arguments.set_parameters(parameters);
+        Some(arguments)
+    }
+}
