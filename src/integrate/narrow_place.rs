@@ -17,7 +17,7 @@ const SATURATED: f64 = 750.0;
 /// Beyond this one it is less than the last digit of what is 1.
 const SEEN: f64 = 36.0;
 
-/// An argument that falls below this part of what it is at both ends of a step comes closer to 0 than its cubic is sure of.
+/// An argument that falls below this part of what it is at the farther end of a step comes closer to 0 than its cubic is sure of.
 const NEAR: f64 = 0.01;
 
 /// The places at which the cubic is evaluated.
@@ -42,8 +42,8 @@ fn part_of(begin: End, end: End) -> f64 {
     };
     let told = |u: f64| u.clamp(-SATURATED, SATURATED);
     let turns = |k: u32| {
-        let size = begin.value.abs().min(end.value.abs());
-        size > SATURATED && at(k).abs() < NEAR * size
+        let (begin, end) = (begin.value.abs(), end.value.abs());
+        begin.min(end) > SATURATED && at(k).abs() < NEAR * begin.max(end)
     };
     let first =
         (1..=PLACES).find(|&k| (told(at(k)) - told(begin.value)).abs() > FARTHEST || turns(k));
