@@ -23,7 +23,6 @@ use super::series_piece::SeriesPiece;
 use crate::model::Direction;
 use crate::num::DoubleDouble;
 use crate::system::{CompiledEvent, EventFunctions, MotionError, State};
-use vanishing::VanishingFunction;
 
 /// At a root of its series a function is less than this part of its terms.
 const VANISHES: f64 = 1e-6;
@@ -43,8 +42,8 @@ pub(super) struct EventLocator {
     acts: Vec<bool>,
     /// Whether each function has zeros that are no rounding.
     may_cross: Vec<bool>,
-    /// The functions that are zero all along, which therefore never cross.
-    vanishing: Vec<VanishingFunction>,
+    /// The functions that are zero all along, which therefore never cross, and since when.
+    vanishing: Vec<(usize, f64)>,
     /// The last known side of zero of each function; zero if unknown.
     sides: Vec<f64>,
     /// When each of them last crossed zero in a direction that counts, or left it with an impulse; NaN before it has.

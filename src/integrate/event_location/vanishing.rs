@@ -38,14 +38,6 @@ const TOLERANCES: f64 = 1e4;
 /// … or by equal steps more than this part.
 const LEFT_BY_EQUAL_STEPS: f64 = 1e-2;
 
-/// A function that is zero all along.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub(super) struct VanishingFunction {
-    pub(super) event: usize,
-    /// When that was found.
-    since: f64,
-}
-
 impl EventLocator {
     /// Finds the functions that are zero from a state in the native form on.
     pub(in crate::integrate) fn find_vanishing(
@@ -54,8 +46,8 @@ impl EventLocator {
         state: &State,
         parameters: &[f64],
     ) {
-        for known in std::mem::take(&mut self.vanishing) {
-            self.may_cross[known.event] = true;
+        for (event, _) in std::mem::take(&mut self.vanishing) {
+            self.may_cross[event] = true;
         }
         let all = 0..self.sides.len();
         let mut doubtful: Vec<usize> =
@@ -82,27 +74,27 @@ impl EventLocator {
         for event in doubtful {
             self.may_cross[event] = false;
             self.sides[event] = 0.0;
-            self.vanishing.push(VanishingFunction { event, since: state.time });
+            self.vanishing.push((event, state.time));
         }
     }
 
     /// The events whose functions are zero all along, and since when.
     pub(in crate::integrate) fn vanishing(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
-        self.vanishing.iter().map(|known| (known.event, known.since))
+        self.vanishing.iter().copied()
     }
 
     /// Follows those that are zero no more at a state, as after a kink of the law. `tolerance` is that of the method, if it has one.
     pub(in crate::integrate) fn note_departures(&mut self, state: &State, tolerance: Option<f64>) {
         let part =
             tolerance.map_or(LEFT_BY_EQUAL_STEPS, |tolerance| LEFT.max(TOLERANCES * tolerance));
-        for known in std::mem::take(&mut self.vanishing) {
-            match self.value_and_rounding(known.event, state) {
+        for (event, since) in std::mem::take(&mut self.vanishing) {
+            match self.value_and_rounding(event, state) {
                 Ok((value, rounding)) if value.abs() > part / f64::EPSILON * rounding => {
-                    self.may_cross[known.event] = true;
-                    self.sides[known.event] = value.signum();
-                    self.last[known.event] = f64::NAN;
+                    self.may_cross[event] = true;
+                    self.sides[event] = value.signum();
+                    self.last[event] = f64::NAN;
                 }
-                _ => self.vanishing.push(known),
+                _ => self.vanishing.push((event, since)),
             }
         }
     }
