@@ -110,7 +110,7 @@ impl Propagator {
             return None;
         }
         // no farther, since the motion itself may come to such a place soon
-        let beyond = (BEYOND * (fault.time - from.time)).max(self.stepper.step_size().abs());
+        let beyond = trial_length(fault.time - from.time, self.stepper.step_size().abs());
         let until = fault.time + beyond;
         self.system.begin_auxiliary(&mut from, &self.parameters).ok()?;
         match self.trial(self.method, self.settings, &from, until) {
@@ -124,5 +124,21 @@ impl Propagator {
         let names =
             self.system.channels().iter().map(|channel| format!("{} (wrong)", channel.shown));
         names.zip(values.iter().copied()).filter(|(_, x)| x.is_finite()).take(4).collect()
+    }
+}
+
+/// How far a motion is tried beyond a fault, so long after its last regular step and with steps of this size.
+fn trial_length(since: f64, step: f64) -> f64 {
+    (BEYOND * since).max(step)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::trial_length;
+
+    #[test]
+    fn a_motion_is_tried_for_a_twentieth_of_the_time_since_its_last_regular_step() {
+        assert!((0.04..0.06).contains(&trial_length(1.0, 1e-9)), "{}", trial_length(1.0, 1e-9));
+        assert_eq!(trial_length(1.0, 0.5), 0.5);
     }
 }

@@ -45,7 +45,7 @@ impl Propagator {
         }
         let change = (n..2 * n).map(|i| (rates.rate(i).high * step).abs()).fold(0.0, f64::max);
         let size = (n..2 * n).map(|i| numbers[i].high.abs()).fold(0.0, f64::max);
-        change > AGREES * size
+        changes_much(change, size)
     }
 
     /// The initial states and end times of trials that pass a time at which the motion stops: from
@@ -146,6 +146,11 @@ impl Propagator {
     }
 }
 
+/// Whether rates change velocities of this size by what counts, over a step that no longer moves the clock.
+fn changes_much(change: f64, size: f64) -> bool {
+    change > AGREES * size
+}
+
 /// How an integration by another method went.
 pub(super) enum Trial {
     /// It reached this state beyond the place.
@@ -188,6 +193,14 @@ mod tests {
         };
         assert!(agrees(0.8e-3));
         assert!(!agrees(1.2e-3));
+    }
+
+    #[test]
+    fn rates_are_steep_that_change_velocities_by_a_thousandth() {
+        for size in [1e-9, 1.0, 1e9] {
+            assert!(changes_much(1.1e-3 * size, size), "{size}");
+            assert!(!changes_much(0.9e-3 * size, size), "{size}");
+        }
     }
 
     #[test]

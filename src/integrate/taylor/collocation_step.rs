@@ -172,11 +172,11 @@ impl CollocationStep {
             }
             numbers.clone_from(&self.end);
         }
-        let is_same = |i: usize| {
+        let is_reached = |i: usize| {
             let size = start[i].high.abs().max(two[i].high.abs());
-            (numbers[i] - two[i]).high.abs() <= MISSED * size
+            is_reached(numbers[i] - two[i], size)
         };
-        Ok(!(0..self.moving).all(is_same))
+        Ok(!(0..self.moving).all(is_reached))
     }
 
     /// The longest step possible with one time variable.
@@ -387,9 +387,26 @@ fn is_same(difference: DoubleDouble, size: f64) -> bool {
     difference.high.abs() <= AGREEMENT * size
 }
 
+/// Whether a step ends where it does with a first part of it taken by itself, beside a number of this size.
+fn is_reached(difference: DoubleDouble, size: f64) -> bool {
+    difference.high.abs() <= MISSED * size
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_step_misses_nothing_that_moves_its_end_by_1e_15_of_each_number() {
+        for size in [1e-30, 1.0, 1e12] {
+            for (part, reached) in
+                [(0.9e-15, true), (-0.9e-15, true), (1.1e-15, false), (-1.1e-15, false)]
+            {
+                let off = DoubleDouble::from(part * size);
+                assert_eq!(is_reached(off, size), reached, "{part:e} of {size:e}");
+            }
+        }
+    }
 
     #[test]
     fn two_ways_of_taking_a_step_agree_to_1e_18_of_each_number() {

@@ -166,9 +166,8 @@ impl Kinks {
             return Some(k);
         }
         // whatever forces do later, at first it goes on as it came
-        let goes_on = |&(of, rate): &(usize, f64)| {
-            of == i && (switch[1] / series.scale() - rate).abs() <= SAME * rate.abs()
-        };
+        let goes_on =
+            |&(of, rate): &(usize, f64)| of == i && is_same_rate(switch[1] / series.scale(), rate);
         if self.arrival.iter().any(goes_on) {
             return Some(1);
         }
@@ -323,6 +322,11 @@ fn rate_of_crossing(switch: &[f64], x: f64) -> Option<f64> {
     ((slope * x).abs() > TRANSVERSAL * largest).then_some(slope)
 }
 
+/// Whether a switch leaves its surface as fast as it came there.
+fn is_same_rate(now: f64, before: f64) -> bool {
+    (now - before).abs() <= SAME * before.abs()
+}
+
 /// Whether the motion is off the surface of a switch, beyond the rounding of one that it is on; `step` and `stride` as in
 /// [`leads_on`](Kinks::leads_on).
 pub(super) fn is_off_surface(series: &Series, i: usize, step: f64, stride: f64) -> bool {
@@ -410,6 +414,32 @@ mod tests {
         assert_eq!(first_that_matters(&[0.0, 0.5e-9, 1.0], 1.0, SIGNIFICANT), Some(2));
         // in the unit of the time in question
         assert_eq!(first_that_matters(&[0.0, 0.5e-9, 1.0], 0.1, SIGNIFICANT), Some(1));
+    }
+
+    /// (x − 1)(x − 1 − d) has the slope −d at 1, and its largest term there is 2 + d.
+    #[test]
+    fn a_switch_crosses_zero_where_a_thousandth_of_its_terms_is_left_of_its_rate() {
+        for (apart, crosses) in [(2.1e-3, true), (1.9e-3, false)] {
+            for unit in [1e-9, 1.0, 1e9] {
+                let switch = [1.0 + apart, -(2.0 + apart) / unit, 1.0 / (unit * unit)];
+                let rate = rate_of_crossing(&switch, unit);
+                assert_eq!(rate.is_some(), crosses, "{apart} in {unit}");
+                assert!(
+                    rate.is_none_or(|rate| (rate * unit / -apart - 1.0).abs() < 1e-9),
+                    "{rate:?}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn a_rate_is_that_of_arrival_to_a_billionth() {
+        for rate in [-1e-12, 1.0, 1e12] {
+            for (part, same) in [(0.9e-9, true), (-0.9e-9, true), (1.1e-9, false), (-1.1e-9, false)]
+            {
+                assert_eq!(is_same_rate(rate * (1.0 + part), rate), same, "{part:e} of {rate:e}");
+            }
+        }
     }
 
     #[test]

@@ -747,6 +747,18 @@ fn a_method_that_passes_over_kinks_says_which_one_does_not() {
     run("taylor").success();
 }
 
+/// Which constraints repeat others is found where this run begins: at z = 0 the second does, and at z = 1 it holds x = 1.
+#[test]
+fn redundant_constraints_are_those_of_the_start_of_this_run() {
+    let text = "title = \"Two\"\n[coordinates]\nx = { initial = 1 }\ny = { initial = 1 }\nz = { initial = 0 }\n[lagrangian]\n\
+                L = \"1/2*(x'^2 + y'^2 + z'^2) + x + y\"\n[[constraints]]\nname = \"one\"\nexpression = \"y - x\"\n\
+                [[constraints]]\nname = \"other\"\nexpression = \"y - x + z*(x + y - 2)\"\n";
+    let arguments =
+        ["run", "system.toml", "--init", "z=1", "--until", "1", "--at", "1", "--format", "json"];
+    let rows = &with_file(text, &arguments).json()["rows"];
+    assert_eq!(rows[0][1], 1.0, "{rows}");
+}
+
 /// A force that changes smoothly has no kink where it begins or ends to change. What else the law has is none of its concern.
 #[test]
 fn a_smooth_ramp_is_no_kink() {
