@@ -45,6 +45,7 @@ mod compiled;
 mod conditions;
 mod consistent_initial;
 mod constrained;
+mod constraint_corner;
 mod constraint_programs;
 mod constraint_span;
 mod conversion;

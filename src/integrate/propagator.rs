@@ -7,6 +7,7 @@
 mod advance;
 mod comparison_watch;
 mod constraint_watch;
+mod corner_watch;
 mod domain;
 mod narrow_watch;
 mod occurrence;

@@ -142,6 +142,21 @@ impl Conditions {
         self.sizes.set_parameters(parameters);
     }
 
+    /// The number of switches of the constraints.
+    pub(super) fn switches(&self) -> usize {
+        self.values.switches()
+    }
+
+    /// The value of one of them.
+    pub(super) fn switch(&self, i: usize) -> f64 {
+        self.values.switch(i).high
+    }
+
+    /// Whether a function of the constraints has branches, as a root or an arccosine.
+    pub(super) fn has_branches(&self) -> bool {
+        !self.values.program().guards.is_empty()
+    }
+
     /// The number of coordinates.
     pub(super) fn degrees(&self) -> usize {
         self.degrees

@@ -47,6 +47,8 @@ pub enum MotionErrorKind {
     SingularConstraints(Option<Passage>),
     /// This constraint was redundant at the start and contradicts the others here.
     ConstraintParted(String),
+    /// This constraint has a corner here, where the motion needs an impulse that the law does not determine.
+    ConstraintCorner(String),
     /// No state nearby satisfies this constraint.
     ConstraintLost(String),
     /// The same after a step of fixed size, which may be too long.
@@ -126,6 +128,7 @@ impl MotionErrorKind {
                 | MotionErrorKind::NoMass
                 | MotionErrorKind::SingularConstraints(None)
                 | MotionErrorKind::ConstraintLost(_)
+                | MotionErrorKind::ConstraintCorner(_)
                 | MotionErrorKind::NotFinite(_)
                 | MotionErrorKind::OutOfRange(_)
                 | MotionErrorKind::BlowsUp(_)
@@ -167,6 +170,9 @@ impl fmt::Display for MotionError {
                 "the constraint `{name}`, which repeated those before it where the motion began, \
                  contradicts them after t = {time}"
             )?,
+            MotionErrorKind::ConstraintCorner(name) => {
+                write!(f, "the motion comes to a corner of the constraint `{name}` at t = {time}")?;
+            }
             MotionErrorKind::ConstraintLost(name) | MotionErrorKind::ConstraintLostInStep(name) => {
                 write!(f, "the constraint `{name}` cannot be kept at t = {time}")?;
             }
@@ -285,6 +291,10 @@ impl fmt::Display for MotionError {
             }
             MotionErrorKind::ConstraintParted(_) => {
                 ": the motion began at a singular configuration of the constraints"
+            }
+            MotionErrorKind::ConstraintCorner(_) => {
+                ": its direction jumps there, and the law does not say with which impulse the motion goes on; round the corner, \
+                 as |x| to sqrt(x^2 + e^2)"
             }
             MotionErrorKind::ConstraintLost(_) => ": no configuration nearby meets it",
             MotionErrorKind::ConstraintLostInStep(_) => {

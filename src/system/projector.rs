@@ -34,7 +34,7 @@ impl Directions {
 /// registers.
 #[derive(Clone, Debug)]
 pub struct ConstraintProjector {
-    system: System,
+    pub(super) system: System,
     pub(super) projection: Projection,
     pub(super) numbers: Vec<DoubleDouble>,
 }

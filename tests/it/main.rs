@@ -10,6 +10,7 @@ mod circles;
 mod cli;
 mod config;
 mod constrain;
+mod constraint_corner;
 mod course;
 mod diagram;
 mod documents;

@@ -160,6 +160,9 @@ impl Propagator {
         if !self.energy_has_a_value(true) {
             return Err(self.left_domain(self.state.time));
         }
+        if let Some(corner) = &self.watch.corner {
+            return Err(corner.clone());
+        }
         self.note_regular();
         self.choose_enforced()?;
         self.stepper.step(limit)?;
@@ -173,6 +176,11 @@ impl Propagator {
         self.note_narrow_place();
         self.note_departures();
         self.check_branch()?;
+        self.watch_corners()?;
+        if self.watch.corner.is_some() {
+            // the velocities are those on arrival
+            return Ok(());
+        }
         if self.projector.is_some() || self.system.attitude_place().is_some() {
             self.before.copy_from(self.stepper.state());
             if let Some(projector) = &mut self.projector {

@@ -49,6 +49,7 @@ impl Propagator {
     /// Restarts from the current state, which does not continue the motion before.
     pub(super) fn watch_from_here(&mut self) {
         self.watch.ahead.clear();
+        self.watch.corner = None;
         self.watch.seen = match (&mut self.projector, self.state.form) {
             (Some(projector), Form::Velocity) => {
                 projector.directions(&self.state, None).map(|seen| (self.state.time, seen))

@@ -2,7 +2,7 @@
 //!
 //! In: samples and states. Out: what the detection compares. Never here: the detection.
 
-use crate::system::{Directions, State};
+use crate::system::{Directions, MotionError, State};
 
 /// The data recorded to detect singular configurations of one motion.
 #[derive(Clone, Debug, Default)]
@@ -22,6 +22,8 @@ pub(super) struct SingularityRecord {
     pub(super) fastest: Vec<f64>,
     /// The state at which it last began or continued.
     pub(super) begun: Option<State>,
+    /// The corner of a constraint at which the last step has ended.
+    pub(super) corner: Option<MotionError>,
     pub(super) comparison: ComparisonRecord,
 }
 

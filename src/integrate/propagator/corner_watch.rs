@@ -1,0 +1,67 @@
+//! Corners of the constraints that a motion comes to.
+//!
+//! In: the last step, before its end is projected onto the constraints. Out: an error where the motion meets a corner that it does
+//! not pass without an impulse: projected, it would go on with velocities that no law gives it. Never here: what a corner is.
+
+use super::Propagator;
+use crate::integrate::clock::spacing;
+use crate::system::{Form, MotionError, MotionErrorKind};
+
+/// The part of a step on each side of a kink at which the constraints are compared, …
+const BESIDE: f64 = 1e-12;
+
+/// … which is at least so many digits of the time.
+const DIGITS: f64 = 4.0;
+
+impl Propagator {
+    /// Looks for a corner in the last step. One at its end is an error of the next step, unless something else acts there.
+    ///
+    /// # Errors
+    /// Returns an error if the step leads over one.
+    pub(super) fn watch_corners(&mut self) -> Result<(), MotionError> {
+        let state = self.stepper.state().clone();
+        let Some(projector) = &mut self.projector else { return Ok(()) };
+        if state.form != Form::Velocity || !projector.may_have_corners() {
+            return Ok(());
+        }
+        let (begin, end) = self.stepper.interval();
+        if begin == end {
+            return Ok(());
+        }
+        let beside = |time: f64| {
+            (BESIDE * (end - begin).abs()).max(DIGITS * spacing(time)).copysign(end - begin)
+        };
+        let fault = |name: String, time: f64, state: &crate::system::State| {
+            self.system.fault(MotionErrorKind::ConstraintCorner(name), time, &state.values)
+        };
+        let after = beside(end);
+        if let Some(name) = projector.corner(&state, [-after, after]) {
+            self.watch.corner = Some(fault(name, end, &state));
+            return Ok(());
+        }
+        self.stepper.at(begin, &mut self.before)?;
+        let sides = projector.sides(&self.before, beside(begin));
+        if projector.sides(&state, -after) == sides {
+            return Ok(());
+        }
+        let (mut low, mut high) = (begin, end);
+        loop {
+            let middle = 0.5 * (low + high);
+            if middle == low || middle == high {
+                break;
+            }
+            self.stepper.at(middle, &mut self.before)?;
+            if projector.sides(&self.before, 0.0) == sides {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        self.stepper.at(low, &mut self.before)?;
+        let after = beside(low);
+        match projector.corner(&self.before, [-after, high - low + after]) {
+            Some(name) => Err(fault(name, high, &self.before)),
+            None => Ok(()),
+        }
+    }
+}
