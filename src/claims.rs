@@ -13,5 +13,7 @@ mod motion;
 mod own_method;
 mod start;
 mod step;
+mod uniqueness;
 
 pub use check::{false_claims, structure_diagnostics, undefined_start};
+pub use uniqueness::several_starts;

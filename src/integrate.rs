@@ -35,6 +35,7 @@ mod roots;
 mod roundoff;
 mod sampling;
 mod series_piece;
+mod several_motions;
 mod side_by_side;
 mod splitting;
 mod stability;
@@ -57,6 +58,7 @@ pub use method::{ACCURACIES, Method, MethodError, Preserves, Settings, StepperRe
 pub use methods::{METHODS, method_named};
 pub use propagator::{NarrowPassage, Occurrence, OccurrenceKind, Propagator, Reached};
 pub use roots::first_crossing;
+pub use several_motions::{SeveralMotions, several_motions};
 pub use side_by_side::{Follower, OrbitCourse, side_by_side};
 pub use stability::Unstable;
 pub use step_block::StepBlock;

@@ -10,6 +10,7 @@ use super::invariants::false_count;
 use super::motion::{self, ClaimedMotion};
 use super::own_method;
 use super::step::false_steps;
+use super::uniqueness;
 use crate::diagnostic::{Diagnostic, SourceRange};
 use crate::mechanics::{self, Equations, HamiltonJacobi, StructureError};
 use crate::model::Model;
@@ -40,6 +41,7 @@ pub fn false_claims(model: &Model, equations: &Equations) -> Vec<Diagnostic> {
         Ok(motion) => {
             diagnostics.extend(own_method::diagnostic(model, &system));
             diagnostics.extend(false_steps(model, equations, &system));
+            diagnostics.extend(uniqueness::diagnostic(model, &system));
             motion.follow(model, equations, claims, &mut diagnostics);
         }
         Err(diagnostic) => diagnostics.push(diagnostic),

@@ -160,6 +160,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let (model, equations) = (Arc::new(model), Arc::new(equations));
     let mut experiment = Experiment::new(&model, &equations, &system, setup)
         .map_err(|why| CommandError::WrongUse(why.to_string()))?;
+    cautions::of_start(&model, &system, (method, settings), &experiment);
     clock::check(&system, method, &experiment, &times)?;
     experiment.forget_past();
     // where none is given, the step that the method has chosen at the start

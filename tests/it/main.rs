@@ -55,6 +55,7 @@ mod rigid_body;
 mod screen;
 mod section;
 mod section_marks;
+mod several_motions;
 mod starts;
 mod stroboscope;
 mod system;

@@ -1,8 +1,9 @@
 //! Warnings about the limits of a method, before a run or after it.
 
+use crate::claims;
 use crate::cli::stderr;
 use crate::experiment::Experiment;
-use crate::integrate::{METHODS, Method};
+use crate::integrate::{METHODS, Method, Settings};
 use crate::mechanics::Equations;
 use crate::model::Model;
 use crate::printable;
@@ -37,6 +38,20 @@ pub(super) fn before(model: &Model, system: &System, equations: &Equations, meth
             method.name,
             others.join(", ")
         ));
+    }
+}
+
+/// Warns before the run about a start from which more than one motion follows.
+pub(super) fn of_start(
+    model: &Model,
+    system: &System,
+    by: (&'static Method, Settings),
+    experiment: &Experiment,
+) {
+    let snapshot = experiment.snapshot();
+    let start = (&*snapshot.state, &*snapshot.setup.parameters);
+    if let Some(sentence) = claims::several_starts(model, system, start, by) {
+        stderr::report(&sentence);
     }
 }
 

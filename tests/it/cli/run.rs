@@ -759,6 +759,33 @@ fn redundant_constraints_are_those_of_the_start_of_this_run() {
     assert_eq!(rows[0][1], 1.0, "{rows}");
 }
 
+#[test]
+fn a_start_of_several_motions_is_told_with_the_one_that_is_followed() {
+    let text = |potential: &str| {
+        format!(
+            "title = \"Rest\"\n[coordinates]\nx = {{ initial = 0 }}\n[lagrangian]\nL = \"1/2*x'^2 - ({potential})\"\n"
+        )
+    };
+    for (potential, said) in [
+        ("-abs(x)", "the one followed here leaves at once to larger x"),
+        ("-abs(x)^1.5", "the one followed here stays at rest"),
+    ] {
+        for arguments in [&["check", "system.toml"][..], &["run", "system.toml", "--until", "1"]] {
+            let done = with_file(&text(potential), arguments);
+            assert_eq!(done.code, 0, "{}", done.stderr);
+            for words in ["the motion from rest at x = 0 is not unique", said] {
+                assert!(
+                    done.stderr.replace('\n', " ").contains(words),
+                    "{potential}: {}",
+                    done.stderr
+                );
+            }
+        }
+    }
+    let done = with_file(&text("-x^2"), &["check", "system.toml"]);
+    assert!(!done.stderr.contains("not unique"), "{}", done.stderr);
+}
+
 /// A force that changes smoothly has no kink where it begins or ends to change. What else the law has is none of its concern.
 #[test]
 fn a_smooth_ramp_is_no_kink() {

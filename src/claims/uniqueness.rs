@@ -1,0 +1,74 @@
+//! Starts from which more than one motion follows.
+//!
+//! In: a model, its system, a state, a method. Out: a sentence that says so, and which motion the method follows. Never here: what
+//! makes a motion one of several.
+
+use crate::diagnostic::Diagnostic;
+use crate::integrate::{Method, Propagator, Settings, method_named, several_motions};
+use crate::model::Model;
+use crate::num::short;
+use crate::system::{State, System};
+
+use super::own_method::LENGTH;
+
+/// The steps after which a motion that leaves its start has left it: the first may only choose a side.
+const STEPS: u64 = 4;
+
+/// Says that the motion from a state is not unique, and which one a method follows.
+pub fn several_starts(
+    model: &Model,
+    system: &System,
+    (state, parameters): (&State, &[f64]),
+    by: (&'static Method, Settings),
+) -> Option<String> {
+    let found = several_motions(system, state, parameters)?;
+    let coordinate = model.coordinates.get(found.coordinate)?;
+    let (name, x) = (&coordinate.name, state.values[found.coordinate]);
+    let sides = match found.sides {
+        [true, true] => "to both sides".to_owned(),
+        [true, false] => format!("to smaller {name}"),
+        [false, _] => format!("to larger {name}"),
+    };
+    let followed = match followed(model, system, (state, parameters), by, found.coordinate) {
+        Some(y) if y > x => format!(": the one followed here leaves at once to larger {name}"),
+        Some(y) if y < x => format!(": the one followed here leaves at once to smaller {name}"),
+        Some(_) => ": the one followed here stays at rest".to_owned(),
+        None => String::new(),
+    };
+    Some(format!(
+        "the motion from rest at {name} = {} is not unique: it may stay there for any time, since the force that drives it away \
+         {sides} is not smooth there{followed}",
+        short(x)
+    ))
+}
+
+/// Where a motion is after its first steps.
+fn followed(
+    model: &Model,
+    system: &System,
+    (state, parameters): (&State, &[f64]),
+    (method, settings): (&'static Method, Settings),
+    coordinate: usize,
+) -> Option<f64> {
+    let mut motion = Propagator::new(system, method, settings, parameters).ok()?;
+    motion.begin(state, parameters).ok()?;
+    let end = model.run.until.filter(|end| *end > state.time).unwrap_or(state.time + LENGTH);
+    motion.reach_unexplained(end, end, &mut { STEPS }).ok()?;
+    motion.computed().values.get(coordinate).copied()
+}
+
+/// A warning of a start of a file that is not the start of one motion only.
+pub(super) fn diagnostic(model: &Model, system: &System) -> Option<Diagnostic> {
+    let parameters = model.parameter_values();
+    let state = system.initial(model.run.start, &parameters, &[]).ok()?;
+    let run = &model.run;
+    let by = match method_named(&run.method) {
+        Some(method) => (method, Settings { step: run.step, tolerance: run.tolerance }),
+        None => (method_named("taylor")?, Settings::default()),
+    };
+    let message = several_starts(model, system, (&state, &parameters), by)?;
+    let place = several_motions(system, &state, &parameters)
+        .and_then(|found| model.coordinates.get(found.coordinate))
+        .map_or_else(|| model.law_place.clone(), |coordinate| coordinate.place.clone());
+    Some(Diagnostic::warning(place, message))
+}
