@@ -2,12 +2,18 @@
 //!
 //! In: the terms of a system. Out: times within steps, registers for states and channels. Never here: gauges.
 
-use crate::integrate::StepBlock;
+use crate::integrate::{StepBlock, spacing};
 use crate::num::BATCH;
 use crate::system::{BatchTerms, Form, State, System, TermWatch};
 
 /// The fractional part of the golden ratio.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
+
+/// The digits of the clock in a step at whose end a law of the time is told to the same part of what it changes in the step.
+const RESOLVED: f64 = 1e8;
+
+/// A step that is at least this part of the time between two samples is observed in any case: there would be few other times.
+const PART_OF_SAMPLES: f64 = 1e-3;
 
 /// Samples the motion after every step.
 pub(super) struct StepSampler {
@@ -24,6 +30,8 @@ pub(super) struct StepSampler {
     pub(super) batch_terms: Option<BatchTerms>,
     form: Option<Form>,
     parameters: Vec<f64>,
+    /// Whether the law depends on the time.
+    depends_on_time: bool,
     /// An intermediate state and its channels.
     pub(super) state: State,
     pub(super) values: Vec<f64>,
@@ -37,12 +45,19 @@ impl StepSampler {
             form: None,
             parameters: parameters.to_vec(),
             terms: system.term_watch(parameters),
+            depends_on_time: system.exact_rates().depends_on_time(),
             next: f64::NEG_INFINITY,
             pending: false,
             golden: 0.5,
             state: State::new(0.0, system.form(), Vec::new()),
             values: vec![f64::NAN; system.channels().len()],
         }
+    }
+
+    /// Whether what a law of the time changes within a step is told at its end, where the time is rounded to the digits of the
+    /// clock; `spacing` is the time between two samples. Steps that are long beside that one are always observed.
+    pub(super) fn resolves(&self, [begin, end]: [f64; 2], spacing_of_samples: f64) -> bool {
+        !self.depends_on_time || is_told((end - begin).abs(), spacing_of_samples, spacing(end))
     }
 
     /// Sets the parameters.
@@ -68,5 +83,30 @@ impl StepSampler {
     pub(super) fn next_weyl(&mut self) -> f64 {
         self.golden = (self.golden + GOLDEN).fract();
         self.golden
+    }
+}
+
+/// Whether the end of a step of a law that depends on the time is observed, by the time between samples and the digits of the clock.
+fn is_told(step: f64, spacing_of_samples: f64, digits: f64) -> bool {
+    step >= PART_OF_SAMPLES * spacing_of_samples || step >= RESOLVED * digits
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_told;
+
+    #[test]
+    fn a_step_is_told_from_a_hundred_million_digits_of_the_clock_or_a_thousandth_of_a_sample() {
+        for unit in [1e-9, 1.0, 1e9] {
+            for (step, samples, digits, told) in [
+                (1.1, 1e6, 1e-8, true),
+                (0.9, 1e6, 1e-8, false),
+                (1.1, 1e3, 1.0, true),
+                (0.9, 1e3, 1.0, false),
+            ] {
+                let found = is_told(step * unit, samples * unit, digits * unit);
+                assert_eq!(found, told, "{step} of {samples} and {digits} in {unit}");
+            }
+        }
     }
 }

@@ -112,6 +112,9 @@ impl ObservedMotion {
             return;
         }
         self.watch.pending &= !whole;
+        if !self.watch.resolves([begin, end], spacing) {
+            return;
+        }
         let sparse = (end - begin).abs() < spacing;
         let due = sparse && end >= self.watch.next;
         if due {

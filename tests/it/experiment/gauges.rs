@@ -400,3 +400,29 @@ fn a_complete_integral_of_one_branch_is_gauged() {
         "{beta_a:?}"
     );
 }
+
+/// In the few steps of a ramp that is about as wide as the clock has digits these alone would be seen.
+#[test]
+fn a_ramp_of_some_digits_of_the_clock_leaves_no_gauge() {
+    for width in ["1e-8", "1e-10", "1e-12", "1e-14"] {
+        for ramp in [
+            "tanh((t - 2)/w)",
+            "2*min(1, max(0, (t - 2)/w))^2*(3 - 2*min(1, max(0, (t - 2)/w))) - 1",
+        ] {
+            let ramp = ramp.replace('w', width);
+            let text = format!(
+                "title = \"A ramp\"\n[coordinates]\nx = {{ initial = 0 }}\n[lagrangian]\nL = \"1/2*x'^2 + x*({ramp})\"\n"
+            );
+            let mut experiment = build(&text, |_| ());
+            run(&mut experiment, 5.0);
+            assert!(
+                (value(&experiment, "x") + 3.5).abs() < 1e-7,
+                "{ramp}: {}",
+                value(&experiment, "x")
+            );
+            let snapshot = experiment.snapshot();
+            let balance = gauge(&snapshot, "energy balance");
+            assert!(balance.max_drift < 1e-6 && balance.left.is_none(), "{ramp}: {balance:?}");
+        }
+    }
+}
