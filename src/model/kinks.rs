@@ -18,6 +18,27 @@ impl Model {
         reached.into_iter().any(|e| self.is_switch(e))
     }
 
+    /// Whether the law has an angle that is folded back, as acos(cos(x)) and asin(sin(x)): it has kinks where the function in it
+    /// is 1 or −1, which it touches and does not pass.
+    pub fn has_folded_angles(&self) -> bool {
+        let mut mechanics = self.mechanics.clone();
+        let mut roots: Vec<Expr> = mechanics.expressions_mut().into_iter().map(|e| *e).collect();
+        roots.extend(self.constraints.iter().map(|constraint| constraint.expression));
+        let is_fixed = |symbol| self.parameters.iter().any(|p| p.symbol == symbol);
+        let moves =
+            |e: Expr| matches!(*self.pool.node(e), Node::Symbol(symbol) if !is_fixed(symbol));
+        let is_wave =
+            |e: Expr| matches!(self.pool.node(e), Node::Call(FunctionId::Sin | FunctionId::Cos, _));
+        let folds = |e: Expr| match self.pool.node(e) {
+            Node::Call(FunctionId::Asin | FunctionId::Acos, arguments) => {
+                arguments.iter().any(|&argument| is_wave(argument))
+                    && self.pool.reachable(&[e]).into_iter().any(moves)
+            }
+            _ => false,
+        };
+        self.pool.reachable(&roots).into_iter().any(folds)
+    }
+
     /// Whether an expression switches where something other than a parameter has a value.
     fn is_switch(&self, e: Expr) -> bool {
         let Node::Call(function, arguments) = self.pool.node(e) else { return false };

@@ -30,7 +30,7 @@ pub(super) fn before(model: &Model, system: &System, equations: &Equations, meth
         ));
     }
     let has_kinks = system.has_kinks() && model.has_kinks_beside_smooth_ramps();
-    if has_kinks && !method.locates_kinks {
+    if (has_kinks || model.has_folded_angles()) && !method.locates_kinks {
         let others: Vec<&str> =
             METHODS.iter().filter(|m| m.locates_kinks).map(|m| m.name).collect();
         stderr::report(&format!(

@@ -786,6 +786,23 @@ fn a_start_of_several_motions_is_told_with_the_one_that_is_followed() {
     assert!(!done.stderr.contains("not unique"), "{}", done.stderr);
 }
 
+/// An angle that is folded back has a kink that no switch shows.
+#[test]
+fn kinks_of_folded_angles_are_told() {
+    for (angle, told) in [("acos(cos(x))", true), ("asin(sin(2*x))", true), ("asin(x/9)", false)] {
+        let text = format!(
+            "title = \"Folded\"\n[coordinates]\nx = {{ initial = 1 }}\n[lagrangian]\nL = \"1/2*x'^2 - {angle}\"\n"
+        );
+        for method in ["dop853", "gauss6"] {
+            let arguments = ["run", "system.toml", "--until", "1", "--at", "1", "--method", method];
+            let done = with_file(&text, &arguments);
+            assert_eq!(done.code, 0, "{}", done.stderr);
+            let said = format!("{method} steps over the kinks of this motion");
+            assert_eq!(done.stderr.contains(&said), told, "{angle} {method}: {}", done.stderr);
+        }
+    }
+}
+
 /// A force that changes smoothly has no kink where it begins or ends to change. What else the law has is none of its concern.
 #[test]
 fn a_smooth_ramp_is_no_kink() {
