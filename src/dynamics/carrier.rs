@@ -17,6 +17,7 @@ use crate::integrate::{
     Method, OccurrenceKind, Propagator, Reached, Settings, Stepper, Stepping, StoppedMotion,
     spacing,
 };
+use crate::num::math;
 use crate::system::{MotionError, MotionErrorKind, Saltation, State, System};
 
 /// A motion changes within as many steps as these, also where they are short.
@@ -70,8 +71,9 @@ struct Jumping {
     pending: bool,
     /// Whether something happened at the end of the last step.
     is_cut: bool,
-    /// The product of the determinants of all impulses.
+    /// The product of the determinants of all impulses, and the logarithm of its size, which leaves no range.
     determinant: f64,
+    logarithm: f64,
 }
 
 impl Carrier {
@@ -112,6 +114,7 @@ impl Carrier {
                 pending: false,
                 is_cut: false,
                 determinant: 1.0,
+                logarithm: 0.0,
             });
         }
         let states = TangentStates::new(space, &system);
@@ -372,6 +375,10 @@ impl TangentStep for Carrier {
     fn awaits_occurrence(&self) -> bool {
         Carrier::awaits_occurrence(self)
     }
+
+    fn jump_logarithm(&self) -> f64 {
+        self.jumping.as_ref().map_or(0.0, |jumping| jumping.logarithm)
+    }
 }
 
 impl Jumping {
@@ -420,7 +427,9 @@ impl Jumping {
         let rows = saltation.matrix(impulse, (&own_before, &own_after), scale)?;
         let n = space.dimension();
         let matrix = DMatrix::from_row_slice(n, n, &rows);
-        self.determinant *= matrix.determinant();
+        let determinant = matrix.determinant();
+        self.determinant *= determinant;
+        self.logarithm += math::ln(determinant.abs());
         let before = system.convert(&before, space.form(), space.parameters())?;
         let vectors = matrix * vectors_of(system, &before);
         let mut full = system.convert(&after, space.form(), space.parameters())?;

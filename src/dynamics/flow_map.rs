@@ -15,6 +15,7 @@ use super::amplified_rounding::{AmplifiedRounding, MapRounding};
 use super::carrier::Carrier;
 use super::error::DynamicsError;
 use super::phase_space::{PhaseSpace, VectorField};
+use super::tangent_step::TangentStep;
 
 use crate::integrate::{Method, Settings, Stepping};
 use crate::num::{gauss, math};
@@ -185,9 +186,18 @@ pub(super) struct Divergence {
 
 impl Divergence {
     pub(super) fn of(space: &PhaseSpace, method: &Method) -> Divergence {
+        let nodes = if method.stepping == Stepping::Fixed { FEW_NODES } else { NODES };
+        Divergence::at_nodes(space, nodes)
+    }
+
+    /// The same to a few digits.
+    pub(super) fn rough(space: &PhaseSpace) -> Divergence {
+        Divergence::at_nodes(space, FEW_NODES)
+    }
+
+    fn at_nodes(space: &PhaseSpace, nodes: usize) -> Divergence {
         let field = (!space.is_hamiltonian()).then(|| space.vector_field());
-        let rule = gauss(if method.stepping == Stepping::Fixed { FEW_NODES } else { NODES });
-        Divergence { field, rule }
+        Divergence { field, rule: gauss(nodes) }
     }
 
     /// ∫ div f dt over a part of the last step.
@@ -197,14 +207,14 @@ impl Divergence {
     pub(super) fn along(
         &mut self,
         space: &PhaseSpace,
-        carrier: &mut Carrier,
+        step: &mut dyn TangentStep,
         [begin, end]: [f64; 2],
     ) -> Result<f64, DynamicsError> {
         let Some(field) = &mut self.field else { return Ok(0.0) };
         let mut sum = 0.0;
         for &(part, weight) in &self.rule {
             let now = begin + part * (end - begin);
-            let (state, _) = carrier.at(now)?;
+            let (state, _) = step.at(now)?;
             field.evaluate(now, space.variables(&state))?;
             sum += weight * (end - begin) * field.derivative().trace();
         }

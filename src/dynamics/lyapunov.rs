@@ -322,6 +322,7 @@ fn result(
         largest: exponents.first().copied().unwrap_or(0.0),
         // under constraints they hold in the mean alone
         pairing: pairing.filter(|_| !space.is_constrained()),
+        volumes: course.volumes(),
         jumps: space.has_jumps(),
     };
     let judged = if count == 0 && course.departure().is_some() {

@@ -12,6 +12,7 @@ use super::direction::{FlowDirection, basis_of_range};
 use super::displacement_units::{displacement_units, scaled};
 use super::error::DynamicsError;
 use super::excursion::{Departure, Excursion};
+use super::flow_map::Divergence;
 use super::megno::Megno;
 use super::phase_space::{NOTHING_MOVES, PhaseSpace};
 use super::step_growth::StepGrowth;
@@ -61,7 +62,17 @@ pub(super) struct LyapunovCourse {
     growth: TangentGrowth,
     megno: Megno,
     single_steps: StepGrowth,
+    volume: Option<PhaseVolume>,
     steps: u64,
+}
+
+/// How the volume of phase space changes along a motion by Liouville's theorem, in logarithms.
+struct PhaseVolume {
+    divergence: Divergence,
+    /// ∫ div f dt up to the end of the last step.
+    flowed: f64,
+    /// The same with all impulses up to where the vectors were renewed last.
+    renewed: f64,
 }
 
 impl LyapunovCourse {
@@ -108,7 +119,14 @@ impl LyapunovCourse {
         if count == 0 {
             excursion.of_one_degree();
         }
+        let is_whole = count == n && !space.is_constrained();
+        let volume = is_whole.then(|| PhaseVolume {
+            divergence: Divergence::rough(space),
+            flowed: 0.0,
+            renewed: 0.0,
+        });
         let course = LyapunovCourse {
+            volume,
             direction,
             excursion,
             what,
@@ -158,6 +176,13 @@ impl LyapunovCourse {
         &self.single_steps
     }
 
+    /// The logarithms of the factors by which the volume of all vectors has grown, and by which that of phase space has; `None`
+    /// where the vectors are not in all directions.
+    pub(super) fn volumes(&self) -> Option<[f64; 2]> {
+        let volume = self.volume.as_ref()?;
+        Some([self.growth.logarithms.last()?.iter().sum(), volume.renewed])
+    }
+
     pub(super) fn megno(&self) -> &Megno {
         &self.megno
     }
@@ -172,6 +197,9 @@ impl LyapunovCourse {
         step: &mut dyn TangentStep,
     ) -> Result<Option<(State, DMatrix<f64>)>, DynamicsError> {
         let (begin, end) = step.interval();
+        if let Some(volume) = &mut self.volume {
+            volume.flowed += volume.divergence.along(space, &mut *step, [begin, end])?;
+        }
         let mut at_end = None;
         for part in 1..=MEGNO_PARTS {
             let now = begin + (end - begin) * f64::from(part) / f64::from(MEGNO_PARTS);
@@ -221,6 +249,9 @@ impl LyapunovCourse {
         };
         let sums = self.growth.logarithms[last].iter().zip(&lengths);
         let now = sums.map(|(sum, x)| sum + math::ln(*x)).collect();
+        if let Some(volume) = &mut self.volume {
+            volume.renewed = volume.flowed + step.jump_logarithm();
+        }
         self.growth.times.push(end);
         self.growth.logarithms.push(now);
         vectors.columns_mut(0, self.count).copy_from(&turned);

@@ -27,6 +27,11 @@ pub(super) trait TangentStep {
 
     /// Whether something is to happen where it ended, so that the motion cannot be started again from there.
     fn awaits_occurrence(&self) -> bool;
+
+    /// The logarithm of the factor by which all impulses since the start have changed the volume of phase space.
+    fn jump_logarithm(&self) -> f64 {
+        0.0
+    }
 }
 
 /// Reads and writes states with tangent vectors.

@@ -20,6 +20,8 @@ pub(super) struct Followed<'a> {
     pub(super) largest: f64,
     /// The largest |λᵢ + λⱼ| of a pair, where pairs are expected at every time.
     pub(super) pairing: Option<f64>,
+    /// The logarithms of the factors by which the volume of the vectors has grown, and that of phase space by Liouville's theorem.
+    pub(super) volumes: Option<[f64; 2]>,
     /// Whether vectors grow at single times by nature, as at impulses.
     pub(super) jumps: bool,
 }
@@ -36,6 +38,18 @@ impl Followed<'_> {
                 "the steps do not keep the areas that the motion keeps: exponents of a pair add up to {}, not to 0, as where \
                  they lead past a pole of the coordinates, or are too coarse; {} may tell",
                 short(off),
+                self.remedy()
+            ));
+        }
+        if let Some([grown, flowed]) = self.volumes
+            && (grown - flowed).abs() > 1.0
+            && (grown - flowed).abs() > UNPAIRED * self.largest.abs() * lasted
+        {
+            return Some(format!(
+                "the steps do not change the volume of phase space as the motion does: the exponents add up to {}, and its mean \
+                 divergence is {}, as where they lead past a pole of the coordinates, or are too coarse; {} may tell",
+                short(grown / lasted),
+                short(flowed / lasted),
                 self.remedy()
             ));
         }
@@ -68,12 +82,21 @@ mod tests {
 
     /// Whether there is a doubt after so long.
     fn is_doubted(lasted: f64, largest: f64, pairing: Option<f64>) -> bool {
+        doubt(lasted, largest, (pairing, None))
+    }
+
+    fn doubt(
+        lasted: f64,
+        largest: f64,
+        (pairing, volumes): (Option<f64>, Option<[f64; 2]>),
+    ) -> bool {
         let motion = CarriedMotion { settings: Settings::default(), fixed: false, steps: 1000 };
         let growth =
             TangentGrowth { times: vec![3.0, 3.0 + lasted], logarithms: vec![vec![0.0; 4]; 2] };
         let single_steps = &StepGrowth::default();
         let (motion, growth) = (&motion, &growth);
-        let followed = Followed { motion, growth, single_steps, largest, pairing, jumps: false };
+        let followed =
+            Followed { motion, growth, single_steps, largest, pairing, volumes, jumps: false };
         followed.doubt().is_some()
     }
 
@@ -93,5 +116,23 @@ mod tests {
             assert_eq!(is_doubted(lasted, largest, Some(off)), doubted, "{case}");
         }
         assert!(!is_doubted(100.0, 1.0, None));
+    }
+
+    #[test]
+    fn a_volume_is_off_by_a_factor_of_e_and_a_tenth_of_the_largest_exponent() {
+        for (lasted, largest, off, doubted) in [
+            (10.0, 0.05, 1.1, true),
+            (10.0, 0.05, 0.9, false),
+            (100.0, 1.0, 10.1, true),
+            (100.0, 1.0, 9.9, false),
+        ] {
+            for flowed in [-1000.0, 0.0, 5.0] {
+                for off in [off, -off] {
+                    let volumes = Some([flowed + off, flowed]);
+                    let found = doubt(lasted, largest, (None, volumes));
+                    assert_eq!(found, doubted, "{off} of {largest} after {lasted}, {flowed}");
+                }
+            }
+        }
     }
 }

@@ -6,7 +6,7 @@ use phaselab::dynamics::{
     Chaos, DynamicsError, Fixed, FlowMap, PhaseSpace, driven_orbit, flow_map, gali, lyapunov,
     periodic_orbit,
 };
-use phaselab::integrate::{Propagator, Reached};
+use phaselab::integrate::{Propagator, Reached, Settings, method_named};
 use phaselab::system::MotionErrorKind;
 
 use super::{Case, method, taylor};
@@ -401,4 +401,20 @@ fn an_orbit_is_closed_over_the_period_of_the_kicks() {
     assert_eq!(once.space.drive(), None);
     let both = [kick("every = \"0.5\"", 1), kick("every = \"0.75\"", 2)].concat();
     assert!((file(&text(&both)).space.drive().unwrap() - 1.5).abs() < 1e-14);
+}
+
+/// Each kick halves the momentum: after hundreds of them the determinant is below the range of numbers, and its logarithm is not.
+#[test]
+fn exponents_over_hundreds_of_lossy_kicks_add_up_to_those_of_the_kicks() {
+    let case = file(
+        "title = \"Kicked\"\n[coordinates]\nx = { initial = 1 }\n[lagrangian]\nL = \"1/2*x'^2 - 1/2*x^2\"\n\
+         [[impulses]]\nname = \"kick\"\nevery = 0.05\nchange = { p_x = \"1/10 - p_x/2\" }\n",
+    );
+    for (name, step) in [("taylor", None), ("rk4", Some(0.01))] {
+        let settings = Settings { step, tolerance: None };
+        let by = (method_named(name).unwrap(), settings);
+        let found = lyapunov(&case.space, by, &case.start, 100.0, &mut |_| {}).unwrap();
+        assert!((found.sum + 2.0_f64.ln() / 0.05).abs() < 0.5, "{name}: {}", found.sum);
+        assert!(!found.reason.contains("volume"), "{name}: {}", found.reason);
+    }
 }
