@@ -89,6 +89,8 @@ pub enum MotionErrorKind {
     NoConvergence(f64),
     /// The step became too small to advance the time. Contains the step size.
     StepUnderflow(f64),
+    /// The same where forces have grown without bound and velocities have not, as on the way to x = 0 with the potential |x|^0.1.
+    ForceUnbounded(f64),
     /// Tangent vectors cannot be carried on, while the motion itself continues.
     NoDerivative,
     /// The time has too few digits for the next step or impulse. Contains the spacing of
@@ -136,6 +138,7 @@ impl MotionErrorKind {
                 | MotionErrorKind::BranchLeft
                 | MotionErrorKind::LogarithmLeft
                 | MotionErrorKind::StepUnderflow(_)
+                | MotionErrorKind::ForceUnbounded(_)
                 | MotionErrorKind::Rough
         )
     }
@@ -224,7 +227,7 @@ impl fmt::Display for MotionError {
             MotionErrorKind::NoConvergence(step) => {
                 write!(f, "the implicit step of size {step:e} was not solved at t = {time}")?;
             }
-            MotionErrorKind::StepUnderflow(_) => {
+            MotionErrorKind::StepUnderflow(_) | MotionErrorKind::ForceUnbounded(_) => {
                 write!(f, "the step became too small to move the clock at t = {time}")?;
             }
             MotionErrorKind::NoDerivative => {
@@ -336,6 +339,10 @@ impl fmt::Display for MotionError {
                  tolerance, unless a collision lies there"
             }
             MotionErrorKind::NoConvergence(_) | MotionErrorKind::Swings => ": try a smaller step",
+            MotionErrorKind::ForceUnbounded(_) => {
+                ": the force grows without bound there, while the velocity does not; what it does to the motion within the last \
+                 digit of the time is more than can be neglected"
+            }
             MotionErrorKind::StepUnderflow(_) => ": a collision or another singularity lies ahead",
             MotionErrorKind::NoDerivative => {
                 ": the motion itself continues, so that no collision lies there, but a pole of the coordinates or another place at \

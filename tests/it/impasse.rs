@@ -647,6 +647,21 @@ fn no_method_is_named_where_all_collide() {
     }
 }
 
+/// In V = |x|^0.1 the motion passes x = 0 with a finite velocity, though the force there has no bound.
+#[test]
+fn a_force_without_bound_is_no_collision() {
+    let line = |potential: &str| {
+        format!(
+            "[coordinates]\nx = {{ initial = 1 }}\n[lagrangian]\nL = \"1/2*x'^2 - ({potential})\"\n"
+        )
+    };
+    let message = fault(file(&line("abs(x)^0.1")), 10.0);
+    assert!(message.contains("the force grows without bound there"), "{message}");
+    assert!(!message.contains("collision"), "{message}");
+    let message = fault(file(&line("-1/abs(x)")), 10.0);
+    assert!(message.contains("collision"), "{message}");
+}
+
 /// Motions that reach infinity in a finite time, with the time: x = 1/(1 − t)², 1/(1 − t), and −2 ln of what is left of π/2.
 #[test]
 fn a_motion_that_reaches_infinity_is_said_to() {

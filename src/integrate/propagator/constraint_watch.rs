@@ -228,6 +228,12 @@ impl Propagator {
                 };
                 MotionError { kind, ..fault }
             }
+            None if !steep && self.has_unbounded_force(&fault.kind) => match fault.kind {
+                MotionErrorKind::StepUnderflow(step) => {
+                    MotionError { kind: MotionErrorKind::ForceUnbounded(step), ..fault }
+                }
+                _ => fault,
+            },
             None => self.with_singular_mass(fault),
         }
     }

@@ -17,6 +17,12 @@ const MOST_STEPS: u32 = 4000;
 /// the rates may change them in a step that no longer moves the clock, where another method may pass.
 const AGREES: f64 = 1e-3;
 
+/// Forces that are so many times those in the regular steps before grow without bound, …
+const UNBOUNDED: f64 = 1e6;
+
+/// … and velocities that are no more than so many times as large do not.
+const BOUNDED: f64 = 10.0;
+
 /// A trial from the beginning of the motion goes beyond the place by this part of the time to it.
 const BEYOND: f64 = 0.05;
 
@@ -46,6 +52,34 @@ impl Propagator {
         let change = (n..2 * n).map(|i| (rates.rate(i).high * step).abs()).fold(0.0, f64::max);
         let size = (n..2 * n).map(|i| numbers[i].high.abs()).fold(0.0, f64::max);
         changes_much(change, size)
+    }
+
+    /// Whether the motion stops where its forces grow without bound and its velocities do not.
+    pub(super) fn has_unbounded_force(&self, kind: &MotionErrorKind) -> bool {
+        let (MotionErrorKind::StepUnderflow(_), Some(regular)) = (kind, &self.watch.regular) else {
+            return false;
+        };
+        let sizes = [self.stepper.state(), regular].map(|state| self.sizes_of_rates(state));
+        let [Some([velocity, force]), Some([velocity_before, force_before])] = sizes else {
+            return false;
+        };
+        grows_alone([force_before, force], [velocity_before, velocity])
+    }
+
+    /// The greatest rate of a coordinate, and of a velocity or momentum, at a state.
+    fn sizes_of_rates(&self, state: &State) -> Option<[f64; 2]> {
+        let n = self.system.degrees();
+        if state.form != self.system.form() || state.values.len() < 2 * n || n == 0 {
+            return None;
+        }
+        let numbers: Vec<DoubleDouble> = (0..state.values.len()).map(|i| state.exact(i)).collect();
+        let mut rates = self.system.exact_rates();
+        rates.set_parameters(&self.system.inputs(&self.parameters));
+        rates.evaluate(state.exact_time(), &numbers).ok()?;
+        let largest = |range: std::ops::Range<usize>| {
+            range.map(|i| rates.rate(i).high.abs()).fold(0.0, f64::max)
+        };
+        Some([largest(0..n), largest(n..2 * n)])
     }
 
     /// The initial states and end times of trials that pass a time at which the motion stops: from
@@ -146,6 +180,11 @@ impl Propagator {
     }
 }
 
+/// Whether forces have grown from one size to another without bound, and velocities have not.
+fn grows_alone([force_before, force]: [f64; 2], [before, velocity]: [f64; 2]) -> bool {
+    force > UNBOUNDED * force_before && velocity < BOUNDED * before
+}
+
 /// Whether rates change velocities of this size by what counts, over a step that no longer moves the clock.
 fn changes_much(change: f64, size: f64) -> bool {
     change > AGREES * size
@@ -193,6 +232,13 @@ mod tests {
         };
         assert!(agrees(0.8e-3));
         assert!(!agrees(1.2e-3));
+    }
+
+    #[test]
+    fn a_force_grows_alone_by_a_million_where_velocities_grow_by_less_than_ten() {
+        assert!(grows_alone([1.0, 1.1e6], [1.0, 9.0]));
+        assert!(!grows_alone([1.0, 0.9e6], [1.0, 9.0]));
+        assert!(!grows_alone([1.0, 1.1e6], [1.0, 11.0]));
     }
 
     #[test]
