@@ -753,8 +753,20 @@ fn redundant_constraints_are_those_of_the_start_of_this_run() {
     let text = "title = \"Two\"\n[coordinates]\nx = { initial = 1 }\ny = { initial = 1 }\nz = { initial = 0 }\n[lagrangian]\n\
                 L = \"1/2*(x'^2 + y'^2 + z'^2) + x + y\"\n[[constraints]]\nname = \"one\"\nexpression = \"y - x\"\n\
                 [[constraints]]\nname = \"other\"\nexpression = \"y - x + z*(x + y - 2)\"\n";
-    let arguments =
-        ["run", "system.toml", "--init", "z=1", "--until", "1", "--at", "1", "--format", "json"];
+    let arguments = [
+        "run",
+        "system.toml",
+        "--init",
+        "z=1",
+        "--init",
+        "z'=0",
+        "--until",
+        "1",
+        "--at",
+        "1",
+        "--format",
+        "json",
+    ];
     let rows = &with_file(text, &arguments).json()["rows"];
     assert_eq!(rows[0][1], 1.0, "{rows}");
 }

@@ -407,7 +407,7 @@ fn an_orbit_is_closed_over_the_period_of_the_kicks() {
 #[test]
 fn exponents_over_hundreds_of_lossy_kicks_add_up_to_those_of_the_kicks() {
     let case = file(
-        "title = \"Kicked\"\n[coordinates]\nx = { initial = 1 }\n[lagrangian]\nL = \"1/2*x'^2 - 1/2*x^2\"\n\
+        "title = \"Kicked\"\n[coordinates]\nx = { initial = 1, momentum = 0 }\n[hamiltonian]\nH = \"1/2*p_x^2 + 1/2*x^2\"\n\
          [[impulses]]\nname = \"kick\"\nevery = 0.05\nchange = { p_x = \"1/10 - p_x/2\" }\n",
     );
     for (name, step) in [("taylor", None), ("rk4", Some(0.01))] {
