@@ -33,6 +33,7 @@ mod image_rates;
 mod implicit_map;
 mod impulse_change;
 mod invariants;
+mod inverse_reach;
 mod isolate;
 mod lagrange;
 mod latex;

@@ -327,10 +327,17 @@ impl EventLocator {
             }
             let exact = piece.from + DoubleDouble::from(change.x) * piece.unit;
             let mut crossing = Crossing::at(exact, change.side);
-            if crossing.counts(direction) {
+            // a change that does not count tells the side, which beside a double zero at a kink would be that of its rounding
+            let is_rounding = polynomial.is_rounding_after(change.x);
+            if crossing.counts(direction) || is_rounding {
                 let probe = &mut self.probe;
                 let mut root = RootCorrection { probe, motion, event, polynomial, piece };
-                let Some(exact) = root.correct(change.x, change.side)? else { continue };
+                let exact = if is_rounding {
+                    root.bracketed(change.x, change.side)?
+                } else {
+                    root.correct(change.x, change.side)?
+                };
+                let Some(exact) = exact else { continue };
                 crossing.exact = exact;
             }
             crossings.push(crossing);

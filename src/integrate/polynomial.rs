@@ -67,6 +67,15 @@ impl StepPolynomial {
         self.slope(self.length).abs() * self.length <= FLAT * self.size()
     }
 
+    /// Whether it is no more than rounding from a root to the end, as beside a root of a higher order at the end: then its sign
+    /// there is not that of the function.
+    pub(super) fn is_rounding_after(&self, root: f64) -> bool {
+        self.ends_flat() && self.only_touches(root, self.length) && {
+            let (value, _) = value_and_slope(&self.coefficients, self.length);
+            value.abs() <= TOUCH * self.size()
+        }
+    }
+
     /// The slope at a time.
     pub(super) fn slope(&self, x: f64) -> f64 {
         value_and_slope(&self.coefficients, x).1
@@ -150,6 +159,19 @@ mod tests {
         // the time of a crossing has been rounded to one just before it
         let steep = course(&[-5e-12, 1e4, -1e3], 1.0);
         assert_eq!(steep, SignCourse { side: 1.0, changes: Vec::new() });
+    }
+
+    /// (x − 1 − δ)² ends beside its double root, with a rounding of d² below zero: a root of (x − 1 − δ)² − d² is not one of
+    /// the function. A simple root at the end is, and a double one farther away.
+    #[test]
+    fn what_follows_a_root_of_a_higher_order_at_the_end_may_be_rounding() {
+        let polynomial =
+            |coefficients: Vec<f64>| StepPolynomial { coefficients, length: 1.0, soonest: 1e-15 };
+        let near = |end: f64, d: f64| polynomial(vec![end * end - d * d, -2.0 * end, 1.0]);
+        assert!(near(1.0 + 1e-9, 1e-8).is_rounding_after(1.0 - 1e-8));
+        assert!(!near(1.0 - 1e-3, 1e-8).is_rounding_after(1.0 - 1e-3));
+        assert!(!near(1.0, 1e-3).is_rounding_after(1.0 - 1e-3));
+        assert!(!polynomial(vec![1.0 - 1e-15, -1.0]).is_rounding_after(1.0 - 1e-15));
     }
 
     #[test]

@@ -25,6 +25,9 @@ use crate::num::Number;
 pub(super) const WITNESSES: usize = 8;
 const LOOKED_AT: u64 = 64;
 
+/// A map and its inverse lead back to a value up to this part of it, which may be rounding.
+pub(super) const LEADS_BACK: f64 = 1e-7;
+
 /// The steps of the pool that each may take of what is searched for of a transformation: the map, its inverse, K, each
 /// generating function.
 pub(super) const ALLOWANCE: u64 = 1_000_000;
@@ -202,15 +205,18 @@ impl PhaseMap {
 
     fn backwards_by_solving(&self, model: &Model, equations: &mut Equations) -> Option<Solution> {
         let images = self.images(model, equations, WITNESSES);
+        let beside = (0..WITNESSES as u64).map(|n| Valuation::beside_start(model, equations, n));
+        let beside: Vec<Valuation> =
+            beside.filter_map(|point| self.image(&equations.pool, &point)).collect();
         let accept = |pool: &mut Pool, found: &Solution, strict: bool| {
             let back = |at: &Valuation| {
-                found.iter().all(|&(symbol, e)| {
-                    let (value, was) = (at.value(pool, e), at.at(symbol));
-                    (value - was).abs() <= 1e-7 * (1.0 + was.abs())
-                })
+                found.iter().all(|&(symbol, e)| at.agrees(pool, e, at.at(symbol), LEADS_BACK))
             };
             let right = images.iter().filter(|at| back(at)).count();
-            right > 0 && if strict { right == images.len() } else { 2 * right >= images.len() }
+            // a branch is that of the start, of which points as far away as the largest coordinate may not be
+            let is_of_start =
+                if beside.is_empty() { 2 * right >= images.len() } else { beside.iter().all(back) };
+            right > 0 && if strict { right == images.len() } else { is_of_start }
         };
         let pool = &mut equations.pool;
         if let Some(found) = self.inverse_of_linear(pool).filter(|found| accept(pool, found, true))

@@ -1,7 +1,7 @@
 //! Whether a transformation is canonical: M 𝕁 Mᵀ = 𝕁 at points near the start and far from it, or proved by the brackets of the
 //! new variables.
 //!
-//! In: a [`PhaseMap`]. Out: its [`CanonicalVerdict`]. Never here: how the map is solved.
+//! In: a [`PhaseMap`]. Out: its [`CanonicalVerdict`], the same in all units. Never here: how the map is solved.
 //! Source: *The Principles of Dynamics*, §§ 3.2.1, 3.3.
 
 use nalgebra::DMatrix;
@@ -16,10 +16,11 @@ use crate::expr::{Expr, FunctionId, Node, Pool, Symbol, Zero};
 use crate::model::Model;
 use crate::num::Number;
 
-/// Far from the start an entry of M may be off by so many ε of the size of its terms.
+/// An entry of M may be off by so many ε of the size of its terms.
 const SIZED: f64 = 1e3;
 
-/// The residual below which a map without a proof is canonical, relative to the size of M.
+/// The residual below which a map without a proof is canonical, unless rounding leaves more of it; for one that is solved for,
+/// relative to the size of M, as its image is.
 const CANONICAL: f64 = 1e-10;
 
 /// Points at which M is larger are left out while there are others: they are next to where the map
@@ -33,7 +34,8 @@ pub struct CanonicalVerdict {
     pub canonical: bool,
     /// Whether that is proved.
     pub proved: bool,
-    /// The largest entry of |M 𝕁 Mᵀ − 𝕁| at the points; `None` if there are none.
+    /// The largest entry of |M 𝕁 Mᵀ − 𝕁| at the points, in units in which conjugate variables are of like size; `None` if there
+    /// are none.
     pub residual: Option<f64>,
     /// c of M 𝕁 Mᵀ = c 𝕁, if c is another number than 1.
     pub valence: Option<Expr>,
@@ -56,24 +58,101 @@ pub struct FailingBracket {
     pub expected: Expr,
 }
 
+/// Units of the old variables in which those of a pair are of like size: √(|q|/|p|) of each pair, and its reciprocal. A common
+/// unit of action is left out, as it changes no entry of M of a map that keeps it.
+struct Units(Vec<f64>);
+
+impl Units {
+    /// Those of the largest values at some points.
+    fn of(old: &[Symbol], points: &[Valuation]) -> Units {
+        let largest = |s: Symbol| points.iter().map(|at| at.at(s).abs()).fold(0.0, f64::max);
+        let (positions, momenta) = old.split_at(old.len() / 2);
+        let ratios = positions.iter().zip(momenta).map(|(&q, &p)| largest(q) / largest(p));
+        let units = ratios.map(|ratio| {
+            let is_known = ratio > 0.0 && ratio.is_finite();
+            if is_known { ratio.sqrt() } else { 1.0 }
+        });
+        let units: Vec<f64> = units.collect();
+        let reciprocals = units.iter().map(|unit| 1.0 / unit);
+        Units(units.iter().copied().chain(reciprocals).collect())
+    }
+
+    /// Puts M into these units of the old variables, and units of the new ones in which those of a pair have rows of like size:
+    /// brackets of canonical variables stay 1. Other matrices of its shape are put into the same.
+    fn apply(&self, matrices: [&mut DMatrix<f64>; 2]) {
+        let [tangent, other] = matrices;
+        for (k, &unit) in self.0.iter().enumerate() {
+            tangent.column_mut(k).scale_mut(unit);
+            other.column_mut(k).scale_mut(unit);
+        }
+        let n = self.0.len() / 2;
+        for i in 0..n {
+            let ratio = tangent.row(i).norm() / tangent.row(n + i).norm();
+            if ratio > 0.0 && ratio.is_finite() {
+                let unit = ratio.sqrt();
+                for matrix in [&mut *tangent, &mut *other] {
+                    matrix.row_mut(i).unscale_mut(unit);
+                    matrix.row_mut(n + i).scale_mut(unit);
+                }
+            }
+        }
+    }
+}
+
+/// What M at one point says.
+struct TangentTest {
+    /// The largest entry of M.
+    largest: f64,
+    /// The largest entry of |M 𝕁 Mᵀ − 𝕁|.
+    residual: f64,
+    /// What it may be where the map is canonical.
+    allowed: f64,
+}
+
+impl TangentTest {
+    fn passes(&self) -> bool {
+        self.residual <= self.allowed
+    }
+}
+
 impl PhaseMap {
+    /// What M says at a point with its image; `None` where the map breaks down.
+    fn test_at(&self, pool: &Pool, units: &Units, at: &Valuation) -> Option<TangentTest> {
+        let mut matrix = self.tangent(pool, at)?;
+        let (rows, columns) = matrix.shape();
+        if !self.is_explicit() {
+            units.apply([&mut matrix, &mut DMatrix::zeros(rows, columns)]);
+            let allowed = CANONICAL * matrix.norm_squared().max(1.0);
+            let (largest, residual) = (matrix.amax(), departure(&matrix));
+            return Some(TangentTest { largest, residual, allowed });
+        }
+        // entries whose terms cancel have an error of their own
+        let size = |i: usize, j: usize| {
+            pool.evaluate_with_size(self.by_old[i][j], &|symbol| at.at(symbol)).1
+        };
+        let mut sizes = DMatrix::from_fn(rows, columns, size);
+        units.apply([&mut matrix, &mut sizes]);
+        let rounding = SIZED * f64::EPSILON * sizes.norm_squared();
+        let (largest, residual) = (matrix.amax(), departure(&matrix));
+        Some(TangentTest { largest, residual, allowed: rounding.max(CANONICAL) })
+    }
+
     /// Withdraws the verdict on an explicit map that fails far from the start.
-    fn look_far_away(&self, model: &Model, equations: &Equations, verdict: &mut CanonicalVerdict) {
+    fn look_far_away(
+        &self,
+        model: &Model,
+        equations: &Equations,
+        units: &Units,
+        verdict: &mut CanonicalVerdict,
+    ) {
+        let pool = &equations.pool;
         for n in 0..ANY_POINTS {
             let point = Valuation::at_any_distance(model, equations, n);
-            let image = self.image(&equations.pool, &point);
-            let matrix = image.and_then(|at| self.tangent(&equations.pool, &at));
-            let Some(matrix) = matrix.filter(|matrix| matrix.amax() <= LARGEST) else { continue };
-            let residual = departure(&matrix);
-            // entries whose terms cancel have an error of their own
-            let sizes = self.by_old.iter().flatten().map(|&entry| {
-                equations.pool.evaluate_with_size(entry, &|symbol| point.at(symbol)).1
-            });
-            let size: f64 = sizes.map(|size| size * size).sum();
-            let rounding = SIZED * f64::EPSILON * size;
-            if residual > CANONICAL * matrix.norm_squared().max(1.0) + rounding {
+            let image = self.image(pool, &point);
+            let Some(test) = image.and_then(|at| self.test_at(pool, units, &at)) else { continue };
+            if test.largest <= LARGEST && !test.passes() {
                 verdict.canonical = false;
-                verdict.residual = Some(verdict.residual.unwrap_or(0.0).max(residual));
+                verdict.residual = Some(verdict.residual.unwrap_or(0.0).max(test.residual));
                 return;
             }
         }
@@ -81,24 +160,19 @@ impl PhaseMap {
 
     /// Whether the map is canonical.
     pub fn verdict(&self, model: &Model, equations: &mut Equations) -> CanonicalVerdict {
-        let mut matrices: Vec<DMatrix<f64>> = Vec::new();
-        let mut wild: Vec<DMatrix<f64>> = Vec::new();
-        for at in self.images(model, equations, 2 * POINTS) {
-            if let Some(matrix) = self.tangent(&equations.pool, &at) {
-                if matrix.amax() <= LARGEST { &mut matrices } else { &mut wild }.push(matrix);
-            }
+        let images = self.images(model, equations, 2 * POINTS);
+        let units = Units::of(&self.old, &images);
+        let pool = &equations.pool;
+        let tests = images.iter().filter_map(|at| self.test_at(pool, &units, at));
+        let (mut tests, wild): (Vec<TangentTest>, Vec<TangentTest>) =
+            tests.partition(|test| test.largest <= LARGEST);
+        tests.truncate(POINTS);
+        if tests.is_empty() {
+            tests = wild;
         }
-        matrices.truncate(POINTS);
-        if matrices.is_empty() {
-            matrices = wild;
-        }
-        let residual = matrices.iter().map(departure).reduce(f64::max);
-        let relative = matrices
-            .iter()
-            .map(|matrix| departure(matrix) / matrix.norm_squared().max(1.0))
-            .reduce(f64::max);
+        let residual = tests.iter().map(|test| test.residual).reduce(f64::max);
         let mut verdict = CanonicalVerdict {
-            canonical: relative.is_some_and(|r| r < CANONICAL),
+            canonical: !tests.is_empty() && tests.iter().all(TangentTest::passes),
             proved: false,
             residual,
             valence: None,
@@ -110,7 +184,7 @@ impl PhaseMap {
             self.by_parts(model, equations, &mut verdict);
         } else if self.is_explicit() {
             if verdict.canonical {
-                self.look_far_away(model, equations, &mut verdict);
+                self.look_far_away(model, equations, &units, &mut verdict);
             }
             self.by_brackets(equations, &mut verdict);
         } else if residual.is_none() {

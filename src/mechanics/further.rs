@@ -48,9 +48,11 @@ pub struct TransformationReport {
     pub canonical_where: Solution,
     /// The old variables in terms of the new, if that can be written down.
     pub backwards: Option<Solution>,
+    /// Whether that, and K which follows from it, holds near the start alone.
+    pub is_local: bool,
     /// K(Q, P, t), or why there is none.
     pub hamiltonian: Result<Expr, NoClosedForm>,
-    /// K as a function of (q, p, t), of an explicit map whose K(Q, P, t) is not known.
+    /// K as a function of (q, p, t), of an explicit map whose K(Q, P, t) is not known, or near the start alone.
     pub hamiltonian_in_old: Option<Expr>,
     /// Its generating functions of each type, if it is canonical and they can be searched for.
     pub functions: Vec<GeneratingFunction>,
@@ -105,12 +107,15 @@ impl TransformationReport {
         let _ = equations.hamiltonian();
         let verdict = map.verdict(model, equations);
         let backwards = map.backwards(model, equations);
+        let is_local = backwards
+            .as_ref()
+            .is_some_and(|inverse| map.is_inverse_local(model, equations, inverse));
         let canonical_where = map.canonical_where(model, equations, &verdict);
         let (hamiltonian, hamiltonian_in_old) = new_hamiltonians(
             model,
             equations,
             (&map, &verdict),
-            backwards.as_ref(),
+            (backwards.as_ref(), is_local),
             &canonical_where,
         );
         let functions = Vec::new();
@@ -119,6 +124,7 @@ impl TransformationReport {
             verdict,
             canonical_where,
             backwards,
+            is_local,
             hamiltonian,
             hamiltonian_in_old,
             functions,
@@ -126,12 +132,12 @@ impl TransformationReport {
     }
 }
 
-/// K(Q, P, t), and without it K(q, p, t), of a map with some parameters as functions of the others.
+/// K(Q, P, t), and without it or where it is known near the start alone K(q, p, t), of a map with some parameters as functions of the others.
 fn new_hamiltonians(
     model: &Model,
     equations: &mut Equations,
     (map, verdict): (&PhaseMap, &CanonicalVerdict),
-    backwards: Option<&Solution>,
+    (backwards, is_local): (Option<&Solution>, bool),
     parameters: &Solution,
 ) -> (Result<Expr, NoClosedForm>, Option<Expr>) {
     let (mut verdict, mut backwards) = (verdict.clone(), backwards.cloned());
@@ -150,8 +156,8 @@ fn new_hamiltonians(
     let too_long = || Err(NoClosedForm("what follows on the way to it is too long".to_owned()));
     let found = found.unwrap_or_else(too_long);
     let in_old = match &found {
-        Ok(_) => None,
-        Err(_) => equations
+        Ok(_) if !is_local => None,
+        _ => equations
             .attempt(ALLOWANCE, |equations| map.hamiltonian_in_old(model, equations, &verdict)),
     };
     (found, in_old)

@@ -9,7 +9,7 @@
 
 use std::collections::HashMap;
 
-use super::canonical::PhaseMap;
+use super::canonical::{LEADS_BACK, PhaseMap};
 use super::equations::{Equations, ImplicitMap};
 use super::isolate::Solution;
 use super::sampling::{FAR_POINTS, POINTS};
@@ -118,7 +118,7 @@ pub(super) fn resolved(
                 return TransformationLaw::Chain(back.collect());
             }
             let of = Transformation { law, ..model.transformations[*k].clone() };
-            let written = inverse(model, equations, given, &of);
+            let written = inverse(model, equations, given, (&of, forwards[*k].as_ref()));
             // what cannot be written down is solved for, too
             let solved = || TransformationLaw::Chain(vec![ChainPart { of, inverted: true }]);
             written.unwrap_or_else(solved)
@@ -151,7 +151,7 @@ fn inverse(
     model: &Model,
     equations: &mut Equations,
     given: &Transformation,
-    of: &Transformation,
+    (of, forwards): (&Transformation, Option<&Solution>),
 ) -> Option<TransformationLaw> {
     let old = old_variables(model);
     let (theirs, own) = (in_order(&of.new), in_order(&given.new));
@@ -172,8 +172,13 @@ fn inverse(
         });
         return Some(TransformationLaw::Generating { types: types.collect(), function });
     }
-    let map = PhaseMap::relations(pool, model, of);
+    let mut map = PhaseMap::relations(pool, model, of);
     let backwards = map.backwards(model, equations)?;
+    map.forwards = forwards.cloned();
+    // what is an inverse near the start alone is solved for elsewhere
+    if map.is_inverse_local(model, equations, &backwards) {
+        return None;
+    }
     let pool = &mut equations.pool;
     let mut all = Vec::new();
     for &symbol in &old {
@@ -212,8 +217,7 @@ fn written_inverse(
         let image = known.iter().map(|&(s, e)| (s, point.value(pool, e)));
         let at = point.clone().with(image.collect::<Vec<_>>());
         back.iter().all(|&(symbol, e)| {
-            let (value, was) = (at.value(pool, e), point.at(symbol));
-            value.is_nan() || (value - was).abs() <= 1e-7 * (1.0 + was.abs())
+            at.value(pool, e).is_nan() || at.agrees(pool, e, point.at(symbol), LEADS_BACK)
         })
     };
     if !points.iter().all(leads_back) {

@@ -161,7 +161,7 @@ fn with_common_roots(model: &Model, equations: &mut Equations, e: Expr) -> Expr 
 struct Remainder {
     /// The largest value; `None` if there is none.
     value: Option<f64>,
-    /// Its part of the size of the terms.
+    /// Its part of the size of the terms of H and of ∂S/∂t, before those that are alike have combined.
     part: f64,
     solves: bool,
 }
@@ -184,6 +184,7 @@ fn remainder(
         return Ok(Remainder { value: Some(0.0), part: 0.0, solves: true });
     }
     let (mut largest, mut relative, mut seen) = (0.0_f64, 0.0_f64, 0);
+    let mut of_terms = 0.0_f64;
     // what solves the equation near the start may not do so far from it, beyond a kink
     let near = (0..200).map(|n| (false, n));
     for (is_far, n) in near.chain((0..ANY_POINTS).map(|n| (true, n))) {
@@ -203,6 +204,9 @@ fn remainder(
                 if !is_far || part > SOLVES_FAR {
                     largest = largest.max(value.abs());
                     relative = relative.max(part);
+                    let sizes = [energy, rate, left].map(|e| at.size(&equations.pool, e));
+                    let size = sizes[2].max(sizes[0] + sizes[1]);
+                    of_terms = of_terms.max(value.abs() / size.max(f64::MIN_POSITIVE));
                 }
                 seen += 1;
                 break;
@@ -210,7 +214,7 @@ fn remainder(
         }
     }
     let value = (seen > 0).then_some(largest);
-    Ok(Remainder { value, part: relative, solves: relative < SOLVES })
+    Ok(Remainder { value, part: of_terms, solves: relative < SOLVES })
 }
 
 /// A point with numbers for the constants: those that its motion has, and others.

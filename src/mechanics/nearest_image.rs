@@ -160,10 +160,10 @@ impl NearestImages<'_> {
     /// Whether a solution has these images at most of the points.
     pub(super) fn are_those_of(&self, pool: &Pool, found: &Solution) -> bool {
         let same = |point: &Valuation, image: &Valuation| {
-            found.iter().filter(|(s, _)| self.known.contains(s)).all(|&(s, e)| {
-                let (value, expected) = (point.value(pool, e), image.at(s));
-                (value - expected).abs() <= ROUNDING * (1.0 + expected.abs())
-            })
+            found
+                .iter()
+                .filter(|(s, _)| self.known.contains(s))
+                .all(|&(s, e)| point.agrees(pool, e, image.at(s), ROUNDING))
         };
         let both = self.points.iter().zip(&self.images);
         let both = both.filter_map(|(point, image)| Some((point, image.as_ref()?)));

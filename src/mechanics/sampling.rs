@@ -23,6 +23,9 @@ pub const TRIES: u64 = 400;
 /// their kind.
 const WIDTHS: [f64; 4] = [1.0, 0.1, 1.0, 0.01];
 
+/// The distance of points beside the start, relative to each initial value.
+const BESIDE: f64 = 0.02;
+
 /// The distances of those at which an identity that holds near the start is evaluated as well.
 const FAR: [f64; 3] = [10.0, 100.0, 1000.0];
 
@@ -54,6 +57,24 @@ impl Valuation {
     /// The start itself.
     pub(super) fn at_start(model: &Model, equations: &Equations) -> Valuation {
         Valuation::around_start(model, equations, 0, (0, 0.0))
+    }
+
+    /// The n-th point at distances of up to a hundredth of each initial value by itself, whatever the others are: a length of
+    /// 5e-11 beside an angle keeps its sign. Where a value begins at 0, as those near the start.
+    pub(super) fn beside_start(model: &Model, equations: &Equations, n: u64) -> Valuation {
+        let (start, near) =
+            (Valuation::at_start(model, equations), Valuation::near_start(model, equations, 4 * n));
+        let moving = model.coordinates.iter().flat_map(|c| [c.position, c.velocity, c.momentum]);
+        let mut draws = Draws { n, k: 0 };
+        let values: Vec<(Symbol, f64)> = moving
+            .map(|symbol| {
+                let own = start.at(symbol);
+                let value =
+                    if own == 0.0 { near.at(symbol) } else { own * (1.0 + BESIDE * draws.next()) };
+                (symbol, value)
+            })
+            .collect();
+        start.with(values)
     }
 
     /// The n-th point far from the start, where an identity may fail that holds near it, as that of max(0, x − 30) or

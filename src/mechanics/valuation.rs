@@ -40,4 +40,15 @@ impl Valuation {
     pub fn value(&self, pool: &Pool, e: Expr) -> f64 {
         pool.evaluate(e, &|symbol| self.at(symbol))
     }
+
+    /// The size of the terms of an expression.
+    pub(super) fn size(&self, pool: &Pool, e: Expr) -> f64 {
+        pool.evaluate_with_size(e, &|symbol| self.at(symbol)).1
+    }
+
+    /// Whether an expression has this value, up to this part of the value or of its terms: whatever the units, and where one is 0.
+    pub(super) fn agrees(&self, pool: &Pool, e: Expr, expected: f64, within: f64) -> bool {
+        let (value, size) = pool.evaluate_with_size(e, &|symbol| self.at(symbol));
+        (value - expected).abs() <= within * size.max(expected.abs())
+    }
 }

@@ -181,6 +181,7 @@ impl Scope {
         }
         let syntax = syntax?;
         let e = syntax.lower(pool, self);
+        self.name_unfinished_exponents(text, reported);
         if self.error_count == before {
             self.check_result(pool, e, syntax.span);
         }

@@ -105,7 +105,7 @@ impl FurtherRows<'_> {
                 self.page.words(Role::Dim, known.without_functions());
             }
             match &known.hamiltonian {
-                Ok(e) => self.put("K", *e, ""),
+                Ok(e) => self.put("K", *e, if known.is_local { "near the start" } else { "" }),
                 Err(why) if verdict.canonical => self.page.words(Role::Dim, format!("K: {why}.")),
                 Err(_) => {}
             }

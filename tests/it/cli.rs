@@ -32,6 +32,7 @@ mod transformations_beside;
 mod transformations_composed;
 mod transformations_made;
 mod transformations_nearest;
+mod transformations_units;
 mod wording;
 mod write;
 

@@ -977,3 +977,49 @@ when = 'x'
     assert!(found.len() > 4 && found.iter().all(|t| *t > 5.0), "{found:?}");
     assert!(switched.vanishing_events().is_empty());
 }
+/// A function whose zero is a kink and of a higher order, as x |x| at x = 0, crosses there once and in the direction of x: its
+/// series on one side, ±x², is no more than rounding for some 10⁻⁸ of the way. With x = cos t its zeros are known; what is never
+/// negative does not cross.
+#[test]
+fn a_double_zero_at_a_kink_is_crossed_once_and_in_its_direction() {
+    use std::f64::consts::{FRAC_PI_2, PI, TAU};
+    let acos = 0.3_f64.acos();
+    let (x, rate, off) = ([-FRAC_PI_2, FRAC_PI_2], [PI, 0.0], [-acos, acos]);
+    // rising and falling first at these, and every turn after them
+    let cases = [
+        ("x*abs(x)", Some(x)),
+        ("sign(x)*x^2", Some(x)),
+        ("x*sqrt(x^2)", Some(x)),
+        ("max(0, x)^2 - max(0, -x)^2", Some(x)),
+        ("x^2*abs(x)*sign(x)", Some(x)),
+        ("x^4*sign(x)", Some(x)),
+        ("x*abs(x)*(2 + y)", Some(x)),
+        ("x^3", Some(x)),
+        ("abs(x)^1.5*sign(x)", Some(x)),
+        ("(x - 0.3)*abs(x - 0.3)", Some(off)),
+        ("x'*abs(x')", Some(rate)),
+        ("x*max(0, x)", None),
+    ];
+    for (when, first) in cases {
+        for (k, direction) in ["rising", "falling"].into_iter().enumerate() {
+            let text = format!(
+                "title = 'a test'\n[coordinates]\nx = {{ initial = 1, velocity = 0 }}\n\
+                 y = {{ initial = 0, velocity = 0.7 }}\n[lagrangian]\n\
+                 L = \"1/2*(x'^2 + y'^2) - 1/2*(x^2 + 2*y^2)\"\n\
+                 [[events]]\nname = 'e'\nwhen = \"{when}\"\ndirection = '{direction}'\n"
+            );
+            let mut experiment = file(&text);
+            run(&mut experiment, 50.0);
+            let turns = |first: f64| {
+                let all = (0..8).map(move |turn| first + TAU * f64::from(turn));
+                all.filter(|&t| t > 0.0 && t < 50.0).collect::<Vec<f64>>()
+            };
+            let expected = first.map_or_else(Vec::new, |first| turns((first[k] + TAU) % TAU));
+            let found = times(&experiment, "e");
+            assert_eq!(found.len(), expected.len(), "{when}, {direction}: {found:?}");
+            for (found, expected) in found.iter().zip(&expected) {
+                assert!((found - expected).abs() < 1e-12, "{when}, {direction}: {found}");
+            }
+        }
+    }
+}

@@ -299,16 +299,15 @@ fn a_state_is_restored_within_some_1e_9_of_the_terms_of_its_constraints() {
 }
 
 #[test]
-fn a_map_is_canonical_to_1e_10_of_its_tangent_map() {
-    // the squares of the tangent map's entries sum to 2
+fn a_map_is_canonical_to_a_residual_of_1e_10() {
     let derived = |off: &str| {
         let text = oscillator(&format!(
             "[[transformations]]\nname = \"m\"\nkind = \"explicit\"\nQ = {{ Q = \"x*(1 + {off})\" }}\nP = {{ P = \"p_x\" }}"
         ));
         with_file(&text, &["derive", "system.toml"]).success()
     };
-    assert!(derived("1.9e-10").contains("canonical to rounding"));
-    assert!(derived("2.1e-10").contains("not canonical"));
+    assert!(derived("0.9e-10").contains("canonical to rounding"));
+    assert!(derived("1.1e-10").contains("not canonical"));
 }
 
 /// The error of rk4 in an energy of ½ beside a constant: where the value has three digits fewer than the sum of its other

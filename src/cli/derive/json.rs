@@ -237,6 +237,7 @@ impl JsonReport<'_> {
                 "K_of_old": known.hamiltonian_in_old.map(|e| self.text(e)),
                 "new": map(&known.map.forwards, &known.map.implicit.new),
                 "old": map(&known.backwards, &known.map.old),
+                "near_start": known.backwards.as_ref().map(|_| known.is_local),
                 "valence": valence,
                 "canonical_where": (!parameters.is_empty()).then_some(parameters),
                 "generating_functions": self.generating_functions(&known.functions),

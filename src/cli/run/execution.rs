@@ -173,7 +173,9 @@ impl Run<'_> {
         }
         let narrow = self.experiment.narrow_passage();
         if refused && !cut_short {
-            narrow.iter().for_each(|narrow| stderr::report(narrow));
+            if let Some(narrow) = &narrow {
+                stderr::report(narrow);
+            }
             return Err(CommandError::CouldNot(line));
         }
         stderr::report(&line);
@@ -181,7 +183,8 @@ impl Run<'_> {
             Some(narrow) if self.strict && !cut_short => {
                 return Err(CommandError::CouldNot(narrow));
             }
-            narrow => narrow.iter().for_each(|narrow| stderr::report(narrow)),
+            Some(narrow) => stderr::report(&narrow),
+            None => {}
         }
         match end {
             Some(EarlyEnd::Fault(fault)) => Err(CommandError::CouldNot(fault.message)),

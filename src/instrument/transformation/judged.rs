@@ -159,7 +159,8 @@ fn lines(pool: &Pool, report: &TransformationReport) -> Vec<String> {
         format!(", with {}", parameters.join(", "))
     };
     let hamiltonian = report.hamiltonian.as_ref().ok();
-    lines.extend(hamiltonian.map(|k| format!("K = {}{with}", pool.unicode(*k))));
+    let near = if report.is_local { " near the start" } else { "" };
+    lines.extend(hamiltonian.map(|k| format!("K = {}{near}{with}", pool.unicode(*k))));
     let in_old = report.hamiltonian_in_old;
     lines.extend(in_old.map(|k| format!("K = {} at (q, p){with}", pool.unicode(k))));
     lines

@@ -3,13 +3,14 @@
 //! In: the states at which a motion begins or is changed, and the ends of its steps. Out: such events. Never here: how they are found.
 
 use super::Propagator;
+use crate::integrate::event_location::EventLocator;
 use crate::system::MotionError;
 
 impl Propagator {
     /// The names of the events and sections whose functions are zero all along the current motion but for rounding, and since when.
     pub fn vanishing_events(&self) -> impl Iterator<Item = (&str, f64)> {
         let events = &self.system.discontinuities().events;
-        let known = self.search.events.iter().flat_map(|search| search.vanishing());
+        let known = self.search.events.iter().flat_map(EventLocator::vanishing);
         known.filter_map(|(event, since)| Some((events.get(event)?.name.as_str(), since)))
     }
 

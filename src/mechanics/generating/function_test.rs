@@ -12,6 +12,9 @@ use crate::mechanics::isolate::{self, Solution};
 use crate::mechanics::valuation::Valuation;
 use crate::model::{GeneratingType, Model, Transformation, TransformationLaw};
 
+/// A relation holds at a point if what is left of it is less than this part of its terms.
+const VANISHES: f64 = 1e-9;
+
 /// Whether a function gives a map.
 pub(super) struct FunctionTest<'a> {
     pub(super) model: &'a Model,
@@ -49,7 +52,7 @@ impl FunctionTest<'_> {
         for at in self.points {
             for &e in &relations {
                 let (left, size) = pool.evaluate_with_size(e, &|s| at.at(s));
-                if left.is_finite() && left.abs() > 1e-9 * (1.0 + size) {
+                if left.is_finite() && left.abs() > VANISHES * size {
                     return None;
                 }
                 right += usize::from(left.is_finite());

@@ -97,6 +97,24 @@ impl Scope {
         }
     }
 
+    /// Says of an unknown `e` directly behind a number, as in `1e`, that it begins an exponent; of errors from a place on.
+    pub(super) fn name_unfinished_exponents(&mut self, text: &str, from: usize) {
+        for error in self.diagnostics.iter_mut().skip(from) {
+            let name = text.get(error.span.start..error.span.end).unwrap_or_default();
+            if !matches!(name, "e" | "E") || error.message != format!("unknown name `{name}`") {
+                continue;
+            }
+            let before = &text[..error.span.start];
+            let number = before.trim_end_matches(|c: char| c.is_ascii_digit() || c == '.');
+            let number = &before[number.len()..];
+            if number.contains(|c: char| c.is_ascii_digit()) {
+                error.message = format!("the exponent of `{number}{name}` has no digits");
+                error.span.start -= number.len();
+                error.help = Some(format!("write `{number}{name}3`, or `{number}` alone"));
+            }
+        }
+    }
+
     /// Whether a name could be that of a coordinate which the file has not declared.
     fn coordinates_are_open(&self) -> bool {
         !self.poisson && self.allowed != Allowed::Parameters

@@ -43,10 +43,14 @@ impl Check<'_> {
         for impulse in written {
             let name = impulse.name.as_ref().map_or(String::new(), |n| n.get_ref().clone());
             let called = format!("the impulse `{name}`");
-            let mut at = Vec::new();
+            let mut given: Vec<(Expr, &Formula)> = Vec::new();
             for formula in &impulse.at {
-                at.extend(self.time(formula, &mut times));
+                if let Some(e) = self.time(formula, &mut times) {
+                    self.time_given_once(&given, e, formula);
+                    given.push((e, formula));
+                }
             }
+            let at = given.into_iter().map(|(e, _)| e).collect::<Vec<_>>();
             let period = impulse.every.as_ref().and_then(|f| self.interval(f, &mut times));
             let mut change = vec![Expr::ZERO; self.model.coordinates.len()];
             for (name, formula) in impulse.change.iter().flatten() {
@@ -86,6 +90,25 @@ impl Check<'_> {
             self.diagnostics.push(Diagnostic::warning(formula.span(), message));
         }
         Some(e)
+    }
+
+    /// An impulse acts once at a time: one that is given twice is an error, and a warning where it is at these values only.
+    fn time_given_once(&mut self, before: &[(Expr, &Formula)], e: Expr, formula: &Formula) {
+        let at = self.at_start(e);
+        let Some((other, first)) = before.iter().find(|(other, _)| self.at_start(*other) == at)
+        else {
+            return;
+        };
+        let place = formula.span();
+        let diagnostic = if *other == e {
+            Diagnostic::error(place, "this time is given twice")
+        } else {
+            let message = format!("at these values this is the same time, t = {}", number(at));
+            Diagnostic::warning(place, message)
+        };
+        let help = "an impulse acts once at a time; two impulses act there one after the other";
+        let diagnostic = diagnostic.with_help(help);
+        self.diagnostics.push(diagnostic.with_also(first.span(), "it is given here"));
     }
 
     /// Reads the period at which an impulse is repeated.

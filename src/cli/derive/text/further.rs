@@ -125,7 +125,10 @@ impl TextReport<'_> {
                 self.line(&format!("  {}", known.without_functions()));
             }
             match &known.hamiltonian {
-                Ok(e) => self.line(&format!("  K = {}", self.math(*e))),
+                Ok(e) => {
+                    let where_known = if known.is_local { "   (near the start)" } else { "" };
+                    self.line(&format!("  K = {}{where_known}", self.math(*e)));
+                }
                 Err(why) if verdict.canonical => {
                     self.line(&format!("  K: {}", self.words(&why.to_string())));
                 }
