@@ -60,9 +60,25 @@ pub fn conformal_rate<'a>(
         let here = (0..half).map(|i| change[(i, half + i)]).sum::<f64>() / half as f64;
         let rate = *rate.get_or_insert(here);
         let off = (change - &unit * rate).amax();
-        if off.is_nan() || off > SAME * derivative.amax() {
+        if !is_same(off, derivative.amax()) {
             return Ok(None);
         }
     }
     Ok(rate)
+}
+
+/// Whether rates that differ by this much are the same, beside the size of D.
+fn is_same(off: f64, size: f64) -> bool {
+    off <= SAME * size
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rates_are_the_same_to_1e_10_of_the_size_of_the_derivative() {
+        assert!(is_same(1.9e-10, 2.0) && !is_same(2.1e-10, 2.0));
+        assert!(is_same(0.0, 0.0) && !is_same(f64::NAN, 2.0));
+    }
 }

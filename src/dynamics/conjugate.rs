@@ -112,7 +112,7 @@ fn singular(
                 // a double zero has no change of sign
                 let time = least(&mut carrier, largest, c.0, b.0)?;
                 let smallest = singular_values(&mut carrier, time)?;
-                if smallest[1] <= LOST * largest {
+                if rank_lost(&smallest, largest) > 1 {
                     add(&mut carrier, largest, time, start.time, &mut found)?;
                 }
             }
@@ -144,9 +144,14 @@ fn add(
     found: &mut Vec<f64>,
 ) -> Result<(), DynamicsError> {
     let values = singular_values(carrier, time)?;
-    let lost = values.iter().filter(|&&value| value <= LOST * largest).count().max(1);
+    let lost = rank_lost(&values, largest).max(1);
     found.extend(std::iter::repeat_n(time - start, lost));
     Ok(())
+}
+
+/// By how much the rank of a matrix with these singular values is less, where `largest` is the largest that it has had.
+fn rank_lost(values: &[f64], largest: f64) -> usize {
+    values.iter().filter(|&&value| value <= LOST * largest).count()
 }
 
 /// The zero of the determinant between two times.
@@ -192,4 +197,21 @@ fn least(
         if value(carrier, left)? < value(carrier, right)? { b = right } else { a = left }
     }
     Ok(0.5 * (a + b))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rank_is_lost_below_1e_5_of_the_largest_singular_value() {
+        for (values, lost) in [
+            ([0.0, 1.9e-5, 1.0], 2),
+            ([0.0, 2.1e-5, 1.0], 1),
+            ([1.9e-5, 1.9e-5, 1.9e-5], 3),
+            ([2.1e-5, 2.1e-5, 2.1e-5], 0),
+        ] {
+            assert_eq!(rank_lost(&values, 2.0), lost, "{values:?}");
+        }
+    }
 }

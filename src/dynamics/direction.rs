@@ -79,7 +79,7 @@ impl FlowDirection {
             }
             RateSource::Constrained { .. } => sizes[i] / length,
         };
-        Ok((0..rates.len()).any(|i| rates[i].abs() > AT_REST * add(i)))
+        Ok((0..rates.len()).any(|i| exceeds_rounding(rates[i], add(i))))
     }
 
     /// The sizes of the variables; one that is zero counts as large as the largest of its kind.
@@ -95,7 +95,23 @@ impl FlowDirection {
     }
 }
 
+/// Whether a rate is more than rounding of what may add to it.
+fn exceeds_rounding(rate: f64, terms: f64) -> bool {
+    rate.abs() > AT_REST * terms
+}
+
 /// An orthonormal basis of the range of a matrix, whose rank is known.
 pub(super) fn basis_of_range(matrix: &DMatrix<f64>, rank: usize) -> DMatrix<f64> {
     matrix.clone().col_piv_qr().q().columns(0, rank).into_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_rate_moves_beyond_1e_13_of_what_adds_to_it() {
+        assert!(exceeds_rounding(-2.1e-13, 2.0) && !exceeds_rounding(-1.9e-13, 2.0));
+        assert!(exceeds_rounding(1e-300, 0.0) && !exceeds_rounding(0.0, 0.0));
+    }
 }

@@ -189,7 +189,7 @@ impl Excursion {
         one.revolved |= self.turns[0].is_some_and(|period| one.gone.abs() >= period);
         let hyperbolic = derivative.determinant() < 0.0;
         let near = |step: &DVector<f64>| {
-            step.iter().zip(&self.extents).all(|(step, extent)| step.abs() <= AT_SADDLE * extent)
+            step.iter().zip(&self.extents).all(|(&step, &extent)| is_at_saddle(step, extent))
         };
         if hyperbolic
             && one.saddle.is_none()
@@ -203,15 +203,12 @@ impl Excursion {
     /// How the motion departs from one that keeps returning, by which the directions of its flow and of its energy have other exponents
     /// than 0.
     pub(super) fn departure(&self) -> Option<Departure> {
-        let steps: Vec<f64> = self.speeds.windows(2).map(|pair| pair[1] - pair[0]).collect();
-        let grows = self.moves && steps.iter().all(|step| *step >= EACH_QUARTER);
-        let falls = self.moves && steps.iter().all(|step| *step <= -EACH_QUARTER);
+        let exponential = steady_change(&self.speeds).filter(|_| self.moves);
         match &self.one {
             Some(OneDegree { saddle: Some(time), .. }) if *time > self.start.time => {
                 Some(Departure::Separatrix(*time))
             }
-            _ if grows => Some(Departure::Escape),
-            _ if falls => Some(Departure::Rest),
+            _ if exponential.is_some() => exponential,
             Some(one) if one.turned < 2 && !one.revolved => Some(Departure::Unreturned),
             _ => None,
         }
@@ -237,7 +234,7 @@ impl Excursion {
 
     /// Whether neighbours follow linear equations with coefficients that do not depend on the place, nor on the time but by the law.
     pub(super) fn is_linear(&self) -> bool {
-        self.first.is_some() && self.change <= SAME * self.steepest
+        self.first.is_some() && is_unchanged(self.change, self.steepest)
     }
 
     /// Where it began.
@@ -257,6 +254,28 @@ impl Excursion {
     }
 }
 
+/// The departure of a motion whose rates, of which the logarithms are given, grow or fall in each quarter of the time.
+fn steady_change(speeds: &[f64; QUARTERS]) -> Option<Departure> {
+    let steps = || speeds.windows(2).map(|pair| pair[1] - pair[0]);
+    if steps().all(|step| step >= EACH_QUARTER) {
+        Some(Departure::Escape)
+    } else if steps().all(|step| step <= -EACH_QUARTER) {
+        Some(Departure::Rest)
+    } else {
+        None
+    }
+}
+
+/// Whether a variable is at a saddle point to rounding: so far from it, having gone as far as `extent`.
+fn is_at_saddle(distance: f64, extent: f64) -> bool {
+    distance.abs() <= AT_SADDLE * extent
+}
+
+/// Whether coefficients that differ by this much from those at the start are the same.
+fn is_unchanged(change: f64, largest: f64) -> bool {
+    change <= SAME * largest
+}
+
 /// The distance of a variable from its start, how far it goes on the whole way, and its largest size.
 pub(super) struct Apart {
     pub(super) distance: f64,
@@ -268,4 +287,29 @@ pub(super) struct Apart {
 fn indices(matrix: &DMatrix<f64>) -> impl Iterator<Item = ((usize, usize), f64)> + '_ {
     let columns = 0..matrix.ncols();
     columns.flat_map(move |j| (0..matrix.nrows()).map(move |i| ((i, j), matrix[(i, j)])))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_motion_escapes_or_comes_to_rest_if_its_rates_change_by_e_squared_in_each_quarter() {
+        let speeds = |least: f64| [1.0, 3.5, 3.5 + least, 6.0 + least];
+        assert_eq!(steady_change(&speeds(2.01)), Some(Departure::Escape));
+        assert_eq!(steady_change(&speeds(1.99)), None);
+        assert_eq!(steady_change(&speeds(2.01).map(|speed| -speed)), Some(Departure::Rest));
+        assert_eq!(steady_change(&speeds(1.99).map(|speed| -speed)), None);
+    }
+
+    #[test]
+    fn a_saddle_point_is_reached_to_the_root_of_rounding() {
+        assert!(is_at_saddle(-5.9e-7, 2.0) && !is_at_saddle(-6.1e-7, 2.0));
+    }
+
+    #[test]
+    fn coefficients_are_constant_to_a_part_of_1e_12() {
+        assert!(is_unchanged(1.9e-12, 2.0) && !is_unchanged(2.1e-12, 2.0));
+        assert!(!is_unchanged(f64::NAN, 2.0));
+    }
 }

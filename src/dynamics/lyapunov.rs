@@ -10,6 +10,7 @@
 //! Never here: text.
 
 use super::carrier::Carrier;
+use super::chaos::{Chaos, Evidence, has_parted, is_escape, last_closing};
 use super::closing::closing;
 use super::error::DynamicsError;
 use super::excursion::Departure;
@@ -19,56 +20,11 @@ use super::phase_space::PhaseSpace;
 use super::transverse::Removed;
 use super::vector_fidelity::Followed;
 use crate::integrate::{Method, Settings};
-use crate::num::{math, short};
+use crate::num::short;
 use crate::system::{MotionErrorKind, State};
 
 /// The points of the curve.
 const POINTS: usize = 200;
-
-/// A verdict needs this many steps of a series, or ten times as many of fixed size.
-const STEPS: u64 = 120;
-
-/// MEGNO up to which a motion is regular, and from which it is chaotic.
-const REGULAR: f64 = 2.8;
-const CHAOTIC: f64 = 5.0;
-
-/// Beyond the first, MEGNO of regular motion has not grown by the second since half of the time; of chaotic motion it doubles.
-const SETTLED: f64 = 2.2;
-const RISING: f64 = 1.5;
-
-/// A chaotic motion has grown by this many powers of e.
-const GROWTH: f64 = 8.0;
-
-/// The distance from the start grows by this part of the power of e by which neighbours part where these part as the motion escapes.
-const ESCAPE: f64 = 0.5;
-
-/// A motion that is to close does so before neighbours have parted by this power of e: rounding has led it away from where it was later.
-const LOST: f64 = 20.0;
-
-/// Whether neighbouring motions part exponentially, and whether that is chaos.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Chaos {
-    /// They do not.
-    Regular,
-    /// They do, and the motion is bounded and keeps returning without ever closing.
-    Chaotic,
-    /// They do, and the motion is none that could be chaotic: it is at rest, periodic, escapes, or follows linear equations.
-    Unstable,
-    /// It cannot be decided.
-    Undecided,
-}
-
-impl Chaos {
-    /// The word for it.
-    pub fn word(self) -> &'static str {
-        match self {
-            Chaos::Regular => "regular",
-            Chaos::Chaotic => "chaotic",
-            Chaos::Unstable => "unstable",
-            Chaos::Undecided => "undecided",
-        }
-    }
-}
 
 /// The exponents of a motion.
 #[derive(Clone, Debug)]
@@ -202,10 +158,10 @@ pub(super) fn exponents(
         .map(|time| if growth.logarithms[0].is_empty() { 0.0 } else { growth.at(0, time) });
     let why = if excursion.rests() {
         Some("the motion is at rest, at an unstable equilibrium, which is not chaos".to_owned())
-    } else if whole - half > 1.0 && excursion.widening() >= ESCAPE * (whole - half) {
+    } else if is_escape(excursion.widening(), whole - half) {
         Some("the motion itself goes away from its start as fast, and does not return".to_owned())
     } else {
-        let most = growth.begin() + LOST / found.exponents[0];
+        let most = last_closing(growth.begin(), found.exponents[0]);
         let end = most.min(growth.end());
         let closes = match closing(space, (method, motion.settings), excursion, end) {
             Ok(closes) => closes,
@@ -262,7 +218,7 @@ fn departing(
         Departure::Unreturned if found.verdict != Chaos::Chaotic => return Ok(found),
         Departure::Unreturned => "the motion does not return".to_owned(),
     };
-    if known && grown >= GROWTH {
+    if known && has_parted(grown) {
         found.verdict = Chaos::Unstable;
         found.reason = format!("{}; {why}", parted(grown, growth.end() - growth.begin()));
     } else if found.verdict == Chaos::Regular || found.verdict == Chaos::Chaotic {
@@ -374,56 +330,24 @@ fn result(
 fn judged(
     followed: &Followed<'_>,
     (exponents, uncertainty): (&[f64], &[f64]),
-    mean_growth: &Megno,
+    megno: &Megno,
 ) -> (Chaos, String) {
-    let (motion, growth, megno) = (followed.motion, followed.growth, mean_growth.mean());
+    let (motion, growth) = (followed.motion, followed.growth);
     if growth.logarithms[0].is_empty() {
         let reason = "a motion of one degree of freedom with conserved energy that returns has no exponent but 0";
         return (Chaos::Regular, reason.to_owned());
     }
-    let grown = growth.at(0, growth.end());
-    let least = if motion.fixed { 10 * STEPS } else { STEPS };
-    let (largest, off) = (exponents[0], uncertainty[0]);
-    let time = short(growth.end() - growth.begin());
-    if motion.steps < least {
-        let reason =
-            format!("the motion is too short: {} steps, and {least} are needed", motion.steps);
-        return (Chaos::Undecided, reason);
-    }
-    if let Some(reason) = followed.doubt() {
-        return (Chaos::Undecided, reason);
-    }
-    if grown >= GROWTH && megno >= CHAOTIC && largest > 2.0 * off {
-        let reason = format!(
-            "neighbouring motions part by e^{grown:.1} in a time of {time}, and MEGNO is {megno:.1}, \
-             where regular motion has 2"
-        );
-        return (Chaos::Chaotic, reason);
-    }
-    let rises = megno > SETTLED && mean_growth.growth() > RISING;
-    if !rises && megno <= REGULAR && grown < GROWTH + math::ln(motion.steps as f64) {
-        let reason = format!(
-            "neighbouring motions part no faster than in proportion to time: MEGNO is \
-             {megno:.2}, and chaotic motion exceeds {CHAOTIC}"
-        );
-        return (Chaos::Regular, reason);
-    }
-    let between = megno > REGULAR && megno < CHAOTIC;
-    let reason = if rises && megno <= REGULAR {
-        format!(
-            "MEGNO is {megno:.2} (regular up to {REGULAR}, chaotic from {CHAOTIC}), but rises in proportion to time, and λ is \
-             known to ± {off:.1e}: a longer time may tell"
-        )
-    } else if between {
-        format!(
-            "neighbouring motions part by e^{grown:.1} in a time of {time} and MEGNO is {megno:.1}, between regular (up to \
-             {REGULAR}) and chaotic (from {CHAOTIC}): a longer time may tell"
-        )
-    } else {
-        format!(
-            "MEGNO is {megno:.1} (regular up to {REGULAR}, chaotic from {CHAOTIC}), but neighbouring motions part by \
-             e^{grown:.1} in a time of {time}, and λ is known to ± {off:.1e}: a longer time may tell"
-        )
+    let evidence = Evidence {
+        motion,
+        lasted: growth.end() - growth.begin(),
+        grown: growth.at(0, growth.end()),
+        megno: megno.mean(),
+        megno_growth: megno.growth(),
+        largest: exponents[0],
+        uncertainty: uncertainty[0],
     };
-    (Chaos::Undecided, reason)
+    match evidence.too_short().or_else(|| followed.doubt()) {
+        Some(reason) => (Chaos::Undecided, reason),
+        None => evidence.verdict(),
+    }
 }

@@ -89,19 +89,23 @@ pub(super) fn rate_at_energy(
         (n..2 * n).for_each(|i| state[i] = factor * at[i]);
         lagrangian.value(time, &state)
     };
-    let (rest, once, back, twice) = (with(0.0), with(1.0), with(-1.0), with(2.0));
-    let (even, odd) = (f64::midpoint(once, back) - rest, 0.5 * (once - back));
-    let off = (twice - rest - 4.0 * even - 2.0 * odd).abs();
-    let size = twice.abs() + once.abs() + back.abs() + rest.abs();
-    if lagrangian.timed || off > QUADRATIC * size {
-        return Err(NotOnEnergy::Law);
-    }
+    let at_multiples = [with(0.0), with(1.0), with(-1.0), with(2.0)];
+    let parts = quadratic_parts(at_multiples).filter(|_| !lagrangian.timed);
+    let Some([rest, odd, even]) = parts else { return Err(NotOnEnergy::Law) };
     let left = energy + rest;
     // at the ends of the region E − V is zero, but for rounding
     if left < -SETTLED * (energy.abs() + rest.abs()) {
         return Err(NotOnEnergy::Forbidden);
     }
     Ok(2.0 * (left.max(0.0) * even.max(0.0)).sqrt() + odd)
+}
+
+/// The parts of degree 0, 1 and 2 of a function of the velocities, by its values at 0, 1, −1 and 2 times some; nothing if it has others.
+fn quadratic_parts([rest, once, back, twice]: [f64; 4]) -> Option<[f64; 3]> {
+    let (even, odd) = (f64::midpoint(once, back) - rest, 0.5 * (once - back));
+    let off = (twice - rest - 4.0 * even - 2.0 * odd).abs();
+    let size = twice.abs() + once.abs() + back.abs() + rest.abs();
+    (!(off > QUADRATIC * size)).then_some([rest, odd, even])
 }
 
 /// A Hamiltonian at fixed parameters, as a function of (t, q, p).
@@ -163,5 +167,22 @@ impl Hamiltonian {
             Ok(()) => self.value.output(0),
             Err(_) => f64::NAN,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 1/2 + v + 2v² + δv⁴ is a form of second degree as long as 12δ is less than 1e-9 of the sum of its values 0.5, 3.5, 1.5 and 10.5.
+    #[test]
+    fn a_form_is_quadratic_to_1e_9_of_its_values() {
+        let parts = |quartic: f64| {
+            let value = |v: f64| 0.5 + v + 2.0 * v * v + quartic * v * v * v * v;
+            quadratic_parts([0.0, 1.0, -1.0, 2.0].map(value))
+        };
+        assert_eq!(parts(0.0), Some([0.5, 1.0, 2.0]));
+        assert!(parts(1.3e-9).is_some());
+        assert_eq!(parts(1.4e-9), None);
     }
 }

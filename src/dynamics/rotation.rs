@@ -194,10 +194,16 @@ fn around(points: &[[f64; 2]]) -> Result<Vec<f64>, NoRotation> {
     let places: Vec<f64> = points.iter().map(place).collect();
     let turns: Vec<f64> =
         places.windows(2).map(|pair| (pair[1] - pair[0]).rem_euclid(1.0)).collect();
-    let mut sorted = turns.clone();
+    let cut = cut_between(&turns)?;
+    Ok(turns.iter().map(|turn| cut + (turn - cut).rem_euclid(1.0) - 1.0).collect())
+}
+
+/// The middle of the widest part of a turn in which none of these turns lies.
+fn cut_between(turns: &[f64]) -> Result<f64, NoRotation> {
+    let mut sorted = turns.to_vec();
     sorted.sort_by(f64::total_cmp);
     let (Some(least), Some(greatest)) = (sorted.first(), sorted.last()) else {
-        return Err(NoRotation::TooFew(points.len()));
+        return Err(NoRotation::TooFew(turns.len()));
     };
     let mut widest = (least + 1.0 - greatest, (greatest + (least + 1.0)) / 2.0);
     for pair in sorted.windows(2) {
@@ -209,6 +215,67 @@ fn around(points: &[[f64; 2]]) -> Result<Vec<f64>, NoRotation> {
     if widest.0 < GAP {
         return Err(NoRotation::AllTurns);
     }
-    let cut = widest.1;
-    Ok(turns.iter().map(|turn| cut + (turn - cut).rem_euclid(1.0) - 1.0).collect())
+    Ok(widest.1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// So many points on a circle around (1, 1), 0.23 of a turn apart.
+    fn circle(count: usize, radius: f64) -> Vec<[f64; 2]> {
+        let point = |k: usize| {
+            let (sin, cos) = math::sin_cos(TAU * 0.23 * k as f64);
+            [1.0 + radius * sin, 1.0 + radius * cos]
+        };
+        (0..count).map(point).collect()
+    }
+
+    #[test]
+    fn sixteen_crossings_are_enough() {
+        assert_eq!(rotation(&circle(15, 1.0), [None; 2]), Err(NoRotation::TooFew(15)));
+        let found = rotation(&circle(16, 1.0), [None; 2]);
+        assert_ne!(found, Err(NoRotation::TooFew(16)));
+        let angle: Vec<f64> = (0..16).map(|k| 0.23 * f64::from(k)).collect();
+        assert_eq!(angle_rotation(&angle[..15], 1.0), Err(NoRotation::TooFew(15)));
+        assert!(angle_rotation(&angle, 1.0).is_ok());
+    }
+
+    #[test]
+    fn points_are_apart_beyond_a_billionth_of_their_size() {
+        let is_one =
+            |radius: f64| rotation(&circle(100, radius), [None; 2]) == Err(NoRotation::OnePoint);
+        // as wide as two radii
+        assert!(is_one(0.48e-9) && !is_one(0.52e-9));
+    }
+
+    #[test]
+    fn turns_are_cut_in_a_gap_of_a_twentieth() {
+        let turns = |count: u32| (0..count).map(move |k| f64::from(k) / f64::from(count));
+        let cut = |count: u32| cut_between(&turns(count).collect::<Vec<_>>());
+        assert!(cut(19).is_ok());
+        assert_eq!(cut(21), Err(NoRotation::AllTurns));
+    }
+
+    /// Turns of which the averages of parts differ by this.
+    fn turns_apart(apart: f64) -> Vec<f64> {
+        let step = |k: i32| f64::from(u8::from(k >= 200));
+        let steps: Vec<f64> = (0..400).map(step).collect();
+        let unit = parts_apart(&steps);
+        steps.iter().map(|step| 0.3 + apart / unit * step).collect()
+    }
+
+    #[test]
+    fn an_average_converges_if_parts_differ_by_less_than_a_twentieth_over_the_number() {
+        let found = |part: f64| averaged(&turns_apart(part / 400.0), Turning::Middle);
+        assert!(found(0.049).is_ok());
+        assert!(matches!(found(0.051), Err(NoRotation::Undecided(_))));
+    }
+
+    #[test]
+    fn an_average_diverges_if_parts_differ_by_a_quarter_over_the_root_of_the_number() {
+        let found = |part: f64| averaged(&turns_apart(part / 20.0), Turning::Middle);
+        assert!(matches!(found(0.249), Err(NoRotation::Undecided(_))));
+        assert!(matches!(found(0.251), Err(NoRotation::Diverges(_))));
+    }
 }

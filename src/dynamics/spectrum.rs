@@ -182,7 +182,7 @@ fn fitted(
         let Some(at) = fit.strongest(&left, &free) else { break };
         let strongest = fit.lines.iter().map(Wave::amplitude).fold(0.0, f64::max);
         let amplitude = fit.amplitude(&left, at);
-        if amplitude <= FAINTEST * strongest.max(fit.size) {
+        if is_rounding(amplitude, strongest.max(fit.size)) {
             break;
         }
         if fit.lines.iter().any(|line| (line.frequency - at).abs() < APART * TAU / fit.length()) {
@@ -238,6 +238,11 @@ fn fitted(
     Fitted { spectrum, fewest: slowest }
 }
 
+/// Whether a line is rounding beside the strongest, or the size of the signal.
+fn is_rounding(amplitude: f64, strongest: f64) -> bool {
+    amplitude <= FAINTEST * strongest
+}
+
 /// How far a frequency may be off because of what is left so close to it that the time does not tell them apart: a line beside
 /// it pulls it by no more than their distance, in the ratio of their amplitudes.
 fn unresolved(fit: &SpectralFit<'_>, left: &[f64], line: &SpectralLine) -> f64 {
@@ -277,4 +282,24 @@ pub fn mean_rate(angle: &[f64], spacing: f64) -> Option<MeanRate> {
     };
     let (rate, before) = (average(angle)?, average(&angle[..angle.len() / 2])?);
     rate.is_finite().then_some(MeanRate { rate, error: (rate - before).abs() })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_signal_of_which_lines_leave_a_tenth_is_continuous() {
+        let of = |left: f64| {
+            let (trend, lines, fundamentals, curve) = Default::default();
+            let (mean, size, turns) = (0.0, 2.0, None);
+            Spectrum { mean, trend, lines, fundamentals, curve, left, size, turns }
+        };
+        assert!(of(0.201).is_continuous() && !of(0.199).is_continuous());
+    }
+
+    #[test]
+    fn a_line_is_rounding_below_1e_12_of_the_strongest() {
+        assert!(is_rounding(1.9e-12, 2.0) && !is_rounding(2.1e-12, 2.0));
+    }
 }

@@ -275,6 +275,13 @@ fn judged(
     let eigenvalues = SymmetricEigen::new(scaled).eigenvalues;
     let lowest = std::f64::consts::PI / duration;
     let free = found.inertia * lowest * lowest;
+    let (index, kind) = index_and_kind(eigenvalues.as_slice(), free);
+    StationaryPath { rule, values, duration, action: found.action, index, kind }
+}
+
+/// The number of negative eigenvalues of a second variation, and what they make of a path, where `free` is the first of a free
+/// particle.
+fn index_and_kind(eigenvalues: &[f64], free: f64) -> (usize, PathKind) {
     let zero = ZERO * free;
     let index = eigenvalues.iter().filter(|&&e| e < -zero).count();
     let degenerate = eigenvalues.iter().any(|&e| e.abs() <= zero);
@@ -283,7 +290,7 @@ fn judged(
         (false, 0) => PathKind::Minimum,
         (false, _) => PathKind::Saddle,
     };
-    StationaryPath { rule, values, duration, action: found.action, index, kind }
+    (index, kind)
 }
 
 /// The index and kind of a path that is known to be stationary.
@@ -305,4 +312,21 @@ pub fn morse_index(
         .ok_or_else(|| no_path("L is not finite on this path"))?;
     let judged = judged(rule, values, duration, &expansion);
     Ok((judged.index, judged.kind))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_eigenvalue_is_zero_below_1e_8_of_the_first_of_a_free_particle() {
+        for (eigenvalue, found) in [
+            (2.1e-8, (0, PathKind::Minimum)),
+            (1.9e-8, (0, PathKind::Degenerate)),
+            (-1.9e-8, (0, PathKind::Degenerate)),
+            (-2.1e-8, (1, PathKind::Saddle)),
+        ] {
+            assert_eq!(index_and_kind(&[3.0, eigenvalue], 2.0), found, "{eigenvalue}");
+        }
+    }
 }

@@ -5,8 +5,9 @@
 use nalgebra::DMatrix;
 
 use super::carrier::Carrier;
+use super::chaos::Chaos;
 use super::error::DynamicsError;
-use super::lyapunov::{Chaos, lyapunov};
+use super::lyapunov::lyapunov;
 use super::phase_space::PhaseSpace;
 use super::torus::{Signal, Torus};
 use crate::integrate::{Method, Settings, Stepping};

@@ -54,7 +54,7 @@ impl VirtualWork {
         let terms = added(self.terms.iter().map(|(term, _)| term.clone()));
         let values = added(self.terms.iter().map(|(_, value)| short(*value)));
         // beyond what the place is known to, the sum is zero
-        let sum = if self.sum().abs() <= SUMS_TO_ZERO * largest { 0.0 } else { self.sum() };
+        let sum = if sums_to_zero(self.sum(), largest) { 0.0 } else { self.sum() };
         format!("{terms} = {values} = {}", short(sum))
     }
 }
@@ -115,7 +115,7 @@ impl ForceTerm {
         let value = known.value(pool, self.expression);
         let slopes = self.slopes.iter();
         let sizes = slopes.map(|&(i, slope)| (known.value(pool, slope) * place[i]).abs());
-        if value.abs() <= SUMS_TO_ZERO * sizes.fold(0.0, f64::max) { 0.0 } else { value }
+        if sums_to_zero(value, sizes.fold(0.0, f64::max)) { 0.0 } else { value }
     }
 }
 
@@ -177,7 +177,7 @@ pub(super) fn virtual_work(
             let terms = force.iter().map(|(term, _)| term.value(&pool, &known, variables));
             let largest = terms.clone().fold(0.0_f64, |most, term| most.max(term.abs()));
             // rounding is nothing for a constraint to balance
-            let balanced = terms.sum::<f64>().abs() <= SUMS_TO_ZERO * largest;
+            let balanced = sums_to_zero(terms.sum(), largest);
             if balanced { 0.0 } else { -rate }
         });
         let others = DVector::from_iterator(resting.len(), others);
@@ -188,7 +188,7 @@ pub(super) fn virtual_work(
             for (whole, parts) in force {
                 let largest = parts.iter().fold(0.0_f64, |most, part| most.max(value(part).abs()));
                 // forces with a common factor may balance within it
-                let balanced = value(whole).abs() <= SUMS_TO_ZERO * largest;
+                let balanced = sums_to_zero(value(whole), largest);
                 let shown = if balanced { &parts[..] } else { std::slice::from_ref(whole) };
                 terms.extend(shown.iter().map(|term| (term.shown.clone(), value(term))));
             }
@@ -208,12 +208,27 @@ pub(super) fn virtual_work(
             let lost = nothing && force.iter().any(|(term, _)| term.underflows(&pool, &known));
             // the forces of constraints are not among the terms
             let is_free = equations.constraints.is_empty();
-            let pushed = is_free && sum.abs() > OUT_OF_BALANCE * (largest + change);
+            let pushed = is_free && is_out_of_balance(sum, largest + change);
             !lost && !pushed
         });
         Balance { work: work.collect(), holds, multipliers }
     };
     places.iter().map(at).collect()
+}
+
+/// Whether a sum of forces is zero beside the largest.
+fn sums_to_zero(sum: f64, largest: f64) -> bool {
+    sum.abs() <= SUMS_TO_ZERO * largest
+}
+
+/// Whether forces do not balance, by their sum beside the largest and what they change by.
+fn is_out_of_balance(sum: f64, size: f64) -> bool {
+    sum.abs() > OUT_OF_BALANCE * size
+}
+
+/// Whether a force of a constraint is rounding beside what the constraints balance.
+fn is_unresolved(force: f64, others: f64) -> bool {
+    force <= SOLVED * others
 }
 
 /// Sets all multipliers to zero: what acts then are the other forces.
@@ -240,10 +255,33 @@ fn multipliers(
     });
     let Some(mut found) = linear::least_squares(&forces, others, 0.0) else { return Vec::new() };
     for (k, multiplier) in found.iter_mut().enumerate() {
-        if (forces.column(k) * *multiplier).norm() <= SOLVED * others.norm() {
+        if is_unresolved((forces.column(k) * *multiplier).norm(), others.norm()) {
             *multiplier = 0.0;
         }
     }
     rows.iter().zip(&found).for_each(|(row, &multiplier)| known.set(row.multiplier, multiplier));
     found.iter().copied().collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn forces_sum_to_zero_to_a_billionth_and_are_out_of_balance_beyond_1e_4() {
+        assert!(sums_to_zero(-1.9e-9, 2.0) && !sums_to_zero(-2.1e-9, 2.0));
+        assert!(is_out_of_balance(-2.1e-4, 2.0) && !is_out_of_balance(-1.9e-4, 2.0));
+        // 64 units in the last place, 1.42e-14
+        assert!(is_unresolved(2.8e-14, 2.0) && !is_unresolved(2.9e-14, 2.0));
+    }
+
+    #[test]
+    fn a_balance_is_written_as_zero_to_a_billionth_of_its_largest_term() {
+        let balance = |left: f64| {
+            let terms = vec![("a".to_owned(), 2.0 + left), ("−b".to_owned(), -2.0)];
+            VirtualWork { coordinate: 0, terms }.balance()
+        };
+        assert!(balance(1.9e-9).ends_with("= 0"), "{}", balance(1.9e-9));
+        assert!(!balance(2.1e-9).ends_with("= 0"), "{}", balance(2.1e-9));
+    }
 }

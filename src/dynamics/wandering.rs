@@ -49,10 +49,14 @@ impl Wandering {
         let apart = functions.iter().map(|values| parts_apart(values)).fold(0.0, f64::max);
         let near = (1..=RETURNS.min(points.len() / 2)).map(|after| shift(&numbers, after));
         let near = near.fold(f64::INFINITY, f64::min);
-        let is_random =
-            apart * (points.len() as f64).sqrt() > RANDOM && near * points.len() as f64 > SHIFT;
-        Wandering { apart, is_random }
+        Wandering { apart, is_random: is_random(apart, near, points.len()) }
     }
+}
+
+/// Whether averages that differ by this much, of an orbit that comes back as near as this, are those of random numbers.
+fn is_random(apart: f64, near: f64, count: usize) -> bool {
+    let count = count as f64;
+    apart * count.sqrt() > RANDOM && near * count > SHIFT
 }
 
 /// The largest difference between the averages of the first half, the middle half and the last half of values.
@@ -93,4 +97,17 @@ fn shift(numbers: &[Vec<f64>], after: usize) -> f64 {
         squares.map(|apart| apart * apart).sum::<f64>().sqrt()
     };
     (0..count).map(distance).sum::<f64>() / count as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_orbit_wanders_beyond_a_quarter_over_the_root_and_a_shift_of_25_over_the_number() {
+        assert!(is_random(0.0251, 0.26, 100));
+        assert!(!is_random(0.0249, 0.26, 100));
+        assert!(is_random(0.0251, 0.251, 100));
+        assert!(!is_random(0.0251, 0.249, 100));
+    }
 }

@@ -200,8 +200,7 @@ fn remainder(
             let (value, size) = equations.pool.evaluate_with_size(left, &|s| at.at(s));
             if value.is_finite() {
                 let part = value.abs() / size.max(f64::MIN_POSITIVE);
-                // far away what cancels within the terms is left of it
-                if !is_far || part > SOLVES_FAR {
+                if counts(part, is_far) {
                     largest = largest.max(value.abs());
                     relative = relative.max(part);
                     let sizes = [energy, rate, left].map(|e| at.size(&equations.pool, e));
@@ -214,7 +213,17 @@ fn remainder(
         }
     }
     let value = (seen > 0).then_some(largest);
-    Ok(Remainder { value, part: of_terms, solves: relative < SOLVES })
+    Ok(Remainder { value, part: of_terms, solves: is_solved(relative) })
+}
+
+/// Whether what is left at a point, as a part of the terms, is left of the equation: far away what cancels within the terms is not.
+fn counts(part: f64, is_far: bool) -> bool {
+    !is_far || part > SOLVES_FAR
+}
+
+/// Whether the equation is solved if no more than this part of its terms is left anywhere.
+fn is_solved(part: f64) -> bool {
+    part < SOLVES
 }
 
 /// A point with numbers for the constants: those that its motion has, and others.
@@ -283,4 +292,16 @@ fn not_complete(
     singular(&equations.pool, &matrix, &points).then(|| {
         "the determinant of ∂²S/∂q∂α vanishes: the constants are not independent".to_owned()
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_equation_is_solved_to_1e_10_of_its_terms_and_far_away_to_1e_6() {
+        assert!(is_solved(0.9e-10) && !is_solved(1.1e-10));
+        assert!(counts(1.1e-6, true) && !counts(0.9e-6, true));
+        assert!(counts(1e-16, false));
+    }
 }
