@@ -141,7 +141,7 @@ impl EquilibriumSearch<'_> {
                 let beside = place + &candidate * (side * distance);
                 let Some(there) = self.approached(&beside, &[]) else { continue };
                 let moved = (there - place) / distance;
-                if moved.norm() > 1.0 / MOVED {
+                if is_elsewhere(moved.norm()) {
                     continue;
                 }
                 if let Some(direction) = outside(&moved, &found, MOVED) {
@@ -180,7 +180,7 @@ impl EquilibriumSearch<'_> {
     fn stepped(&mut self, from: &Member, step: &DVector<f64>) -> Option<Member> {
         let place = self.approached(&(&from.place + step), &from.along)?;
         let across = (&place - &from.place - step).norm();
-        if across > ACROSS * step.norm() {
+        if is_across(across, step.norm()) {
             return None;
         }
         let along = self.turned(&place, &from.along)?;
@@ -267,12 +267,12 @@ impl EquilibriumSearch<'_> {
             if step.norm() <= LONGEST * size {
                 let (there, along) = (&from.place + step, from.along.clone());
                 let there = self.approached(&there, &along);
-                if there.is_some_and(|there| self.way(&there, &place).norm() <= SAME * size) {
+                if there.is_some_and(|there| is_same(self.way(&there, &place).norm(), size)) {
                     return true;
                 }
             }
             let reached = self.nearest(family.members[k].clone(), &place, &everything);
-            if self.way(&reached.place, &place).norm() <= SAME * size {
+            if is_same(self.way(&reached.place, &place).norm(), size) {
                 if family.members.len() < KEPT {
                     family.members.push(reached);
                 }
@@ -306,7 +306,7 @@ impl EquilibriumSearch<'_> {
             }
             let next = self.stepped(&member, &step).filter(|next| {
                 let left = self.way(&next.place, to).component_mul(weights);
-                left.norm() < way.norm() || along.norm() <= SAME * size
+                left.norm() < way.norm() || is_same(along.norm(), size)
             });
             match next {
                 Some(next) => {
@@ -359,7 +359,7 @@ impl EquilibriumSearch<'_> {
         let of = |values: &[f64]| values.iter().copied().max_by(|a, b| a.abs().total_cmp(&b.abs()));
         let largest = of(&tangent[..self.degrees]).filter(|x| *x != 0.0).or(of(&tangent))?;
         // what is left of the largest is rounding
-        let part = |x: f64| if x.abs() <= EXACT * largest.abs() { 0.0 } else { x / largest };
+        let part = |x: f64| if is_rounding(x, largest) { 0.0 } else { x / largest };
         Some(tangent.into_iter().map(part).collect())
     }
 }
@@ -396,4 +396,58 @@ fn shortest(
         DMatrix::from_fn(along.nrows(), along.ncols(), |i, j| along[(i, j)] * weights[i]);
     let parts = linear::least_squares(&weighted, way, 0.0)?;
     Some(along * parts)
+}
+
+/// Whether places are the same, in the size of one.
+fn is_same(apart: f64, size: f64) -> bool {
+    apart <= SAME * size
+}
+
+/// Whether a step has led across a family by so much, beside its length.
+fn is_across(across: f64, length: f64) -> bool {
+    across > ACROSS * length
+}
+
+/// Whether a zero that has moved so many times as far as the place beside it is none of the same family.
+fn is_elsewhere(moved: f64) -> bool {
+    moved > 1.0 / MOVED
+}
+
+/// Whether a part of a direction is rounding of the largest one.
+fn is_rounding(part: f64, largest: f64) -> bool {
+    part.abs() <= EXACT * largest.abs()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_place_is_a_member_to_a_millionth_of_its_size() {
+        assert!(is_same(1.9e-6, 2.0) && !is_same(2.1e-6, 2.0));
+    }
+
+    #[test]
+    fn a_step_along_a_family_leads_less_far_across_it() {
+        assert!(is_across(1.41, 2.0) && !is_across(1.39, 2.0));
+    }
+
+    #[test]
+    fn a_zero_five_times_as_far_is_another() {
+        assert!(is_elsewhere(5.1) && !is_elsewhere(4.9));
+    }
+
+    #[test]
+    fn a_direction_is_rounded_at_1e_8_of_its_largest_part() {
+        assert!(is_rounding(1.9e-8, -2.0) && !is_rounding(-2.1e-8, -2.0));
+    }
+
+    /// Directions with a part of 1/5 outside those that are known are new.
+    #[test]
+    fn a_direction_with_a_fifth_outside_the_known_ones_is_another() {
+        let known = vec![DVector::from_vec(vec![1.0, 0.0])];
+        let at = |part: f64| DVector::from_vec(vec![(1.0 - part * part).sqrt(), part]);
+        assert!(outside(&at(0.21), &known, MOVED).is_some());
+        assert!(outside(&at(0.19), &known, MOVED).is_none());
+    }
 }

@@ -43,7 +43,7 @@ impl EquilibriumSearch<'_> {
         let apart = self.in_units(&known.variables) - self.in_units(&one.variables);
         let apart = apart.amax().max(f64::MIN_POSITIVE);
         let beyond = [-1.0 / apart, 1.0 + 1.0 / apart].map(|part| change(part).unwrap_or(0.0));
-        let within = SAME_ENERGY * beyond[0].max(beyond[1]) + ROUNDING * known.energy.abs();
+        let within = same_energy(beyond[0].max(beyond[1]), known.energy);
         [1.0, 0.75, 0.5, 0.25].into_iter().all(|part| change(part).is_some_and(|x| x <= within))
     }
 
@@ -52,7 +52,7 @@ impl EquilibriumSearch<'_> {
     pub(super) fn is_lost_between(&mut self, known: &[f64], one: &[f64]) -> bool {
         let size = size_of(&self.in_units(known));
         let apart = (self.in_units(known) - self.in_units(one)).amax();
-        if apart > NEAR * size {
+        if !is_near(apart, size) {
             return false;
         }
         let Some((f, df)) = self.equations_in_units(known) else { return false };
@@ -66,12 +66,11 @@ impl EquilibriumSearch<'_> {
             noise = noise.max((g - linear).amax());
         }
         let Some(slopes) = linear::singular_values(&df) else { return false };
-        apart * slopes.sizes.min() <= ABOVE_NOISE * noise
+        is_noise(apart * slopes.sizes.min(), noise)
             && [0.25, 0.5, 0.75].into_iter().all(|part| {
                 let pairs = known.iter().zip(one);
                 let there: Vec<f64> = pairs.map(|(a, b)| a + part * (b - a)).collect();
-                self.equations_in_units(&there)
-                    .is_some_and(|(g, _)| g.amax() <= ABOVE_NOISE * noise)
+                self.equations_in_units(&there).is_some_and(|(g, _)| is_noise(g.amax(), noise))
             })
     }
 
@@ -84,7 +83,48 @@ impl EquilibriumSearch<'_> {
             if let Some(period) = self.space.turns()[i] {
                 apart -= (apart / period).round() * period;
             }
-            apart.abs() <= SAME * (self.units[i] + a[i].abs())
+            is_same(apart, self.units[i] + a[i].abs())
         })
+    }
+}
+
+/// By how much the energies of one equilibrium may differ, where V changes by `beyond` in the next unit.
+fn same_energy(beyond: f64, energy: f64) -> f64 {
+    SAME_ENERGY * beyond + ROUNDING * energy.abs()
+}
+
+/// Whether places may differ by rounding alone, beside their size.
+fn is_near(apart: f64, size: f64) -> bool {
+    apart <= NEAR * size
+}
+
+/// Whether rates are no more than what rounding leaves of them.
+fn is_noise(rates: f64, noise: f64) -> bool {
+    rates <= ABOVE_NOISE * noise
+}
+
+/// Whether places are the same, beside their size and unit.
+fn is_same(apart: f64, size: f64) -> bool {
+    apart.abs() <= SAME * size
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn two_places_are_one_equilibrium_to_1e_7_of_their_size() {
+        assert!(is_same(-1.9e-7, 2.0) && !is_same(-2.1e-7, 2.0));
+        assert!(is_near(1.9e-3, 2.0) && !is_near(2.1e-3, 2.0));
+        assert!(is_noise(7.9, 2.0) && !is_noise(8.1, 2.0));
+    }
+
+    #[test]
+    fn energies_are_the_same_to_1e_7_of_their_change_and_to_rounding() {
+        let change = same_energy(2.0, 0.0);
+        assert!((1.9e-7..2.1e-7).contains(&change), "{change}");
+        // sixteen units in the last place of the energy, 3.6e-15
+        let rounding = same_energy(0.0, -2.0);
+        assert!((7.0e-15..7.2e-15).contains(&rounding), "{rounding}");
     }
 }

@@ -235,7 +235,7 @@ impl<'a> EquilibriumSearch<'a> {
         };
         let here = mobility(0.0);
         [SINGULAR, -SINGULAR].into_iter().all(|moved| {
-            here.zip(mobility(moved)).is_some_and(|(here, there)| here > FALLS_AWAY * there)
+            here.zip(mobility(moved)).is_some_and(|(here, there)| falls_away(here, there))
         })
     }
 
@@ -265,7 +265,7 @@ impl<'a> EquilibriumSearch<'a> {
                 return None;
             }
             let size = size_of(&self.in_units(&variables));
-            if f.amax() <= ZERO * size * df.amax() {
+            if is_zero(f.amax(), size * df.amax()) {
                 settled += 1;
                 if settled > 2 {
                     return self.accepted(&variables, &first);
@@ -357,7 +357,7 @@ impl<'a> EquilibriumSearch<'a> {
     /// however often the motion has gone round. What the search began at is in reach: the image of a place that is.
     fn accepted(&mut self, variables: &[f64], first: &[f64]) -> Option<Vec<f64>> {
         let moved = self.in_units(variables) - self.in_units(first);
-        let began_here = moved.amax() <= BEGAN_HERE * size_of(&self.in_units(first));
+        let began_here = begins_there(moved.amax(), size_of(&self.in_units(first)));
         let place = self.approached(&self.in_units(variables), &[])?;
         let place = self.without_lost_digits(place);
         let mut variables = self.unscaled(&place);
@@ -401,7 +401,7 @@ fn has_many_momenta(field: &mut VectorField, time: f64, start: &[f64], units: &[
         Some(field.derivative().view((0, degrees), (degrees, degrees)).into_owned())
     };
     let (Some(at_rest), Some(moving)) = (mobility(0.0), mobility(1.0)) else { return true };
-    (&at_rest - &moving).amax() > LINEAR_IN_MOMENTA * at_rest.amax().max(moving.amax())
+    differ((&at_rest - &moving).amax(), at_rest.amax().max(moving.amax()))
 }
 
 /// The size of a place in units.
@@ -432,4 +432,37 @@ fn resting_rates(
     let f = DVector::from_fn(n, |i, _| rate[resting[i]]);
     let df = DMatrix::from_fn(n, n, |i, j| derivative[(resting[i], resting[j])]);
     f.iter().chain(df.iter()).all(|x| x.is_finite()).then_some((f, df))
+}
+
+/// Whether a rate is zero beside what the variables can cause.
+fn is_zero(rate: f64, caused: f64) -> bool {
+    rate <= ZERO * caused
+}
+
+/// Whether a search that has moved so far ends where it began.
+fn begins_there(moved: f64, size: f64) -> bool {
+    moved <= BEGAN_HERE * size
+}
+
+/// Whether velocities per momentum next to a singular place are as much larger there.
+fn falls_away(here: f64, beside: f64) -> bool {
+    here > FALLS_AWAY * beside
+}
+
+/// Whether the derivatives of velocities by momenta differ, of at most this size.
+fn differ(by: f64, size: f64) -> bool {
+    by > LINEAR_IN_MOMENTA * size
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn thresholds_of_the_search_are_parts_of_what_they_are_compared_with() {
+        assert!(is_zero(1.9e-12, 2.0) && !is_zero(2.1e-12, 2.0));
+        assert!(begins_there(1.9e-6, 2.0) && !begins_there(2.1e-6, 2.0));
+        assert!(falls_away(201.0, 2.0) && !falls_away(199.0, 2.0));
+        assert!(differ(2.1e-9, 2.0) && !differ(1.9e-9, 2.0));
+    }
 }

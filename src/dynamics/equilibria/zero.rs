@@ -61,7 +61,7 @@ impl EquilibriumSearch<'_> {
             let size = size_of(&place);
             let step = &correction.step;
             let ratio = before.as_ref().map_or(0.0, |last| step.dot(last) / last.norm_squared());
-            let jump = LINEAR.contains(&ratio).then_some(1.0 / (1.0 - ratio));
+            let jump = multiplicity(ratio);
             let least = best.2.step.amax() <= f64::EPSILON * size;
             let mut next = None;
             for multiple in jump.into_iter().chain([1.0]).filter(|_| !least) {
@@ -69,8 +69,8 @@ impl EquilibriumSearch<'_> {
                 let Some((g, dg)) = self.evaluate(&there) else { continue };
                 let Some(after) = Correction::new(&dg, &g, held, size) else { continue };
                 let (_, f, one) = &best;
-                let shrinks = after.step.norm() < SHRINKS * one.step.norm()
-                    || one.left(&g) < FALLS * one.left(f);
+                let steps = [after.step.norm(), one.step.norm()];
+                let shrinks = leads_on(steps, [one.left(&g), one.left(f)]);
                 next = Some((there, g, after, multiple, shrinks));
                 if shrinks {
                     break;
@@ -115,7 +115,7 @@ impl EquilibriumSearch<'_> {
         step: &DVector<f64>,
     ) -> bool {
         let size = size_of(place);
-        if step.amax() > NEAR_ITS_ZERO * size {
+        if is_far_from_zero(step.amax(), size) {
             return false;
         }
         let Some((f, df)) = self.evaluate(place) else { return false };
@@ -124,10 +124,10 @@ impl EquilibriumSearch<'_> {
         } else {
             Correction::new(&df, &f, &[], size).map(|one| one.step)
         };
-        whole.is_some_and(|step| step.amax() <= AT_ITS_ZERO * size)
-            || self.noise(place, &f, &df).is_some_and(|noise| {
-                f.iter().zip(&noise).all(|(f, noise)| f.abs() <= ABOVE_NOISE * noise)
-            })
+        whole.is_some_and(|step| is_at_zero(step.amax(), size))
+            || self
+                .noise(place, &f, &df)
+                .is_some_and(|noise| f.iter().zip(&noise).all(|(&f, &noise)| is_noise(f, noise)))
     }
 
     /// The rounding error of each rate at a place: what its change over a tiny distance has beside the linear part.
@@ -151,6 +151,31 @@ impl EquilibriumSearch<'_> {
         }
         Some(noise)
     }
+}
+
+/// Whether a step leads on: by the next step and itself, or by what is left of the rates and what they were.
+fn leads_on([after, step]: [f64; 2], [left, rates]: [f64; 2]) -> bool {
+    after < SHRINKS * step || left < FALLS * rates
+}
+
+/// The order of a zero to which steps shrink by a constant ratio, if they do.
+fn multiplicity(ratio: f64) -> Option<f64> {
+    LINEAR.contains(&ratio).then_some(1.0 / (1.0 - ratio))
+}
+
+/// Whether a last step is too long for a zero to be there, in the size of the place.
+fn is_far_from_zero(step: f64, size: f64) -> bool {
+    step > NEAR_ITS_ZERO * size
+}
+
+/// Whether a last step is so short that a zero is there, whatever the rates.
+fn is_at_zero(step: f64, size: f64) -> bool {
+    step <= AT_ITS_ZERO * size
+}
+
+/// Whether a rate is no more than its rounding error.
+fn is_noise(rate: f64, noise: f64) -> bool {
+    rate.abs() <= ABOVE_NOISE * noise
 }
 
 /// A step towards a zero.
@@ -205,5 +230,40 @@ impl Correction {
     /// What is left of rates, by these slopes.
     fn left(&self, rates: &DVector<f64>) -> f64 {
         rates.component_div(&self.slopes).amax()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_step_leads_on_if_the_next_or_the_rates_become_smaller() {
+        for (steps, rates, leads) in [
+            ([1.93, 2.0], [2.0, 2.0], true),
+            ([1.95, 2.0], [2.0, 2.0], false),
+            ([2.0, 2.0], [1.79, 2.0], true),
+            ([2.0, 2.0], [1.81, 2.0], false),
+        ] {
+            assert_eq!(leads_on(steps, rates), leads, "{steps:?} {rates:?}");
+        }
+    }
+
+    /// Newton's steps to a zero of order m shrink by 1 − 1/m.
+    #[test]
+    fn zeros_of_order_two_to_a_thousand_are_met_at_once() {
+        for order in [2.0, 3.0, 900.0] {
+            let found = multiplicity(1.0 - 1.0 / order);
+            assert!(found.is_some_and(|found| (found - order).abs() < 1e-9 * order), "{order}");
+        }
+        assert!(multiplicity(0.401).is_some() && multiplicity(0.399).is_none());
+        assert!(multiplicity(0.9989).is_some() && multiplicity(0.9991).is_none());
+    }
+
+    #[test]
+    fn a_zero_is_within_a_thousandth_and_certain_within_a_billionth() {
+        assert!(is_far_from_zero(2.1e-3, 2.0) && !is_far_from_zero(1.9e-3, 2.0));
+        assert!(is_at_zero(1.9e-9, 2.0) && !is_at_zero(2.1e-9, 2.0));
+        assert!(is_noise(-127.0, 2.0) && !is_noise(-129.0, 2.0));
     }
 }
