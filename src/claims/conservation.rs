@@ -134,7 +134,7 @@ impl Claim {
     /// conserved. One whose rate of change vanishes all along this motion is.
     pub(super) fn unseen(&self, equations: &Equations, end: f64) -> Option<Diagnostic> {
         let (name, rate) = (&self.name, self.rate.filter(|_| self.refuted)?);
-        let mut help = if self.farthest > SEEN * self.size {
+        let mut help = if is_seen(self.farthest, self.size) {
             format!("it changes by {:.1e} until t = {end}, small beside its terms", self.farthest)
         } else {
             format!("it only keeps its value to rounding until t = {end}")
@@ -158,7 +158,7 @@ impl Claim {
             let help = "other units make them larger";
             return Some(Diagnostic::error(self.place.clone(), message).with_help(help));
         }
-        if self.farthest <= TOLERANCE * self.size {
+        if is_tolerated(self.farthest, self.size) {
             return None;
         }
         let drift = self.farthest / self.size;
@@ -170,5 +170,27 @@ impl Claim {
             help = format!("{help}; dE/dt = {rate}{between}");
         }
         Some(Diagnostic::error(self.place.clone(), message).with_help(help))
+    }
+}
+
+/// Whether a change is more than rounding of terms of this size.
+fn is_seen(change: f64, size: f64) -> bool {
+    change > SEEN * size
+}
+
+/// Whether a quantity that has changed by this, beside the size of its terms, counts as conserved.
+fn is_tolerated(change: f64, size: f64) -> bool {
+    change <= TOLERANCE * size
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_change_is_seen_beyond_1e_14_and_tolerated_up_to_1e_10_of_the_terms() {
+        assert!(is_seen(2.1e-14, 2.0) && !is_seen(1.9e-14, 2.0));
+        assert!(is_tolerated(1.9e-10, 2.0) && !is_tolerated(2.1e-10, 2.0));
+        assert!(!is_tolerated(f64::NAN, 2.0));
     }
 }

@@ -132,12 +132,7 @@ fn on_a_pole(
             continue;
         }
         let is_on_a_pole = |e: Expr| {
-            let with = |x: f64| pool.evaluate(e, &|s| if s == symbol { x } else { at(s) });
-            let here = with(value);
-            let beside = with(value * (1.0 + BESIDE)).abs().max(with(value * (1.0 - BESIDE)).abs());
-            beside > 0.0
-                && here.abs() > BESIDE_A_POLE * beside
-                && (with(value * (1.0 + ROUNDING)) - here).abs() > UNKNOWN * here.abs()
+            has_pole(value, |x| pool.evaluate(e, &|s| if s == symbol { x } else { at(s) }))
         };
         let Some(&pole) = of_it.iter().find(|&&e| is_on_a_pole(e)) else { continue };
         // a factor that is 0 may take the pole away
@@ -153,6 +148,16 @@ fn on_a_pole(
         }
     }
     None
+}
+
+/// Whether a function has a pole at a place, up to rounding.
+fn has_pole(place: f64, function: impl Fn(f64) -> f64) -> bool {
+    let at = |part: f64| function(place * (1.0 + part));
+    let here = at(0.0);
+    let beside = at(BESIDE).abs().max(at(-BESIDE).abs());
+    beside > 0.0
+        && here.abs() > BESIDE_A_POLE * beside
+        && (at(ROUNDING) - here).abs() > UNKNOWN * here.abs()
 }
 
 /// The first term of the law, or of what follows from it, that has no value although its own parts
@@ -202,4 +207,37 @@ fn describe(
         "a part of the law has no finite value".to_owned()
     };
     Some((coordinate, format!("{what} at {}", values.join(", "))))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::has_pole;
+
+    /// 1/(x − 1 + d), with more beside it from a distance on.
+    fn near_pole(x: f64, d: f64, (from, more): (f64, f64)) -> f64 {
+        let distance = x - 1.0;
+        let rest = if distance.abs() >= from { more } else { 0.0 };
+        1.0 / (distance + d) + rest
+    }
+
+    /// Four units in the last place, 8.9e-16, change 1/(x − 1 + d) by a tenth where d is 8.0e-15.
+    #[test]
+    fn a_value_that_rounding_changes_by_a_tenth_is_at_a_pole() {
+        let is_pole = |d: f64| has_pole(1.0, |x| near_pole(x, d, (0.0, 0.0)));
+        assert!(is_pole(7.9e-15) && !is_pole(8.1e-15));
+        assert!(is_pole(-1e-15) && !is_pole(0.5));
+    }
+
+    #[test]
+    fn a_pole_is_larger_by_1e8_than_a_thousandth_beside_it() {
+        let is_pole = |from: f64, more: f64| has_pole(1.0, |x| near_pole(x, 1e-15, (from, more)));
+        assert!(is_pole(1e-4, 0.99e7) && !is_pole(1e-4, 1.01e7));
+        assert!(is_pole(1.01e-3, 1e9) && !is_pole(0.99e-3, 1e9));
+    }
+
+    /// What vanishes beside a place has no size there to compare with.
+    #[test]
+    fn a_spike_alone_is_no_pole() {
+        assert!(!has_pole(1.0, |x| if x == 1.0 { 1e20 } else { 0.0 }));
+    }
 }

@@ -73,7 +73,7 @@ impl Pool {
         self.some_crossing(moving, at, switch, &|here| {
             let [(a, size_of_a), (b, size_of_b)] =
                 [above, below].map(|side| self.evaluate_with_size(side, here));
-            (a - b).abs() > SEEN * (size_of_a + size_of_b)
+            is_jump(a - b, size_of_a + size_of_b)
         })
     }
 
@@ -150,6 +150,11 @@ impl Pool {
     }
 }
 
+/// Whether a difference of what has terms of this size is more than rounding.
+fn is_jump(by: f64, size: f64) -> bool {
+    by.abs() > SEEN * size
+}
+
 /// Where a function changes its sign, to the last digit.
 fn crossings(value: &dyn Fn(f64) -> f64, places: &[f64]) -> Vec<f64> {
     let values: Vec<f64> = places.iter().map(|&place| value(place)).collect();
@@ -164,4 +169,14 @@ fn crossings(value: &dyn Fn(f64) -> f64, places: &[f64]) -> Vec<f64> {
         f64::midpoint(left, right)
     });
     located.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_jump_is_seen_beyond_a_billionth_of_the_terms() {
+        assert!(is_jump(-2.1e-9, 2.0) && !is_jump(-1.9e-9, 2.0));
+    }
 }

@@ -244,21 +244,10 @@ impl Pool {
 
     /// Decides by values alone, without a proof.
     fn by_values(&self, e: Expr) -> Zero {
-        let mut witnesses = 0;
-        let mut seen: Vec<bool> = Vec::new();
-        for n in QUICK..POINTS {
-            match self.witness(e, 0.0, &|s| sample(s, n)) {
-                Witness::Against => return Zero::No,
-                Witness::Silent => {}
-                Witness::For(visible) => {
-                    witnesses += 1;
-                    seen.resize(visible.len(), false);
-                    seen.iter_mut().zip(visible).for_each(|(all, one)| *all |= one);
-                }
-            }
+        match supported(|n| self.witness(e, 0.0, &|s| sample(s, n))) {
+            Zero::Numerically if self.may_hide(e) => Zero::Unknown,
+            known => known,
         }
-        let spoken = witnesses >= WITNESSES && seen.iter().all(|&seen| seen);
-        if spoken && !self.may_hide(e) { Zero::Numerically } else { Zero::Unknown }
     }
 
     fn witness(&self, e: Expr, slack: f64, at: &dyn Fn(Symbol) -> f64) -> Witness {
@@ -274,7 +263,7 @@ impl Pool {
         let sizes: Vec<Option<i64>> = terms.iter().map(magnitude).collect();
         let Some(largest) = sizes.iter().copied().flatten().max() else { return Witness::Silent };
         let noise = whole.uncertainty().unwrap_or(i64::MIN / 2);
-        if noise > largest - CLEAR {
+        if !is_clear(noise, largest) {
             return Witness::Silent;
         }
         Witness::For(sizes.iter().map(|size| size.is_some_and(|size| size > noise + 4)).collect())
@@ -357,5 +346,80 @@ impl Pool {
             })
             .collect();
         self.linear(Number::ZERO, &cleared)
+    }
+}
+
+/// What the values at the points with the later numbers support: zero if many do, and every term was seen at one of them.
+fn supported(mut witness: impl FnMut(u64) -> Witness) -> Zero {
+    let mut witnesses = 0;
+    let mut seen: Vec<bool> = Vec::new();
+    for n in QUICK..POINTS {
+        match witness(n) {
+            Witness::Against => return Zero::No,
+            Witness::Silent => {}
+            Witness::For(visible) => {
+                witnesses += 1;
+                seen.resize(visible.len(), false);
+                seen.iter_mut().zip(visible).for_each(|(all, one)| *all |= one);
+            }
+        }
+    }
+    let spoken = witnesses >= WITNESSES && seen.iter().all(|&seen| seen);
+    if spoken { Zero::Numerically } else { Zero::Unknown }
+}
+
+/// Whether a rounding error is far below the largest term; both as powers of two.
+fn is_clear(noise: i64, largest: i64) -> bool {
+    noise <= largest - CLEAR
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is supported where this many points do, and all others are silent.
+    fn by_so_many(points: u64) -> Zero {
+        let first = QUICK..QUICK + points;
+        supported(|n| if first.contains(&n) { Witness::For(vec![true]) } else { Witness::Silent })
+    }
+
+    #[test]
+    fn twelve_points_support_zero() {
+        assert_eq!(by_so_many(11), Zero::Unknown);
+        assert_eq!(by_so_many(12), Zero::Numerically);
+    }
+
+    #[test]
+    fn points_from_6_to_63_are_tried() {
+        let refuted_at = |at: u64| {
+            supported(|n| if n == at { Witness::Against } else { Witness::For(vec![true]) })
+        };
+        for (at, found) in
+            [(5, Zero::Numerically), (6, Zero::No), (63, Zero::No), (64, Zero::Numerically)]
+        {
+            assert_eq!(refuted_at(at), found, "point {at}");
+        }
+    }
+
+    #[test]
+    fn a_term_that_no_point_shows_is_not_decided() {
+        let found = |at: u64| supported(|n| Witness::For(vec![true, n == at]));
+        assert_eq!(found(40), Zero::Numerically);
+        assert_eq!(found(100), Zero::Unknown);
+    }
+
+    #[test]
+    fn rounding_is_24_powers_of_two_below_the_terms() {
+        assert!(is_clear(6, 30) && !is_clear(7, 30));
+    }
+
+    #[test]
+    fn a_power_beyond_16_may_hide() {
+        let mut pool = Pool::new();
+        let x = pool.named("x");
+        for (power, hides) in [(16, false), (17, true), (-16, false), (-17, true)] {
+            let e = pool.monomial(Number::ONE, &[(x, Number::integer(power))]);
+            assert_eq!(pool.may_hide(e), hides, "x^{power}");
+        }
     }
 }
