@@ -66,3 +66,25 @@ impl Deviation {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_deviation_is_rounding_up_to_1e_14_and_lost_from_a_tenth() {
+        let verdict = |farthest: f64| {
+            let mut deviation = Deviation::since(0.0);
+            deviation.observe(farthest);
+            deviation.gauge("c", "c", String::new(), 0.0).verdict
+        };
+        for (farthest, wanted) in [
+            (0.99e-14, Verdict::Exact(Growth::Level)),
+            (1.01e-14, Verdict::Bounded),
+            (0.099, Verdict::Bounded),
+            (0.101, Verdict::Lost),
+        ] {
+            assert_eq!(verdict(farthest), wanted, "{farthest}");
+        }
+    }
+}

@@ -39,7 +39,7 @@ impl Experiment {
                 let given = self.energy_of(after) - energy;
                 if !given.is_finite() {
                     lead
-                } else if given.abs() <= ROUNDING * (energy.abs() + self.motion_of(&before)) {
+                } else if is_rounding(given, energy.abs() + self.motion_of(&before)) {
                     format!("{lead}: energy unchanged")
                 } else {
                     let sign = if given < 0.0 { '−' } else { '+' };
@@ -50,5 +50,20 @@ impl Experiment {
         self.recorder.insert(clock, self.motion.values());
         self.log.occurrences.push(occurrence);
         Ok(sentence)
+    }
+}
+
+/// Whether a change of the energy is rounding, beside what it is and what moves of it.
+fn is_rounding(change: f64, size: f64) -> bool {
+    change.abs() <= ROUNDING * size
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_rounding;
+
+    #[test]
+    fn the_energy_changes_beyond_1e_12_of_its_size() {
+        assert!(is_rounding(-1.9e-12, 2.0) && !is_rounding(-2.1e-12, 2.0));
     }
 }

@@ -82,7 +82,7 @@ impl StoppedMotion<'_> {
         }?;
         let name = self.system.channels().get(found.coordinate)?.shown.clone();
         let digits = match (self.method.stepping, self.stepper.tolerance()) {
-            (Stepping::Adaptive, Some(tolerance)) => -math::log10(tolerance) - UNCERTAIN,
+            (Stepping::Adaptive, Some(tolerance)) => known_digits(tolerance),
             _ => f64::INFINITY,
         };
         let kind = MotionErrorKind::BlowsUp(name);
@@ -95,8 +95,7 @@ impl StoppedMotion<'_> {
         let MotionErrorKind::StepUnderflow(step) = fault.kind else { return None };
         let digits = spacing(fault.time);
         let begins = self.begun.is_some_and(|begun| begun.time == fault.time);
-        let ordinary = step.abs() > VANISHING * digits && step.abs() <= digits;
-        (begins && ordinary).then(|| MotionError {
+        (begins && is_ordinary(step, digits)).then(|| MotionError {
             kind: MotionErrorKind::ClockStands(digits),
             place: Vec::new(),
             time: fault.time,
@@ -151,7 +150,7 @@ impl StoppedMotion<'_> {
             samples.push(motion.speeds(&places)?);
         }
         let speed = Growth::of([0, 1, 2].map(|k| samples[k].size))?;
-        if !(LEAST - MARGIN..=GREATEST).contains(&speed.ratio) {
+        if !is_blow_up(speed.ratio) {
             return None;
         }
         let component = |i: usize| Growth::of([0, 1, 2].map(|k: usize| samples[k].components[i]));
@@ -159,14 +158,43 @@ impl StoppedMotion<'_> {
         let fastest = (0..places.len()).max_by(|i, j| fastest(i).total_cmp(&fastest(j)))?;
         // an angle may turn without bound on the way to a centre
         let mut others = (0..places.len()).filter(|&i| i != fastest).filter_map(component);
-        if speed.ratio < LEAST + MARGIN && others.any(|other| other.ratio < CONVERGING) {
+        if is_nearly_collision(speed.ratio) && others.any(|other| converges(other.ratio)) {
             return None;
         }
         let left = speed.ratio / (1.0 - speed.ratio) / speed.rate * interval;
         let time = motion.time + DoubleDouble::from(left - interval);
-        let near = left.abs() < STEPS_LEFT * step.abs();
-        near.then_some(BlowUp { coordinate: places[fastest], time })
+        is_near(left, step).then_some(BlowUp { coordinate: places[fastest], time })
     }
+}
+
+/// Whether a coordinate whose speed has this v̇²/(v v̈) reaches infinity in a finite time.
+fn is_blow_up(ratio: f64) -> bool {
+    (LEAST - MARGIN..=GREATEST).contains(&ratio)
+}
+
+/// Whether that may as well be a collision.
+fn is_nearly_collision(ratio: f64) -> bool {
+    ratio < LEAST + MARGIN
+}
+
+/// Whether a coordinate whose velocity has this v̇²/(v v̈) comes to a place.
+fn converges(ratio: f64) -> bool {
+    ratio < CONVERGING
+}
+
+/// Whether what happens after a time that is left is why a motion stopped over a step of this size.
+fn is_near(left: f64, step: f64) -> bool {
+    left.abs() < STEPS_LEFT * step.abs()
+}
+
+/// Whether a step is below the spacing of times, and not that of a motion at a singular place.
+fn is_ordinary(step: f64, spacing: f64) -> bool {
+    step.abs() > VANISHING * spacing && step.abs() <= spacing
+}
+
+/// The digits of a time that are known to a tolerance.
+fn known_digits(tolerance: f64) -> f64 {
+    -math::log10(tolerance) - UNCERTAIN
 }
 
 /// How a speed grows from one of three samples at equal intervals to the next, at the second of them.
@@ -245,4 +273,51 @@ fn rounded(number: f64, digits: f64) -> f64 {
     }
     let places = (digits.max(1.0) - 1.0) as usize;
     format!("{number:.places$e}").parse().unwrap_or(number)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// v = τ^−β has β/(β + 1): 1/2 for x = −2 ln τ, 2/3 for 1/τ and 3/4 for 1/τ², 2/5 for a collision of two bodies with β = 2/3 and
+    /// 1 for e^t.
+    #[test]
+    fn a_speed_that_grows_at_least_as_that_of_a_logarithm_and_less_than_exponentially_blows_up() {
+        let of = |beta: f64| beta / (beta + 1.0);
+        for (ratio, is_one) in [
+            (of(2.0), true),
+            (of(3.0), true),
+            (of(2.0 / 3.0), false),
+            (0.4991, true),
+            (0.4989, false),
+            (0.9949, true),
+            (0.9951, false),
+            (1.0, false),
+        ] {
+            assert_eq!(is_blow_up(ratio), is_one, "{ratio}");
+        }
+    }
+
+    #[test]
+    fn next_to_a_logarithm_another_coordinate_shows_a_collision() {
+        assert!(is_nearly_collision(0.5009) && !is_nearly_collision(0.5011));
+        assert!(converges(0.449) && !converges(0.451));
+    }
+
+    #[test]
+    fn a_motion_stops_within_a_million_steps_of_infinity() {
+        assert!(is_near(-1.9e6, 2.0) && !is_near(-2.1e6, 2.0));
+    }
+
+    #[test]
+    fn a_step_below_the_spacing_of_times_is_ordinary_down_to_a_billionth_of_it() {
+        for (step, is_one) in [(-2.0, true), (2.01, false), (2.1e-9, true), (1.9e-9, false)] {
+            assert_eq!(is_ordinary(step, 2.0), is_one, "{step}");
+        }
+    }
+
+    #[test]
+    fn two_digits_of_a_tolerance_are_not_shown() {
+        assert!((known_digits(1e-12) - 10.0).abs() < 1e-9);
+    }
 }

@@ -138,7 +138,7 @@ impl Saltation {
         scale: f64,
     ) -> Result<bool, MotionError> {
         let own = self.system.discontinuities().when.outputs();
-        for moment in [-GRAZING * scale, GRAZING * scale] {
+        for moment in moments_beside(scale) {
             let mut there = here.clone();
             let time = here.exact_time() + DoubleDouble::from(moment);
             (there.time, there.time_carry) = (time.high, time.low);
@@ -148,7 +148,7 @@ impl Saltation {
             let function = self.along(true, columns, motion, &there)?;
             let change = (function[own * (columns.len() + 1) + event].high - rate).abs();
             // nor is there a derivative where nothing is a number
-            if change.is_nan() || change >= rate.abs() || rate == 0.0 {
+            if change.is_nan() || is_as_large(change, rate) {
                 return Ok(true);
             }
         }
@@ -226,6 +226,16 @@ impl Saltation {
     }
 }
 
+/// The moments before and after an event at which its rate is evaluated, where the motion changes in a time of `scale`.
+fn moments_beside(scale: f64) -> [f64; 2] {
+    [-GRAZING * scale, GRAZING * scale]
+}
+
+/// Whether a rate changes by its own size.
+fn is_as_large(change: f64, rate: f64) -> bool {
+    change >= rate.abs() || rate == 0.0
+}
+
 /// A program whose last input is the time, so that it can be differentiated by it.
 fn timed(program: &Program) -> Program {
     let mut timed = program.clone();
@@ -246,4 +256,20 @@ fn depends_on_more(program: &Program, outputs: &[usize], first: usize) -> bool {
     chosen.outputs = outputs.iter().map(|&i| program.outputs[i]).collect();
     let needed = chosen.needed(outputs.len());
     program.inputs.iter().skip(first).any(|&r| needed[r as usize])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// g = b t + t² has the rate b at the event, and b ± 2·10⁻⁵ a hundred-thousandth of the time scale beside it.
+    #[test]
+    fn a_surface_is_grazed_if_the_rate_vanishes_a_hundred_thousandth_of_the_time_scale_away() {
+        let grazes = |b: f64, scale: f64| {
+            moments_beside(scale).into_iter().all(|t| is_as_large((2.0 * t).abs(), b))
+        };
+        assert!(grazes(-1.9e-5, 1.0) && !grazes(-2.1e-5, 1.0));
+        assert!(grazes(5.9e-5, 3.0) && !grazes(6.1e-5, 3.0));
+        assert!(is_as_large(0.0, 0.0));
+    }
 }

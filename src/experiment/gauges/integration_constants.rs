@@ -173,9 +173,9 @@ impl IntegrationConstants {
         for (relation, greatest) in &mut self.relations {
             let (value, size) = self.pool.evaluate_with_size(*relation, &value);
             *greatest = greatest.max(size);
-            is_near |= size <= NEAR * *greatest;
+            is_near |= are_branches_near(size, *greatest);
             // not a number where S has no slope
-            is_on &= value.abs() <= SAME * size;
+            is_on &= is_same(value, size);
         }
         if is_near {
             return false;
@@ -197,5 +197,27 @@ fn acting(model: &Model) -> Option<&'static str> {
         (true, false) => Some("friction"),
         (false, true) => Some("the forces"),
         (false, false) => None,
+    }
+}
+
+/// Whether p, of which the terms have this size, is so small beside the greatest that both branches of S have nearly the same.
+fn are_branches_near(size: f64, greatest: f64) -> bool {
+    size <= NEAR * greatest
+}
+
+/// Whether p − ∂S/∂q vanishes beside its terms.
+fn is_same(difference: f64, size: f64) -> bool {
+    difference.abs() <= SAME * size
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_momentum_is_the_slope_of_s_to_a_millionth_and_nothing_is_compared_below_a_hundredth() {
+        assert!(is_same(-1.9e-6, 2.0) && !is_same(-2.1e-6, 2.0));
+        assert!(!is_same(f64::NAN, 2.0));
+        assert!(are_branches_near(0.019, 2.0) && !are_branches_near(0.021, 2.0));
     }
 }

@@ -323,9 +323,7 @@ impl InvariantMonitor {
 
     /// The scale of drift where this much moves.
     fn scale_of(&self, moving: f64) -> f64 {
-        // terms that balance each other move by more than their sum
-        let is_error =
-            moving <= 2.0 * self.drift.farthest && moving <= ERROR * self.rounding.explained;
+        let is_error = is_error(moving, self.drift.farthest, self.rounding.explained);
         if is_error { self.rounding.greatest } else { moving }
     }
 
@@ -392,5 +390,22 @@ impl InvariantMonitor {
             },
             verdict,
         }
+    }
+}
+
+/// Whether what moves is error and no motion, where a value has been so far from its reference, and rounding explains so much.
+fn is_error(moving: f64, farthest: f64, explained: f64) -> bool {
+    // terms that balance each other move by more than their sum
+    moving <= 2.0 * farthest && moving <= ERROR * explained
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_error;
+
+    #[test]
+    fn what_moves_is_error_up_to_a_thousand_times_rounding_and_twice_the_distance() {
+        assert!(is_error(1.99, 1.0, 0.002) && !is_error(2.01, 1.0, 0.01));
+        assert!(is_error(0.99, 1.0, 0.001) && !is_error(1.01, 1.0, 0.001));
     }
 }

@@ -13,7 +13,7 @@ impl Propagator {
     /// Names a singular mass matrix in place of steps that became too small.
     pub(super) fn with_singular_mass(&self, fault: MotionError) -> MotionError {
         let is_singular = matches!(fault.kind, MotionErrorKind::StepUnderflow(_))
-            && self.mass_left().is_some_and(|left| left < SINGULAR);
+            && self.mass_left().is_some_and(is_singular);
         if is_singular {
             let values = &self.stepper.state().values;
             return self.system.fault(MotionErrorKind::SingularMass, fault.time, values);
@@ -34,5 +34,21 @@ impl Propagator {
         let now = self.system.mass_determinant(here, &self.parameters)?;
         let then = self.system.mass_determinant(&there, &self.parameters)?;
         Some((now / then).abs())
+    }
+}
+
+/// Whether a mass matrix is singular of whose determinant this part is left.
+fn is_singular(left: f64) -> bool {
+    left < SINGULAR
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_singular;
+
+    #[test]
+    fn a_mass_matrix_is_singular_below_a_millionth_of_its_determinant() {
+        assert!(is_singular(0.9e-6) && !is_singular(1.1e-6));
+        assert!(!is_singular(f64::NAN));
     }
 }
