@@ -45,12 +45,17 @@ fn mean_return(
         let times: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
         let mean = birkhoff_average(&times);
         let half = birkhoff_average(&times[times.len() / 4..3 * times.len() / 4]);
-        if (mean - half).abs() <= SETTLED * mean {
+        if has_settled(mean, half) {
             return Ok(mean);
         }
     }
     let why = "the times of its returns have no mean that settles: the other coordinates turn in step with it";
     Err(NoAction::NoReturn(why.to_owned()))
+}
+
+/// Whether an average has settled, by that over half of the returns.
+fn has_settled(mean: f64, half: f64) -> bool {
+    (mean - half).abs() <= SETTLED * mean
 }
 
 /// Where the returns that are averaged over begin.
@@ -80,5 +85,15 @@ impl<'a> MeanStart<'a> {
         };
         let start = potential.moving(0.0, row.energy, way)?;
         Ok(MeanStart { start, event, crossings: 1 })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::has_settled;
+
+    #[test]
+    fn an_average_has_settled_to_1e_10_of_it() {
+        assert!(has_settled(2.0, 2.0 - 1.9e-10) && !has_settled(2.0, 2.0 - 2.1e-10));
     }
 }

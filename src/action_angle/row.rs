@@ -256,7 +256,7 @@ fn libration(
     let other = if from == left { right } else { left };
     for (row, expected) in found.iter().zip([other, from, other, from]) {
         let place = row[systems.column];
-        if (place - expected).abs() > RETURNS * (right - left) {
+        if is_elsewhere(place - expected, right - left) {
             if !one {
                 return Err(NoAction::NotSeparable { found: place, expected });
             }
@@ -291,8 +291,8 @@ fn other_rest(
     let depth = energy - potential.profile.bottom_between(ends)?;
     let start = potential.at_rest(place);
     let rest = potential.observed(&start, kind).ok()?;
-    let differs = (potential.at(place) - energy).abs() > OTHER_REST * depth;
-    differs.then_some(NoAction::SeveralRests { place, momentum, rest })
+    let differs = potential.at(place) - energy;
+    is_another_rest(differs, depth).then_some(NoAction::SeveralRests { place, momentum, rest })
 }
 
 /// How much later than located the return is. Where q̇ vanishes as a power of p − p₀, as in H = p⁴ + V, its zero is a multiple
@@ -311,7 +311,7 @@ fn late(
     let missing = begun - row[1 + column];
     let width = (other - from).abs();
     let typical = 0.5 * action.abs() / width;
-    if missing.abs() <= MULTIPLE_ZERO * typical {
+    if is_simple_zero(missing, typical) {
         return Ok(0.0);
     }
     let step = SLOPE_STEP * width;
@@ -354,7 +354,7 @@ pub fn cyclic_row(
     let found = follow(systems, (systems.turning, systems.turns), &start, 3)?;
     for (row, expected) in found.iter().zip([right, left, right]) {
         let place = row[systems.column];
-        if (place - expected).abs() > RETURNS * (right - left) {
+        if is_elsewhere(place - expected, right - left) {
             return Err(NoAction::NotSeparable { found: place, expected });
         }
     }
@@ -403,6 +403,21 @@ fn rotation(
     Ok(ActionRow { energy, kind, turning_points, action, period, mean_rate, is_uneven })
 }
 
+/// Whether a coordinate has turned so far from where it should that it is another place, beside the width of the region.
+fn is_elsewhere(off: f64, width: f64) -> bool {
+    off.abs() > RETURNS * width
+}
+
+/// Whether an energy at rest differs from that of the motion, beside the depth of the well.
+fn is_another_rest(differs: f64, depth: f64) -> bool {
+    differs.abs() > OTHER_REST * depth
+}
+
+/// Whether a zero of q̇ is a simple one by the momentum there, which is off by `missing`.
+fn is_simple_zero(missing: f64, typical: f64) -> bool {
+    missing.abs() <= MULTIPLE_ZERO * typical
+}
+
 /// Whether the times of two returns differ.
 fn differs(one: f64, other: f64) -> bool {
     (one - other).abs() > EVEN * other
@@ -435,4 +450,17 @@ pub(super) fn follow(
 fn end(found: &[Vec<f64>]) -> (f64, f64) {
     let last = found.last().map_or(&[][..], |row| row);
     (last.first().copied().unwrap_or(f64::NAN), last.last().copied().unwrap_or(f64::NAN))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn thresholds_of_a_return_are_parts_of_what_they_are_compared_with() {
+        assert!(is_elsewhere(-2.1e-7, 2.0) && !is_elsewhere(-1.9e-7, 2.0));
+        assert!(differs(2.0 + 2.1e-7, 2.0) && !differs(2.0 + 1.9e-7, 2.0));
+        assert!(is_simple_zero(-1.9e-9, 2.0) && !is_simple_zero(-2.1e-9, 2.0));
+        assert!(is_another_rest(-2.1e-3, 2.0) && !is_another_rest(-1.9e-3, 2.0));
+    }
 }

@@ -441,3 +441,22 @@ fn verdict([action, height]: [f64; 2]) -> &'static str {
         "not adiabatic"
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::verdict;
+
+    #[test]
+    fn a_change_of_a_hundredth_tells_that_it_is_slow_and_one_of_a_tenth_that_it_is_not() {
+        for (changes, word) in [
+            ([0.0, 0.0101], "adiabatic"),
+            ([0.0, 0.0099], "undecided so far"),
+            ([-0.099, 0.0], "undecided so far"),
+            ([-0.101, 0.0], "not adiabatic"),
+            ([0.099, -0.099], "undecided so far"),
+            ([0.099, -0.101], "not adiabatic"),
+        ] {
+            assert_eq!(verdict(changes), word, "{changes:?}");
+        }
+    }
+}

@@ -251,7 +251,7 @@ impl Way {
     }
 
     fn near(&self, a: &[f64], b: &[f64]) -> bool {
-        distance(a, b) <= SAME * self.reach
+        is_same(distance(a, b), self.reach)
     }
 
     /// Which of the paths the motion takes, up to what its method is wrong by.
@@ -265,14 +265,24 @@ impl Way {
         nearest.sort_by(|a, b| a.0.total_cmp(&b.0));
         let &(away, index) = nearest.first()?;
         let next = nearest.get(1).map_or(f64::INFINITY, |next| next.0);
-        let of_method = away <= OF_METHOD * self.method_error && FARTHER * away <= next;
-        (away <= SAME * self.reach || of_method).then_some(index)
+        let is_own = is_same(away, self.reach) || is_of_method([away, next], self.method_error);
+        is_own.then_some(index)
     }
 
     fn seen(&self, path: &StationaryPath, own: bool) -> TruePath {
         let points = self.times().map(|t| [self.begin + t, path.at(t)[self.coordinate]]).collect();
         TruePath { action: path.action, index: path.index, kind: path.kind, own, points }
     }
+}
+
+/// Whether places so far from each other are the same, beside the reach of the coordinate.
+fn is_same(apart: f64, reach: f64) -> bool {
+    apart <= SAME * reach
+}
+
+/// Whether a motion is on the nearer of two paths that are so far from it, up to what its method is wrong by.
+fn is_of_method([away, next]: [f64; 2], method_error: f64) -> bool {
+    away <= OF_METHOD * method_error && FARTHER * away <= next
 }
 
 /// The greatest difference of two places in a coordinate.
@@ -357,4 +367,21 @@ fn lines(answer: Option<&Answer>) -> Vec<String> {
         count => format!("{line} ({count} paths)"),
     });
     named.chain((more > 0).then(|| format!("and {more} more"))).chain(until).chain(since).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn paths_are_the_same_to_a_millionth_of_their_reach() {
+        assert!(is_same(1.9e-6, 2.0) && !is_same(2.1e-6, 2.0));
+    }
+
+    #[test]
+    fn a_motion_is_on_a_path_within_four_errors_of_its_method_if_the_next_is_eight_times_farther() {
+        assert!(is_of_method([0.39, f64::INFINITY], 0.1));
+        assert!(!is_of_method([0.41, f64::INFINITY], 0.1));
+        assert!(is_of_method([0.1, 0.81], 0.1) && !is_of_method([0.1, 0.79], 0.1));
+    }
 }

@@ -250,13 +250,23 @@ impl<'a> PathStudy<'a> {
 
 /// Reports a variation that does not vanish at both ends.
 fn report_free_ends(variation: impl Fn(f64) -> Vec<f64>, duration: f64) {
-    let size = |t: f64| variation(t).iter().fold(0.0_f64, |most, d| most.max(d.abs()));
-    let greatest = divisions(0.0, duration, INTERVALS).map(size).fold(0.0, f64::max);
-    if size(0.0).max(size(duration)) > HOLDS * greatest {
+    if has_free_ends(variation, duration) {
         stderr::report(
             "the variation does not vanish at both ends: where it does not, the action changes by p δq, also on a true path",
         );
     }
+}
+
+/// Whether a variation does not vanish at both ends.
+fn has_free_ends(variation: impl Fn(f64) -> Vec<f64>, duration: f64) -> bool {
+    let size = |t: f64| variation(t).iter().fold(0.0_f64, |most, d| most.max(d.abs()));
+    let greatest = divisions(0.0, duration, INTERVALS).map(size).fold(0.0, f64::max);
+    size(0.0).max(size(duration)) > HOLDS * greatest
+}
+
+/// Whether what is left of an equation vanishes beside its terms.
+fn holds(left: f64, size: f64) -> bool {
+    left.abs() <= HOLDS * size.max(f64::MIN_POSITIVE)
 }
 
 /// Whether d/dt ∂L/∂q̇ − ∂L/∂q vanishes along a written path.
@@ -293,7 +303,7 @@ fn stationary(
         }
         residuals.iter().all(|&e| {
             let (value, size) = pool.evaluate_with_size(e, &|s| point.at(s));
-            value.abs() <= HOLDS * size.max(f64::MIN_POSITIVE)
+            holds(value, size)
         })
     })
 }
@@ -311,4 +321,30 @@ fn conjugates(
         laid.start.state(&laid.system).map_err(|why| DynamicsError::Unsuited(why.to_string()))?;
     let start = space.state_at(&space.state(&state)?, variables);
     conjugate_points(&space, (laid.method, laid.settings), &start, duration)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_equation_holds_to_a_billionth_of_its_terms() {
+        assert!(holds(-1.9e-9, 2.0) && !holds(-2.1e-9, 2.0));
+        assert!(holds(0.0, 0.0) && !holds(f64::NAN, 2.0));
+    }
+
+    /// 2 t (1 − t/3) of at most 1.5, and a part of it at one end.
+    #[test]
+    fn a_variation_vanishes_at_its_ends_to_a_billionth_of_its_largest_value() {
+        let is_free = |end: f64, value: f64| {
+            has_free_ends(
+                |t| vec![0.0, 2.0 * t * (1.0 - t / 3.0) + if t == end { value } else { 0.0 }],
+                3.0,
+            )
+        };
+        for end in [0.0, 3.0] {
+            assert!(!is_free(end, -1.4e-9), "{end}");
+            assert!(is_free(end, -1.6e-9), "{end}");
+        }
+    }
 }
