@@ -7,7 +7,7 @@
 //!
 //! It replaces crossterm's own reader because of that reader's bugs in version 0.29. Each row was observed on a
 //! pseudo-terminal, and has its upstream thread (crossterm-rs/crossterm) and the test that covers it here. Once all
-//! of them are fixed upstream, this file can go: `event::poll` and `event::read` fit behind [`EventSource`].
+//! of them are fixed upstream, this file and its folder can go: `event::poll` and `event::read` fit behind [`EventSource`].
 //!
 //! | crossterm's reader | thread | test |
 //! |---|---|---|

@@ -265,7 +265,7 @@ impl<'a> EquilibriumSearch<'a> {
                 return None;
             }
             let size = size_of(&self.in_units(&variables));
-            if is_zero(f.amax(), size * df.amax()) {
+            if is_zero(f.amax(), [size, df.amax()]) {
                 settled += 1;
                 if settled > 2 {
                     return self.accepted(&variables, &first);
@@ -434,9 +434,9 @@ fn resting_rates(
     f.iter().chain(df.iter()).all(|x| x.is_finite()).then_some((f, df))
 }
 
-/// Whether a rate is zero beside what the variables can cause.
-fn is_zero(rate: f64, caused: f64) -> bool {
-    rate <= ZERO * caused
+/// Whether a rate is zero beside what variables of this size can cause by its slopes.
+fn is_zero(rate: f64, [size, slope]: [f64; 2]) -> bool {
+    rate <= ZERO * size * slope
 }
 
 /// Whether a search that has moved so far ends where it began.
@@ -460,7 +460,7 @@ mod tests {
 
     #[test]
     fn thresholds_of_the_search_are_parts_of_what_they_are_compared_with() {
-        assert!(is_zero(1.9e-12, 2.0) && !is_zero(2.1e-12, 2.0));
+        assert!(is_zero(5.9e-12, [3.0, 2.0]) && !is_zero(6.1e-12, [3.0, 2.0]));
         assert!(begins_there(1.9e-6, 2.0) && !begins_there(2.1e-6, 2.0));
         assert!(falls_away(201.0, 2.0) && !falls_away(199.0, 2.0));
         assert!(differ(2.1e-9, 2.0) && !differ(1.9e-9, 2.0));

@@ -6,7 +6,7 @@
 //! ratatui's `CrosstermBackend` would need more bytes: a frame of a motion takes a quarter less with this pen in 24-bit
 //! colour, 30 % less with 256 colours, 40 % with 16 and 28 % with none (`cargo bench --bench frames`). It also writes
 //! the sixteen colours as `38;5;n` (crossterm-rs/crossterm#844), which a terminal limited to sixteen colours interprets
-//! as blinking; and it reads the process's `NO_COLOR`, on which no recorded cast may depend.
+//! as blinking.
 
 use std::io;
 
