@@ -264,7 +264,7 @@ fn a_killed_sweep_is_resumed_to_the_same_bytes() {
     assert_eq!(fs::read_to_string(home.path().join("out.csv")).unwrap(), whole);
 }
 
-/// Shards through GNU parallel and through Slurm, killed and resumed; of what is not installed the script says so.
+/// Shards through a loop, GNU parallel and Slurm, killed and resumed; of what is not installed the script says so.
 #[test]
 fn shards_run_through_schedulers() {
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/sweep-through-schedulers");
@@ -273,6 +273,7 @@ fn shards_run_through_schedulers() {
     let said = String::from_utf8_lossy(&output.stdout).into_owned();
     let errors = String::from_utf8_lossy(&output.stderr).into_owned();
     assert!(output.status.success(), "{said}{errors}");
+    assert!(said.lines().any(|line| line.starts_with("a loop: the same bytes")), "{said}{errors}");
     for scheduler in ["GNU parallel", "Slurm"] {
         let line = said.lines().find(|line| line.starts_with(scheduler));
         let line = line.unwrap_or_else(|| panic!("{said}{errors}"));
