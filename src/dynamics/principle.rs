@@ -105,7 +105,9 @@ fn quadratic_parts([rest, once, back, twice]: [f64; 4]) -> Option<[f64; 3]> {
     let (even, odd) = (f64::midpoint(once, back) - rest, 0.5 * (once - back));
     let off = (twice - rest - 4.0 * even - 2.0 * odd).abs();
     let size = twice.abs() + once.abs() + back.abs() + rest.abs();
-    (!(off > QUADRATIC * size)).then_some([rest, odd, even])
+    // what is not a number is no other part
+    let has_others = off > QUADRATIC * size;
+    (!has_others).then_some([rest, odd, even])
 }
 
 /// A Hamiltonian at fixed parameters, as a function of (t, q, p).
