@@ -102,6 +102,7 @@ mod state;
 mod state_layout;
 mod state_sum;
 mod steep_arguments;
+mod steep_program;
 mod step_series;
 mod surface;
 mod tangent;

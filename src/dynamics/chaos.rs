@@ -97,7 +97,7 @@ impl Evidence<'_> {
         let between = megno > REGULAR && megno < CHAOTIC;
         let reason = if rises && megno <= REGULAR {
             format!(
-                "MEGNO is {megno:.2} (regular up to {REGULAR}, chaotic from {CHAOTIC}), but rises in proportion to time, and the largest exponent is \
+                "MEGNO is {megno:.2} (regular up to {REGULAR}, chaotic from {CHAOTIC}), but rises in proportion to time, and λ is \
                  known to ± {off:.1e}: a longer time may tell"
             )
         } else if between {
@@ -108,7 +108,7 @@ impl Evidence<'_> {
         } else {
             format!(
                 "MEGNO is {megno:.1} (regular up to {REGULAR}, chaotic from {CHAOTIC}), but neighbouring motions part by \
-                 e^{grown:.1} in a time of {time}, and the largest exponent is known to ± {off:.1e}: a longer time may tell"
+                 e^{grown:.1} in a time of {time}, and λ is known to ± {off:.1e}: a longer time may tell"
             )
         };
         (Chaos::Undecided, reason)

@@ -13,6 +13,18 @@ use super::valuation::Valuation;
 use crate::expr::Symbol;
 use crate::model::Model;
 
+/// An image is moved by this part of it, and where the inverse moves by more than …
+const NUDGE: f64 = 1e-12;
+
+/// … this part of itself its terms cancel, as those of ln(Q + √(Q² + 1)) do for Q far below 0: what it fails by is rounding.
+const MOVES: f64 = 1e-9;
+
+/// Whether values are nearly those beside them.
+fn are_close(values: &[(Symbol, f64)], beside: &[(Symbol, f64)]) -> bool {
+    let mut pairs = values.iter().zip(beside);
+    pairs.all(|((_, one), (_, other))| (one - other).abs() <= MOVES * one.abs().max(other.abs()))
+}
+
 impl PhaseMap {
     /// Whether an inverse fails at the image of a point. Of a map whose new variables are not written down nothing is said.
     pub(super) fn is_inverse_local(
@@ -31,8 +43,10 @@ impl PhaseMap {
         near.chain(far).any(|point| {
             let image = values(forwards, &point);
             let old = values(inverse, &point.clone().with(image.iter().copied()));
-            let all = image.iter().chain(&old);
-            if !all.clone().all(|(_, value)| value.is_finite()) {
+            let beside = image.iter().map(|&(symbol, value)| (symbol, value * (1.0 + NUDGE)));
+            let beside = values(inverse, &point.clone().with(beside));
+            let all = image.iter().chain(&old).chain(&beside);
+            if !all.clone().all(|(_, value)| value.is_finite()) || !are_close(&old, &beside) {
                 return false;
             }
             let back = point.with(old);

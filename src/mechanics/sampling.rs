@@ -36,8 +36,8 @@ pub(super) const FAR_POINTS: u64 = 60;
 /// powers have no value.
 const DECADES: u64 = 36;
 
-/// The number of points at any distance: three at each.
-pub const ANY_POINTS: u64 = 3 * DECADES;
+/// The number of points at any distance: those far from the start, and three at each power of ten.
+pub const ANY_POINTS: u64 = FAR_POINTS + 3 * DECADES;
 
 /// The scales tried in turn if all coordinates, or all velocities, start at 0.
 const SIZES: [f64; 6] = [1.0, 1.0, 1e-3, 1e3, 1e-6, 1e-9];
@@ -84,8 +84,12 @@ impl Valuation {
         Valuation::around_start(model, equations, n, (n / count, FAR[(n % count) as usize]))
     }
 
-    /// The n-th point at any distance from the start, by powers of ten.
+    /// The n-th point at any distance from the start: first those [far from it](Valuation::far_from_start), which are close
+    /// enough to each other to see what is there alone, then others by powers of ten.
     pub fn at_any_distance(model: &Model, equations: &Equations, n: u64) -> Valuation {
+        let Some(n) = n.checked_sub(FAR_POINTS) else {
+            return Valuation::far_from_start(model, equations, n);
+        };
         let width = math::powi(10.0, (n % DECADES) as i32 + 1);
         Valuation::around_start(model, equations, n, (n / DECADES, width))
     }

@@ -16,7 +16,7 @@ use super::separability::NotSeparable;
 use super::terms::{ConservedTerms, Terms};
 use super::value::Evaluator;
 use super::variations::Variations;
-use super::{Channel, Discontinuities, Form, State, steep_arguments};
+use super::{Channel, Discontinuities, Form, State, steep_program};
 use crate::cancel::Cancel;
 use crate::expr::{Expr, Symbol};
 use crate::mechanics::Equations;
@@ -234,7 +234,7 @@ impl System {
             known: coordinates.iter().map(known).collect(),
             energy,
             discontinuities: Discontinuities::of(model, builder)?,
-            steep: steep_arguments::program(builder)?,
+            steep: steep_program::program(builder)?,
             watch: list.compile(builder)?,
             terms: quantities.compile(builder)?,
             inertia: None,

@@ -6,12 +6,8 @@
 use std::sync::Arc;
 
 use super::native_states::NativeStates;
-use super::observables;
-use super::program::Program;
-use super::rhs::ProgramBuilder;
 use super::value::Evaluator;
 use super::{MotionError, State, System};
-use crate::expr::{Expr, FunctionId, Node, Symbol};
 
 /// Evaluates the arguments in the law of one system at one set of parameters.
 #[derive(Clone, Debug)]
@@ -21,26 +17,6 @@ pub struct SteepArguments {
     values: Evaluator<f64>,
     inputs: Vec<f64>,
     count: usize,
-}
-
-/// The program of the arguments, functions of (q, native rates, action, work).
-pub(super) fn program(builder: &mut ProgramBuilder<'_>) -> Result<Arc<Program>, Symbol> {
-    let law = builder.equations.flow.expressions();
-    let moving = builder.equations.moving();
-    let mut arguments: Vec<Option<Expr>> = Vec::new();
-    for part in builder.pool.reachable(&law) {
-        let argument = match builder.pool.node(part) {
-            Node::Call(
-                FunctionId::Exp | FunctionId::Tanh | FunctionId::Sinh | FunctionId::Cosh,
-                argument,
-            ) => argument[0],
-            _ => continue,
-        };
-        if builder.pool.depends_on_any(argument, &moving) && !arguments.contains(&Some(argument)) {
-            arguments.push(Some(argument));
-        }
-    }
-    observables::program(builder, &arguments)
 }
 
 impl SteepArguments {

@@ -55,7 +55,9 @@ fn a_motion_that_needs_no_impulse_passes_a_kink_of_its_constraint() {
         let mut motion = under("y - x*abs(x)", [-1.0, -1.0, 1.0, 2.0], method);
         run(&mut motion, 2.0);
         let (u, v) = (value(&motion, "x'"), value(&motion, "y'"));
-        assert!((u * u + v * v - 5.0).abs() < 1e-4, "{method}: {u} {v}");
+        // equal steps do not end on the kink of the second derivative
+        let error = if method == "rk4" { 1e-3 } else { 1e-4 };
+        assert!((u * u + v * v - 5.0).abs() < error, "{method}: {u} {v}");
         assert!(value(&motion, "x") > 0.0, "{method}");
         let mut motion = under("y - abs(x)", [1.0, 1.0, 1.0, 1.0], method);
         run(&mut motion, 2.0);

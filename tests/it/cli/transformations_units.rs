@@ -11,7 +11,7 @@ struct Oscillator {
 }
 
 const ATOM: Oscillator =
-    Oscillator { start: ["1e-11", "1e-24"], parameters: ["1e-27", "1e14", "1e-10"] };
+    Oscillator { start: ["1e-11", "1e-24"], parameters: ["1e-27", "1e14", "3e-10"] };
 const GRAIN: Oscillator = Oscillator { start: ["1", "1e-6"], parameters: ["1e-6", "1", "1e-7"] };
 const UNIT: Oscillator = Oscillator { start: ["1", "0.9"], parameters: ["1.1", "0.8", "0.1"] };
 
