@@ -13,10 +13,11 @@ use super::valuation::Valuation;
 use crate::expr::Symbol;
 use crate::model::Model;
 
-/// An image is moved by this part of it, and where the inverse moves by more than …
-const NUDGE: f64 = 1e-12;
+/// An image is moved by these parts of it to see whether the inverse is known there.
+const NUDGES: [f64; 6] = [1e-12, -1e-12, 3e-12, -3e-12, 7e-12, -7e-12];
 
-/// … this part of itself its terms cancel, as those of ln(Q + √(Q² + 1)) do for Q far below 0: what it fails by is rounding.
+/// An inverse that moves by more than this part of itself has terms that cancel, as those of ln(Q + √(Q² + 1)) do for Q far below
+/// 0: what it fails by is rounding.
 const MOVES: f64 = 1e-9;
 
 /// Whether values are nearly those beside them.
@@ -43,10 +44,11 @@ impl PhaseMap {
         near.chain(far).any(|point| {
             let image = values(forwards, &point);
             let old = values(inverse, &point.clone().with(image.iter().copied()));
-            let beside = image.iter().map(|&(symbol, value)| (symbol, value * (1.0 + NUDGE)));
-            let beside = values(inverse, &point.clone().with(beside));
-            let all = image.iter().chain(&old).chain(&beside);
-            if !all.clone().all(|(_, value)| value.is_finite()) || !are_close(&old, &beside) {
+            let is_known = NUDGES.iter().all(|nudge| {
+                let beside = image.iter().map(|&(symbol, value)| (symbol, value * (1.0 + nudge)));
+                are_close(&old, &values(inverse, &point.clone().with(beside)))
+            });
+            if !is_known || !image.iter().chain(&old).all(|(_, value)| value.is_finite()) {
                 return false;
             }
             let back = point.with(old);
