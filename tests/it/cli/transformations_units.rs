@@ -119,8 +119,8 @@ fn the_branch_of_k_is_that_of_the_start_in_all_units() {
     }
 }
 
-/// x + 1000 max(0, x − 50) and x + ½(|x − 2| + x − 2) are undone by Q where they begin, and not beyond the kink: that is told, and K in
-/// the old variables holds everywhere.
+/// x + 1000 max(0, x − 50) and x + ½(|x − 2| + x − 2) are undone by Q where they begin, and not beyond the kink: that is told, K in
+/// the old variables holds everywhere, and the inverse as a map of its own is solved for.
 #[test]
 fn an_inverse_that_holds_near_the_start_alone_says_so() {
     let file = |position: &str, momentum: &str, more: &str| {
@@ -149,6 +149,14 @@ fn an_inverse_that_holds_near_the_start_alone_says_so() {
         let found = derived(&file(position, momentum, ""));
         assert_eq!(found["near_start"], false, "{found}");
     }
+    // the image of 90 is 20 beyond the kink at 50
+    let back = "[[transformations]]\nname = \"back\"\nkind = \"inverse\"\nof = [\"m\"]\nnew = [\"X\", \"Y\"]\n";
+    let text = file("x + max(0, x - 50)", "2*p_x/(3 + sign(x - 50))", back);
+    let text = text.replace("initial = 1,", "initial = 40,");
+    let words = ["run", "system.toml", "--format=json", "--init=x=90", "--at=0", "--observe=X"];
+    let run = with_file(&text, &words).json();
+    let last = run["rows"][0].as_array().expect("a row").last().expect("X").as_f64();
+    assert!((last.expect("a number") - 70.0).abs() < 1e-9, "{run}");
 }
 
 /// H + ∂S/∂t of S = a x − ½ a² t (1 + δ) is −½ δ a², which is δ/2 of its terms, a²/2 and another, in all units.
