@@ -35,7 +35,7 @@ pub use birkhoff::birkhoff_average;
 pub use compensated::accumulate;
 pub use digest::digest;
 pub use double_double::DoubleDouble;
-pub use eigenvalues::eigenvalues;
+pub use eigenvalues::{eigenvalues, has_squares};
 pub use extended_range::ExtendedRange;
 pub use finite::all_finite;
 pub use format::{short, significant, to_its_error};

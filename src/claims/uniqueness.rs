@@ -4,7 +4,9 @@
 //! makes a motion one of several.
 
 use crate::diagnostic::Diagnostic;
-use crate::integrate::{Method, Propagator, Settings, method_named, several_motions};
+use crate::integrate::{
+    Method, Propagator, Settings, SeveralMotions, method_named, several_motions,
+};
 use crate::model::Model;
 use crate::num::short;
 use crate::system::{State, System};
@@ -22,6 +24,17 @@ pub fn several_starts(
     by: (&'static Method, Settings),
 ) -> Option<String> {
     let found = several_motions(system, state, parameters)?;
+    sentence(model, system, (state, parameters), by, found)
+}
+
+/// The sentence about a start of several motions.
+fn sentence(
+    model: &Model,
+    system: &System,
+    (state, parameters): (&State, &[f64]),
+    by: (&'static Method, Settings),
+    found: SeveralMotions,
+) -> Option<String> {
     let coordinate = model.coordinates.get(found.coordinate)?;
     let (name, x) = (&coordinate.name, state.values[found.coordinate]);
     let sides = match found.sides {
@@ -66,9 +79,8 @@ pub(super) fn diagnostic(model: &Model, system: &System) -> Option<Diagnostic> {
         Some(method) => (method, Settings { step: run.step, tolerance: run.tolerance }),
         None => (method_named("taylor")?, Settings::default()),
     };
-    let message = several_starts(model, system, (&state, &parameters), by)?;
-    let place = several_motions(system, &state, &parameters)
-        .and_then(|found| model.coordinates.get(found.coordinate))
-        .map_or_else(|| model.law_place.clone(), |coordinate| coordinate.place.clone());
+    let found = several_motions(system, &state, &parameters)?;
+    let message = sentence(model, system, (&state, &parameters), by, found)?;
+    let place = model.coordinates.get(found.coordinate)?.place.clone();
     Some(Diagnostic::warning(place, message))
 }

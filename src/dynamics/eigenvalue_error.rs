@@ -10,26 +10,15 @@
 use nalgebra::linalg::balancing::balance_parlett_reinsch;
 use nalgebra::{Complex, DMatrix};
 
-use super::linear::coupled;
-use crate::num::math;
+use super::linear::{EIGENVECTOR, SWEEPS, coupled};
+use super::small_oscillation::EQUAL;
+use crate::num::{has_squares, math};
 
 /// What the decomposition adds to each entry of a balanced matrix, as a part of the largest.
 const DECOMPOSED: f64 = 8.0 * f64::EPSILON;
 
 /// First-order errors are given this many times: they are estimates.
 const TIMES: f64 = 8.0;
-
-/// Eigenvalues are one, several times, if they differ by less than this part of their size, …
-const EQUAL: f64 = 1e-6;
-
-/// … and if as many vectors are taken to less than this part of the largest entry.
-const NULL: f64 = 1e-5;
-
-/// The maximal number of iterations of a decomposition.
-const SWEEPS: usize = 10_000;
-
-/// The squares of entries in this range neither overflow nor vanish.
-const SQUARED: std::ops::Range<f64> = 1e-140..1e140;
 
 /// The error of each of these eigenvalues of a matrix whose entries are known to `error`; infinite where first order gives none.
 pub(super) fn eigenvalue_errors(
@@ -38,8 +27,7 @@ pub(super) fn eigenvalue_errors(
     eigenvalues: &[[f64; 2]],
 ) -> Vec<f64> {
     let unknown = || vec![f64::INFINITY; eigenvalues.len()];
-    let ordinary = |x: &f64| *x == 0.0 || SQUARED.contains(&x.abs());
-    if matrix.is_empty() || !matrix.iter().all(ordinary) {
+    if matrix.is_empty() || !has_squares(matrix) {
         return unknown();
     }
     let n = matrix.nrows();
@@ -81,7 +69,7 @@ fn first_order(
     let mut order: Vec<usize> = (0..n).collect();
     order.sort_by(|&a, &b| sizes[a].total_cmp(&sizes[b]));
     let largest = matrix.amax().max(math::hypot(re, im));
-    let count = if sizes[*order.get(count - 1)?] <= NULL * largest { count } else { 1 };
+    let count = if sizes[*order.get(count - 1)?] <= EIGENVECTOR * largest { count } else { 1 };
     let left = DMatrix::from_fn(n, count, |i, k| left[(i, order[k])]);
     let right = DMatrix::from_fn(n, count, |i, k| right[(order[k], i)].conj());
     let sizes = |m: &DMatrix<Complex<f64>>| m.map(Complex::norm);

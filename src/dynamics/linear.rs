@@ -6,7 +6,7 @@ use nalgebra::{Complex, DMatrix, DVector};
 use crate::num;
 
 /// The maximal number of iterations of a decomposition.
-const SWEEPS: usize = 10_000;
+pub(super) const SWEEPS: usize = 10_000;
 
 /// What is less than this part of the largest eigenvalue is rounding of a small matrix.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
@@ -173,7 +173,7 @@ fn refined(
 const REFINEMENTS: usize = 2;
 
 /// What the matrix minus i ω takes to zero up to this part of the largest of its entries is its eigenvector.
-const EIGENVECTOR: f64 = 1e-5;
+pub(super) const EIGENVECTOR: f64 = 1e-5;
 
 /// Orthonormal vectors that the matrix minus i ω takes to (nearly) zero, the best first; there is one at least.
 pub(super) fn null_vectors(matrix: &DMatrix<f64>, omega: f64) -> Vec<DVector<Complex<f64>>> {

@@ -20,7 +20,6 @@ use super::resonance::along_resonance;
 use super::search_budget::SearchBudget;
 use super::transverse::{self, Removed};
 use super::unclosed_motion::explained;
-use super::unit_circle::KnownMultipliers;
 use crate::integrate::{Method, Settings};
 use crate::num::short;
 use crate::system::State;
@@ -124,21 +123,15 @@ impl Orbit {
             let turned = newton.units.map(&circuit.monodromy).abs() * frame;
             error.amax() + DIRECTIONS * turned.amax()
         });
-        let least = rounding.unwrap_or(0.0).max(f64::EPSILON);
         let errors = match rounding {
-            Some(_) => eigenvalue_errors(&transverse, &transverse.map(|_| least), &multipliers),
+            Some(rounding) => {
+                let error = transverse.map(|_| rounding.max(f64::EPSILON));
+                eigenvalue_errors(&transverse, &error, &multipliers)
+            }
             None => vec![f64::INFINITY; multipliers.len()],
         };
-        let is_symplectic = space.is_hamiltonian();
-        let known = KnownMultipliers {
-            multipliers: &multipliers,
-            errors: &errors,
-            rounding: least,
-            is_symplectic,
-        };
-        let stable = known.none_is_outside();
         let size = newton.size(&closed.state);
-        Ok(Orbit {
+        let mut orbit = Orbit {
             period: closed.period,
             energy: space.system().energy(&closed.state, space.parameters())?,
             closure: closed.residual / size.max(f64::MIN_POSITIVE),
@@ -151,11 +144,13 @@ impl Orbit {
             trivial,
             levels,
             errors,
-            is_symplectic,
+            is_symplectic: space.is_hamiltonian(),
             rounding,
-            stable,
+            stable: false,
             settings: circuit.settings,
-        })
+        };
+        orbit.stable = orbit.known().none_is_outside();
+        Ok(orbit)
     }
 }
 

@@ -12,7 +12,7 @@ use crate::num::math;
 const ROUNDING: f64 = 1e3 * f64::EPSILON;
 
 /// Two frequencies are equal up to this part: a pair without two modes differs by the root of rounding.
-const EQUAL: f64 = 1e-6;
+pub(super) const EQUAL: f64 = 1e-6;
 
 /// A part of a mode below this is rounding, which equal frequencies leave half the digits of.
 const REAL: f64 = 1e-7;

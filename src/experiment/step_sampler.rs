@@ -9,7 +9,7 @@ use crate::system::{BatchTerms, Form, State, System, TermWatch};
 /// The fractional part of the golden ratio.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
-/// The digits of the clock in a step at whose end a law of the time is told to the same part of what it changes in the step.
+/// The digits of the clock in a step at whose end a law of the time is resolved to the same part of what it changes in the step.
 const RESOLVED: f64 = 1e8;
 
 /// A step that is at least this part of the time between two samples is observed in any case: there would be few other times.
@@ -54,10 +54,10 @@ impl StepSampler {
         }
     }
 
-    /// Whether what a law of the time changes within a step is told at its end, where the time is rounded to the digits of the
+    /// Whether what a law of the time changes within a step is resolved at its end, where the time is rounded to the digits of the
     /// clock; `spacing` is the time between two samples. Steps that are long beside that one are always observed.
     pub(super) fn resolves(&self, [begin, end]: [f64; 2], spacing_of_samples: f64) -> bool {
-        !self.depends_on_time || is_told((end - begin).abs(), spacing_of_samples, spacing(end))
+        !self.depends_on_time || is_resolved((end - begin).abs(), spacing_of_samples, spacing(end))
     }
 
     /// Sets the parameters.
@@ -87,25 +87,25 @@ impl StepSampler {
 }
 
 /// Whether the end of a step of a law that depends on the time is observed, by the time between samples and the digits of the clock.
-fn is_told(step: f64, spacing_of_samples: f64, digits: f64) -> bool {
+fn is_resolved(step: f64, spacing_of_samples: f64, digits: f64) -> bool {
     step >= PART_OF_SAMPLES * spacing_of_samples || step >= RESOLVED * digits
 }
 
 #[cfg(test)]
 mod tests {
-    use super::is_told;
+    use super::is_resolved;
 
     #[test]
-    fn a_step_is_told_from_a_hundred_million_digits_of_the_clock_or_a_thousandth_of_a_sample() {
+    fn a_step_is_resolved_from_a_hundred_million_digits_of_the_clock_or_a_thousandth_of_a_sample() {
         for unit in [1e-9, 1.0, 1e9] {
-            for (step, samples, digits, told) in [
+            for (step, samples, digits, expected) in [
                 (1.1, 1e6, 1e-8, true),
                 (0.9, 1e6, 1e-8, false),
                 (1.1, 1e3, 1.0, true),
                 (0.9, 1e3, 1.0, false),
             ] {
-                let found = is_told(step * unit, samples * unit, digits * unit);
-                assert_eq!(found, told, "{step} of {samples} and {digits} in {unit}");
+                let found = is_resolved(step * unit, samples * unit, digits * unit);
+                assert_eq!(found, expected, "{step} of {samples} and {digits} in {unit}");
             }
         }
     }

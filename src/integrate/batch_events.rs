@@ -70,11 +70,10 @@ impl BatchEvents {
         let events = &self.system.discontinuities().events;
         let blank = State::new(0.0, self.system.form(), Vec::new());
         let functions = self.system.event_functions(parameters);
-        let native = self.system.convert(state, self.system.form(), parameters);
         self.lanes[lane] = functions.map(|functions| {
             let mut locator = EventLocator::new(functions, events, blank);
-            if let Ok(native) = &native {
-                locator.find_vanishing(&self.system, native, parameters);
+            if let Ok(native) = self.system.convert(state, self.system.form(), parameters) {
+                locator.find_vanishing(&self.system, &native, parameters);
             }
             let accumulation = vec![AccumulationDetector::NONE; events.len()];
             LaneSearch { locator, start: state.time, clear: state.time, accumulation }

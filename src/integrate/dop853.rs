@@ -267,7 +267,7 @@ impl DormandPrince {
     }
 
     /// The part of the attempted step that shows all of what exponential functions in the law do; 1 for all of it.
-    fn told_part(&mut self, step: f64) -> f64 {
+    fn resolved_part(&mut self, step: f64) -> f64 {
         if step.abs() <= SHORT * self.shortest() {
             return 1.0;
         }
@@ -362,7 +362,7 @@ impl Stepper for DormandPrince {
             if passes_kink {
                 error = 1.0;
             }
-            let part = if error <= 1.0 { self.told_part(step) } else { 1.0 };
+            let part = if error <= 1.0 { self.resolved_part(step) } else { 1.0 };
             if part < 1.0 {
                 self.size = step.abs() * part;
                 failures += 1;

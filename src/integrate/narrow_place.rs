@@ -8,7 +8,7 @@
 
 use crate::system::{State, SteepArguments};
 
-/// The largest change of an argument in one step: e^u is then told by the points within it.
+/// The largest change of an argument in one step: e^u is then resolved by the points within it.
 const FARTHEST: f64 = 6.0;
 
 /// Beyond this argument no exponential is a number: there it may move at once.
@@ -40,13 +40,13 @@ fn part_of(begin: End, end: End) -> f64 {
         let (a, b) = (begin.slope - d, d - end.slope);
         begin.value + s * (d + (1.0 - s) * (a * (1.0 - s) + b * s))
     };
-    let told = |u: f64| u.clamp(-SATURATED, SATURATED);
+    let limited = |u: f64| u.clamp(-SATURATED, SATURATED);
     let turns = |k: u32| {
         let (begin, end) = (begin.value.abs(), end.value.abs());
         begin.min(end) > SATURATED && at(k).abs() < NEAR * begin.max(end)
     };
-    let first =
-        (1..=PLACES).find(|&k| (told(at(k)) - told(begin.value)).abs() > FARTHEST || turns(k));
+    let first = (1..=PLACES)
+        .find(|&k| (limited(at(k)) - limited(begin.value)).abs() > FARTHEST || turns(k));
     first.map_or(1.0, |k| f64::from((k - 1).max(1)) / f64::from(PLACES))
 }
 
@@ -127,38 +127,37 @@ impl NarrowPlaces {
 #[derive(Clone, Debug)]
 pub(super) struct PassedPlaces {
     arguments: SteepArguments,
-    /// Those at the last ends, the newest last.
-    ends: Vec<Vec<f64>>,
+    /// Those at the last ends, the newest last, …
+    ends: [Vec<f64>; 3],
+    /// … and how many of these are known.
+    known: usize,
 }
 
 impl PassedPlaces {
     pub(super) fn new(arguments: SteepArguments) -> PassedPlaces {
-        PassedPlaces { arguments, ends: Vec::new() }
+        let ends = std::array::from_fn(|_| vec![0.0; arguments.count()]);
+        PassedPlaces { arguments, ends, known: 0 }
     }
 
     /// Records the end of a step. Returns whether the last one or two of them have passed a place where the law changes by more than
     /// they could tell.
     pub(super) fn has_passed(&mut self, state: &State) -> bool {
-        let mut here = vec![0.0; self.arguments.count()];
-        if self.arguments.observe(state, &mut here).is_err() {
-            self.ends.clear();
+        let [oldest, middle, newest] = &mut self.ends;
+        std::mem::swap(oldest, middle);
+        std::mem::swap(middle, newest);
+        if self.arguments.observe(state, newest).is_err() {
+            self.known = 0;
             return false;
         }
-        if self.ends.len() == 3 {
-            self.ends.remove(0);
-        }
-        self.ends.push(here);
-        let told = |u: f64| u.clamp(-SEEN, SEEN);
-        match &self.ends[..] {
-            [first, middle, last] => (0..last.len()).any(|i| {
-                let (a, b, c) = (first[i], middle[i], last[i]);
-                (told(c) - told(b)).abs() > FARTHEST || turns_unseen(a, b, c)
-            }),
-            [before, last] => {
-                before.iter().zip(last).any(|(&b, &c)| (told(c) - told(b)).abs() > FARTHEST)
-            }
-            _ => false,
-        }
+        self.known = (self.known + 1).min(self.ends.len());
+        let [oldest, middle, newest] = &self.ends;
+        let limited = |u: f64| u.clamp(-SEEN, SEEN);
+        let known = self.known;
+        (0..newest.len()).any(|i| {
+            let (a, b, c) = (oldest[i], middle[i], newest[i]);
+            let jumps = known > 1 && (limited(c) - limited(b)).abs() > FARTHEST;
+            jumps || known > 2 && turns_unseen(a, b, c)
+        })
     }
 }
 
@@ -200,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn a_change_by_six_is_told_and_one_by_more_is_not() {
+    fn a_change_by_six_is_resolved_and_one_by_more_is_not() {
         let line = |by: f64| (End { value: 1.0, slope: by }, End { value: 1.0 + by, slope: by });
         let part = |by: f64| part_of(line(by).0, line(by).1);
         assert_eq!(part(5.9), 1.0);

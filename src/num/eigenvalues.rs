@@ -28,8 +28,7 @@ pub fn eigenvalues(mut matrix: DMatrix<f64>) -> Vec<[f64; 2]> {
         return Vec::new();
     }
     // squares the entries, and does not end where a square overflows
-    let ordinary = |x: &f64| *x == 0.0 || SQUARED.contains(&x.abs());
-    let unit = if matrix.iter().all(ordinary) { 1.0 } else { brought_near_one(&mut matrix) };
+    let unit = if has_squares(&matrix) { 1.0 } else { brought_near_one(&mut matrix) };
     balancing::balance_parlett_reinsch(&mut matrix);
     let found = (0..=REFLECTIONS).find_map(|k| {
         if k > 0 {
@@ -39,6 +38,11 @@ pub fn eigenvalues(mut matrix: DMatrix<f64>) -> Vec<[f64; 2]> {
     });
     let values = found.map(|schur| schur.complex_eigenvalues());
     values.iter().flat_map(|values| values.iter().map(|z| [z.re * unit, z.im * unit])).collect()
+}
+
+/// Whether the squares of all entries neither overflow nor vanish.
+pub fn has_squares(matrix: &DMatrix<f64>) -> bool {
+    matrix.iter().all(|x| *x == 0.0 || SQUARED.contains(&x.abs()))
 }
 
 /// The same linear map after a reflection of the axes, R A R with R = 1 − 2 v vᵀ, whose direction differs with `k`: the

@@ -19,11 +19,11 @@ impl Propagator {
     /// # Errors
     /// Returns an error if the step leads over one.
     pub(super) fn watch_corners(&mut self) -> Result<(), MotionError> {
-        let state = self.stepper.state().clone();
         let Some(projector) = &mut self.projector else { return Ok(()) };
-        if state.form != Form::Velocity || !projector.may_have_corners() {
+        if self.stepper.state().form != Form::Velocity || !projector.may_have_corners() {
             return Ok(());
         }
+        let state = self.stepper.state().clone();
         let (begin, end) = self.stepper.interval();
         if begin == end {
             return Ok(());
