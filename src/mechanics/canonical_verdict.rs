@@ -127,10 +127,7 @@ impl PhaseMap {
             return Some(TangentTest { largest, residual, allowed });
         }
         // entries whose terms cancel have an error of their own
-        let size = |i: usize, j: usize| {
-            pool.evaluate_with_size(self.by_old[i][j], &|symbol| at.at(symbol)).1
-        };
-        let mut sizes = DMatrix::from_fn(rows, columns, size);
+        let mut sizes = DMatrix::from_fn(rows, columns, |i, j| at.size(pool, self.by_old[i][j]));
         units.apply([&mut matrix, &mut sizes]);
         let rounding = SIZED * f64::EPSILON * sizes.norm_squared();
         let (largest, residual) = (matrix.amax(), departure(&matrix));
