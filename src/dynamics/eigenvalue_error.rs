@@ -10,8 +10,7 @@
 use nalgebra::linalg::balancing::balance_parlett_reinsch;
 use nalgebra::{Complex, DMatrix};
 
-use super::linear::{EIGENVECTOR, SWEEPS, coupled};
-use super::small_oscillation::EQUAL;
+use super::linear::{EIGENVECTOR, EQUAL, SWEEPS, coupled};
 use crate::num::{has_squares, math};
 
 /// What the decomposition adds to each entry of a balanced matrix, as a part of the largest.

@@ -11,6 +11,9 @@ pub(super) const SWEEPS: usize = 10_000;
 /// What is less than this part of the largest eigenvalue is rounding of a small matrix.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
+/// Two eigenvalues are equal up to this part: a pair without two eigenvectors differs by the root of rounding.
+pub(super) const EQUAL: f64 = 1e-6;
+
 /// Singular values up to this part of the largest entry are rounding of a matrix in balanced units.
 const KERNEL: f64 = 1e-12;
 

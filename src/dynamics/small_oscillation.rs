@@ -5,14 +5,11 @@
 use nalgebra::{Complex, DMatrix, DVector};
 
 use super::eigenvalue_error::eigenvalue_errors;
-use super::linear;
+use super::linear::{self, EQUAL};
 use crate::num::math;
 
 /// The rounding error of the square of an eigenvalue, as a part of that of the largest.
 const ROUNDING: f64 = 1e3 * f64::EPSILON;
-
-/// Two frequencies are equal up to this part: a pair without two modes differs by the root of rounding.
-pub(super) const EQUAL: f64 = 1e-6;
 
 /// A part of a mode below this is rounding, which equal frequencies leave half the digits of.
 const REAL: f64 = 1e-7;
