@@ -53,7 +53,9 @@ pub use equilibria::{
     FoundEquilibria, classes, described, described_mode, displaced, equilibria_search, start_along,
     start_at, value_at,
 };
-pub use kind::{Axis, Columns, Instrument, Measure, NoStart, Offer, Plot, PlotContext};
+pub use kind::{
+    Axis, Columns, Instrument, Measure, MotionCurve, NoStart, Offer, Plot, PlotContext,
+};
 pub use periodic_points::{PeriodicOrbits, PeriodicPoints};
 pub use picture::{
     Across, Entry, Field, Heading, Ink, Layer, Level, MarkerShape, Picture, Stroke, Upwards,

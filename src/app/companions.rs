@@ -71,11 +71,12 @@ impl App {
 
     /// Shows the periodic orbit near the motion; where it is shown already, it is searched for near where the motion is now.
     pub(super) fn find_orbit(&mut self) -> Vec<Effect> {
+        let kind = "orbit";
         let shown = self.lab.as_ref().and_then(|lab| lab.focused_plot());
-        if shown.is_some_and(|(_, plot)| plot.kind.name() == "orbit") {
+        if shown.is_some_and(|(_, plot)| plot.kind.name() == kind) {
             return self.add_orbits();
         }
-        self.show_picture("orbit")
+        self.show_picture(kind)
     }
 
     /// Removes all motions beside the main one.

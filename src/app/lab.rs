@@ -15,7 +15,7 @@ use super::steady_verdicts::SteadyVerdicts;
 use super::{DrawnPanes, LawInView, Loaded, Pane, Prediction, Selection, ValueId};
 use crate::experiment::{Snapshot, Status};
 use crate::expr::Zero;
-use crate::instrument::{CameraPose, Plot, Present, Returned};
+use crate::instrument::{CameraPose, MotionCurve, Plot, Present, Returned};
 use crate::mechanics::Valuation;
 use crate::model::Shape;
 
@@ -262,7 +262,7 @@ impl Lab {
         let is_place = |axis: usize| {
             plot.column(axis).and_then(|column| channels.get(column)).is_some_and(|c| c.is_place)
         };
-        let is_portrait = plot.kind.name() == "phase";
+        let is_portrait = plot.kind.curve() == Some(MotionCurve::Portrait);
         plot.kind.is_scene() || is_portrait && plot.is_plane(physics) && is_place(0) && is_place(1)
     }
 

@@ -4,7 +4,7 @@
 //! through the points, and how far it is from the motion. Never here: who predicts, cells.
 
 use super::pane::Pane;
-use crate::instrument::Plot;
+use crate::instrument::{MotionCurve, Plot};
 use crate::num::math;
 
 /// The number of pieces of a smooth curve between two of its points.
@@ -40,12 +40,14 @@ impl Prediction {
     /// Whether a plot has these axes.
     pub fn is_on(&self, plot: &Plot) -> bool {
         let [across, upwards] = self.axes.map(|axis| axis.channel);
-        match (plot.kind.name(), across) {
-            ("time", None) => plot
+        match (plot.kind.curve(), across) {
+            (Some(MotionCurve::AgainstTime), None) => plot
                 .columns
                 .first()
                 .is_some_and(|shown| upwards.is_some_and(|channel| shown.contains(&channel))),
-            ("phase", Some(_)) => [plot.column(0), plot.column(1)] == [across, upwards],
+            (Some(MotionCurve::Portrait), Some(_)) => {
+                [plot.column(0), plot.column(1)] == [across, upwards]
+            }
             _ => false,
         }
     }

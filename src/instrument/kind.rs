@@ -65,6 +65,16 @@ pub trait Instrument: Sync {
         false
     }
 
+    /// The curve of the motion itself that it draws over its axes, if that is what it shows.
+    fn curve(&self) -> Option<MotionCurve> {
+        None
+    }
+
+    /// Whether its axes are new variables of a transformation.
+    fn is_transformed(&self) -> bool {
+        self.written().iter().any(|axis| axis.transformed)
+    }
+
     /// Whether it shows a surface of section, which a file specifies beside its axes.
     fn is_section(&self) -> bool {
         false
@@ -206,6 +216,15 @@ pub trait Instrument: Sync {
     fn measures(&self) -> &'static [Measure] {
         &[]
     }
+}
+
+/// How a plot draws the motion itself.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MotionCurve {
+    /// Quantities over the time.
+    AgainstTime,
+    /// One quantity over another.
+    Portrait,
 }
 
 /// An axis of a kind: a key of files and sessions, and a step of the choice.

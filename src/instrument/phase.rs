@@ -9,7 +9,8 @@ use std::sync::Arc;
 use super::equilibria::marks;
 use super::{
     Across, Answer, Axis, Columns, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape,
-    Measure, Need, NoStart, Offer, Physics, Picture, Plot, PlotContext, Present, Upwards, value_at,
+    Measure, MotionCurve, Need, NoStart, Offer, Physics, Picture, Plot, PlotContext, Present,
+    Upwards, value_at,
 };
 use crate::analysis::{Landscape, Plane};
 use crate::dynamics::Equilibrium;
@@ -41,6 +42,10 @@ impl Instrument for Phase {
 
     fn written(&self) -> &'static [Axis] {
         &[Axis::ACROSS, Axis::UPWARDS]
+    }
+
+    fn curve(&self) -> Option<MotionCurve> {
+        Some(MotionCurve::Portrait)
     }
 
     fn has_equal_axes(&self) -> bool {

@@ -1,8 +1,8 @@
 //! `time`: quantities against time, each in its colour.
 
 use super::{
-    Across, Axis, Columns, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Offer,
-    Physics, Picture, Plot, PlotContext, Present, Upwards,
+    Across, Axis, Columns, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, MotionCurve,
+    Offer, Physics, Picture, Plot, PlotContext, Present, Upwards,
 };
 
 /// The levels of the picture: the marks lie over the curves, and the current state over the marks.
@@ -20,6 +20,10 @@ impl Instrument for Time {
 
     fn written(&self) -> &'static [Axis] {
         &[Axis { several: true, ..Axis::UPWARDS }]
+    }
+
+    fn curve(&self) -> Option<MotionCurve> {
+        Some(MotionCurve::AgainstTime)
     }
 
     /// The window ends at the current time.

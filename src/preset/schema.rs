@@ -1,6 +1,6 @@
 //! The preset's tables: the allowed keys of each, their kinds, and their purposes.
 //!
-//! In: nothing. Out: [`FILE`], by which the reader decides which keys are allowed or missing, and [`reference`], the
+//! In: the kinds of plots. Out: [`FILE`], by which the reader decides which keys are allowed or missing, and [`reference`], the
 //! description of the format for users. Never here: values, names chosen by the file, or their combined meaning.
 
 mod body;

@@ -6,6 +6,7 @@ use ratatui::layout::Rect;
 
 use super::wrap::words;
 use crate::app::{Lab, Pane, ValueId};
+use crate::instrument::{Instrument, MotionCurve};
 
 /// The smallest usable screen.
 pub(super) const LEAST: (u16, u16) = (40, 10);
@@ -187,34 +188,36 @@ fn meaning(lab: &Lab, width: u16) -> u16 {
 /// is in none of them although there is a view of it, that view replaces the last phase portrait, or else the last one that
 /// is not against time; with room for three, it leaves (q, p) beside (Q, P) and replaces one against time or another map. Of the rest the plot that is focused, or was last, takes the last slot.
 fn chosen(lab: &Lab, room: usize) -> Vec<Pane> {
-    let kind = |index: &usize| lab.plots[*index].kind.name();
+    let kind = |index: &usize| lab.plots[*index].kind;
     let mut shown: Vec<usize> = (0..lab.plots.len().min(room)).collect();
-    let against_time = (0..lab.plots.len()).find(|index| kind(index) == "time");
+    let against_time = (0..lab.plots.len()).find(|index| is_against_time(kind(index)));
     if let (Some(time), Some(last)) = (against_time.filter(|t| *t >= room), shown.get_mut(2..))
-        && let Some(last) = last.last_mut().filter(|last| kind(last) == "phase")
+        && let Some(last) = last.last_mut().filter(|last| is_portrait(kind(last)))
     {
         *last = time;
     }
-    shown.sort_by_key(|index| kind(index) == "time");
+    shown.sort_by_key(|index| is_against_time(kind(index)));
     let is_motion = |index: &usize| lab.shows_motion(&lab.plots[*index]);
     if !shown.iter().any(is_motion)
         && let Some(motion) = view_of_motion(lab)
     {
-        let last = |is: &dyn Fn(&str) -> bool| shown.iter().rposition(|index| is(kind(index)));
-        let maps = shown.iter().filter(|index| kind(index) == "transformation").count();
+        let last =
+            |is: &dyn Fn(&dyn Instrument) -> bool| shown.iter().rposition(|index| is(kind(index)));
+        let maps = shown.iter().filter(|index| kind(index).is_transformed()).count();
         let replaced = match (maps, shown.len()) {
-            (0, _) | (_, ..=2) => last(&|kind| kind == "phase"),
-            (1, _) => last(&|kind| kind == "time"),
-            _ => last(&|kind| kind == "time").or(last(&|kind| kind == "transformation")),
+            (0, _) | (_, ..=2) => last(&is_portrait),
+            (1, _) => last(&is_against_time),
+            _ => last(&is_against_time).or(last(&|kind| kind.is_transformed())),
         };
-        let replaced = replaced.or(last(&|kind| kind != "time"));
+        let replaced = replaced.or(last(&|kind| !is_against_time(kind)));
         if let Some(place) = replaced.or(shown.len().checked_sub(1)) {
             shown[place] = motion;
         }
     }
     // A cloud of points says nothing before what it is of has been seen moving.
     if let [first, second, ..] = &mut shown[..]
-        && kind(first) == "section"
+        && kind(first).is_section()
+        && kind(first).takes_seeds()
         && lab.plots[*second].kind.is_scene()
     {
         std::mem::swap(first, second);
@@ -226,6 +229,14 @@ fn chosen(lab: &Lab, room: usize) -> Vec<Pane> {
         *last = front;
     }
     shown.into_iter().map(Pane::Plot).collect()
+}
+
+fn is_against_time(kind: &dyn Instrument) -> bool {
+    kind.curve() == Some(MotionCurve::AgainstTime)
+}
+
+fn is_portrait(kind: &dyn Instrument) -> bool {
+    kind.curve() == Some(MotionCurve::Portrait)
 }
 
 /// The best view of the motion: a scene, or else a plane of places.

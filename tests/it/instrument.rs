@@ -73,6 +73,71 @@ fn every_kind_has_a_name_of_its_own() {
     }
 }
 
+/// A new kind costs its file, a row and at most one file more: nothing above the table decides by the name of a kind, but asks
+/// what the kind says of itself. A key or a search may still name the kind that it opens.
+#[test]
+fn nothing_above_the_table_decides_by_the_name_of_a_kind() {
+    let named: Vec<String> =
+        INSTRUMENTS.iter().map(|kind| format!("\"{}\"", kind.name())).collect();
+    let mut offenders = Vec::new();
+    let mut read = 0;
+    for room in ["preset", "experiment", "worker", "app", "view", "record", "shell"] {
+        for (path, code) in sources(room) {
+            // what a file calls its own parts may be spelled as a kind is; only who knows of kinds can mean one
+            if room == "preset" && !code.contains("instrument::") {
+                continue;
+            }
+            read += 1;
+            let code = code.split("\n#[cfg(test)]").next().unwrap_or_default();
+            for line in code.lines().filter(|line| decides_by(line, &named)) {
+                offenders.push(format!("{path}: {}", line.trim()));
+            }
+        }
+    }
+    assert!(read > 200, "{read}");
+    assert!(offenders.is_empty(), "{offenders:#?}");
+    assert!(decides_by("    kind.name() == \"phase\"", &named));
+    assert!(decides_by("    (\"time\", None) => plot", &named));
+    assert!(decides_by("    .only(&[\"map\", \"diagram\"])", &named));
+    assert!(!decides_by("    Action::Ensemble => self.show_picture(\"ensemble\"),", &named));
+}
+
+/// Whether a line compares something with the name of a kind, matches on it, or lists it.
+fn decides_by(line: &str, names: &[String]) -> bool {
+    let pattern = line.split_once("=>").map_or("", |(pattern, _)| pattern);
+    names.iter().any(|name| {
+        let compared = ["== ", "!= "].map(|before| format!("{before}{name}"));
+        let listed =
+            line.contains("only(") || line.contains("contains(") || line.contains("matches!(");
+        pattern.contains(name)
+            || compared.iter().any(|text| line.contains(text))
+            || listed && line.contains(name)
+            || line.trim_start().starts_with(name) && line.trim_end().ends_with("\",")
+    })
+}
+
+/// The source files of a room with their paths.
+fn sources(room: &str) -> Vec<(String, String)> {
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let (mut found, mut folders) = (Vec::new(), vec![root.join(room)]);
+    let mut add = |path: std::path::PathBuf| {
+        let code = std::fs::read_to_string(&path).expect("a source file");
+        found.push((path.display().to_string(), code));
+    };
+    add(root.join(format!("{room}.rs")));
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(&folder).into_iter().flatten() {
+            let path = entry.expect("an entry").path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|extension| extension == "rs") {
+                add(path);
+            }
+        }
+    }
+    found
+}
+
 #[test]
 fn every_kind_is_drawn_told_of_and_kept() {
     for kind in nonempty(kinds()) {

@@ -103,8 +103,9 @@ fn piece(mut table: Table<'_>, diagnostics: &mut Diagnostics) -> Option<DraftPie
     table.is_of_kind(solid.unwrap_or("point"));
     let mass = table.formula("mass", diagnostics);
     let mut sizes = Vec::new();
-    let sized =
-        |row: &&Key| row.only.len() < SOLIDS.len() && solid.is_some_and(|s| row.only.contains(&s));
+    let sized = |row: &&Key| {
+        !SOLIDS.iter().all(|s| row.only.allows(s)) && solid.is_some_and(|s| row.only.allows(s))
+    };
     for key in PIECE.keys.iter().filter(sized).map(|row| row.name) {
         if key == "size" {
             let edges = vector::triple(&mut table, key, diagnostics);

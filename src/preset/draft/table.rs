@@ -57,7 +57,7 @@ impl<'d> Table<'d> {
     }
 
     fn allows(&self, row: &Key) -> bool {
-        row.only.is_empty() || self.kind.is_none_or(|kind| row.only.contains(&kind))
+        self.kind.is_none_or(|kind| row.only.allows(kind))
     }
 
     /// Whether the schema gives a key the kind that its reader expects.

@@ -1,11 +1,13 @@
 //! What a table of the file is made of: its keys, the kinds of their values, and the keys that several tables have.
 //!
-//! In: nothing. Out: [`Key`], [`SchemaTable`]. Never here: the tables.
+//! In: what a kind of plot says of itself. Out: [`Key`], [`SchemaTable`]. Never here: the tables.
 
 use ValueKind::{
-    Brackets, Constant, Flag, Formula, Formulas, Kinds, List, Named, Names, Number, Point, Table,
-    Tables, Text, Texts, Triple,
+    Brackets, Constant, Flag, Formula, Formulas, Kinds, List, Named, Names, Number, PlotKind,
+    Point, Table, Tables, Text, Texts, Triple,
 };
+
+use crate::instrument::{INSTRUMENTS, Instrument, listed};
 
 /// A table of the file, or of a list in it.
 #[derive(Debug)]
@@ -27,12 +29,41 @@ pub(in crate::preset) struct Key {
     pub(in crate::preset) kind: ValueKind,
     /// The unit of its number; empty if it has none, or if the file determines it.
     pub(in crate::preset) unit: &'static str,
-    /// The kinds of entries that may have it; empty for all.
-    pub(in crate::preset) only: &'static [&'static str],
+    /// The kinds of entries that may have it.
+    pub(in crate::preset) only: Only,
     /// What to write if it is missing; `None` if it is optional.
     pub(in crate::preset) missing: Option<&'static str>,
     /// Its purpose, on one line.
     pub(in crate::preset) help: &'static str,
+}
+
+/// Which entries of a table may have a key.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::preset) enum Only {
+    All,
+    /// Those of these kinds.
+    Of(&'static [&'static str]),
+    /// The views whose kind of plot has this property.
+    Plots(fn(&dyn Instrument) -> bool),
+}
+
+impl Only {
+    /// Whether an entry of this kind may have the key.
+    pub(in crate::preset) fn allows(self, kind: &str) -> bool {
+        matches!(self, Self::All) || self.kinds().contains(&kind)
+    }
+
+    /// The kinds that may have it, in their order; none if all may.
+    pub(super) fn kinds(self) -> Vec<&'static str> {
+        match self {
+            Self::All => Vec::new(),
+            Self::Of(kinds) => kinds.to_vec(),
+            Self::Plots(has) => {
+                let kinds = INSTRUMENTS.into_iter().filter(|kind| has(*kind));
+                kinds.map(Instrument::name).collect()
+            }
+        }
+    }
 }
 
 /// The kind of a value.
@@ -40,6 +71,8 @@ pub(in crate::preset) struct Key {
 pub(in crate::preset) enum ValueKind {
     /// A text in quotes.
     Text,
+    /// The name of a kind of plot.
+    PlotKind,
     /// A list of texts.
     Texts,
     /// `true` or `false`.
@@ -73,7 +106,7 @@ pub(in crate::preset) enum ValueKind {
 }
 
 pub(super) const fn key(name: &'static str, kind: ValueKind, help: &'static str) -> Key {
-    Key { name, kind, unit: "", only: &[], missing: None, help }
+    Key { name, kind, unit: "", only: Only::All, missing: None, help }
 }
 
 impl Key {
@@ -82,7 +115,19 @@ impl Key {
     }
 
     pub(super) const fn only(self, only: &'static [&'static str]) -> Key {
-        Key { only, ..self }
+        Key { only: Only::Of(only), ..self }
+    }
+
+    pub(super) const fn of_plots(self, has: fn(&dyn Instrument) -> bool) -> Key {
+        Key { only: Only::Plots(has), ..self }
+    }
+
+    /// Its purpose in words for users.
+    pub(super) fn purpose(&self) -> String {
+        match self.kind {
+            PlotKind => listed("`", "or"),
+            _ => self.help.to_owned(),
+        }
     }
 
     pub(super) const fn unit(self, unit: &'static str) -> Key {
@@ -113,7 +158,7 @@ impl ValueKind {
     /// A short description of the kind.
     pub(super) fn words(self) -> &'static str {
         match self {
-            Text => "text",
+            Text | PlotKind => "text",
             Texts => "list of texts",
             Flag => "`true` or `false`",
             Number => "number",

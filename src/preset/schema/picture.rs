@@ -1,9 +1,10 @@
 //! The tables of what is drawn: frames, views, the system in space and its shapes.
 //!
-//! In: nothing. Out: their keys. Never here: what a picture looks like.
+//! In: what the kinds of plots say of themselves. Out: the keys. Never here: a kind by its name, what a picture looks like.
 
-use super::key::ValueKind::{Flag, Formula, Formulas, List, Number, Point, Text, Triple};
+use super::key::ValueKind::{Flag, Formula, Formulas, List, Number, PlotKind, Point, Text, Triple};
 use super::key::{NAME, SchemaTable, key};
+use crate::instrument::Instrument;
 
 pub(super) const FRAME: SchemaTable = SchemaTable {
     head: "[[frames]]",
@@ -32,65 +33,44 @@ pub(super) const VIEW: SchemaTable = SchemaTable {
     head: "[[views]]",
     about: "A `potential` is `y` over the coordinate `x`, all else held.",
     keys: &[
-        key(
-            "kind",
-            Text,
-            "`phase`, `space`, `time`, `potential`, `section`, `diagram`, `frequency`, `period`, `map`, `transformation`, `ensemble`, `orbit`, `family`, `spectrum`, `actions`, `angle`, `action`, `abbreviated`, `phase-action`, `paths`, `legendre` or `flow`",
-        )
-        .needed("write kind = \"phase\", \"space\", \"time\", \"potential\" or \"section\""),
+        key("kind", PlotKind, "")
+            .needed("write kind = \"phase\", \"space\", \"time\", \"potential\" or \"section\""),
         key("title", Text, "what it is called"),
-        key("x", Formula, "the horizontal axis").only(&[
-            "phase",
-            "potential",
-            "section",
-            "map",
-            "transformation",
-            "ensemble",
-            "orbit",
-            "family",
-            "actions",
-            "angle",
-            "action",
-            "abbreviated",
-            "phase-action",
-            "paths",
-            "legendre",
-        ]),
-        key("y", Formulas, "the vertical axis; several in a time series").only(&[
-            "phase",
-            "time",
-            "potential",
-            "section",
-            "diagram",
-            "map",
-            "transformation",
-            "ensemble",
-            "orbit",
-            "family",
-            "spectrum",
-        ]),
+        key("x", Formula, "the horizontal axis").of_plots(|plot| has_axis(plot, "x")),
+        key("y", Formulas, "the vertical axis; several in a time series")
+            .of_plots(|plot| has_axis(plot, "y")),
         key("over", Text, "the parameter over whose range it runs")
             .needed("write over = \"...\", a parameter")
-            .only(&["diagram", "frequency", "period"]),
+            .of_plots(|plot| plot.is_over_a_parameter()),
         key("on", Formula, "vanishes on the surface of section")
             .needed("write on = \"...\", which vanishes on the surface")
-            .only(&["section", "diagram", "map"]),
+            .of_plots(|plot| plot.is_section()),
         key("direction", Text, "of the crossings: `rising`, `falling` or `either`; `rising`")
-            .only(&["section", "diagram", "map"]),
+            .of_plots(|plot| plot.is_section()),
         key("x_range", Formulas, "the two ends of the horizontal axis")
-            .only(&["section", "diagram", "map"]),
+            .of_plots(|plot| plot.is_section()),
         key("y_range", Formulas, "the two ends of the vertical axis")
-            .only(&["section", "diagram", "map"]),
-        key("of", Formula, "the quantity at the end of the motions; without it and `on` the largest exponent")
-            .only(&["map"]),
-        key("until", Formula, "the time at which the motions end").only(&["map"]),
+            .of_plots(|plot| plot.is_section()),
+        key(
+            "of",
+            Formula,
+            "the quantity at the end of the motions; without it and `on` the largest exponent",
+        )
+        .of_plots(|plot| plot.follows_motions()),
+        key("until", Formula, "the time at which the motions end")
+            .of_plots(|plot| plot.follows_motions()),
         key("slope", Flag, "`true` draws the straight line of least squares, with its slope")
-            .only(&["diagram", "frequency", "period"]),
-        key("frame", Text, "the frame it is seen from").only(&["space"]),
+            .of_plots(|plot| plot.is_over_a_parameter()),
+        key("frame", Text, "the frame it is seen from").of_plots(|plot| plot.is_scene()),
         key("shapes", List(&SHAPE), "what is drawn in place of the shapes of [space]")
-            .only(&["space"]),
+            .of_plots(|plot| plot.is_scene()),
     ],
 };
+
+/// Whether a view of this kind is given an axis by the key.
+fn has_axis(plot: &dyn Instrument, key: &str) -> bool {
+    plot.written().iter().any(|axis| axis.key == key)
+}
 
 pub(super) const SPACE: SchemaTable = SchemaTable {
     head: "[space]",

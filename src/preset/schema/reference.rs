@@ -41,7 +41,7 @@ pub fn reference() -> String {
                 Some(_) => format!("`{}` (needed)", key.name),
                 None => format!("`{}`", key.name),
             };
-            let cells = [key.kind.words(), key.unit, &key.only.join(", "), key.help];
+            let cells = [key.kind.words(), key.unit, &key.only.kinds().join(", "), &key.purpose()];
             let cells = cells.join(" | ").replace("  ", " ");
             let _ = writeln!(text, "| {name} | {cells} |");
         }
