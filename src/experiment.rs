@@ -21,6 +21,7 @@ mod exact_state;
 mod execute;
 mod export;
 mod found_constant;
+mod gathered_states;
 mod gauges;
 mod hull;
 mod last_change;

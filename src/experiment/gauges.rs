@@ -201,17 +201,16 @@ impl Gauges {
         self.monitors.iter_mut().for_each(|monitor| monitor.step(time, terms, floor, dense));
     }
 
-    /// Records the terms at the ends of several steps. Each is given by its time and whether rows lie within it; `steps`
-    /// is the count after the first.
+    /// Records the terms at the ends of several steps or within them. Each is given by its time, the number of steps up to it,
+    /// and whether rows lie within the step that it ends.
     pub(super) fn steps(
         &mut self,
-        steps: u64,
-        ends: impl Iterator<Item = (f64, bool)>,
+        ends: impl Iterator<Item = (f64, u64, bool)>,
         terms: &BatchTerms,
     ) {
         let mut known = [MonitoredStep { time: 0.0, floor: 0.0, dense: false }; BATCH];
         let mut count = 0;
-        for ((end, (time, dense)), steps) in known.iter_mut().zip(ends).zip(steps..) {
+        for (end, (time, steps, dense)) in known.iter_mut().zip(ends) {
             *end = MonitoredStep { time, floor: self.floor(steps), dense };
             count += 1;
         }

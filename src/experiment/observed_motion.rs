@@ -27,6 +27,8 @@ pub(super) struct ObservedMotion {
     /// The motion's count of constraint changes when the observer was made.
     active_set_changes: u64,
     pub(super) watch: StepSampler,
+    /// A state within a step.
+    inside: State,
     /// The states between the steps so far.
     pub(super) log: StepLog,
     /// −1 if the system is run backwards, so that the clock of its states is −t; otherwise 1.
@@ -53,6 +55,7 @@ impl ObservedMotion {
             residuals: Vec::new(),
             active_set_changes: 0,
             watch: StepSampler::of(system, parameters),
+            inside: State::new(0.0, system.form(), Vec::new()),
             log: StepLog::default(),
         })
     }

@@ -2,9 +2,11 @@
 //!
 //! In: the terms of a system. Out: times within steps, registers for states and channels. Never here: gauges.
 
+use super::gathered_states::{GatheredStates, ObservedAt};
+use super::gauges::Gauges;
 use crate::integrate::{StepBlock, spacing};
 use crate::num::BATCH;
-use crate::system::{BatchTerms, Form, State, System, TermWatch};
+use crate::system::{BatchTerms, Form, Observer, State, System, TermWatch};
 
 /// The fractional part of the golden ratio.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
@@ -28,12 +30,13 @@ pub(super) struct StepSampler {
     pub(super) block: StepBlock,
     /// Their terms, where these can be evaluated together, for states of this form.
     pub(super) batch_terms: Option<BatchTerms>,
+    /// The states whose terms wait to be evaluated together.
+    gathered: GatheredStates,
     form: Option<Form>,
     parameters: Vec<f64>,
     /// Whether the law depends on the time.
     depends_on_time: bool,
-    /// An intermediate state and its channels.
-    pub(super) state: State,
+    /// The channels at the last state at which they were sampled.
     pub(super) values: Vec<f64>,
 }
 
@@ -42,6 +45,7 @@ impl StepSampler {
         StepSampler {
             block: StepBlock::default(),
             batch_terms: None,
+            gathered: GatheredStates::of(system.form()),
             form: None,
             parameters: parameters.to_vec(),
             terms: system.term_watch(parameters),
@@ -49,7 +53,6 @@ impl StepSampler {
             next: f64::NEG_INFINITY,
             pending: false,
             golden: 0.5,
-            state: State::new(0.0, system.form(), Vec::new()),
             values: vec![f64::NAN; system.channels().len()],
         }
     }
@@ -74,8 +77,42 @@ impl StepSampler {
         }
         self.form = Some(form);
         self.batch_terms = system.batch_terms(form);
+        self.gathered = GatheredStates::of(form);
         if let Some(terms) = &mut self.batch_terms {
             (0..BATCH).for_each(|lane| terms.set_parameters(lane, &self.parameters));
+        }
+    }
+
+    /// The gauges record the terms at a state: at once, or together with those of others until
+    /// [all are recorded](StepSampler::record_gathered). A state that cannot be observed is skipped.
+    pub(super) fn observe(&mut self, state: &State, at: ObservedAt, gauges: &mut Gauges) {
+        if let Some(batch) = &mut self.batch_terms {
+            self.gathered.add(state, at, (batch, &mut self.terms), gauges);
+        } else if self.terms.observe(state) {
+            gauges.step(at.time, at.steps, &self.terms, at.dense);
+        }
+    }
+
+    /// The gauges sample the channels at a state. Returns whether they could be evaluated.
+    pub(super) fn observe_channels(
+        &mut self,
+        state: &State,
+        at: ObservedAt,
+        observer: &mut Observer,
+        gauges: &mut Gauges,
+    ) -> bool {
+        self.record_gathered(gauges);
+        let known = self.terms.observe(state) && observer.observe(state, &mut self.values).is_ok();
+        if known {
+            gauges.observe_on_the_way(at.time, at.steps, &self.values, &self.terms);
+        }
+        known
+    }
+
+    /// The gauges record the states that wait.
+    pub(super) fn record_gathered(&mut self, gauges: &mut Gauges) {
+        if let Some(batch) = &mut self.batch_terms {
+            self.gathered.record((batch, &mut self.terms), gauges);
         }
     }
 

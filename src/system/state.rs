@@ -70,6 +70,14 @@ impl State {
         (self.values[i], self.carry[i]) = (x.high, x.low);
     }
 
+    /// Sets all numbers; nothing of them was cut off.
+    pub fn set_values(&mut self, values: impl Iterator<Item = f64>) {
+        self.values.clear();
+        self.values.extend(values);
+        self.carry.clear();
+        self.carry.resize(self.values.len(), 0.0);
+    }
+
     /// Whether every number is finite.
     pub fn is_finite(&self) -> bool {
         self.time.is_finite() && self.values.iter().all(|x| x.is_finite())

@@ -2,6 +2,7 @@
 //!
 //! In: a time, a budget of steps. Out: what was reached. Never here: rows.
 
+use super::super::gathered_states::ObservedAt;
 use super::super::gauges::Gauges;
 use super::super::step_sampler::StepSampler;
 use super::{EQUAL_STEPS, ObservedMotion, mark_lost};
@@ -16,6 +17,20 @@ impl ObservedMotion {
     /// it. No step reaches beyond `limit`, unless the method's step is fixed. The gauges sample every step; rows are
     /// `spacing` apart.
     pub(in crate::experiment) fn reach(
+        &mut self,
+        time: f64,
+        limit: f64,
+        budget: &mut u64,
+        (gauges, spacing): (&mut Gauges, f64),
+    ) -> Result<Reached, MotionError> {
+        self.watch.prepare(self.inner.system(), self.inner.computed().form);
+        let reached = self.reach_unrecorded(time, limit, budget, (gauges, spacing));
+        self.watch.record_gathered(gauges);
+        reached
+    }
+
+    /// The same, but the terms at the last states may not have been recorded yet.
+    fn reach_unrecorded(
         &mut self,
         time: f64,
         limit: f64,
@@ -54,7 +69,6 @@ impl ObservedMotion {
         if self.inner.method().stepping != Stepping::Fixed {
             return 0;
         }
-        self.watch.prepare(self.inner.system(), self.inner.computed().form);
         let time = time.min(self.watch.next);
         let mut left = budget;
         while left > 0 && !self.watch.pending && self.inner.computed().time < time {
@@ -81,8 +95,9 @@ impl ObservedMotion {
             let count = if due { last } else { block.count };
             terms.evaluate_numbers(block.times, &block.numbers);
             if terms.are_regular(count) {
-                let ends = (0..count).map(|i| (sign * block.times.0[i], dense(i)));
-                gauges.steps(steps + 1, ends, terms);
+                let ends = (0..count).zip(steps + 1..);
+                let ends = ends.map(|(i, steps)| (sign * block.times.0[i], steps, dense(i)));
+                gauges.steps(ends, terms);
             } else {
                 let form = self.inner.computed().form;
                 for (i, steps) in (0..count).zip(steps + 1..) {
@@ -120,29 +135,26 @@ impl ObservedMotion {
         if due {
             self.watch.next = end + spacing * (0.5 + self.watch.next_weyl());
         }
+        let ObservedMotion { inner, watch, observer, lost, inside, sign, .. } = self;
+        let at = |clock: f64, dense| ObservedAt { clock, time: *sign * clock, steps, dense };
+        let of_series = inner.method().order.is_none();
         // the state of a series is as accurate within a step as at its end
-        let inside = new && sparse && (due || steps.is_multiple_of(LOOKED_INSIDE));
-        if inside && self.inner.method().order.is_none() {
-            let time = begin + self.watch.next_weyl() * (end - begin);
-            let StepSampler { terms, state, values, .. } = &mut self.watch;
-            if self.inner.anywhere_inside(time, state).is_ok() && terms.observe(state) {
-                if due && self.observer.observe(state, values).is_ok() {
-                    mark_lost(&mut self.lost, values);
-                    gauges.observe_on_the_way(self.sign * time, steps, values, terms);
+        let looks_inside = new && sparse && (due || steps.is_multiple_of(LOOKED_INSIDE));
+        if looks_inside && of_series {
+            let time = begin + watch.next_weyl() * (end - begin);
+            if inner.anywhere_inside(time, inside).is_ok() {
+                if due && watch.observe_channels(inside, at(time, false), observer, gauges) {
+                    mark_lost(lost, &watch.values);
                 }
-                gauges.step(self.sign * time, steps, terms, false);
+                watch.observe(inside, at(time, false), gauges);
             }
         }
-        let (StepSampler { terms, values, .. }, state) = (&mut self.watch, self.inner.computed());
-        if whole && terms.observe(state) {
-            if due
-                && self.inner.method().order.is_some()
-                && self.observer.observe(state, values).is_ok()
-            {
-                mark_lost(&mut self.lost, values);
-                gauges.observe_on_the_way(self.sign * end, steps, values, terms);
+        if whole {
+            let (state, at) = (inner.computed(), at(end, !sparse));
+            if due && !of_series && watch.observe_channels(state, at, observer, gauges) {
+                mark_lost(lost, &watch.values);
             }
-            gauges.step(self.sign * end, steps, terms, !sparse);
+            watch.observe(state, at, gauges);
         }
     }
 
