@@ -133,6 +133,20 @@ impl Canvas<'_> {
         self.left(area, role, text)
     }
 
+    /// Says in the lower border of a frame how many of its rows are out of sight.
+    pub(super) fn out_of_sight(&mut self, frame: Rect, above: usize, below: usize) {
+        if above + below == 0 || frame.width < 16 {
+            return;
+        }
+        let glyphs = self.style.glyphs;
+        let part = |count: usize, arrow: &str| (count > 0).then(|| format!("+{count} {arrow}"));
+        let parts = [part(above, glyphs.pick("↑", "up")), part(below, glyphs.pick("↓", "down"))];
+        let text: Vec<String> = parts.into_iter().flatten().collect();
+        let border = row(frame, usize::from(frame.height - 1));
+        let place = columns(border, 2, border.width.saturating_sub(4));
+        self.right(place, Role::Dim, &format!(" {} ", text.join(" ")));
+    }
+
     /// Writes spans one after the other; an ellipsis replaces those that do not fit.
     pub(super) fn spans(&mut self, row: Rect, spans: &[Span]) -> u16 {
         let screen = self.style;

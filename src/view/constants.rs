@@ -114,10 +114,12 @@ pub(super) fn found(lab: &Lab, style: &RenderStyle, page: &mut TextPage) {
     let constants = known + invariants.found.len();
     if findings.hamiltonian && constants > 0 {
         let brackets = constants > 1 && !lab.searches.constants.brackets;
-        let hint = if brackets { "B shows the brackets of the constants; " } else { "" };
+        if brackets {
+            page.words(Role::Dim, "Press B for the brackets of the constants.");
+        }
         page.words(
             Role::Dim,
-            format!("{hint}J carries the state along the flow of one of them, or of a symmetry."),
+            "Press J to carry the state along the flow of a constant or a symmetry.",
         );
     }
     if lab.searches.constants.brackets {

@@ -95,7 +95,7 @@ fn law(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, title: &[Span]) -> LawInV
     let drawn = draw_rows(canvas, inner, lab.law_scroll, rows);
     canvas.cache = cache;
     let above = lab.law_scroll.min(drawn.beyond);
-    out_of_sight(canvas, area, above.into(), usize::from(drawn.beyond - above));
+    canvas.out_of_sight(area, above.into(), usize::from(drawn.beyond - above));
     if drawn.beyond == 0 { LawInView::Whole } else { LawInView::Clipped(drawn.beyond) }
 }
 
@@ -144,25 +144,7 @@ fn beyond(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, pane: Pane) {
     let rows = usize::from(area.height.saturating_sub(2));
     let hidden = count.saturating_sub(rows);
     let above = if hidden == 0 { 0 } else { window(selected, count, rows) };
-    out_of_sight(canvas, area, above, hidden.saturating_sub(above));
-}
-
-/// Says in the lower border of a pane how many of its rows are out of sight.
-fn out_of_sight(canvas: &mut Canvas<'_>, area: Rect, above: usize, below: usize) {
-    if above + below == 0 || area.width < 16 {
-        return;
-    }
-    let glyphs = canvas.style.glyphs;
-    let mut parts = Vec::new();
-    if above > 0 {
-        parts.push(format!("+{above} {}", glyphs.pick("↑", "up")));
-    }
-    if below > 0 {
-        parts.push(format!("+{below} {}", glyphs.pick("↓", "down")));
-    }
-    let border = row(area, usize::from(area.height - 1));
-    let place = columns(border, 2, border.width.saturating_sub(4));
-    canvas.right(place, Role::Dim, &format!(" {} ", parts.join(" ")));
+    canvas.out_of_sight(area, above, hidden.saturating_sub(above));
 }
 
 /// Draws a picture; `sharing` are the pictures that take turns in its frame.

@@ -38,6 +38,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, menu: &Menu) {
     let rows = usize::from(list.height);
     let columns_of = MenuColumns::of(canvas, menu, list.width);
     let first = window(menu.selected, shown.len(), rows);
+    canvas.out_of_sight(place, first, shown.len().saturating_sub(first + rows));
     for (place, (index, fit)) in shown.iter().enumerate().skip(first).take(rows) {
         let area = row(list, place - first);
         let marked = menu.marked.contains(index);

@@ -107,7 +107,7 @@ enum ListLine<'a> {
 /// A list with fewer rows has no blank one.
 const FEW_ROWS: u16 = 8;
 
-fn list(canvas: &mut Canvas<'_>, area: Rect, picker: &Picker) {
+fn list(canvas: &mut Canvas<'_>, frame: Rect, picker: &Picker) {
     let shown = picker.found();
     let all = picker.entries.len();
     let count = match picker.search {
@@ -115,8 +115,8 @@ fn list(canvas: &mut Canvas<'_>, area: Rect, picker: &Picker) {
         None => format!("  {all}"),
     };
     let title = [canvas.span(Role::Title, "Systems"), canvas.span(Role::Dim, count)];
-    let inner = canvas.pane(area, &title, true);
-    canvas.target(area, HitTarget::Systems);
+    let inner = canvas.pane(frame, &title, true);
+    canvas.target(frame, HitTarget::Systems);
     search(
         canvas,
         columns(row(inner, 0), 1, inner.width.saturating_sub(2)),
@@ -148,6 +148,11 @@ fn list(canvas: &mut Canvas<'_>, area: Rect, picker: &Picker) {
     let rows = usize::from(body.height);
     // what stands above the systems is in sight at the start
     let first = if here < rows { 0 } else { window(here, lines.len(), rows) };
+    let choices = |lines: &[ListLine<'_>]| {
+        lines.iter().filter(|line| !matches!(line, ListLine::Topic(_))).count()
+    };
+    let (above, below) = (&lines[..first], lines.get(first + rows..).unwrap_or_default());
+    canvas.out_of_sight(frame, choices(above), choices(below));
     let ends = ends_of_titles(canvas, picker, usize::from(body.width.saturating_sub(4)));
     for (index, line) in lines.iter().skip(first).take(rows).enumerate() {
         let area = row(body, index);
