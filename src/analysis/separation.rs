@@ -38,6 +38,8 @@ pub struct DistanceHistory {
 pub struct Slope {
     /// λ, the growth of ln d in a unit of time.
     pub rate: f64,
+    /// How well it is known: half the difference of its values in the first and in the second half of the points.
+    pub error: f64,
     /// ln d of the line at the time 0.
     pub level: f64,
     /// The times between which it was measured.
@@ -120,18 +122,26 @@ impl DistanceHistory {
         if points.len() < FEWEST {
             return None;
         }
-        let count = points.len() as f64;
-        let mean = [0, 1].map(|k| points.iter().map(|p| p[k]).sum::<f64>() / count);
-        let (mut spread, mut common) = (0.0, 0.0);
-        for [t, l] in points {
-            spread += (t - mean[0]) * (t - mean[0]);
-            common += (t - mean[0]) * (l - mean[1]);
-        }
-        let rate = common / spread;
+        let (rate, level) = line_through(points);
+        let (first, second) = points.split_at(points.len() / 2);
+        let error = (line_through(first).0 - line_through(second).0).abs() / 2.0;
         let (from, to) = (points[0][0], points[points.len() - 1][0]);
-        let level = mean[1] - rate * mean[0];
-        rate.is_finite().then_some(Slope { rate, level, from, to, grown: rate * (to - from) })
+        let grown = rate * (to - from);
+        rate.is_finite().then_some(Slope { rate, error, level, from, to, grown })
     }
+}
+
+/// The slope of the straight line nearest to some points, and its value at zero.
+fn line_through(points: &[[f64; 2]]) -> (f64, f64) {
+    let count = points.len() as f64;
+    let mean = [0, 1].map(|k| points.iter().map(|p| p[k]).sum::<f64>() / count);
+    let (mut spread, mut common) = (0.0, 0.0);
+    for [t, l] in points {
+        spread += (t - mean[0]) * (t - mean[0]);
+        common += (t - mean[0]) * (l - mean[1]);
+    }
+    let rate = common / spread;
+    (rate, mean[1] - rate * mean[0])
 }
 
 #[cfg(test)]
@@ -149,10 +159,24 @@ mod tests {
             separation.add(t, &a, &[a[0] + d, a[1]], &[None, None]);
         }
         let slope = separation.slope().expect("a slope");
-        assert!((slope.rate - 0.3).abs() < 1e-9, "{slope:?}");
+        assert!((slope.rate - 0.3).abs() < 1e-9 && slope.error < 1e-9, "{slope:?}");
         // ln(0.03 · size · 1e8)/0.3, the size lies between 1 and √8
         assert!((slope.to - 50.0).abs() < 5.0, "{slope:?}");
         assert!(separation.points().len() < MOST);
+    }
+
+    /// ln d = t²/2 grows at the rate 1 to 3 in equal halves of four units: at 2 in the mean, known to 1.
+    #[test]
+    fn a_slope_that_changes_is_known_as_well_as_its_halves_agree() {
+        let mut separation = DistanceHistory::default();
+        for k in 0..=400 {
+            let t = f64::from(k) * 0.01;
+            let d = 1e-9 * math::exp(0.5 * t * t);
+            separation.add(t, &[t], &[t + d], &[None]);
+        }
+        let slope = separation.slope().expect("a slope");
+        assert!((slope.rate - 2.0).abs() < 0.02, "{slope:?}");
+        assert!((slope.error - 1.0).abs() < 0.02, "{slope:?}");
     }
 
     #[test]

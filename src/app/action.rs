@@ -105,6 +105,12 @@ pub enum Action {
     TypeTolerance,
     /// Focus the next pane.
     NextPane,
+    /// Bring the next match of the search in a page into view.
+    NextMatch,
+    /// Bring the match before into view.
+    PreviousMatch,
+    /// Show the next of the panes that share a frame.
+    NextTab,
     /// Focus the previous pane.
     PreviousPane,
     /// Zoom the focused pane to fill the page, or restore it.

@@ -48,8 +48,8 @@ pub struct SourceBuffer {
     pub(super) on_disk: String,
     /// Incremented with every change of the text.
     revision: u64,
-    /// The ticket of the running check, and the revision that it checks.
-    checking: Option<(u64, u64)>,
+    /// The running check.
+    checking: Option<RunningCheck>,
     /// How long that check has been running.
     busy: Duration,
     /// The time left until the text is checked.
@@ -62,6 +62,15 @@ pub struct SourceBuffer {
     pub(super) searched: String,
     /// Whether it was saved before it was checked; errors found later are then reported.
     pub(super) unchecked: bool,
+}
+
+/// A check that runs.
+#[derive(Clone, Debug)]
+struct RunningCheck {
+    ticket: u64,
+    /// The revision that it checks, and its text.
+    revision: u64,
+    text: String,
 }
 
 /// An unsaved text, in the form stored between runs of the program.
@@ -285,21 +294,27 @@ impl SourceBuffer {
         checking
     }
 
-    /// Marks its text as being checked; the result will carry this ticket.
-    pub(super) fn begin_check(&mut self, ticket: u64) {
-        (self.rest, self.checking) = (None, Some((ticket, self.revision)));
+    /// Marks its text as being checked, and returns it; the result will carry this ticket.
+    pub(super) fn begin_check(&mut self, ticket: u64) -> String {
+        let (revision, text) = (self.revision, self.editor.text());
+        self.rest = None;
+        self.checking = Some(RunningCheck { ticket, revision, text: text.clone() });
         self.busy = Duration::ZERO;
+        text
     }
 
     /// Whether the check with this ticket is this buffer's.
     pub(super) fn awaits(&self, ticket: u64) -> bool {
-        self.checking.is_some_and(|(number, _)| number == ticket)
+        self.checking.as_ref().is_some_and(|check| check.ticket == ticket)
     }
 
-    /// Ends the check.
-    pub(super) fn end_check(&mut self) -> CheckedRevision {
-        let of = self.checking.take().map(|(_, revision)| revision);
-        if of == Some(self.revision) { CheckedRevision::Newest } else { CheckedRevision::Older }
+    /// Ends the check, and returns the text that was checked.
+    pub(super) fn end_check(&mut self) -> (CheckedRevision, String) {
+        let check = self.checking.take();
+        let of = check.as_ref().map(|check| check.revision);
+        let newest = of == Some(self.revision);
+        let revision = if newest { CheckedRevision::Newest } else { CheckedRevision::Older };
+        (revision, check.map_or_else(String::new, |check| check.text))
     }
 
     /// Stores the errors found, unless the text may be an incomplete file that is read once more.

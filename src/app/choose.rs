@@ -113,6 +113,11 @@ impl App {
             }
             other => {
                 self.overlay = other;
+                if let Some(search) = self.typed_search() {
+                    search.typing = false;
+                    let is_empty = search.input.value().trim().is_empty();
+                    self.page_search.take_if(|_| is_empty);
+                }
                 Vec::new()
             }
         }

@@ -2,6 +2,8 @@
 //!
 //! In: nothing. Out: [`Drawn`], which `view` fills in. Never here: cells.
 
+use super::Pane;
+
 /// What drawing the screen has determined.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Drawn {
@@ -9,6 +11,8 @@ pub struct Drawn {
     pub beyond: u16,
     /// The number of rows by which it was scrolled, where a section of it is to be in view.
     pub scroll: Option<u16>,
+    /// The number of its rows in which a search has found its words.
+    pub matches: usize,
     /// The number of its rows that fit on the screen.
     pub rows: u16,
     /// The number of columns of an edited text that fit.
@@ -32,25 +36,33 @@ pub struct DrawnPanes {
     pub single: bool,
     /// How much of the law of motion is in view.
     pub law: LawInView,
-    /// The pictures in view.
-    pub plots: PlotsInView,
+    /// The panes in view.
+    pub in_view: PanesInView,
 }
 
-/// The pictures in view; all of them before anything was drawn.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct PlotsInView(Option<u64>);
+/// The most panes of which it is remembered that they are in view.
+const MOST: usize = 24;
 
-impl PlotsInView {
-    /// Those of these indices.
-    pub fn of(indices: impl IntoIterator<Item = usize>) -> Self {
-        let bits = indices.into_iter().filter_map(|index| 1_u64.checked_shl(index as u32));
-        Self(Some(bits.fold(0, |all, bit| all | bit)))
+/// The panes in view, in the order of their places; all of them before anything was drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct PanesInView(Option<[Option<Pane>; MOST]>);
+
+impl PanesInView {
+    /// These, in order.
+    pub fn of(panes: impl IntoIterator<Item = Pane>) -> Self {
+        let mut all = [None; MOST];
+        all.iter_mut().zip(panes).for_each(|(place, pane)| *place = Some(pane));
+        Self(Some(all))
     }
 
-    /// Whether the picture of an index is among them.
-    pub fn has(self, index: usize) -> bool {
-        let bit = 1_u64.checked_shl(index as u32);
-        self.0.is_none_or(|all| bit.is_none_or(|bit| all & bit != 0))
+    /// Whether a pane is among them.
+    pub fn has(self, pane: Pane) -> bool {
+        self.0.is_none_or(|all| all.contains(&Some(pane)))
+    }
+
+    /// All of them, if anything was drawn.
+    pub fn iter(&self) -> impl DoubleEndedIterator<Item = Pane> {
+        self.0.iter().flatten().flatten().copied()
     }
 }
 

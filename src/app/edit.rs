@@ -7,6 +7,7 @@
 //! text cancels the check of an older one. A file changed by another program is handled the same way.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::time::Duration;
 
 use crossterm::event::KeyEvent;
@@ -16,6 +17,7 @@ use super::buffer::{Asking, BufferState, CheckedRevision, SourceBuffer, Unsaved}
 use super::field::{paste, paste_selected};
 use super::pending::AwaitedPlots;
 use super::{App, CheckedText, EditCommand, Effect, Lab, Notification, Overlay, Page, SaveError};
+use crate::diagnostic::Document;
 use crate::preset::{PresetOrigin, is_path};
 
 impl App {
@@ -376,7 +378,8 @@ impl App {
         if self.page == Page::Picker {
             return self.workbench.postpone_check().then_some(Effect::StopCheck);
         }
-        self.workbench.tick(elapsed)
+        let typed = self.lab.as_ref().map_or(&[][..], |lab| &lab.typed);
+        self.workbench.tick(elapsed, typed)
     }
 
     /// Scrolls the text so that the cursor is visible on the screen that was drawn.
@@ -396,9 +399,14 @@ impl App {
         let Some(buffer) = self.buffer().filter(|buffer| buffer.awaits(ticket)) else {
             return Vec::new();
         };
-        let found = buffer.end_check();
+        let (found, own) = buffer.end_check();
         match (outcome, found) {
-            (Ok(loaded), found) => {
+            (Ok(mut loaded), found) => {
+                // what was typed for an axis is no part of the text
+                if loaded.document.text != own {
+                    let path = loaded.document.path.clone();
+                    loaded.document = Arc::new(Document::new(path, own));
+                }
                 if let CheckedRevision::Newest = found {
                     buffer.diagnostics.clear();
                     buffer.state = BufferState::Rebuilt(took);
@@ -421,6 +429,10 @@ impl App {
             (Err(_), CheckedRevision::Older) => Vec::new(),
             (Err(diagnostics), CheckedRevision::Newest) => {
                 self.awaited.plots = AwaitedPlots::default();
+                self.awaited.view = None;
+                if self.gives_up_typed(&diagnostics, own.len()) {
+                    return Vec::new();
+                }
                 let Some(buffer) = self.buffer() else { return Vec::new() };
                 buffer.is_wrong(&diagnostics);
                 if mends {

@@ -197,12 +197,12 @@ impl Editor {
         true
     }
 
-    /// Selects the next match after the cursor, ignoring case and wrapping around at the end. Returns whether there
-    /// is one.
+    /// Selects the next match after the cursor, wrapping around at the end; a capital letter matches itself only, and makes small
+    /// ones do so too. Returns whether there is one.
     pub fn find(&mut self, wanted: &str) -> bool {
-        let fold = |text: &str| -> Vec<char> {
-            text.chars().map(|c| c.to_lowercase().next().unwrap_or(c)).collect()
-        };
+        let is_exact = wanted.chars().any(char::is_uppercase);
+        let folded = |c: char| if is_exact { c } else { c.to_lowercase().next().unwrap_or(c) };
+        let fold = |text: &str| -> Vec<char> { text.chars().map(folded).collect() };
         let wanted = fold(wanted);
         if wanted.is_empty() {
             return false;

@@ -1,8 +1,8 @@
-//! Panes focused by their names, as scripts and lessons name them.
+//! Which pane gets the focus: the next one in view, the next tab of a frame, or one by its name, as scripts and lessons name them.
 //!
-//! In: a name. Out: the pane in view. Never here: the keys that lead from pane to pane.
+//! In: a direction, or a name. Out: the pane in view. Never here: where a pane is, or its keys.
 
-use super::{App, Pane};
+use super::{App, Lab, Pane};
 
 /// The names of the lists.
 const LISTS: [(&str, Pane); 4] = [
@@ -11,6 +11,65 @@ const LISTS: [(&str, Pane); 4] = [
     ("gauges", Pane::Gauges),
     ("law", Pane::Law),
 ];
+
+impl Lab {
+    /// The pane that Tab leads to, or Shift-Tab: among those in view, in the order of their places. A pane alone is followed by all.
+    pub(super) fn pane_beside(&self, forwards: bool) -> Pane {
+        let all: Vec<Pane> = self.panes().collect();
+        let seen: Vec<Pane> = self.drawn.in_view.iter().filter(|pane| all.contains(pane)).collect();
+        turned(if seen.len() > 1 { &seen } else { &all }, self.focus.pane, forwards)
+    }
+
+    /// Brings the next pane that is out of view to the front, or the one before it.
+    pub fn show_hidden(&mut self, forwards: bool) {
+        let all: Vec<Pane> = self.panes().collect();
+        let mut pane = self.focus.pane;
+        for _ in &all {
+            pane = turned(&all, pane, forwards);
+            if !self.drawn.in_view.has(pane) {
+                self.focus.choose(pane);
+                return;
+            }
+        }
+    }
+
+    /// The pane that follows in the frame in which several of the kind of the focused one take turns, or else in that of the
+    /// other kind. `None` if each has a frame of its own.
+    pub(super) fn next_tab(&self) -> Option<Pane> {
+        let plots = matches!(self.focus.pane, Pane::Plot(_));
+        self.next_tab_among(plots).or_else(|| self.next_tab_among(!plots))
+    }
+
+    fn next_tab_among(&self, plots: bool) -> Option<Pane> {
+        let is_plot = |pane: &Pane| matches!(pane, Pane::Plot(_));
+        let in_view = |pane: &Pane| self.drawn.in_view.has(*pane);
+        let of_kind = |pane: &Pane| is_plot(pane) == plots;
+        // the last picture takes turns with those out of view, and so does the list that is not the gauges
+        let seen: Vec<Pane> = self.drawn.in_view.iter().filter(of_kind).collect();
+        let list = seen.iter().find(|pane| **pane != Pane::Gauges && !plots);
+        let host = *list.or(seen.last())?;
+        let ring: Vec<Pane> = self
+            .panes()
+            .filter(|pane| of_kind(pane) && (*pane == host || !in_view(pane)))
+            .collect();
+        // what was turned to before anything was drawn is turned on
+        let from = if ring.contains(&self.focus.pane) { self.focus.pane } else { host };
+        (ring.len() > 1).then(|| turned(&ring, from, true))
+    }
+}
+
+/// The pane after this one, or before it; the first, or the last, if it is not among them.
+fn turned(panes: &[Pane], from: Pane, forwards: bool) -> Pane {
+    let count = panes.len();
+    let at = panes.iter().position(|pane| *pane == from);
+    let to = match (at, forwards) {
+        (Some(at), true) => (at + 1) % count,
+        (Some(at), false) => (at + count - 1) % count,
+        (None, true) => 0,
+        (None, false) => count - 1,
+    };
+    panes[to]
+}
 
 impl App {
     /// The names by which the panes of the loaded system can be focused: the kinds of its pictures, and its lists.

@@ -39,7 +39,7 @@ pub enum Place {
     Text,
     /// The key help.
     Help,
-    /// The search among its keys.
+    /// The search among its keys, and in a page of text.
     HelpSearch,
     /// What is wrong with a file that cannot be opened.
     Message,
@@ -98,7 +98,7 @@ impl Place {
             Self::Equations => "Equations",
             Self::Text => "Pages of text",
             Self::Help => "This help",
-            Self::HelpSearch => "Searching this help",
+            Self::HelpSearch => "Searching a text",
             Self::Message => "The errors of a file",
             Self::Plain => "Plain reading",
             Self::Menu => "Pop-up lists",
@@ -259,7 +259,6 @@ pub const KEYS: &[Binding] = &[
     row(Place::Experiment, &[c('I')], Action::SearchFurther, "", "search for constants of the motion; each time further: to a higher degree, for longer"),
     row(Place::Experiment, &[c('B')], Action::Brackets, "", "show or hide the table of brackets of the constants of the motion"),
     row(Place::Experiment, &[c('J')], Action::ApplyFlow, "", "carry the state along the flow of a constant of the motion, of a generator of the file or your own, or of a symmetry"),
-    row(Place::Experiment, &[c('/')], Action::Palette, "", "search all actions by name, as : does"),
     row(Place::Experiment, &[c('P')], Action::Pin, "", "pin this run: it continues beside what follows, with its values and its method"),
     row(Place::Experiment, &[c('d')], Action::AddNeighbour, "", "add a neighbour, a motion that starts close by, and show how they separate: ln d against time"),
     row(Place::Experiment, &[c('F')], Action::Equilibria, "", "find equilibria and their small oscillations, and start at one or along a mode"),
@@ -284,8 +283,10 @@ pub const KEYS: &[Binding] = &[
 
     row(Place::Experiment, &[c('9')], Action::Show(Page::Plain), "", "show page 9: the screen as plain text that does not move, to be read line by line"),
 
-    row(Place::Lab, &[TAB], Action::NextPane, "pane", "focus the next pane"),
-    row(Place::Lab, &[BACKTAB], Action::PreviousPane, "", "focus the previous pane"),
+    row(Place::Lab, &[TAB], Action::NextPane, "pane", "focus the next pane in view"),
+    row(Place::Lab, &[BACKTAB], Action::PreviousPane, "", "focus the previous pane in view"),
+    row(Place::Lab, &[c('\\')], Action::NextTab, "tabs", "show the next tab, where panes share a frame"),
+    row(Place::Lab, &[c('/')], Action::Palette, "", "search all actions by name, as : does"),
     row(Place::Lab, &[c('b')], Action::ApplyImpulse, "impulse", "apply an impulse that waits for a key"),
     row(Place::Lab, &[c('f')], Action::NextFrame, "frame", "view the motion in space in the next reference frame of the file, or in the original one again"),
     row(Place::Lab, &[c('Q')], Action::Active, "", "switch between the active view of a transformation (the point moves) and the passive one (the coordinates do); of an action, the next principle: Hamilton, Maupertuis, phase space; of a diagram, frequency or period"),
@@ -366,7 +367,9 @@ pub const KEYS: &[Binding] = &[
     row(Place::Text, &[HOME, c('g')], Action::First, "", "to the beginning"),
     row(Place::Text, &[END, c('G')], Action::Last, "", "to the end"),
 
-    row(Place::Help, &[c('/')], Action::Search, "search", "search these keys for words"),
+    row(Place::Text, &[c('/')], Action::Search, "search", "search the text, or the keys in this help; a capital letter matches itself only"),
+    row(Place::Text, &[c('n')], Action::NextMatch, "", "the next match in the text"),
+    row(Place::Text, &[c('N')], Action::PreviousMatch, "", "the previous match in the text"),
 
     row(Place::HelpSearch, &[UP], Action::Move(ArrowDirection::Up), "", "a line up"),
     row(Place::HelpSearch, &[DOWN], Action::Move(ArrowDirection::Down), "scroll", "a line down"),

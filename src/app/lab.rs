@@ -18,6 +18,7 @@ use crate::expr::Zero;
 use crate::instrument::{CameraPose, MotionCurve, Plot, Present, Returned};
 use crate::mechanics::Valuation;
 use crate::model::Shape;
+use crate::preset::NewObservable;
 
 /// A loaded system and its view.
 #[derive(Clone, Debug)]
@@ -51,6 +52,8 @@ pub struct Lab {
     pub prediction: Option<Box<Prediction>>,
     /// The times that are marked, in order.
     pub marks: Vec<f64>,
+    /// The quantities that were typed for axes: they belong to the view, and are no part of the text.
+    pub typed: Vec<NewObservable>,
     /// The motion that the experiment is to restore.
     pub(super) restoration: Restoration,
     /// The least and greatest value that each channel has had before the motion was begun elsewhere.
@@ -116,6 +119,7 @@ impl Lab {
             steady: SteadyVerdicts::default(),
             prediction: None,
             marks: Vec::new(),
+            typed: Vec::new(),
             restoration: Restoration::default(),
             bounds_before: Vec::new(),
         }
@@ -227,7 +231,7 @@ impl Lab {
     /// Takes in what drawing the panes has determined. Where there is room for one only, the motion comes first.
     pub(super) fn take_drawn(&mut self, drawn: DrawnPanes) {
         // what comes into view may be refined
-        self.answers.stale |= drawn.plots != self.drawn.plots;
+        self.answers.stale |= drawn.in_view != self.drawn.in_view;
         self.drawn = drawn;
         if let LawInView::Clipped(beyond) = drawn.law {
             self.law_scroll = self.law_scroll.min(beyond);
@@ -242,7 +246,7 @@ impl Lab {
     /// Returns the cameras of the pictures in view that show the system's own shapes.
     pub fn eyes_in_view(&self) -> impl Iterator<Item = CameraPose> {
         let model = &self.loaded.model;
-        let seen = |index: usize| self.drawn.plots.has(index);
+        let seen = |index: usize| self.drawn.in_view.has(Pane::Plot(index));
         let plots = self.plots.iter().enumerate().filter(move |(index, _)| seen(*index));
         let eyes = plots.filter_map(|(_, plot)| plot.eye());
         eyes.filter(|eye| eye.own_shapes(model).is_none())

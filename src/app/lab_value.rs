@@ -7,7 +7,7 @@ use super::value::{nice_step, significant, step};
 use super::{Lab, ValueId, ValueInfo};
 use crate::mechanics::Valuation;
 use crate::model::RangeSpacing;
-use crate::system::ChannelKind;
+use crate::system::{ChannelKind, InitialOverride};
 
 impl Lab {
     /// Returns the number of parameters, or of initial values.
@@ -27,6 +27,7 @@ impl Lab {
                 let ramped = model.ramped.functions().any(|(symbol, _)| symbol == p.symbol);
                 Some(ValueInfo {
                     ramped,
+                    follows: None,
                     name: p.name.clone(),
                     shown: p.shown.clone(),
                     unit: p.unit.clone(),
@@ -58,16 +59,37 @@ impl Lab {
                     }
                     _ => c.unit.clone(),
                 };
+                let follows = self.followed_by(index);
+                let of_file = follows.as_ref().map_or_else(String::new, |e| format!(", {e}"));
                 Some(ValueInfo {
                     ramped: false,
                     name: info.name.clone(),
                     shown: info.unicode.clone(),
                     unit,
-                    about: format!("initial {what}; a change restarts the motion"),
+                    about: format!("initial {what}{of_file}; a change restarts the motion"),
                     range: None,
+                    follows,
                 })
             }
         }
+    }
+
+    /// What an initial value is in the file, in mathematical notation, if parameters stand in it and nobody has changed it.
+    fn followed_by(&self, index: usize) -> Option<String> {
+        let model = &self.loaded.model;
+        let count = model.coordinates.len();
+        let coordinate = model.coordinates.get(index % count.max(1))?;
+        let of_file = if index < count { coordinate.initial } else { coordinate.initial_rate };
+        let follows = model.parameters.iter().any(|p| model.pool.depends(of_file, p.symbol));
+        let is_changed = |given: &InitialOverride| match *given {
+            InitialOverride::Position(place, _) => place == index,
+            InitialOverride::Velocity(place, _) | InitialOverride::Momentum(place, _) => {
+                place + count == index
+            }
+        };
+        let given =
+            self.snapshot.as_ref().is_some_and(|seen| seen.setup.overrides.iter().any(is_changed));
+        (follows && !given).then(|| model.pool.unicode(of_file))
     }
 
     /// Returns the value: the one requested last, until the experiment confirms it.

@@ -23,6 +23,8 @@ pub(super) struct Awaited {
     pub(super) system: Option<LoadRequest>,
     /// The session to resume once its system is loaded.
     pub(super) session: Option<Saved>,
+    /// The session whose view is restored once its text is checked.
+    pub(super) view: Option<Saved>,
     /// The wrong file whose text was asked for, until its first error is shown.
     pub(super) wrong_file: Option<String>,
     pub(super) plots: AwaitedPlots,

@@ -54,10 +54,15 @@ impl App {
                 if let Some(Overlay::Help { search, typing, .. }) = &mut self.overlay {
                     search.get_or_insert_default();
                     *typing = true;
+                } else if self.page != Page::Picker {
+                    return self.search_page();
                 } else {
                     self.picker.search(|_| ());
                 }
                 Vec::new()
+            }
+            Action::NextMatch | Action::PreviousMatch => {
+                self.next_match(action == Action::NextMatch)
             }
             Action::Open => self.open_selected(),
             Action::Accept => self.accept(),
@@ -148,12 +153,16 @@ impl App {
                 None => self.notify("There is nothing to type here."),
             },
             Action::NextPane | Action::PreviousPane => {
-                let panes: Vec<Pane> = lab.panes().collect();
-                let at = panes.iter().position(|pane| *pane == lab.focus.pane).unwrap_or(0);
-                let by = if action == Action::NextPane { 1 } else { panes.len() - 1 };
-                lab.focus.pane = panes[(at + by) % panes.len()];
+                lab.focus.pane = lab.pane_beside(action == Action::NextPane);
                 Vec::new()
             }
+            Action::NextTab => match lab.next_tab() {
+                Some(pane) => {
+                    lab.focus.pane = pane;
+                    Vec::new()
+                }
+                None => self.notify("Every pane is in view: there are no tabs."),
+            },
             Action::Zoom => {
                 lab.focus.zoomed = !lab.focus.zoomed;
                 Vec::new()
@@ -354,6 +363,9 @@ impl App {
                 .show(Notification::info(format!("Loading {} was cancelled.", request.name)));
             return vec![Effect::StopLoading];
         }
+        if self.end_page_search() {
+            return Vec::new();
+        }
         let leaves = self.asked_to_leave();
         if self.page == Page::Equations && self.stop_search() {
             self.notifications
@@ -434,6 +446,9 @@ impl App {
 
     fn roll(&mut self, by: isize) {
         self.section = None;
+        if let Some(search) = &mut self.page_search {
+            search.seeks = false;
+        }
         let rows = usize::from(self.scroll).saturating_add_signed(by);
         self.scroll = rows.min(usize::from(self.drawn.beyond)) as u16;
     }

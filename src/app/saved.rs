@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::{Page, Pane, Selection};
 use crate::experiment::Checkpoint;
 use crate::instrument::SavedPlot;
+use crate::preset::NewObservable;
 
 /// A session.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -37,6 +38,9 @@ pub struct Saved {
     /// The times that are marked.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub marks: Vec<f64>,
+    /// The quantities that were typed for axes.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub typed: Vec<NewObservable>,
     /// The pictures that were focused, the last one first.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub in_front: Vec<usize>,

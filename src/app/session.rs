@@ -38,6 +38,7 @@ impl Saved {
             plots: lab.plots.iter().map(|plot| SavedPlot::of(plot, lab.loaded.physics())).collect(),
             time_unit: model.time_unit().to_owned(),
             marks: lab.marks.clone(),
+            typed: lab.typed.clone(),
             in_front: lab.focused_before().collect(),
             moment: checkpoint,
         })
@@ -109,7 +110,8 @@ impl App {
             return vec![Effect::Execute(Command::Play)];
         };
         lab.restore_view(&saved);
-        lab.restoration.begin(saved.moment, saved.law);
+        lab.typed.clone_from(&saved.typed);
+        lab.restoration.begin(saved.moment.clone(), saved.law.clone());
         self.page = saved.page;
         if lab.restoration.is_of_another_law(&lab.loaded.document.text) && !saved.edited {
             let name = &lab.loaded.document.path;
@@ -118,8 +120,12 @@ impl App {
             )));
         }
         self.remind();
-        // The motion belongs to the unsaved text, and waits until that is checked.
-        if saved.edited && self.wake() { Vec::new() } else { self.restore() }
+        // The motion belongs to the unsaved text, and waits until that is checked;
+        let has_typed = !saved.typed.is_empty();
+        let waits = saved.edited && self.wake() || has_typed && self.check_again().is_ok();
+        // so do pictures with axes that were typed
+        self.awaited.view = Some(saved).filter(|_| waits && has_typed);
+        if waits { Vec::new() } else { self.restore() }
     }
 
     /// Sends the awaited checkpoint to the experiment, if there is one.
@@ -173,7 +179,9 @@ impl App {
             self.lab = Some(lab);
             return vec![Effect::Execute(Command::Play)];
         };
-        lab.restore_view(&saved);
+        lab.restore_view(self.awaited.view.as_ref().unwrap_or(&saved));
+        self.awaited.view = None;
+        lab.typed = old.typed;
         if lab.plots.len() == old.plots.len() {
             lab.focus.recent = old.focus.recent;
         }

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use super::answers::{Answers, PlotJob};
 use super::computation::Jobs;
-use super::{App, Asker, Computation, Effect, Event, Lab, Overlay, Page, UnderWay};
+use super::{App, Asker, Computation, Effect, Event, Lab, Overlay, Page, Pane, UnderWay};
 use crate::experiment::Command;
 use crate::instrument::{Answer, Need, Plot, PlotContext, PlotTable, Present};
 use crate::job::{Job, Outcome, Progress, Share};
@@ -45,7 +45,7 @@ impl Lab {
         let mut wanted: Vec<Computation> = Vec::new();
         for (place, plot) in self.plots.iter().enumerate() {
             let Some(present) = self.present() else { return Vec::new() };
-            let is_drawn = self.drawn.plots.has(place);
+            let is_drawn = self.drawn.in_view.has(Pane::Plot(place));
             let entry = self.answers.of(plot);
             if entries.iter().any(|entry: &PlotJob| entry.is_of(plot)) {
                 continue;

@@ -16,6 +16,7 @@ use super::loaded::LoadError;
 use super::menu::{Choice, Menu};
 use super::notification::Notifications;
 use super::page::{EquationsSection, Page};
+use super::page_search::PageSearch;
 use super::pane::Pane;
 use super::pending::Awaited;
 use super::picker::Picker;
@@ -52,6 +53,8 @@ pub struct App {
     pub scroll: u16,
     /// The section of the page of equations that is kept in view until the page is scrolled.
     pub section: Option<EquationsSection>,
+    /// The search in the page of text.
+    pub page_search: Option<PageSearch>,
     /// The files being edited, also while the editor is closed.
     pub workbench: Workbench,
     /// What is shown below the panes.
@@ -104,6 +107,8 @@ pub enum KeyHints {
     LabInLesson,
     /// The keys are a lesson's, which says itself which they are.
     Hidden,
+    /// They are a lesson's too, and move the cursor of a plot.
+    Cursor,
 }
 
 /// Something that covers a page and takes its keys.
@@ -147,6 +152,7 @@ impl App {
             recording: false,
             scroll: 0,
             section: None,
+            page_search: None,
             workbench: Workbench::default(),
             footer: Footer { shown: true, hints: KeyHints::Lab },
             themes: Themes::default(),
@@ -218,6 +224,9 @@ impl App {
                 let asks = self.workbench.top().is_some_and(|buffer| buffer.asking.is_some());
                 let inner = if asks { Place::Field } else { Place::Workbench };
                 chain([inner, Place::Typing])
+            }
+            None if self.search_of_page().is_some_and(|search| search.typing) => {
+                chain([Place::HelpSearch, Place::Typing])
             }
             None => chain(self.places_of_page()),
         }

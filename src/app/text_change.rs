@@ -1,4 +1,4 @@
-//! Changes of the system's text by keys of the lab: a ramp, an observable, a surface of section.
+//! Changes of the system's text by keys of the lab: a ramp, a surface of section.
 //!
 //! In: the text, what changes it. Out: the changed text in its buffer, where it is checked and run as any change. Never here: what
 //! is written into it.
@@ -17,6 +17,17 @@ impl App {
         let title = &buffer.title;
         waits
             .then(|| format!("{title} has unsaved changes that do not run; E shows and runs them."))
+    }
+
+    /// Has the text of the system in the lab checked and run once more, unchanged. Where it cannot be, the message and its
+    /// effects are the error.
+    pub(super) fn check_again(&mut self) -> Result<(), Vec<Effect>> {
+        if let Some(why) = self.remind_of_what_does_not_run() {
+            return Err(self.fail(why));
+        }
+        let Some(buffer) = self.ready_buffer() else { return Err(Vec::new()) };
+        buffer.touch_at_once(false);
+        Ok(())
     }
 
     /// Changes the text of the system in the lab by a key; it is checked and run as any change. Where it cannot be changed,

@@ -1,10 +1,11 @@
-//! An axis that is typed: an expression that the list of quantities does not have becomes an observable of the text.
+//! An axis that is typed: an expression that the list of quantities does not have becomes an observable of the view.
 //!
-//! In: what was typed above the list. Out: the text with the observable, which is checked and run as any change of the text;
-//! the plot with it on its axis, as soon as that runs. Never here: the list, or how a text is changed.
+//! In: what was typed above the list. Out: the observable, with which the text is checked and run once more, unchanged itself;
+//! the plot with it on its axis, as soon as that runs. Never here: the list, or how a text is checked.
 
 use super::pending::TypedAxis;
 use super::{App, Choosing, Effect, Lab, Menu, Notification, Overlay};
+use crate::diagnostic::{Diagnostic, Severity};
 use crate::instrument::{Plot, named};
 use crate::model::{Allowed, Scope};
 use crate::preset::NewObservable;
@@ -44,14 +45,29 @@ impl App {
         if known.is_some() {
             return Some(self.set_typed_axis(axis));
         }
-        let observable = NewObservable { name: name.clone(), expression: typed };
-        if let Err(effects) = self.change_text(|text| observable.added_to(text)) {
+        if let Err(effects) = self.check_again() {
             return Some(effects);
         }
+        if let Some(lab) = &mut self.lab {
+            lab.typed.push(NewObservable { name, expression: typed });
+        }
         self.awaited.plots.axis = Some(axis);
-        let sentence = format!("{name} is now an observable of the text; E shows it.");
-        self.notifications.show(Notification::info(sentence));
         Some(Vec::new())
+    }
+
+    /// Gives up the quantities typed for axes, where errors behind a text of this length say that they no longer fit it; the text
+    /// is then checked without them. Returns whether it does.
+    pub(super) fn gives_up_typed(&mut self, diagnostics: &[Diagnostic], length: usize) -> bool {
+        let Some(lab) = self.lab.as_mut().filter(|lab| !lab.typed.is_empty()) else { return false };
+        let is_error = |one: &&Diagnostic| one.severity == Severity::Error;
+        let errors = || diagnostics.iter().filter(is_error);
+        if !errors().all(|error| error.place.start >= length) {
+            return false;
+        }
+        let names: Vec<String> = lab.typed.drain(..).map(|one| one.name).collect();
+        let sentence = format!("The axis {} does not fit this text.", names.join(", "));
+        self.notifications.show(Notification::error(sentence));
+        self.check_again().is_ok()
     }
 
     /// Puts the quantity of a text that runs now on the axis that waits for it.

@@ -154,6 +154,12 @@ impl App {
         }
         let searching = places.contains(&Place::Search)
             || (places.contains(&Place::Picker) && begins_search(key));
+        if let Some(search) = self.typed_search() {
+            if edit(&mut search.input, key) {
+                search.begin();
+            }
+            return Vec::new();
+        }
         match &mut self.overlay {
             Some(Overlay::Workbench) => self.type_into_buffer(key),
             Some(Overlay::Field(field)) => field.press(key),
@@ -191,6 +197,11 @@ impl App {
     fn paste(&mut self, text: &str) -> Vec<Effect> {
         let all = text.len();
         let text = beginning(text, LONGEST_PASTE);
+        if let Some(search) = self.typed_search() {
+            search.begin();
+            paste(&mut search.input, text);
+            return Vec::new();
+        }
         let whole = match &mut self.overlay {
             Some(Overlay::Workbench) => self.paste_into_buffer(text),
             Some(Overlay::Field(field)) => field.paste(text),
@@ -243,6 +254,7 @@ impl App {
         self.workbench.clear();
         self.overlay.take_if(|overlay| matches!(overlay, Overlay::Workbench));
         self.awaited.plots = AwaitedPlots::default();
+        self.awaited.view = None;
         self.lab = Some(Lab::new(loaded));
         // An error message stays valid when something else is loaded.
         self.notifications.shown.take_if(|notice| !notice.is_error());
@@ -297,6 +309,7 @@ impl App {
             self.notifications.clear_waiting();
         }
         (self.page, self.overlay, self.scroll, self.section) = (page, None, 0, None);
+        self.page_search = None;
         if page == Page::Plain {
             self.read();
         }

@@ -30,6 +30,8 @@ pub struct ValueInfo {
     pub range: Option<(f64, f64, RangeSpacing)>,
     /// Whether it changes with the time by itself.
     pub ramped: bool,
+    /// What an initial value is in the file, where it follows parameters and was not changed.
+    pub follows: Option<String>,
 }
 
 /// Moves a value by `sign · times` fine steps. About 200 of them make up the range or, without one, the value's

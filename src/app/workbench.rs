@@ -8,6 +8,7 @@ use std::time::Duration;
 
 use super::buffer::{BufferState, SourceBuffer, Unsaved};
 use super::{Effect, Loaded};
+use crate::preset::NewObservable;
 
 /// The source buffers.
 #[derive(Clone, Debug, Default)]
@@ -90,15 +91,17 @@ impl Workbench {
         self.buffers.last_mut().is_some_and(SourceBuffer::postpone_check)
     }
 
-    /// Advances the time for the top buffer. Returns the check that is now due, if there is one.
-    pub(super) fn tick(&mut self, elapsed: Duration) -> Option<Effect> {
+    /// Advances the time for the top buffer. Returns the check that is now due, if there is one: of the text with the quantities
+    /// that the view has besides.
+    pub(super) fn tick(&mut self, elapsed: Duration, typed: &[NewObservable]) -> Option<Effect> {
         let buffer = self.buffers.last_mut().filter(|buffer| buffer.state != BufferState::Left)?;
         if !buffer.tick(elapsed) {
             return None;
         }
         self.checks += 1;
-        buffer.begin_check(self.checks);
-        let (title, text) = (buffer.title.clone(), buffer.editor.text());
+        let own = buffer.begin_check(self.checks);
+        let title = buffer.title.clone();
+        let text = typed.iter().fold(own, |text, observable| observable.behind(&text));
         Some(Effect::Check { ticket: self.checks, title, text })
     }
 }

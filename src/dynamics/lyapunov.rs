@@ -49,7 +49,7 @@ pub struct Lyapunov {
     pub sum: f64,
     /// The largest |λᵢ + λ₂ₙ₊₁₋ᵢ|; `None` where pairs are not expected.
     pub pairing_residual: Option<f64>,
-    /// The plain mean of the largest exponent up to a time.
+    /// The mean of the largest exponent up to a time, weighted as it is: the last is the exponent itself.
     pub curve: Vec<(f64, f64)>,
     /// The step or tolerance used.
     pub settings: Settings,
@@ -266,9 +266,14 @@ fn result(
     let (uncertainty, settled): (Vec<f64>, Vec<bool>) = known.into_iter().unzip();
     let pairs = exponents.iter().zip(exponents.iter().rev());
     let pairing = pairs.map(|(a, b)| (a + b).abs()).fold(0.0, f64::max);
-    let curve = (1..=POINTS).map(|i| begin + (end - begin) * i as f64 / POINTS as f64);
-    let largest = |time| if count > 0 { growth.plain(0, begin, time) } else { 0.0 };
-    let curve: Vec<(f64, f64)> = curve.map(|time| (time, largest(time))).collect();
+    let weighted = |vector: &usize| growth.weighted(*vector, begin, end);
+    let fastest = (0..count).max_by(|a, b| weighted(a).total_cmp(&weighted(b)));
+    // what was taken out has the exponent 0, which may be the largest
+    let fastest = fastest.filter(|vector| Some(&weighted(vector)) == exponents.first());
+    let curve = match fastest {
+        Some(vector) => growth.means(vector, POINTS),
+        None => vec![(begin, 0.0), (end, 0.0)],
+    };
     let mean = megno.mean();
     let pairing = space.is_hamiltonian().then_some(pairing);
     let followed = Followed {

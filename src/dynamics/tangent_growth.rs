@@ -31,22 +31,49 @@ pub(super) struct TangentGrowth {
     pub(super) logarithms: Vec<Vec<f64>>,
 }
 
+/// The mean rate of growth in some parts of the time between two times, with a smooth weight; `None` where it has no part.
+fn weighted_mean(
+    parts: impl Iterator<Item = ([f64; 2], f64)>,
+    [begin, end]: [f64; 2],
+) -> Option<f64> {
+    let weight = |time: f64| {
+        let s = (time - begin) / (end - begin);
+        if s > 0.0 && s < 1.0 { math::exp(-1.0 / (s * (1.0 - s))) } else { 0.0 }
+    };
+    let (mut sum, mut whole) = (0.0, 0.0);
+    for ([from, to], growth) in parts {
+        // the growth of a part is spread over it; Simpson's rule for the weight
+        let mean = (weight(from) + 4.0 * weight(0.5 * (from + to)) + weight(to)) / 6.0;
+        sum += mean * growth;
+        whole += mean * (to - from);
+    }
+    (whole > 0.0).then(|| sum / whole)
+}
+
 impl TangentGrowth {
     /// The mean rate of growth of a vector between two times, with a smooth weight.
     pub(super) fn weighted(&self, vector: usize, begin: f64, end: f64) -> f64 {
-        let weight = |time: f64| {
-            let s = (time - begin) / (end - begin);
-            if s > 0.0 && s < 1.0 { math::exp(-1.0 / (s * (1.0 - s))) } else { 0.0 }
+        let rounds = self.times.windows(2).zip(self.logarithms.windows(2));
+        let rounds =
+            rounds.map(|(times, logs)| ([times[0], times[1]], logs[1][vector] - logs[0][vector]));
+        weighted_mean(rounds, [begin, end]).unwrap_or_else(|| self.plain(vector, begin, end))
+    }
+
+    /// The weighted mean rate of growth of a vector from the beginning up to so many times; the last is that of all rounds, the
+    /// others are those of as many parts as there are times.
+    pub(super) fn means(&self, vector: usize, count: usize) -> Vec<(f64, f64)> {
+        let (begin, end) = (self.begin(), self.end());
+        let times: Vec<f64> =
+            (0..=count).map(|i| begin + (end - begin) * i as f64 / count as f64).collect();
+        let logs: Vec<f64> = times.iter().map(|&time| self.at(vector, time)).collect();
+        let mean = |last: usize| {
+            let parts = (1..=last).map(|i| ([times[i - 1], times[i]], logs[i] - logs[i - 1]));
+            let known = weighted_mean(parts, [begin, times[last]]);
+            known.unwrap_or_else(|| self.plain(vector, begin, times[last]))
         };
-        let (mut sum, mut whole) = (0.0, 0.0);
-        for (times, logs) in self.times.windows(2).zip(self.logarithms.windows(2)) {
-            let [from, to] = [times[0], times[1]];
-            // the growth of a round is spread over it; Simpson's rule for the weight
-            let mean = (weight(from) + 4.0 * weight(0.5 * (from + to)) + weight(to)) / 6.0;
-            sum += mean * (logs[1][vector] - logs[0][vector]);
-            whole += mean * (to - from);
-        }
-        if whole > 0.0 { sum / whole } else { self.plain(vector, begin, end) }
+        let mut means: Vec<(f64, f64)> = (1..count).map(|i| (times[i], mean(i))).collect();
+        means.push((end, self.weighted(vector, begin, end)));
+        means
     }
 
     /// The plain mean rate of growth of a vector between two times.

@@ -117,6 +117,17 @@ impl Instrument for ActionPlot {
         Across::Named("ε".to_owned(), [-reach, reach])
     }
 
+    fn awaits(&self, PlotContext { present, answer, .. }: PlotContext<'_>) -> Option<String> {
+        let letter = self.0.letter();
+        let what = format!("{letter} of paths beside this motion that have the same ends");
+        match (nothing_yet(present), computed(answer).map(|known| &known.outcome)) {
+            (Some(why), _) => Some(format!("{what}: {why}.{}", present.to_begin())),
+            (None, None) => Some(format!("{what}. It is being computed.")),
+            (None, Some(Err(why))) => Some(why.clone()),
+            (None, Some(Ok(_))) => None,
+        }
+    }
+
     fn picture(
         &self,
         PlotContext { plot, present, answer }: PlotContext<'_>,

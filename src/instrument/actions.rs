@@ -108,6 +108,20 @@ impl Instrument for ActionsPlot {
         Across::Named(name, ranges(answer)[0])
     }
 
+    fn awaits(&self, PlotContext { answer, .. }: PlotContext<'_>) -> Option<String> {
+        match computed(answer) {
+            None => Some(
+                "The action J = ∮ p dq of each energy, and the place of this motion on its curve. It is \
+                 being computed."
+                    .to_owned(),
+            ),
+            Some(computed) if computed.course.past.is_empty() => {
+                computed.found.as_ref().err().cloned()
+            }
+            Some(_) => None,
+        }
+    }
+
     fn picture(&self, context: PlotContext<'_>, _seen: [f64; 2]) -> Option<Picture> {
         let PlotContext { present, answer, .. } = context;
         let [_, high] = ranges(answer);

@@ -75,6 +75,20 @@ impl Instrument for AnglePlot {
         Across::Times([first, present.time.max(first + period)])
     }
 
+    fn awaits(&self, PlotContext { answer, .. }: PlotContext<'_>) -> Option<String> {
+        match computed(answer) {
+            None => Some(
+                "The angle variable w against time, a straight line where J is constant. It is being \
+                 computed."
+                    .to_owned(),
+            ),
+            Some(computed) if computed.course.past.is_empty() => {
+                computed.lost.clone().or_else(|| computed.course.frozen.as_ref().err().cloned())
+            }
+            Some(_) => None,
+        }
+    }
+
     fn picture(
         &self,
         PlotContext { answer, .. }: PlotContext<'_>,

@@ -187,7 +187,9 @@ pub fn described(physics: Physics<'_>, one: &Equilibrium) -> (String, String) {
     };
     let short = |x: f64| significant(x, 4, 1e-4..1e5).replace('-', "−");
     let places = physics.positions().filter_map(|(_, channel)| {
-        Some(format!("{} = {}", physics.shown(channel), short(value_at(physics, one, channel)?)))
+        let value = value_at(physics, one, channel)?;
+        let value = part_of_pi(value).unwrap_or_else(|| short(value));
+        Some(format!("{} = {value}", physics.shown(channel)))
     });
     let places: Vec<String> = places.collect();
     let modes: Vec<String> = one.modes.iter().map(|mode| short(mode.frequency)).collect();
@@ -292,6 +294,27 @@ pub fn described_mode(physics: Physics<'_>, one: &Equilibrium, mode: usize) -> S
     format!("ω = {}: {}", short(mode.frequency), parts.join(", "))
 }
 
+/// The denominators of parts of π, and how near a value is to one that is written so.
+const PARTS: [f64; 5] = [1.0, 2.0, 3.0, 4.0, 6.0];
+const NEAR: f64 = 1e-9;
+
+/// A value as a part of π, or a few times π, if it is one: `π`, `−π/2`, `2π/3`.
+fn part_of_pi(x: f64) -> Option<String> {
+    let turns = x / std::f64::consts::PI;
+    let is_whole = |part: f64| (turns * part - (turns * part).round()).abs() < NEAR;
+    let part = PARTS.into_iter().find(|&part| is_whole(part))?;
+    let count = (turns * part).round();
+    let sign = if count < 0.0 { "−" } else { "" };
+    let times = match count.abs() {
+        0.0 => return None,
+        1.0 => String::new(),
+        times if times <= 12.0 => format!("{times}"),
+        _ => return None,
+    };
+    let below = if part == 1.0 { String::new() } else { format!("/{part}") };
+    Some(format!("{sign}{times}π{below}"))
+}
+
 fn short(x: f64) -> String {
     significant(x, 3, 1e-3..1e5).replace('-', "−")
 }
@@ -309,7 +332,26 @@ fn amplitude(real: f64, imaginary: f64) -> Option<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::amplitude;
+    use std::f64::consts::PI;
+
+    use super::{amplitude, part_of_pi};
+
+    #[test]
+    fn parts_of_pi_are_written_so_and_nothing_else_is() {
+        for (x, shown) in [
+            (PI, "π"),
+            (-PI, "−π"),
+            (2.0 * PI, "2π"),
+            (PI / 2.0, "π/2"),
+            (-2.0 * PI / 3.0, "−2π/3"),
+            (5.0 * PI / 6.0, "5π/6"),
+        ] {
+            assert_eq!(part_of_pi(x).as_deref(), Some(shown));
+        }
+        for x in [0.0, 1.0, 3.14159, PI + 1e-6, 100.0 * PI, PI / 5.0, f64::NAN, f64::INFINITY] {
+            assert_eq!(part_of_pi(x), None, "{x}");
+        }
+    }
 
     #[test]
     fn an_amplitude_has_one_sign_before_its_imaginary_part() {

@@ -68,6 +68,18 @@ impl Instrument for Exponents {
         Across::Times([start, end])
     }
 
+    fn awaits(&self, PlotContext { answer, .. }: PlotContext<'_>) -> Option<String> {
+        match measured(answer).map(|measured| &measured.found) {
+            None => Some(
+                "λ against time: how fast neighbouring motions separate, measured from the initial \
+                 values on. It is being computed; V measures it again."
+                    .to_owned(),
+            ),
+            Some(Err(why)) => Some(why.clone()),
+            Some(Ok(_)) => None,
+        }
+    }
+
     fn picture(&self, context: PlotContext<'_>, _seen: [f64; 2]) -> Option<Picture> {
         let PlotContext { present, answer, .. } = context;
         let axes = |name: &str, range, layers| {

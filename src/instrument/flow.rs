@@ -109,6 +109,18 @@ impl Instrument for FlowPlot {
         )
     }
 
+    fn awaits(&self, PlotContext { answer, .. }: PlotContext<'_>) -> Option<String> {
+        match followed(answer).map(|known| &known.outcome) {
+            None => Some(
+                "M, the derivative of the motion by its initial state, against time: how far M J Mᵀ is \
+                 from J, or det M. It is being computed."
+                    .to_owned(),
+            ),
+            Some(Err(why)) => Some(why.clone()),
+            Some(Ok(_)) => None,
+        }
+    }
+
     fn picture(&self, context: PlotContext<'_>, _seen: [f64; 2]) -> Option<Picture> {
         let mut layers = vec![(NOW, Layer::Legend(sentences(context)))];
         let Some(courses) = courses(context.answer) else {

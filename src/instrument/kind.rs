@@ -163,6 +163,11 @@ pub trait Instrument: Sync {
     /// The picture over a horizontal range, or `None` if there is nothing to draw.
     fn picture(&self, context: PlotContext<'_>, seen: [f64; 2]) -> Option<Picture>;
 
+    /// What it will show and what begins it, while there is none of it yet, or why there is none: said in place of empty axes.
+    fn awaits(&self, _context: PlotContext<'_>) -> Option<String> {
+        None
+    }
+
     /// The initial values that a point of the picture represents.
     ///
     /// # Errors

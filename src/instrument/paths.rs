@@ -103,6 +103,16 @@ impl Instrument for PathsPlot {
         Across::Named("t".to_owned(), range)
     }
 
+    fn awaits(&self, PlotContext { present, answer, .. }: PlotContext<'_>) -> Option<String> {
+        let what = "All true paths from where the motion began to where it is, in the same time";
+        match (nothing_yet(present), computed(answer).map(|known| &known.outcome)) {
+            (Some(why), _) => Some(format!("{what}: {why}.{}", present.to_begin())),
+            (None, None) => Some(format!("{what}. They are being computed.")),
+            (None, Some(Err(why))) => Some(why.clone()),
+            (None, Some(Ok(_))) => None,
+        }
+    }
+
     fn picture(&self, context: PlotContext<'_>, _seen: [f64; 2]) -> Option<Picture> {
         let PlotContext { plot, present, answer } = context;
         let column = plot.column(0)?;

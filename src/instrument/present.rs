@@ -103,6 +103,11 @@ impl<'a> Physics<'a> {
 }
 
 impl Present<'_> {
+    /// The key that starts the motion, after a sentence, where time is not running.
+    pub(super) fn to_begin(&self) -> &'static str {
+        if self.running { "" } else { " Space starts the motion." }
+    }
+
     /// When the recorded motion began, under the law of now.
     pub fn began(&self) -> f64 {
         self.changed_at().unwrap_or(self.physics.model.run.start)

@@ -125,6 +125,20 @@ impl Instrument for SectionPlot {
         context.plot.column(0).map_or(Across::Nothing, |x| Across::Channel(x, range))
     }
 
+    fn awaits(&self, PlotContext { plot, present, answer }: PlotContext<'_>) -> Option<String> {
+        let view = view(plot, present.physics)?;
+        let own = present.crossings.counts().get(view.section?).copied().unwrap_or(0);
+        let orbits = Portrait::of(answer).is_some_and(|portrait| portrait.crossings() > 0);
+        if own > 0 || orbits || !present.separations.is_empty() || !present.equilibria.is_empty() {
+            return None;
+        }
+        let begin = present.to_begin();
+        let on = surface(present.physics, view);
+        Some(format!(
+            "A dot for each time the motion crosses {on}; none so far.{begin} n adds orbits, G fills the section with them."
+        ))
+    }
+
     fn picture(&self, context: PlotContext<'_>, _seen: [f64; 2]) -> Option<Picture> {
         let PlotContext { plot, present, answer } = context;
         let channels = [plot.column(0)?, plot.column(1)?];

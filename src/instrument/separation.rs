@@ -21,6 +21,18 @@ const SLOPE: Level = 2;
 /// The row.
 pub(super) struct SeparationPlot;
 
+/// What is said of the straight line through a distance: its slope and how well that is known, and where it was measured.
+fn sentences(number: usize, slope: Option<Slope>) -> Vec<String> {
+    let Some(slope) = slope else { return vec![format!("{number}: too short for a slope")] };
+    let short = |x: f64| significant(x, 3, 1e-4..1e4).replace('-', "−");
+    let (rate, error) = (short(slope.rate), significant(slope.error, 1, 1e-4..1e4));
+    vec![
+        format!("{number}: slope {rate} ± {error}"),
+        format!("from t = {} to {}", short(slope.from), short(slope.to)),
+        format!("grown by e^{:.1}", slope.grown).replace('-', "−"),
+    ]
+}
+
 impl Instrument for SeparationPlot {
     fn name(&self) -> &'static str {
         "separation"
@@ -70,6 +82,15 @@ impl Instrument for SeparationPlot {
         Across::Times(range(present, 0).unwrap_or([present.time, present.time + 1.0]))
     }
 
+    fn awaits(&self, PlotContext { present, .. }: PlotContext<'_>) -> Option<String> {
+        let none = present.separations.is_empty() && present.returned.is_none();
+        none.then(|| {
+            "ln d against time: how far another motion departs from this one. d adds a neighbour that \
+             starts close by, P pins this run."
+                .to_owned()
+        })
+    }
+
     fn picture(&self, context: PlotContext<'_>, _seen: [f64; 2]) -> Option<Picture> {
         let PlotContext { present, answer, .. } = context;
         let mut layers = Vec::new();
@@ -90,15 +111,11 @@ impl Instrument for SeparationPlot {
             layers.push((SLOPE, Layer::Line(ends.to_vec(), stroke)));
         }
         let range = range(present, 1).unwrap_or([-1.0, 1.0]);
-        // among tabs there is no room for it in the heading
-        let name = match newest(present) {
-            Some((number, _, Some(slope))) => {
-                let rate = significant(slope.rate, 3, 1e-4..1e4);
-                format!("ln d   {number}: slope {rate}, grown by e^{:.1}", slope.grown)
-            }
-            _ => "ln d".to_owned(),
-        };
-        Some(Picture::Axes { upwards: Upwards::Named(name, range), layers, occurrences: None })
+        if let Some((number, _, slope)) = newest(present) {
+            layers.push((SLOPE, Layer::Legend(sentences(number, slope))));
+        }
+        let upwards = Upwards::Named("ln d".to_owned(), range);
+        Some(Picture::Axes { upwards, layers, occurrences: None })
     }
 
     fn job(&self, context: PlotContext<'_>) -> Need {

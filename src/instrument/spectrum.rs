@@ -101,6 +101,19 @@ impl Instrument for SpectrumPlot {
         Across::Named("ω".to_owned(), [0.0, last])
     }
 
+    fn awaits(&self, PlotContext { plot, present, answer }: PlotContext<'_>) -> Option<String> {
+        match found(answer).map(|found| &found.outcome) {
+            None => {
+                let name = present.physics.shown(plot.column(0)?);
+                Some(format!(
+                    "The frequencies ω of {name}, as lines of its spectrum. They are being computed; w finds them again."
+                ))
+            }
+            Some(Err(why)) => Some(why.clone()),
+            Some(Ok(_)) => None,
+        }
+    }
+
     fn picture(&self, context: PlotContext<'_>, _seen: [f64; 2]) -> Option<Picture> {
         let PlotContext { plot, present, answer } = context;
         let name = present.physics.shown(plot.column(0)?);

@@ -4,6 +4,7 @@
 
 use std::ops::Range;
 
+use serde::{Deserialize, Serialize};
 use toml_edit::{
     Array, ArrayOfTables, Document, DocumentMut, InlineTable, Item, Table, TableLike, TomlError,
     Value, value,
@@ -190,7 +191,7 @@ impl NewRamp {
 }
 
 /// An observable to be added to a text.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct NewObservable {
     /// Its name.
     pub name: String,
@@ -210,6 +211,19 @@ impl NewObservable {
         observable.insert("expression", value(self.expression.as_str()));
         push(&mut file, "observables", observable);
         Ok(file.to_string())
+    }
+
+    /// A text with the observable at its end, so that every place in it stays what it is, where that can be; else behind those
+    /// that it has, and the text itself if it is not valid TOML.
+    pub fn behind(&self, text: &str) -> String {
+        let quoted = |words: &str| value(words).to_string();
+        let (name, expression) = (quoted(&self.name), quoted(&self.expression));
+        let longer =
+            format!("{text}\n\n[[observables]]\nname = {name}\nexpression = {expression}\n");
+        if longer.parse::<DocumentMut>().is_ok() {
+            return longer;
+        }
+        self.added_to(text).unwrap_or_else(|_| text.to_owned())
     }
 }
 

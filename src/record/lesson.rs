@@ -168,8 +168,11 @@ impl Lesson {
 
     /// Gives the lab's keys to the person, or takes them for the lesson.
     pub(super) fn share_keys(&mut self) {
-        self.runner.lab.app.footer.hints =
-            if self.has_lab() { KeyHints::LabInLesson } else { KeyHints::Hidden };
+        self.runner.lab.app.footer.hints = match self.stage {
+            _ if self.has_lab() => KeyHints::LabInLesson,
+            LessonStage::Pointing(_) => KeyHints::Cursor,
+            _ => KeyHints::Hidden,
+        };
     }
 
     /// Whether the person has left by a key or a click of the lab: it was quit, or exchanged for the list of systems.

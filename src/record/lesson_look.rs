@@ -32,7 +32,13 @@ impl LessonView {
         };
         let Some(lab) = app.lab.as_ref().filter(|_| looks) else { return false };
         before.get_or_insert_with(|| LessonView { page: app.page, focus: lab.focus.clone() });
-        host.happen(Event::Key(key));
+        // the focus is the lesson's: Tab leads to what is hidden
+        match (key.code, &mut host.app.lab) {
+            (KeyCode::Tab | KeyCode::BackTab, Some(lab)) => {
+                lab.show_hidden(key.code == KeyCode::Tab);
+            }
+            _ => host.happen(Event::Key(key)),
+        }
         true
     }
 

@@ -31,6 +31,8 @@ impl Lesson {
         let above = Rect { height: area.height - rows, ..area };
         self.share_keys();
         self.runner.draw(style, above, buffer);
+        // what the cursor reads is known once it is drawn
+        let speech = self.speech();
         let below = Rect { y: above.bottom(), height: rows, ..area };
         lesson::draw(style, &speech, below, buffer);
     }
@@ -62,7 +64,7 @@ impl Lesson {
                 }
                 None => "watch · q leaves",
             },
-            LessonStage::Said => "Enter continues · Tab next pane · q leaves",
+            LessonStage::Said => "Enter continues · Tab other panes · q leaves",
             LessonStage::Ended => "Enter leaves",
             LessonStage::Task { .. } | LessonStage::Free if self.is_typing_in_lab() => {
                 "Enter accepts what is typed · Esc cancels"
@@ -78,7 +80,7 @@ impl Lesson {
             LessonStage::Choosing(selected) => {
                 said =
                     self.question.as_ref().map_or(Vec::new(), |question| question.asked(*selected));
-                "↑ ↓ choose · Enter confirms · Tab next pane · q leaves"
+                "↑ ↓ choose · Enter confirms · Tab other panes · q leaves"
             }
             LessonStage::Pointing(wrong) => {
                 let question = self.question.as_ref();
@@ -96,7 +98,7 @@ impl Lesson {
                 said = vec![paragraph(ParagraphKind::Text, question.unwrap_or_default())];
                 said.push(paragraph(ParagraphKind::Typed, format!("{text}_")));
                 said.extend(wrong.iter().map(|why| paragraph(ParagraphKind::Wrong, why.clone())));
-                "type a number · Enter confirms · Tab next pane · q leaves"
+                "type a number · Enter confirms · Tab other panes · q leaves"
             }
         };
         let all = self.runner.script.steps.len();
@@ -105,7 +107,8 @@ impl Lesson {
             Some(notice) => format!("{notice} · {keys}"),
             None => keys.to_owned(),
         };
-        Speech { title: self.title.clone(), place, paragraphs: said, keys }
+        let focused = !self.has_lab() && !matches!(self.stage, LessonStage::Pointing(_));
+        Speech { title: self.title.clone(), place, paragraphs: said, keys, focused }
     }
 }
 

@@ -243,6 +243,7 @@ mod tests {
     fn session() -> Saved {
         let g = Changed { name: "g".to_owned(), value: 1.0 / 3.0, of_file: 9.81 };
         Saved {
+            typed: Vec::new(),
             version: Saved::VERSION,
             phaselab: "0.1.0".to_owned(),
             open: "pendulum".to_owned(),

@@ -18,6 +18,9 @@ use crate::experiment::Trail;
 use crate::instrument::{Layer, Level};
 use crate::mechanics::Equations;
 
+/// The widths at which the text of the law is kept.
+const LAWS: usize = 2;
+
 /// The styled pieces of a row of text.
 type Row = Vec<(String, Style)>;
 
@@ -28,7 +31,8 @@ pub(super) struct FrameCache {
     trails: Vec<CachedEntry<TrailKey, DrawnTrail>>,
     levels: Vec<CachedEntry<LevelsKey, Raster>>,
     lines: Vec<CachedEntry<LinesKey, Raster>>,
-    law: Option<(LawKey, Vec<Row>)>,
+    /// Of a pane, and of its first line.
+    law: Vec<(LawKey, Vec<Row>)>,
     /// How many rows of trails have been stroked.
     stroked: u64,
 }
@@ -211,11 +215,16 @@ impl FrameCache {
         let same = |(key, _): &(LawKey, Vec<Row>)| {
             Arc::ptr_eq(&key.equations, equations) && key.width == width
         };
-        if !self.law.as_ref().is_some_and(same) {
+        let known = self.law.iter().position(same);
+        let at = known.unwrap_or_else(|| {
+            if self.law.len() == LAWS {
+                self.law.remove(0);
+            }
             let key = LawKey { equations: Arc::clone(equations), width };
-            self.law = Some((key, make()));
-        }
-        self.law.as_ref().map_or(&[], |(_, rows)| rows)
+            self.law.push((key, make()));
+            self.law.len() - 1
+        });
+        &self.law[at].1
     }
 }
 

@@ -32,7 +32,7 @@ pub(super) fn draw(
     );
     let (cell, at) = match viewport.cursor_at {
         Some(at) => (frame.cell(at), at),
-        None => (Some(put), frame.at(put)),
+        None => (Some(put), near_zero(frame, frame.at(put), [ROUNDING; 2])),
     };
     if let Some(cell) = cell {
         draw_mark(canvas, frame, cell);
@@ -40,7 +40,8 @@ pub(super) fn draw(
     let glyphs = canvas.style.glyphs;
     let what = cell.and_then(|cell| marks.at(frame, cell));
     let what = what.map_or_else(String::new, |name| format!("{name}: "));
-    let [x, y] = at;
+    let (wide, high) = frame.dots(glyphs);
+    let [x, y] = near_zero(frame, at, [wide, high].map(|dots| HALF / f64::from(dots)));
     let reading = format!(" {what}{}, {} ", readable(x, 4, glyphs), readable(y, 4, glyphs));
     // It covers no word above the axes.
     let wide = (canvas.text(&reading).width() as u16).min(area.width);
@@ -52,6 +53,19 @@ pub(super) fn draw(
     let stays = cell == Some(put);
     let place = if stays { place } else { place_of(frame, at, place) };
     Some(CursorReading { at, place })
+}
+
+/// Half a dot, and what rounding leaves of zero in parts of an axis.
+const HALF: f64 = 0.5;
+const ROUNDING: f64 = 1e-9;
+
+/// A point whose coordinates are zero where they are nearer to it than these parts of the axes.
+fn near_zero(frame: &PlotFrame, at: [f64; 2], parts: [f64; 2]) -> [f64; 2] {
+    let scales = [frame.x, frame.y];
+    [0, 1].map(|k| {
+        let off = (scales[k].fraction(at[k]) - scales[k].fraction(0.0)).abs();
+        if off < parts[k] { 0.0 } else { at[k] }
+    })
 }
 
 /// The place of a point in a frame, or at its edge if it is outside; the one before where the axes do not contain it at all.
@@ -75,4 +89,25 @@ fn draw_mark(canvas: &mut Canvas<'_>, frame: &PlotFrame, at: Position) {
         }
     }
     canvas.write(at, 1, glyphs.pick("┼", "+"), style);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::view::plot::Scale;
+
+    /// In a frame of 40 columns and 10 rows of braille, half a dot is 1/160 of the width and 1/80 of the height.
+    #[test]
+    fn what_is_zero_to_half_a_dot_reads_zero() {
+        let area = Rect::new(0, 0, 40, 10);
+        let frame = PlotFrame::new(Scale::linear(-1.0, 1.0), Scale::linear(-2.0, 2.0), area);
+        let (wide, high) = frame.dots(crate::view::glyphs::Glyphs::Braille);
+        let half = [wide, high].map(|dots| HALF / f64::from(dots));
+        assert_eq!(near_zero(&frame, [1e-17, -1e-17], half), [0.0, 0.0]);
+        assert_eq!(near_zero(&frame, [0.0124, -0.0499], half), [0.0, 0.0]);
+        assert_eq!(near_zero(&frame, [0.0126, -0.0501], half), [0.0126, -0.0501]);
+        // a power of ten on a logarithmic axis is no zero, however small
+        let frame = PlotFrame::new(Scale::log(1e-12, 1e-6), Scale::linear(0.0, 1.0), area);
+        assert_eq!(near_zero(&frame, [1e-9, 0.5], half), [1e-9, 0.5]);
+    }
 }

@@ -38,7 +38,7 @@ pub(super) fn document(lab: &Lab, style: &RenderStyle) -> TextPage {
     further::rows(lab, style, &mut writer.page);
     constants::found(lab, style, &mut writer.page);
     writer.definitions();
-    writer.page
+    writer.page.balanced()
 }
 
 /// The law of motion, the solved equations and the notes of the file, for a small pane.

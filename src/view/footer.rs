@@ -215,7 +215,7 @@ impl Hint {
 /// The most useful keys in the current context, innermost first; help and quit come last. None where a script hides them. The key to
 /// the next pane comes before all others where there are panes that the body of the page does not show.
 fn hints(canvas: &Canvas<'_>, (app, body): (&App, Rect)) -> Vec<Hint> {
-    if app.footer.hints == KeyHints::Hidden {
+    if matches!(app.footer.hints, KeyHints::Hidden | KeyHints::Cursor) {
         return Vec::new();
     }
     // A text that is edited is kept, and a list is closed, when it is left.
@@ -255,7 +255,13 @@ fn hints(canvas: &Canvas<'_>, (app, body): (&App, Rect)) -> Vec<Hint> {
     let mut hints: Vec<Hint> = rows.map(hint).collect();
     let hides = |lab: &Lab| layout::panes(body, lab).len() < lab.panes().count();
     if app.page == Page::Lab && app.lab.as_ref().is_some_and(hides) {
-        hints.sort_by_key(|hint| hint.action != Action::NextPane);
+        hints.sort_by_key(|hint| match hint.action {
+            Action::NextPane => 0,
+            Action::NextTab => 1,
+            _ => 2,
+        });
+    } else {
+        hints.retain(|hint| hint.action != Action::NextTab);
     }
     hints
 }
@@ -302,7 +308,14 @@ fn open_field(canvas: &mut Canvas<'_>, (area, body): (Rect, Rect), app: &App, fi
         (None, _) if is_surface => {
             (Role::Dim, "x = 0, rising (falling, either); every 2*pi/w; event NAME".to_owned())
         }
-        (None, Some(facts)) => (Role::Dim, format!("{} {}", facts.unit, facts.about)),
+        (None, Some(facts)) => {
+            let range = facts.range.map_or_else(String::new, |(min, max, _)| {
+                let [min, max] = [min, max].map(|x| brief(x, 6, glyphs));
+                format!("{min} to {max} ")
+            });
+            let unit = if facts.unit.is_empty() { "" } else { "   " };
+            (Role::Dim, format!("{range}{}{unit}{}", facts.unit, facts.about))
+        }
         (None, None) => (Role::Dim, String::new()),
     };
     let mut hints = hints(canvas, (app, body));

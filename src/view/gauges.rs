@@ -15,29 +15,26 @@ use super::plot::{Marker, Scale};
 use super::sparkline::Sparkline;
 use super::theme::Role;
 use super::values::window;
+use super::verdict::{
+    BETWEEN, HEADED, IN_FULL, ROUNDING, all_in_full, beside_name, given_by_impulses, is_residual,
+    reason, reason_in_a_word, reasons_below, word,
+};
 use super::wrap::{shortened, shortened_within, words};
 use crate::analysis::{Growth, Unseen, Verdict};
 use crate::app::{HitTarget, Lab};
-use crate::experiment::{ATTITUDE_GAUGE, Gauge, Snapshot};
+use crate::experiment::{Gauge, Snapshot};
 use single_row::SingleRow;
 
 /// The widths, in columns, of a verdict in a word and in full, of a drift and of a value.
 const VERDICT: u16 = single_row::VERDICT;
-const IN_FULL: u16 = 17;
 const DRIFT: u16 = 9;
 const VALUE: u16 = 9;
 
 /// The width of the heading of the verdicts.
 const VERDICT_HEAD: u16 = 7;
 
-/// The verdict on what impulses change and the motion between them does not; their sign comes after it.
-const BETWEEN: &str = "conserved between";
-
 /// The greatest width of a history.
 const HISTORY: u16 = 24;
-
-/// The least width at which the columns get headings.
-const HEADED: u16 = 34;
 
 /// The least drift that the sparkline shows, and the least ratio between the ends of its scale.
 const FLOOR: f64 = 1e-17;
@@ -55,13 +52,6 @@ fn single_row(canvas: &Canvas<'_>, width: u16, gauges: &[Gauge]) -> SingleRow {
     SingleRow::of(width, longest, gauges.iter().map(verdict).max().unwrap_or(0))
 }
 
-/// Whether a gauge shows the residual of a constraint, or of A Aᵀ = 1 of an attitude: a value that is its own distance from zero.
-pub(super) fn is_residual(lab: &Lab, gauge: &Gauge) -> bool {
-    let model = &lab.loaded.model;
-    model.constraints.iter().any(|constraint| constraint.name == gauge.name)
-        || model.attitude.is_some() && gauge.name == ATTITUDE_GAUGE
-}
-
 /// Draws the gauges of a lab around the selected one: two rows for each if there is room, else one.
 pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, selected: Option<usize>) {
     let gauges = lab.snapshot.as_ref().map_or(&[][..], |snapshot| &snapshot.gauges);
@@ -77,26 +67,32 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, selected: Opt
         let at = Rect { y: area.bottom() + index as u16, height: 1, ..area };
         canvas.left(columns(at, 2, at.width), Role::Dim, line);
     }
-    let height = if usize::from(area.height) >= 2 * gauges.len() { 2 } else { 1 };
-    let headed = usize::from(area.height) > height * gauges.len() && area.width >= HEADED;
+    let rows = usize::from(area.height);
+    let height = if rows >= 2 * gauges.len() { 2 } else { 1 };
+    // the columns of a mark and at the edge are no gauge's
+    let width = area.width.saturating_sub(3);
+    let reasons = reasons_below(lab, gauges, width, canvas.style.glyphs);
+    let more: usize = reasons.iter().map(Vec::len).sum();
+    let reasons = Some(reasons).filter(|_| rows >= 2 * gauges.len() + more);
+    let taken = height * gauges.len() + if reasons.is_some() { more } else { 0 };
+    let headed = rows > taken && area.width >= HEADED;
     let single = (height == 1).then(|| single_row(canvas, area.width.saturating_sub(3), gauges));
     if headed {
         heads(canvas, columns(area, 2, area.width.saturating_sub(3)), single);
     }
     let (_, area) = split_rows(area, u16::from(headed));
     let shown = usize::from(area.height) / height;
-    // One verdict is given in the same words throughout.
-    let in_full = gauges.iter().all(|gauge| {
-        fits_in_full(canvas, area.width.saturating_sub(3), gauge) && !is_residual(lab, gauge)
-    });
+    let in_full = all_in_full(lab, gauges, width, canvas.style.glyphs);
     let first = window(selected.unwrap_or(0), gauges.len(), shown);
+    let mut top = 0;
     for (place, gauge) in gauges.iter().skip(first).take(shown).enumerate() {
         let here = selected == Some(first + place);
         let mark = if here { canvas.style.glyphs.pick("›", ">") } else { " " };
-        for line in 0..height {
-            canvas.target(row(area, place * height + line), HitTarget::Gauge(first + place));
+        let below = reasons.as_ref().map_or(&[][..], |all| &all[first + place]);
+        for line in 0..height + below.len() {
+            canvas.target(row(area, top + line), HitTarget::Gauge(first + place));
         }
-        let at = row(area, place * height);
+        let at = row(area, top);
         canvas.left(columns(at, 0, 1), Role::Focus, mark);
         let at = columns(at, 2, area.width.saturating_sub(3));
         let residual = is_residual(lab, gauge);
@@ -104,10 +100,15 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, selected: Opt
             (single.drift, single.residual) = (single.drift.filter(|_| !residual), residual);
             in_one_row(canvas, at, single, (gauge, gauges), here);
         } else {
-            name_and_reason(canvas, at, (gauge, gauges, residual), (here, in_full));
-            let below = row(columns(area, 2, at.width), place * 2 + 1);
-            numbers_and_history(canvas, below, (gauge, residual));
+            let alone = !below.is_empty();
+            name_and_reason(canvas, at, (gauge, gauges, residual), (here, in_full, alone));
+            let numbers = row(columns(area, 2, at.width), top + 1);
+            numbers_and_history(canvas, numbers, (gauge, residual));
+            for (index, line) in below.iter().enumerate() {
+                canvas.left(columns(row(area, top + 2 + index), 4, area.width), Role::Dim, line);
+            }
         }
+        top += height + below.len();
     }
 }
 
@@ -148,34 +149,6 @@ fn heads(canvas: &mut Canvas<'_>, area: Rect, single: Option<SingleRow>) {
     } else {
         canvas.right(columns(area, 0, VALUE + 2), Role::Dim, "value");
         canvas.right(columns(area, VALUE + 3, DRIFT), Role::Dim, "change");
-    }
-}
-
-/// A verdict in full, and its role.
-pub(super) fn in_full(verdict: &Verdict) -> (&'static str, Role) {
-    let (word, role) = word(verdict);
-    let words = match verdict {
-        Verdict::Exact(Growth::Faster) => "grows (rounding)",
-        Verdict::Exact(_) => "conserved (exact)",
-        Verdict::Broken(_) => "not conserved",
-        _ => word,
-    };
-    (words, role)
-}
-
-/// The words for a verdict, short enough for a column, and their role.
-pub(super) fn word(verdict: &Verdict) -> (&'static str, Role) {
-    match verdict {
-        Verdict::Open => ("…", Role::Dim),
-        Verdict::Unknown(_) => ("unknown", Role::Warn),
-        Verdict::Exact(Growth::Level | Growth::Root) => ("exact", Role::Good),
-        Verdict::Exact(Growth::Faster) => ("grows", Role::Warn),
-        Verdict::Bounded => ("bounded", Role::Good),
-        Verdict::Secular(_) => ("drifting", Role::Bad),
-        Verdict::Lost => ("lost", Role::Bad),
-        Verdict::Broken(_) => ("varies", Role::Warn),
-        Verdict::OtherBranch => ("other branch", Role::Dim),
-        Verdict::Released => ("released", Role::Dim),
     }
 }
 
@@ -226,47 +199,23 @@ fn sentence(verdict: &Verdict, glyphs: Glyphs) -> String {
     }
 }
 
-/// Whether a gauge's name leaves room for its verdict in full, in a row of this width.
-fn fits_in_full(canvas: &Canvas<'_>, width: u16, gauge: &Gauge) -> bool {
-    let name = canvas.style.glyphs.pick(&gauge.shown, &gauge.name).width();
-    let sign = if given_by_impulses(gauge).is_some() { 2 } else { 0 };
-    width >= HEADED - 3 && name + 1 + usize::from(IN_FULL + sign) <= width.into()
-}
-
 /// Draws the name, the reason for its conservation and, at the right, the verdict, in full or in a word. A residual is called
-/// so; it is satisfied rather than conserved, so its verdict is a word.
+/// so; it is satisfied rather than conserved, so its verdict is a word. A reason that stands alone has rows of its own below.
 fn name_and_reason(
     canvas: &mut Canvas<'_>,
     area: Rect,
     (gauge, all, residual): (&Gauge, &[Gauge], bool),
-    (here, full): (bool, bool),
+    (here, full, alone): (bool, bool, bool),
 ) {
-    let changed = given_by_impulses(gauge).is_some();
-    let words = match (full, &gauge.verdict) {
-        (false, verdict) => word(verdict),
-        (true, Verdict::Exact(_)) if changed => (BETWEEN, word(&gauge.verdict).1),
-        (true, verdict) => in_full(verdict),
-    };
+    let words = beside_name(gauge, full);
     let room = if full { IN_FULL + 2 } else { VERDICT.max(words.0.width() as u16) };
     let used = verdict(canvas, columns(area, area.width.saturating_sub(room), room), gauge, words);
     let area = columns(area, 0, area.width.saturating_sub(used + 1));
     let used = name(canvas, area, (gauge, all), here) + 2;
     // A reason is shown whole, or in a word.
-    let reason = canvas.text(&number::with_minus_signs(&gauge.reason, canvas.style.glyphs));
-    let in_a_word = match (residual, gauge.proved) {
-        _ if gauge.verdict == Verdict::Released => "",
-        (true, _) => "residual",
-        _ if gauge.verdict == Verdict::Unknown(Unseen::Underflow) => "underflow",
-        _ if matches!(gauge.verdict, Verdict::Unknown(_)) => "not resolved",
-        (false, true) => "proved",
-        (false, false) => "",
-    };
+    let whole = canvas.text(&reason(gauge, residual, canvas.style.glyphs));
+    let in_a_word = if alone { "" } else { reason_in_a_word(gauge, residual) };
     let room = usize::from(area.width.saturating_sub(used));
-    let whole = if residual && gauge.verdict != Verdict::Released {
-        format!("{in_a_word}; {reason}")
-    } else {
-        reason
-    };
     if let Some(reason) = [&*whole, in_a_word].into_iter().find(|text| text.width() <= room) {
         canvas.left(columns(area, used, area.width), Role::Dim, reason);
     }
@@ -328,15 +277,6 @@ fn verdict(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge, (text, role): (&s
     canvas.left(columns(area, at, 1), Role::Warn, &sign);
     used + 2
 }
-
-/// The change of the value by impulses since the reference was taken, or `None` if it is within rounding.
-fn given_by_impulses(gauge: &Gauge) -> Option<f64> {
-    let given = gauge.reference - gauge.initial;
-    (given.abs() > ROUNDING * gauge.scale).then_some(given)
-}
-
-/// Changes below this, relative to the terms of a quantity, are rounding errors.
-const ROUNDING: f64 = 1e-12;
 
 /// Describes a gauge's drift.
 pub(super) fn finding(gauge: &Gauge, glyphs: Glyphs) -> String {

@@ -7,7 +7,7 @@ use unicode_width::UnicodeWidthStr;
 
 use super::canvas::{Canvas, Span, columns, row, wide};
 use super::layout::{Slot, is_single, panes, view_of_motion};
-use super::list_tabs::{ListTabs, add_targets, name};
+use super::list_tabs::{ListTabs, add_key, add_targets, name};
 use super::number::brief;
 use super::quantity::Quantities;
 use super::region::ScreenRegion;
@@ -15,9 +15,9 @@ use super::text_page::draw_rows;
 use super::theme::Role;
 use super::values::{ValueList, window};
 use super::wrap::{capitalised, words};
-use super::{equations, gauges, picture, picture_title, tabs};
+use super::{equations, gauges, picture, picture_title, placeholder, tabs};
 use crate::app::{
-    App, DrawnPanes, HitTarget, InputField, Lab, LawInView, Overlay, Pane, PlotsInView, UnderWay,
+    App, DrawnPanes, HitTarget, InputField, Lab, LawInView, Overlay, Pane, PanesInView, UnderWay,
     ValueId,
 };
 use crate::experiment::{Failure, Status};
@@ -31,6 +31,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App, lab: &Lab) ->
     let slots = panes(area, lab);
     let mut in_view = LawInView::Aside;
     let shown: Vec<usize> = slots.iter().filter_map(|(slot, _)| slot.plot()).collect();
+    let in_sight = PanesInView::of(slots.iter().filter_map(|(slot, _)| slot.pane()));
     for (slot, place) in slots {
         match slot {
             Slot::Pane(Pane::Plot(index)) => {
@@ -47,6 +48,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App, lab: &Lab) ->
                 let title = [canvas.span(Role::Title, name(Pane::Law))];
                 in_view = law(canvas, place, lab, &title);
             }
+            Slot::LineOfLaw => line_of_law(canvas, place, lab),
             Slot::Pane(pane) => {
                 let mut title = vec![canvas.span(Role::Title, name(pane))];
                 if pane == Pane::Gauges {
@@ -73,7 +75,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App, lab: &Lab) ->
     if let Some(Status::Failed(fault)) = lab.snapshot.as_ref().map(|s| &s.status) {
         stopped(canvas, area, fault);
     }
-    DrawnPanes { single: is_single(area), law: in_view, plots: PlotsInView::of(shown) }
+    DrawnPanes { single: is_single(area), law: in_view, in_view: in_sight }
 }
 
 /// Draws only the view of the motion, or the first view there is; over it the reason why the motion stopped.
@@ -82,6 +84,25 @@ pub(super) fn draw_motion(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab) {
     if let Some(Status::Failed(fault)) = lab.snapshot.as_ref().map(|s| &s.status) {
         stopped(canvas, area, fault);
     }
+}
+
+/// Draws the first row of the law of motion, and how many more it has.
+fn line_of_law(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab) {
+    canvas.target(area, HitTarget::Pane(Pane::Law));
+    let mut cache = std::mem::take(&mut canvas.cache);
+    let rows = cache.law(&lab.loaded.equations, area.width, || {
+        equations::law(lab, canvas.style).laid_out(canvas, area.width)
+    });
+    let glyphs = canvas.style.glyphs;
+    let more = match rows.len() {
+        0 | 1 => String::new(),
+        all => format!("+{} {}", all - 1, glyphs.pick("↓", "down")),
+    };
+    let used = canvas.right(columns(area, 0, area.width - 1), Role::Dim, &more);
+    if let Some(first) = rows.first() {
+        canvas.spans(columns(area, 2, area.width.saturating_sub(used + 4)), first);
+    }
+    canvas.cache = cache;
 }
 
 /// Draws the law of motion, and returns how much of it is in view.
@@ -151,7 +172,8 @@ fn beyond(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, pane: Pane) {
 fn plot(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, (index, sharing): (usize, &[usize])) {
     let focused = lab.focus.pane == Pane::Plot(index);
     let (Some(plot), Some(q)) = (lab.plots.get(index), Quantities::of(lab, canvas.style)) else {
-        canvas.pane(area, &[], focused);
+        let inner = canvas.pane(area, &[], focused);
+        placeholder::draw(canvas, inner, "The motion will be shown here; it is being prepared.");
         return;
     };
     // Between the corners, with a blank at each side.
@@ -177,7 +199,9 @@ fn plot(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, (index, sharing): (usize
             let is_alone = rest.is_empty();
             let whole: Vec<Span> = tabs.iter().cloned().chain([gap]).chain(rest).collect();
             // Values are shown beside tabs where all of them fit.
-            if wide(&whole) <= room && !is_alone { whole } else { tabs }
+            let mut shown = if wide(&whole) <= room && !is_alone { whole } else { tabs };
+            add_key(canvas, &mut shown, room);
+            shown
         }
         None => picture_title::title(canvas, &q, plot, room),
     };
@@ -207,7 +231,10 @@ fn stopped(canvas: &mut Canvas<'_>, area: Rect, fault: &Failure) {
     let lines = words(&text, usize::from(width.saturating_sub(4)));
     let height = (lines.len() as u16 + 4).min(area.height);
     let title = canvas.span(Role::Bad, "The motion cannot continue");
+    // the keys are those of the pane below it
+    let beside = std::mem::replace(&mut canvas.beside, true);
     let (_, inner) = canvas.dialog(area, (width, height), title);
+    canvas.beside = beside;
     for (index, line) in lines.iter().enumerate() {
         canvas.left(row(inner, index), Role::Text, line);
     }

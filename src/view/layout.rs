@@ -4,6 +4,8 @@
 
 use ratatui::layout::Rect;
 
+use super::glyphs::Glyphs;
+use super::verdict::reasons_below;
 use super::wrap::words;
 use crate::app::{Lab, Pane, ValueId};
 use crate::instrument::{Instrument, MotionCurve};
@@ -48,9 +50,20 @@ pub(super) enum Slot {
     Lists(Pane),
     /// The law of motion, if there is room to spare.
     Law,
+    /// Its first row, without a frame.
+    LineOfLaw,
 }
 
 impl Slot {
+    /// The pane in it, if it can be focused there.
+    pub(super) fn pane(self) -> Option<Pane> {
+        match self {
+            Self::LineOfLaw => None,
+            Self::Pane(pane) | Self::Values(pane) | Self::Lists(pane) => Some(pane),
+            Self::Law => Some(Pane::Law),
+        }
+    }
+
     /// The index of the picture in it, if it has one.
     pub(super) fn plot(self) -> Option<usize> {
         match self {
@@ -103,14 +116,22 @@ fn wide(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
     slots
 }
 
-/// Places two plots above, and values and gauges below.
+/// The rows from which the law of motion has one of them between two pictures and two lists.
+const WITH_LAW: u16 = 20;
+
+/// Places two plots above, and values and gauges below; between them the first row of the law of motion.
 fn square(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
     let gauges = lab.snapshot.as_ref().map_or(0, |s| s.gauges.len()) as u16;
     let wanted = (lab.count(ValueId::Parameter) as u16).max(gauges + 1) + 2;
     let below = wanted.clamp(area.height / 3, area.height * 9 / 20);
     let (above, below) = split_rows(area, area.height - below);
     let (left, right) = split_columns(below, below.width / 2);
+    let line = if area.height < WITH_LAW { 0 } else { 1 };
+    let (above, law) = split_rows(above, above.height - line);
     let mut slots = side_by_side(above, &chosen(lab, 2));
+    if line > 0 {
+        slots.push((Slot::LineOfLaw, law));
+    }
     slots.push((Slot::Values(values(lab)), left));
     slots.push((Slot::Pane(Pane::Gauges), right));
     slots
@@ -135,21 +156,32 @@ fn plots(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
 fn column(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
     let gauges = lab.snapshot.as_ref().map_or(0, |s| s.gauges.len()) as u16;
     let parameters = lab.count(ValueId::Parameter) as u16;
+    let reasons = rows_of_reasons(lab, area.width);
     // A frame takes two rows, a gauge two and the gauges' headings one; the meaning of the selected parameter takes
     // two, and the reason of the selected gauge some more while there is one. Rows to spare are the law's.
     let focused = if lab.focus.pane == Pane::Gauges { REASON } else { 0 };
     let wants = [
         parameters + 2 + meaning(lab, area.width),
         lab.count(ValueId::Initial) as u16 + 2,
-        2 * gauges.max(1) + 3 + focused,
+        2 * gauges.max(1) + 3 + focused + reasons,
     ];
     let mut heights = wants.map(|want| want.max(SHORTEST));
+    let bare = 2 * gauges + 3 + focused;
+    // What a value means is below the panes too, and gives way to the rows of gauges; then reasons do.
+    for (list, least) in [(0, parameters + 2), (2, bare)] {
+        let excess = (heights.iter().sum::<u16>() + LAW).saturating_sub(area.height);
+        heights[list] -= excess.min(heights[list].saturating_sub(least.max(SHORTEST)));
+    }
     let mut total: u16 = heights.iter().sum();
     while total + LAW > area.height && heights.iter().any(|height| *height > SHORTEST) {
         // The tallest list shrinks first.
         let tallest = (0..3).max_by_key(|&i| heights[i]).unwrap_or(0);
         heights[tallest] -= 1;
         total -= 1;
+    }
+    // Reasons have all of their rows or none.
+    if heights[2] < bare + reasons {
+        heights[2] = heights[2].min(bare.max(SHORTEST));
     }
     // What two rows a gauge are not enough for is left to the law.
     if heights[2] < 2 * gauges + 3 {
@@ -172,6 +204,14 @@ fn column(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
         slots.push((Slot::Law, Rect { y, height: spare, ..area }));
     }
     slots
+}
+
+/// Rows for the reasons of gauges that have no room beside their names.
+fn rows_of_reasons(lab: &Lab, width: u16) -> u16 {
+    let gauges = lab.snapshot.as_ref().map_or(&[][..], |snapshot| &snapshot.gauges);
+    // a frame, a mark and the columns at its edges
+    let below = reasons_below(lab, gauges, width.saturating_sub(5), Glyphs::Braille);
+    below.iter().map(Vec::len).sum::<usize>() as u16
 }
 
 /// Rows for the meaning of the selected parameter: as many as the longest text needs, from two to four.

@@ -24,6 +24,8 @@ pub struct Speech {
     pub paragraphs: Vec<Paragraph>,
     /// The keys that hold.
     pub keys: String,
+    /// Whether they are the lesson's own, and not those of the lab above.
+    pub focused: bool,
 }
 
 /// A paragraph and its kind.
@@ -90,7 +92,7 @@ pub fn draw(style: &RenderStyle, speech: &Speech, area: Rect, buffer: &mut Buffe
         canvas.span(Role::Title, &speech.title),
         canvas.span(Role::Dim, format!("  {}", speech.place)),
     ];
-    let inner = canvas.pane(area, &title, true);
+    let inner = canvas.pane(area, &title, speech.focused);
     let below = Rect { y: area.bottom().saturating_sub(1), height: area.height.min(1), ..area };
     let below = columns(below, 2, below.width.saturating_sub(4));
     let keys = fitting(&speech.keys, usize::from(below.width).saturating_sub(2));

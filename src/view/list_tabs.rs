@@ -55,13 +55,16 @@ impl ListTabs {
                 title.push(canvas.span(role, among_others(*pane, short)));
             }
             if wide(&title) <= room {
+                add_key(canvas, &mut title, room);
                 return Self { title, panes: panes.to_vec() };
             }
         }
         let place = panes.iter().position(|pane| *pane == shown).unwrap_or(0) + 1;
         let own = canvas.span(Role::Title, among_others(shown, false));
         let counted = canvas.span(Role::Dim, format!(" {place}/{}", panes.len()));
-        Self { title: vec![own, counted], panes: Vec::new() }
+        let mut title = vec![own, counted];
+        add_key(canvas, &mut title, room);
+        Self { title, panes: Vec::new() }
     }
 
     /// Makes the titles in a frame clickable.
@@ -69,6 +72,16 @@ impl ListTabs {
         add_targets(canvas, frame, &self.title, &self.panes);
     }
 }
+
+/// Writes the key that shows the next tab after the tabs, where there is room for it.
+pub(super) fn add_key(canvas: &Canvas<'_>, title: &mut Vec<Span>, room: usize) {
+    if wide(title) + KEY.len() <= room {
+        title.push(canvas.span(Role::Accent, KEY));
+    }
+}
+
+/// That key.
+const KEY: &str = "  \\";
 
 /// Makes the titles of panes in a frame clickable; a line separates neighbouring titles.
 pub(super) fn add_targets(canvas: &mut Canvas<'_>, frame: Rect, title: &[Span], panes: &[Pane]) {

@@ -3,11 +3,12 @@
 //! In: the channels and their values. Out: a page of text. Never here: pictures.
 
 use super::companions;
-use super::gauges::{change, in_full, is_residual, shown_value, word};
+use super::gauges::{change, shown_value};
 use super::number::{drift, readable};
 use super::quantity::Quantities;
 use super::text_page::TextPage;
 use super::theme::Role;
+use super::verdict::{in_full, is_residual, word};
 use crate::experiment::EventCount;
 use crate::instrument::{described, described_mode, displaced};
 use crate::system::{Channel, ChannelKind};

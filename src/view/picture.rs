@@ -17,7 +17,7 @@ use super::plot::{Ages, Axes, DrawnAxis, Pen, PlotFrame, Raster, Scale};
 use super::quantity::{Quantities, through};
 use super::theme::Role;
 use super::time_window::time_window;
-use super::{companions, cursor, field, legend, level_curves, prediction, space};
+use super::{companions, cursor, field, legend, level_curves, placeholder, prediction, space};
 use crate::instrument::{Across, Ink, Layer, Level, MarkerShape, Picture, Plot, Upwards, Viewport};
 
 /// The rows above the axes that keys may take.
@@ -80,23 +80,22 @@ pub(super) fn draw(
     let present = q.present();
     let context = q.lab.context(plot, &present);
     let viewport = plot.viewport().unwrap_or(Viewport::WHOLE);
-    let across = match plot.kind.across(context) {
-        Across::Nothing => None,
-        Across::Channel(channel, range) => Some(q.axis(channel, range, (viewport, 0))),
-        Across::Times([from, to]) => {
-            let scale = through(Scale::linear(from, to), (viewport, 0));
-            Some(DrawnAxis::new("t", q.lab.loaded.model.time_unit(), scale))
-        }
-        Across::Named(name, [from, to]) => {
-            let name = q.style.glyphs.text(&name).into_owned();
-            Some(DrawnAxis::new(name, "", through(Scale::linear(from, to), (viewport, 0))))
-        }
-        Across::Time => {
-            Some(DrawnAxis::new("t", q.lab.loaded.model.time_unit(), time_window(q, viewport, 1)))
-        }
-    };
+    // a cursor needs the axes
+    if let Some(words) = plot.kind.awaits(context).filter(|_| viewport.cursor.is_none()) {
+        placeholder::draw(canvas, area, &words);
+        return None;
+    }
+    let across = axis_across(q, plot.kind.across(context), viewport);
     let seen = across.as_ref().map_or([f64::NAN; 2], |axis| [axis.scale.lo, axis.scale.hi]);
-    let (upwards, layers, occurrences) = match plot.kind.picture(context, seen)? {
+    let Some(picture) = plot.kind.picture(context, seen) else {
+        placeholder::draw(
+            canvas,
+            area,
+            "There is nothing to show here. v chooses what this pane shows.",
+        );
+        return None;
+    };
+    let (upwards, layers, occurrences) = match picture {
         Picture::Scene(eye) => {
             space::draw(canvas, area, q, &eye);
             return None;
@@ -179,6 +178,20 @@ pub(super) fn draw(
         canvas.moving = now.map(|[x, y]| [frame.x.fraction(x), frame.y.fraction(y)]);
     }
     Some(frame)
+}
+
+fn axis_across(q: &Quantities<'_>, across: Across, viewport: Viewport) -> Option<DrawnAxis> {
+    let time = |scale| DrawnAxis::new("t", q.lab.loaded.model.time_unit(), scale);
+    match across {
+        Across::Nothing => None,
+        Across::Channel(channel, range) => Some(q.axis(channel, range, (viewport, 0))),
+        Across::Times([from, to]) => Some(time(through(Scale::linear(from, to), (viewport, 0)))),
+        Across::Named(name, [from, to]) => {
+            let name = q.style.glyphs.text(&name).into_owned();
+            Some(DrawnAxis::new(name, "", through(Scale::linear(from, to), (viewport, 0))))
+        }
+        Across::Time => Some(time(time_window(q, viewport, 1))),
+    }
 }
 
 fn axis_upwards(q: &Quantities<'_>, upwards: &Upwards, viewport: Viewport) -> DrawnAxis {

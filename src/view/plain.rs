@@ -3,11 +3,12 @@
 //! In: the lab and the snapshot to be read. Out: a page of text. Never here: anything that changes without input.
 
 use super::companions;
-use super::gauges::{change, finding, in_full};
+use super::gauges::{change, finding};
 use super::header::status_words;
 use super::number::{brief, drift, readable};
 use super::quantity::Quantities;
 use super::text_page::TextPage;
+use super::verdict::in_full;
 use crate::app::keymap::{KEYS, Place};
 use crate::app::{Lab, Pane, ValueId, ValueInfo};
 use crate::experiment::Snapshot;

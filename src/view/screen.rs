@@ -15,6 +15,7 @@ use super::layout::{LEAST, ScreenLayout, split_rows};
 use super::menu;
 use super::notes;
 use super::numbers;
+use super::page_search;
 use super::picker;
 use super::plain;
 use super::prompt;
@@ -132,6 +133,9 @@ fn body(canvas: &mut Canvas<'_>, area: Rect, app: &App) -> Drawn {
     if let Some(buffer) = app.open_buffer() {
         return workbench::draw(canvas, area, app, buffer);
     }
+    // what lies over a page has the focus, and so does a lesson that speaks
+    let covered = matches!(over, Some(Overlay::Menu(_) | Overlay::Prompt(_)));
+    canvas.beside = covered || app.footer.hints == KeyHints::Hidden;
     let drawn = match (app.page, &app.lab) {
         (Page::Picker, _) | (_, None) => {
             picker::draw(canvas, area, app);
@@ -143,6 +147,7 @@ fn body(canvas: &mut Canvas<'_>, area: Rect, app: &App) -> Drawn {
         }
         (page, Some(lab)) => text_page(canvas, area, (app, lab), page),
     };
+    canvas.beside = false;
     match (over, &app.lab) {
         (Some(Overlay::Menu(menu)), _) => menu::draw(canvas, area, menu),
         (Some(Overlay::Prompt(prompt)), Some(lab)) => prompt::draw(canvas, area, lab, prompt),
@@ -174,14 +179,22 @@ fn text_page(canvas: &mut Canvas<'_>, area: Rect, (app, lab): (&App, &Lab), page
             ("Numbers", numbers.unwrap_or_default())
         }
     };
-    text(canvas, area, title, document, app.scroll)
+    text(canvas, area, title, document, app)
 }
 
-fn text(canvas: &mut Canvas<'_>, area: Rect, title: &str, page: TextPage, scroll: u16) -> Drawn {
+fn text(canvas: &mut Canvas<'_>, area: Rect, title: &str, page: TextPage, app: &App) -> Drawn {
     let title = [canvas.span(Role::Title, title)];
     let inner = canvas.pane(area, &title, true);
     canvas.target(area, HitTarget::Text);
-    page.draw_in_columns(canvas, inner, scroll)
+    let Some(search) = app.search_of_page() else {
+        return page.draw_in_columns(canvas, inner, app.scroll);
+    };
+    let (above, below) = split_rows(inner, 1);
+    let words = page_search::line(canvas, above, search);
+    let place = Some(search.place).filter(|_| search.seeks);
+    let drawn = page.searched(words, place).draw_in_columns(canvas, below, app.scroll);
+    page_search::count(canvas, above, (search.place, drawn.matches));
+    drawn
 }
 
 /// Draws the message for a screen that is too small for anything else.

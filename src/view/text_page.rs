@@ -9,6 +9,7 @@ use unicode_width::UnicodeWidthStr;
 use super::canvas::{Canvas, Span, columns, row};
 use super::clauses::clauses;
 use super::emphasis::{Styles, marked, spans};
+use super::page_search::{mark, matches};
 use super::primes::with_primes;
 use super::theme::Role;
 use super::wrap::{formula_beside, words};
@@ -26,6 +27,9 @@ const MEASURE: u16 = 110;
 const TWO_COLUMNS: u16 = 160;
 const BETWEEN: u16 = 2;
 
+/// The rows above a match that is in view.
+const ABOVE: usize = 2;
+
 /// Columns of an item's label, of a name, at least and at most, and of a number; on narrow pages, the columns left for a unit.
 const LABEL: usize = 20;
 const NAME: usize = 30;
@@ -41,6 +45,8 @@ pub(super) struct TextPage {
     balanced: bool,
     /// The heading with which the rows that are drawn begin, where the page has it: its last place.
     from: Option<&'static str>,
+    /// The words that are searched for, and the number of the match to be in view, if one is.
+    sought: (String, Option<usize>),
 }
 
 enum TextBlock {
@@ -120,8 +126,19 @@ impl TextPage {
         Self { from: heading, ..self }
     }
 
-    /// The row at which the section to be in view begins.
+    /// The same page, with some words marked, and a match of them in view.
+    pub(super) fn searched(self, words: String, place: Option<usize>) -> Self {
+        Self { sought: (words, place), ..self }
+    }
+
+    /// The row at which the section to be in view begins, or a few above the match to be in view.
     fn section(&self, canvas: &Canvas<'_>, lines: &[Vec<Span>]) -> Option<u16> {
+        let (words, place) = &self.sought;
+        if let Some(place) = place {
+            let found = matches(lines, words);
+            let row = found.get((*place).min(found.len().saturating_sub(1)))?;
+            return Some(row.saturating_sub(ABOVE).min(usize::from(u16::MAX)) as u16);
+        }
         let heading = canvas.span(Role::Title, self.from?);
         let row = lines.iter().rposition(|line| matches!(&line[..], [only] if *only == heading))?;
         Some(row.min(usize::from(u16::MAX)) as u16)
@@ -142,7 +159,12 @@ impl TextPage {
         if area.width < TWO_COLUMNS || whole.len() <= height && !self.balanced {
             let section = self.section(canvas, &whole);
             let drawn = draw_rows(canvas, area, section.unwrap_or(scroll), &whole);
-            return Drawn { scroll: section, ..drawn };
+            let first = usize::from(section.unwrap_or(scroll)).min(drawn.beyond.into());
+            for (index, line) in whole.iter().skip(first).take(height).enumerate() {
+                mark(canvas, columns(row(area, index), 1, area.width), line, &self.sought.0);
+            }
+            let matches = matches(&whole, &self.sought.0).len();
+            return Drawn { scroll: section, matches, ..drawn };
         }
         let lines = self.laid_out(canvas, half);
         let beyond = lines.len().saturating_sub(2 * height);
@@ -162,17 +184,22 @@ impl TextPage {
         };
         let right = lines.iter().skip(first + split + skipped).take(height);
         for (index, line) in lines.iter().skip(first).take(split).enumerate() {
-            canvas.spans(columns(row(area, index), 1, measure(half) + 1), line);
+            let at = columns(row(area, index), 1, measure(half) + 1);
+            canvas.spans(at, line);
+            mark(canvas, at, line, &self.sought.0);
         }
         for (index, line) in right.enumerate() {
-            canvas.spans(columns(row(area, index), half + BETWEEN, measure(half) + 1), line);
+            let at = columns(row(area, index), half + BETWEEN, measure(half) + 1);
+            canvas.spans(at, line);
+            mark(canvas, at, line, &self.sought.0);
         }
         if beyond > 0 {
             scroll_bar(canvas, area, first, lines.len() - height);
         }
         let rows = area.height.saturating_mul(2);
         let beyond = beyond.min(usize::from(u16::MAX)) as u16;
-        Drawn { beyond, rows, scroll: section, ..Drawn::default() }
+        let matches = matches(&lines, &self.sought.0).len();
+        Drawn { beyond, rows, scroll: section, matches, ..Drawn::default() }
     }
 
     /// The rows of the page in an area of this width.

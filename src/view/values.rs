@@ -118,6 +118,13 @@ impl ValueList<'_> {
             }
         }
         canvas.left(columns(area, grid.unit, grid.bar - grid.unit - 2), Role::Dim, &unit(&facts));
+        if let Some(of_file) = &facts.follows {
+            let text = canvas.text(&format!("= {of_file}"));
+            let place = columns(area, grid.bar, area.width.saturating_sub(grid.bar + 1));
+            if text.width() <= place.width.into() {
+                canvas.left(place, Role::Dim, &text);
+            }
+        }
         if let Some(value) = value {
             let place = columns(area, grid.bar, area.width);
             bar(canvas, place, (target, &facts), value, here && self.focused);

@@ -191,8 +191,15 @@ pub(crate) fn write(app: &mut App, typed: &str) -> Vec<Effect> {
     press(app, "Enter")
 }
 
-/// Checks the text that waits, as the shell does, and returns it.
+/// Checks the text that waits, which has no error, as the shell does, and returns it.
 pub(crate) fn checked(app: &mut App) -> String {
+    let (text, is_right) = judged(app);
+    assert!(is_right, "{text}");
+    text
+}
+
+/// Checks the text that waits, as the shell does. Returns it, and whether it has no error.
+pub(crate) fn judged(app: &mut App) -> (String, bool) {
     let effects = app.update(Event::Tick(Duration::from_millis(20)));
     let found = effects.into_iter().find_map(|effect| match effect {
         Effect::Check { ticket, title, text } => Some((ticket, title, text)),
@@ -201,9 +208,11 @@ pub(crate) fn checked(app: &mut App) -> String {
     let (ticket, title, text) = found.expect("a text to be checked");
     let name = app.lab.as_ref().unwrap().loaded.name.clone();
     let ready = Prepared::of(&Document::new(title.as_str(), text.as_str()));
-    let Ok(Prepared { document, model, equations, system, .. }) = ready else { panic!("{text}") };
-    let outcome = Ok(Loaded { name, epoch: 2, document, model, equations, system });
-    let took = Some(Duration::from_millis(3));
+    let outcome = ready.map_err(|why| why.diagnostics).map(|ready| {
+        let Prepared { document, model, equations, system, .. } = ready;
+        Loaded { name, epoch: 2, document, model, equations, system }
+    });
+    let (took, is_right) = (Some(Duration::from_millis(3)), outcome.is_ok());
     app.update(Event::Checked(Box::new(CheckedText { ticket, outcome, took })));
-    text
+    (text, is_right)
 }

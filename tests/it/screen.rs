@@ -3,6 +3,7 @@
 mod bytes;
 mod cells;
 mod fit;
+mod focus;
 mod footer;
 mod golden;
 mod hit_test;
@@ -11,6 +12,7 @@ mod labels;
 mod legends;
 mod motion;
 mod names;
+mod page_search;
 mod panes;
 mod plain;
 mod purity;

@@ -101,9 +101,7 @@ impl Session {
         let stem = self.stem();
         self.write_file(move || {
             let written = put(&stem, ending, text.as_bytes())?;
-            let folder = env::current_dir().map(|folder| printable::path(&folder));
-            let folder = folder.map_or_else(|_| String::new(), |path| format!(" in {path}"));
-            Ok(format!("{why}: {}{folder}.", written.trim_end_matches('.')))
+            Ok(format!("{why}: {written}"))
         });
     }
 
@@ -150,7 +148,7 @@ impl Session {
         self.app.recording = false;
         if let Some(recorder) = self.recorder.take() {
             let end = move || recorder.end(true).map_err(|why| why.to_string());
-            self.write_file(move || end().map(|name| format!("{name} is written.")));
+            self.write_file(move || end().map(|name| written(&name)));
         }
     }
 
@@ -165,5 +163,12 @@ impl Session {
 fn put(stem: &str, ending: &'static str, bytes: &[u8]) -> WriteReport {
     let path =
         new_file::write_new(Path::new(""), stem, ending, bytes).map_err(|why| why.to_string())?;
-    Ok(format!("{} is written.", path.display()))
+    Ok(written(&path.display().to_string()))
+}
+
+/// Says that a file is written, and in which folder.
+fn written(name: &str) -> String {
+    let folder = env::current_dir().map(|folder| printable::path(&folder));
+    let folder = folder.map_or_else(|_| String::new(), |path| format!(" in {path}"));
+    format!("{name} is written{folder}.")
 }

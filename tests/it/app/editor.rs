@@ -106,6 +106,9 @@ fn words_are_found_from_the_cursor_on_and_round_again() {
     }
     let caret = |row, column| Caret { row, column };
     assert_eq!(places, [caret(0, 0), caret(2, 0), caret(0, 0)]);
+    // a capital letter matches itself only
+    assert!(editor.find("Mass") && !editor.find("MASS"));
+    assert_eq!(editor.selection().expect("it is selected").0, caret(0, 0));
     assert!(!editor.find("gravity"));
     assert!(!editor.find(""));
 }

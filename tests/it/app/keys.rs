@@ -8,7 +8,7 @@ use crossterm::event::KeyEvent;
 use phaselab::app::keymap::{Binding, CHAINS, KEYS, Place};
 use phaselab::app::{
     Action, App, Choice, Drawn, DrawnPanes, Effect, Event, LawInView, LoadError, Menu, Overlay,
-    Page, Pane, ValueId,
+    Page, Pane, PanesInView, ValueId,
 };
 use phaselab::experiment::{Command, Status};
 use phaselab::instrument::Sight;
@@ -70,7 +70,13 @@ fn states_made(place: Place) -> Vec<App> {
     };
     match place {
         Place::Always | Place::Anywhere => vec![lab("")],
-        Place::Lab => vec![with_impulses(&["push"]), with_frame(), lab("")],
+        Place::Lab => {
+            let mut shared = lab("");
+            let in_view = PanesInView::of([Pane::Plot(0), Pane::Plot(1), Pane::Parameters]);
+            let panes = DrawnPanes { in_view, ..DrawnPanes::default() };
+            shared.update(Event::Drawn(Drawn { panes: Some(panes), ..Drawn::default() }));
+            vec![with_impulses(&["push"]), with_frame(), lab(""), shared]
+        }
         Place::Picker => vec![picker("Up Up")],
         Place::Search => vec![picker("/ p e n d Down")],
         Place::Experiment => {
@@ -88,7 +94,12 @@ fn states_made(place: Place) -> Vec<App> {
             press(&mut app, "Down");
             vec![app]
         }
-        Place::Text => vec![scrolled("3")],
+        Place::Text => {
+            let mut searched = lab("3 / m Enter");
+            let drawn = Drawn { beyond: 90, rows: 20, matches: 3, ..Drawn::default() };
+            searched.update(Event::Drawn(drawn));
+            vec![scrolled("3"), searched]
+        }
         Place::Help => vec![lab("?")],
         Place::Message => vec![wrong_file()],
         Place::Law => {
@@ -178,6 +189,9 @@ fn facts(app: &App) -> Vec<(String, String)> {
     fact("initial value", selection.initial.to_string());
     fact("gauge", selection.gauge.to_string());
     fact("law scrolled", lab.law_scroll.to_string());
+    let search = app.page_search.as_ref();
+    let search = search.map(|s| format!("{:?}, match {}", s.input.value(), s.place + 1));
+    fact("search in the text", search.unwrap_or_else(|| "none".to_owned()));
     for index in 0..lab.count(ValueId::Parameter) {
         let target = ValueId::Parameter(index);
         let name = lab.value_info(target).unwrap().name;

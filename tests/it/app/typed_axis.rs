@@ -1,10 +1,11 @@
-//! An expression typed above the list of quantities becomes an observable of the text, and the axis of the plot.
+//! An expression typed above the list of quantities becomes the axis of the plot. It belongs to the view: neither the text of
+//! the system nor what is saved of it changes.
 
 use std::time::Duration;
 
 use phaselab::app::{App, Effect, Event, Overlay};
 
-use crate::hand::{checked, lab, press, write};
+use crate::hand::{catalog, checked, judged, lab, loaded, press, write};
 use crate::screen::{rich, rows, screen};
 
 /// Focuses the first phase plane and types into its list.
@@ -38,6 +39,59 @@ fn an_expression_can_be_typed_for_either_axis() {
     assert!(text.contains("\"theta1 - 2 theta2\"") && text.contains("\"theta1'^2\""), "{text}");
     assert!(app.overlay.is_none());
     assert_eq!(axes(&app), ["θ₁ − 2 θ₂", "theta1'^2"]);
+    // the text is what it was, in the lab and in the editor
+    let own = loaded("double-pendulum", 1).document.text.clone();
+    assert_eq!(app.lab.as_ref().unwrap().loaded.document.text, own);
+    press(&mut app, "E");
+    assert_eq!(app.open_buffer().expect("a buffer").editor.text(), own);
+    assert!(app.workbench.unsaved().is_empty());
+    // an edit of the text keeps the axes, and is checked together with them
+    press(&mut app, "End # x");
+    app.update(Event::Tick(Duration::from_millis(140)));
+    let text = checked(&mut app);
+    assert!(text.contains("\"theta1'^2\"") && text.contains("#x"), "{text}");
+    press(&mut app, "Esc");
+    assert_eq!(axes(&app), ["θ₁ − 2 θ₂", "theta1'^2"]);
+}
+
+/// What was typed is stored with the session, and is on its axes again when that is resumed.
+#[test]
+fn a_typed_axis_is_resumed_with_the_session() {
+    let mut app = lab("double-pendulum", 1.0);
+    ask(&mut app, "theta1 - 2 theta2");
+    checked(&mut app);
+    write(&mut app, "theta1'^2");
+    checked(&mut app);
+    let saved = app.saved().expect("a session");
+    assert!(!saved.edited);
+    let (mut again, _) = App::new(catalog(), Some("double-pendulum"));
+    again.resume(saved);
+    again.update(Event::Loaded(Ok(loaded("double-pendulum", 1))));
+    let text = checked(&mut again);
+    assert!(text.contains("\"theta1'^2\""), "{text}");
+    assert_eq!(axes(&again), ["θ₁ − 2 θ₂", "theta1'^2"]);
+    assert_eq!(
+        again.lab.as_ref().unwrap().loaded.document.text,
+        loaded("double-pendulum", 1).document.text
+    );
+}
+
+/// A text that an axis no longer fits runs without it, and that is said.
+#[test]
+fn an_axis_that_no_longer_fits_the_text_is_given_up() {
+    let mut app = lab("double-pendulum", 1.0);
+    ask(&mut app, "m2*theta1");
+    checked(&mut app);
+    write(&mut app, "theta1'^2");
+    checked(&mut app);
+    assert_eq!(app.lab.as_ref().unwrap().typed.len(), 2);
+    let own = app.lab.as_ref().unwrap().loaded.document.text.clone();
+    app.update(Event::FileRead { text: own.replace("m2", "mass2"), asked: false });
+    let (text, is_right) = judged(&mut app);
+    assert!(text.contains("m2*theta1") && !is_right, "{text}");
+    let text = checked(&mut app);
+    assert!(!text.contains("m2*theta1") && text.contains("mass2"), "{text}");
+    assert!(app.lab.as_ref().unwrap().typed.is_empty());
 }
 
 /// What the system has already needs no change of the text, however it is written.

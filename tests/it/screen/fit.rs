@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use phaselab::app::{App, Event, Guide, GuideKind, LessonTaken, Pane};
-use phaselab::experiment::{Growth, Verdict};
+use phaselab::experiment::{Growth, Snapshot, Verdict};
 use phaselab::instrument::Sight;
 use phaselab::view::number::rounded;
 
@@ -142,8 +142,14 @@ fn rows_to_spare_are_those_of_the_law() {
         let gauges = app.lab.as_ref().and_then(|lab| Some(lab.snapshot.as_ref()?.gauges.len()));
         let buffer = screen(&app, &rich(), (120, 40));
         let at = |title: &str| find(&buffer, title).unwrap_or_else(|| panic!("{name}: {title}")).1;
-        let height = usize::from(at("Law of motion") - at("Gauges"));
-        assert_eq!(height, 2 * gauges.expect("gauges") + 3, "{name}: {:#?}", rows(&buffer));
+        let (from, to) = (at("Gauges"), at("Law of motion"));
+        let height = usize::from(to - from);
+        // and more only where a reason has a row below its gauge
+        assert!(height >= 2 * gauges.expect("gauges") + 3, "{name}: {:#?}", rows(&buffer));
+        let inside = (from + 1..to - 1).map(|y| (84..118).map(move |x| (x, y)));
+        for mut row in inside {
+            assert!(row.any(|at| buffer[at].symbol() != " "), "{name}: {:#?}", rows(&buffer));
+        }
         assert!(rows(&buffer).iter().any(|row| row.contains(" ↓ ─")), "{name} is clipped");
     }
 }
@@ -183,7 +189,7 @@ fn the_motion_is_seen_wherever_there_is_a_view_of_it() {
         app.update(Event::Loaded(Ok(loaded(&entry.name, 1))));
         let shown = |app: &App, size: (u16, u16)| {
             let (_, drawn) = super::drawn(app, &rich(), size);
-            drawn.panes.expect("the lab").plots
+            drawn.panes.expect("the lab").in_view
         };
         let motions: Vec<usize> = {
             let lab = app.lab.as_ref().unwrap();
@@ -191,13 +197,13 @@ fn the_motion_is_seen_wherever_there_is_a_view_of_it() {
         };
         for size in [(80, 24), (120, 40), (200, 60)] {
             let plots = shown(&app, size);
-            if !motions.is_empty() && !motions.iter().any(|index| plots.has(*index)) {
+            if !motions.is_empty() && !motions.iter().any(|index| plots.has(Pane::Plot(*index))) {
                 unseen.push(format!("{} at {size:?}", entry.name));
             }
         }
         let last = app.lab.as_ref().unwrap().plots.len() - 1;
         app.lab.as_mut().unwrap().focus.bring_to_front(last);
-        assert!(shown(&app, (80, 24)).has(last), "{}", entry.name);
+        assert!(shown(&app, (80, 24)).has(Pane::Plot(last)), "{}", entry.name);
     }
     assert!(unseen.is_empty(), "{unseen:#?}");
 }
@@ -359,3 +365,72 @@ fn every_field_says_how_to_leave_it() {
         }
     }
 }
+
+/// The law of motion is on the first screen of every shipped system, at a standard size with its first row and how much more
+/// there is, which a click shows.
+#[test]
+fn the_law_is_on_the_first_screen() {
+    let mut missing = Vec::new();
+    for entry in nonempty(catalog().entries()) {
+        let app = opened(&entry.name);
+        for size in [(80, 24), (120, 40)] {
+            let rows = rows(&screen(&app, &rich(), size));
+            let of_law = |row: &&String| {
+                let row = row.trim_end_matches(['│', ' ']);
+                let row = row.rsplit('│').next().unwrap_or(row).trim_start();
+                ["L = ", "H = "].iter().any(|begin| row.starts_with(begin))
+            };
+            let more = |row: &String| size.0 >= 110 || row.contains(" ↓");
+            if !rows.iter().any(|row| of_law(&row) && more(row)) {
+                missing.push((entry.name.clone(), size, rows));
+            }
+        }
+    }
+    let names: Vec<_> = missing.iter().map(|(name, size, _)| (name, size)).collect();
+    assert!(missing.is_empty(), "{names:?} {:#?}", missing[0].2);
+}
+
+/// At 120 columns and more the reason of every gauge is read in full, beside its name or below it, and its verdict too where
+/// the names leave room.
+#[test]
+fn reasons_are_in_full_where_there_is_room() {
+    let mut seen = 0;
+    for name in ["pendulum", "planet", "heavy-top", "damped-pendulum", "atwood", "two-centres"] {
+        let mut app = opened(name);
+        let gauges = shipped(name).snapshot().gauges;
+        let lab = app.lab.as_ref().expect("a lab");
+        let taken = (**lab.snapshot.as_ref().expect("a snapshot")).clone();
+        app.update(Event::Snapshot(Arc::new(Snapshot { gauges: gauges.clone(), ..taken })));
+        for size in [(120, 40), (200, 60)] {
+            // five gauges, six parameters and six initial values leave no rows for reasons
+            if (name, size.0) == ("heavy-top", 120) {
+                continue;
+            }
+            let text = rows(&screen(&app, &rich(), size));
+            let column: Vec<String> = text
+                .iter()
+                .map(|row| {
+                    row.chars()
+                        .skip(size.0 as usize - LISTS_COLUMN[(size.0 == 200) as usize])
+                        .collect()
+                })
+                .collect();
+            let words = column.join(" ").replace(['│', '╭', '╰', '─', '╮', '╯'], " ");
+            let words = words.split_whitespace().collect::<Vec<_>>().join(" ");
+            for gauge in gauges.iter() {
+                let reason = gauge.reason.replace('-', "−");
+                let reason = reason.split_whitespace().collect::<Vec<_>>().join(" ");
+                assert!(
+                    words.contains(&reason),
+                    "{name} {size:?} {}: {reason} in {words}",
+                    gauge.name
+                );
+                seen += 1;
+            }
+        }
+    }
+    assert!(seen > 20, "{seen}");
+}
+
+/// The columns of the lists at 120 and at 200.
+const LISTS_COLUMN: [usize; 2] = [40, 52];

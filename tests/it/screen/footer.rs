@@ -14,13 +14,15 @@ fn tab_comes_first_where_panes_are_hidden() {
     for name in ["planet", "double-pendulum", "kicked-rotor"] {
         let real = Real::of(name);
         let hidden = footer(&real, (80, 24));
-        let [tab, choose] = ["Tab pane", "choose"].map(|word| hidden.find(word));
+        let [tab, turn, choose] = ["Tab pane", "\\ tabs", "choose"].map(|word| hidden.find(word));
         assert!(tab.is_some() && choose.is_none_or(|at| tab.unwrap() < at), "{name}: {hidden}");
+        assert!(turn.map_or(name != "planet", |at| Some(at) > tab), "{name}: {hidden}");
     }
     // two pictures, three lists and the law all have a place of their own
     let real = Real::of("harmonic-oscillator");
     let all = footer(&real, (300, 90));
     assert!(all.find("choose") < all.find("Tab pane"), "{all}");
+    assert!(!all.contains("tabs"), "{all}");
 }
 
 #[test]
@@ -60,4 +62,31 @@ fn a_law_of_a_released_constraint_says_so() {
     real.run(240);
     assert_eq!(real.seen().released, [0]);
     assert!(says_so(&real));
+}
+
+/// While a value is typed its range is still there, and so is its unit.
+#[test]
+fn the_range_stays_while_a_value_is_typed() {
+    let mut real = Real::of("pendulum");
+    for size in [(80, 24), (120, 40)] {
+        let before = footer(&real, size);
+        assert!(before.contains("0.1 to 5"), "{size:?}: {before}");
+        real.press("Enter");
+        let typing = footer(&real, size);
+        assert!(typing.contains("m = ") && typing.contains("0.1 to 5 kg"), "{size:?}: {typing}");
+        real.press("Esc");
+    }
+}
+
+/// An initial value that follows a parameter says which, until it is changed by itself.
+#[test]
+fn an_initial_value_that_follows_a_parameter_says_which() {
+    let mut real = Real::of("pendulum");
+    let text = |real: &Real| rows(&screen(&real.app, &rich(), (120, 40))).join("\n");
+    assert!(text(&real).contains("= θ₀"), "{}", text(&real));
+    real.press("Tab");
+    assert!(text(&real).contains("initial coordinate, θ₀;"), "{}", text(&real));
+    real.press("Right");
+    let changed = text(&real);
+    assert!(!changed.contains("= θ₀") && !changed.contains("coordinate, θ₀"), "{changed}");
 }

@@ -349,17 +349,19 @@ fn stills_data_and_recordings_are_written_by_keys() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut lab = pendulum_in(folder.path());
     lab.press("S");
-    lab.shows("pendulum.svg is written");
+    let folder_name = folder.path().file_name().expect("a name").to_string_lossy().into_owned();
+    lab.shows("pendulum.svg is written in");
+    lab.shows(&folder_name);
     lab.press("S");
     lab.shows("pendulum-2.svg is written");
     lab.press("D");
-    lab.shows("pendulum.csv is written");
+    lab.shows("pendulum.csv is written in");
     lab.press("O");
     lab.shows("rec");
     lab.press("2");
     lab.shows("Equations");
     lab.press("1O");
-    lab.shows("pendulum.cast is written");
+    lab.shows("pendulum.cast is written in");
     // and again, ended by leaving
     lab.press("O");
     lab.shows("rec");

@@ -1,0 +1,52 @@
+//! The search in the page of text that is shown: opened, continued with the next match, ended.
+//!
+//! In: keys, the number of matches that were drawn. Out: the [`PageSearch`]. Never here: where the matches are, or the pages.
+
+use super::page_search::PageSearch;
+use super::{App, Effect, Page};
+
+impl App {
+    /// Returns the search in the page of text that is shown.
+    pub fn search_of_page(&self) -> Option<&PageSearch> {
+        self.page_search.as_ref().filter(|_| self.overlay.is_none() && self.is_on_text())
+    }
+
+    /// The same, while words are typed.
+    pub(super) fn typed_search(&mut self) -> Option<&mut PageSearch> {
+        let shown = self.overlay.is_none() && self.is_on_text();
+        self.page_search.as_mut().filter(|search| shown && search.typing)
+    }
+
+    /// Whether a page is shown that is searched.
+    fn is_on_text(&self) -> bool {
+        matches!(self.page, Page::Equations | Page::Notes | Page::Numbers) && self.lab.is_some()
+    }
+
+    /// Opens the search in the page that is shown, or tells where there is one.
+    pub(super) fn search_page(&mut self) -> Vec<Effect> {
+        if !self.is_on_text() || self.overlay.is_some() {
+            return self.notify("There is nothing to search here.");
+        }
+        self.page_search = Some(PageSearch { typing: true, ..PageSearch::default() });
+        Vec::new()
+    }
+
+    /// Brings the next match into view, or the one before.
+    pub(super) fn next_match(&mut self, forwards: bool) -> Vec<Effect> {
+        let count = self.drawn.matches;
+        if self.search_of_page().is_none() {
+            return self.notify("/ searches the text first.");
+        }
+        if let Some(search) = self.page_search.as_mut().filter(|_| count > 0) {
+            let by = if forwards { 1 } else { count - 1 };
+            (search.place, search.seeks) = ((search.place.min(count - 1) + by) % count, true);
+        }
+        Vec::new()
+    }
+
+    /// Ends the search. Returns whether there was one.
+    pub(super) fn end_page_search(&mut self) -> bool {
+        let shown = self.search_of_page().is_some();
+        self.page_search.take_if(|_| shown).is_some()
+    }
+}
