@@ -7,21 +7,21 @@
 
 mod adiabatic;
 mod angle;
+mod angle_at_time;
 mod effective_potential;
 mod extremum;
 mod frozen;
 mod mean_return;
-mod moment;
 mod quadrature;
 mod row;
 mod separatrix;
 
 pub use adiabatic::is_adiabatic;
 pub use angle::angle;
+pub use angle_at_time::AngleMoment;
 pub use effective_potential::{AllowedInterval, EffectivePotential, PotentialProfile};
 pub use frozen::{FrozenMotion, FrozenSystem, NotFrozen, OwnMotion};
 pub use mean_return::average_returns;
-pub use moment::AngleMoment;
 pub use row::{
     ActionRow, ActionSystems, NoAction, RegionKind, action_row, action_rows, cyclic_row,
 };

@@ -7,12 +7,12 @@
 //! kinetic focus, and its action is no longer least. Never here: the integrals (`dynamics`).
 //! Source: *The Principles of Dynamics*, §§ 0, 1.4.1, 3.1.3.
 
-mod beside;
+mod along_motion;
 mod ends;
 mod in_phase_space;
 mod principle;
 
-use self::beside::{Actions, Beside, beside};
+use self::along_motion::{Actions, Beside, beside};
 use self::ends::by_its_ends;
 use self::in_phase_space::{beside_by, nature};
 pub(super) use self::principle::Principle;

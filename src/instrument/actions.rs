@@ -5,7 +5,7 @@
 //! found of earlier instants is kept. Never here: how an action is computed (`action_angle`).
 //! Source: *The Principles of Dynamics*, §§ 4.2, 4.3.
 
-mod moment;
+mod action_at_time;
 
 use std::sync::Arc;
 
@@ -18,7 +18,7 @@ use crate::action_angle::{FrozenMotion, OwnMotion, RegionKind, Separatrix, is_ad
 use crate::job::{Job, Progress};
 use crate::num::{math, significant};
 use crate::system::ChannelKind;
-use moment::{Moment, signed};
+use action_at_time::{Moment, signed};
 
 /// The levels of the picture.
 const SEPARATRIX: Level = 0;

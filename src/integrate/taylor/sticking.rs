@@ -6,7 +6,7 @@
 //! tested in many directions, including those in which all other forces pull. Never: the motion at rest,
 //! which is `still`, or the trial velocities themselves, which are `trial_velocities`.
 
-use super::still::{FIRST, Still};
+use super::static_friction::{FIRST, Still};
 use super::trial_velocities::TrialVelocities;
 use crate::num::DoubleDouble;
 use crate::system::{ExactRates, Form, MotionError, State, System};

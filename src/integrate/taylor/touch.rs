@@ -10,7 +10,7 @@
 //! Never here: what comes to rest, or begins to move.
 
 use super::onset::{Onset, points};
-use super::still::Still;
+use super::static_friction::Still;
 use super::trial_velocities::TrialVelocities;
 use super::{StepCourse, Taylor};
 use crate::num::DoubleDouble;
