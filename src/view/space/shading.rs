@@ -1,12 +1,12 @@
 //! Shaded surfaces, where the terminal has colours enough: a cell that a surface covers has a background, on which lines are
-//! drawn, and the edges of surfaces are blocks of a quarter of a cell.
+//! drawn; the edges of surfaces are dots of braille where it is drawn with these, and blocks of a quarter of a cell elsewhere.
 //!
 //! In: the dots that surfaces cover, how brightly they are lit. Out: backgrounds and blocks. Never here: lines, or
 //! terminals of few colours, where surfaces are dots.
 
-use ratatui::buffer::Buffer;
+use ratatui::buffer::{Buffer, Cell};
 use ratatui::layout::{Position, Rect};
-use ratatui::style::Color;
+use ratatui::style::{Color, Style};
 use ratatui::symbols::pixel::QUADRANTS;
 
 use crate::view::glyphs::Glyphs;
@@ -19,6 +19,12 @@ const HALF: usize = 2;
 /// Where lines are the edges of a surface, a cell they cross has its background if it covers this many quarters: outside
 /// of them there should be none of it.
 const MOST: usize = 3;
+
+/// The same by the dots of braille.
+const HALF_OF_DOTS: u32 = 4;
+
+/// The bits of the dots of braille, row by row.
+const BRAILLE: [[u8; 2]; 4] = [[0x01, 0x08], [0x02, 0x10], [0x04, 0x20], [0x40, 0x80]];
 
 /// A quarter of a cell: the number of its dots that are covered, their light, and the tones of the last of them.
 #[derive(Clone, Copy, Debug, Default)]
@@ -37,6 +43,8 @@ pub(super) struct Shading {
     /// The number of dots in each quarter of a cell.
     room: [u8; 4],
     cells: Vec<[Quarter; 4]>,
+    /// The covered dots of each cell, as braille has them; `None` where edges are blocks.
+    braille: Option<Vec<u8>>,
     /// The tones of each surface, and whether lines are its edges.
     tones: Vec<(Tones, bool)>,
 }
@@ -51,7 +59,8 @@ impl Shading {
                 room[quarter] += 1;
             }
         }
-        Self { area, dots, room, cells: Vec::new(), tones: Vec::new() }
+        let braille = (glyphs == Glyphs::Braille).then(Vec::new);
+        Self { area, dots, room, cells: Vec::new(), braille, tones: Vec::new() }
     }
 
     /// The number of dots in a block: columns, rows.
@@ -70,12 +79,16 @@ impl Shading {
         let (wide, high) = (usize::from(self.area.width), usize::from(self.area.height));
         if self.cells.is_empty() {
             self.cells = vec![[Quarter::default(); 4]; wide * high];
+            self.braille.iter_mut().for_each(|dots| *dots = vec![0; wide * high]);
         }
         let [columns, rows] = self.dots;
         let (x, y) = (x as usize, y as usize);
         let (column, row) = (x / columns, y / rows);
         if column >= wide || row >= high {
             return;
+        }
+        if let Some(dots) = &mut self.braille {
+            dots[row * wide + column] |= BRAILLE[y % rows][x % columns];
         }
         for quarter in quarters([x % columns, y % rows], self.dots) {
             let quarter = &mut self.cells[row * wide + column][quarter];
@@ -132,6 +145,9 @@ impl Shading {
             let written = is_written(at.into());
             let lined = |k: usize| self.tones[usize::from(quarters[k].tones)].1;
             let lined = (0..4).filter(|&k| quarters[k].count > 0).all(lined);
+            if !written && self.draw_edge(index, cell, lined) {
+                continue;
+            }
             let covered = colours.iter().flatten().count();
             let is_edge = !lined && (HALF..4).contains(&covered) && is_of_dots(cell.symbol());
             if written || cell.symbol() != " " && !is_edge {
@@ -156,6 +172,33 @@ impl Shading {
                 cell.set_bg(back);
             }
         }
+    }
+
+    /// Draws the dots of a cell that surfaces cover in part, with those of a line that is their edge; returns whether it did. Other
+    /// lines yield to a surface that covers half of their cell, and marks stay.
+    fn draw_edge(&self, index: usize, cell: &mut Cell, lined: bool) -> bool {
+        let Some(covered) = self.braille.as_ref().map(|dots| dots[index]) else { return false };
+        let quarters = &self.cells[index];
+        let symbol = cell.symbol().chars().next().unwrap_or(' ');
+        let blank = symbol == ' ';
+        let is_braille = matches!(symbol, '\u{2800}'..='\u{28ff}');
+        if covered == u8::MAX || self.is_whole(quarters) || !blank && !is_braille {
+            return false;
+        }
+        let line = if blank { 0 } else { (u32::from(symbol) & 0xff) as u8 };
+        let yields = covered.count_ones() >= HALF_OF_DOTS;
+        if !blank && !lined && !yields {
+            return true;
+        }
+        let dots = if lined { covered | line } else { covered };
+        cell.set_char(char::from_u32(0x2800 + u32::from(dots)).unwrap_or(symbol));
+        let tones = quarters.iter().find(|quarter| quarter.count > 0).map(|quarter| quarter.tones);
+        let tones = tones.and_then(|tones| self.tones.get(usize::from(tones)));
+        // dots are sparser than a background, and brighter than it where they are as bright to the eye
+        if let Some(tone) = tones.and_then(|(tones, _)| tones.last()).filter(|_| blank || !lined) {
+            cell.set_style(Style::reset().fg(*tone));
+        }
+        true
     }
 
     /// The colours of the quarters that are covered. Those of a cell that differ by one tone have the same one: a block takes
@@ -232,9 +275,9 @@ mod tests {
     use super::*;
 
     /// A row of cells, of which some are covered whole and some on their left half.
-    fn row(whole: u16, half: u16) -> Shading {
+    fn row(whole: u16, half: u16, glyphs: Glyphs) -> Shading {
         let area = Rect::new(0, 0, whole + half, 1);
-        let mut shading = Shading::new(area, Glyphs::Braille);
+        let mut shading = Shading::new(area, glyphs);
         let tones = shading.add([Color::Blue; 10], false);
         for cell in 0..whole + half {
             for dot in 0..8 {
@@ -249,7 +292,7 @@ mod tests {
 
     #[test]
     fn an_edge_is_a_block_and_the_inside_a_background() {
-        let shading = row(3, 1);
+        let shading = row(3, 1, Glyphs::Octant);
         let mut buffer = Buffer::empty(Rect::new(0, 0, 4, 1));
         let theme = Theme::dark(crate::view::colour::ColourDepth::True);
         shading.draw(&mut buffer, &theme, |_| false);
@@ -261,7 +304,7 @@ mod tests {
     /// A background would square the edge: a line leaves its cells to the block, and a mark keeps them.
     #[test]
     fn lines_yield_to_an_edge_and_marks_do_not() {
-        let shading = row(1, 2);
+        let shading = row(1, 2, Glyphs::Octant);
         let mut buffer = Buffer::empty(Rect::new(0, 0, 3, 1));
         for (x, symbol) in ["⠉", "⠉", "●"].into_iter().enumerate() {
             buffer[(x as u16, 0)].set_symbol(symbol);
@@ -271,5 +314,20 @@ mod tests {
         let cells: Vec<_> = buffer.content.iter().map(|cell| (cell.symbol(), cell.bg)).collect();
         let expected = [("⠉", Color::Blue), ("▌", Color::Reset), ("●", Color::Blue)];
         assert_eq!(cells, expected);
+    }
+
+    /// With braille the covered dots of a cell are drawn, so that a rim is as round as a line; a line yields to them.
+    #[test]
+    fn an_edge_in_braille_is_its_dots() {
+        let shading = row(1, 3, Glyphs::Braille);
+        let mut buffer = Buffer::empty(Rect::new(0, 0, 4, 1));
+        buffer[(2, 0)].set_symbol("⠉");
+        buffer[(3, 0)].set_symbol("●");
+        let theme = Theme::dark(crate::view::colour::ColourDepth::True);
+        shading.draw(&mut buffer, &theme, |_| false);
+        let cells: Vec<_> = buffer.content.iter().map(|cell| (cell.symbol(), cell.bg)).collect();
+        let none = Color::Reset;
+        assert_eq!(cells, [(" ", Color::Blue), ("⡇", none), ("⡇", none), ("●", Color::Blue)]);
+        assert_eq!(buffer[(2, 0)].fg, Color::Blue);
     }
 }
