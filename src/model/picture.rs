@@ -118,6 +118,8 @@ pub enum Shape {
         radius: Expr,
         /// Its axis; z if the file gives none.
         normal: Point,
+        /// The share of the range of a map whose shade it has, if the file gives one.
+        shade: Option<Expr>,
     },
     /// A sphere that hides what is behind it.
     Sphere {

@@ -413,7 +413,10 @@ fn numbers_of(shape: &Shape) -> Vec<Expr> {
         Shape::Circle { centre, radius, normal } => [&centre[..], &[*radius], &normal[..]].concat(),
         Shape::Mass { at, radius } => at.iter().copied().chain(*radius).collect(),
         Shape::Trace { at } | Shape::Body { at } | Shape::Caption { at, .. } => at.to_vec(),
-        Shape::Disc { centre, radius, normal } => [&centre[..], &[*radius], &normal[..]].concat(),
+        Shape::Disc { centre, radius, normal, shade } => {
+            let numbers = [&centre[..], &[*radius], &normal[..]].concat();
+            numbers.into_iter().chain(*shade).collect()
+        }
         Shape::Sphere { centre, radius } => [&centre[..], &[*radius]].concat(),
         Shape::Cone { tip, base, radius } => [&tip[..], &base[..], &[*radius]].concat(),
         Shape::Cylinder { from, to, radius } => [&from[..], &to[..], &[*radius]].concat(),

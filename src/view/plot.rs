@@ -14,5 +14,5 @@ pub mod ticks;
 pub use axes::{Axes, DrawnAxis};
 pub use camera::{Bounds, Camera, Extent};
 pub use depth::{DepthBuffer, Visibility};
-pub use raster::{Ages, CachedTrail, Marker, Pen, Raster};
+pub use raster::{Ages, CachedTrail, Letters, Marker, Pen, Raster};
 pub use scale::{PlotFrame, Scale, ScaleKind};

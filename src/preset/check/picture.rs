@@ -298,11 +298,12 @@ impl Check<'_> {
                 Some(Shape::Mass { at: at?, radius: read })
             }
             DraftShapeKind::Path { .. } | DraftShapeKind::Body { .. } => None,
-            DraftShapeKind::Disc { centre, radius, normal } => {
+            DraftShapeKind::Disc { centre, radius, normal, shade } => {
                 let (centre, radius) =
                     (self.point(centre.as_ref(), scope), self.size(radius.as_ref(), scope));
                 let normal = self.normal(normal.as_ref(), scope);
-                Some(Shape::Disc { centre: centre?, radius: radius?, normal: normal? })
+                let shade = self.size(shade.as_ref(), scope);
+                Some(Shape::Disc { centre: centre?, radius: radius?, normal: normal?, shade })
             }
             DraftShapeKind::Sphere { centre, radius } => {
                 let (centre, radius) =

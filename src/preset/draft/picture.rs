@@ -106,6 +106,7 @@ pub(in crate::preset) enum DraftShapeKind {
         centre: Option<Formulas>,
         radius: Option<Formula>,
         normal: Option<Formulas>,
+        shade: Option<Formula>,
     },
     Sphere {
         centre: Option<Formulas>,
@@ -343,6 +344,7 @@ fn shape(mut table: Table<'_>, diagnostics: &mut Diagnostics) -> Option<DraftSha
             centre: first,
             radius: size(&mut table, "radius", diagnostics),
             normal: optional_point(&mut table, "normal", diagnostics),
+            shade: table.formula("shade", diagnostics),
         },
         "sphere" => DraftShapeKind::Sphere {
             centre: first,

@@ -122,6 +122,8 @@ pub(super) const SHAPE: SchemaTable = SchemaTable {
             .only(&["circle", "mass", "disc", "sphere", "cone", "cylinder"]),
         key("normal", Point, "what it is perpendicular to; z where not given")
             .only(&["circle", "plane", "disc"]),
+        key("shade", Formula, "the share of the range of a map, from 0 to 1, whose shade it has")
+            .only(&["disc"]),
         key("size", Formula, "how large it is").only(&["plane"]),
         key("from", Formula, "where `s` begins").only(&["path"]),
         key("to", Formula, "where `s` ends").only(&["path"]),

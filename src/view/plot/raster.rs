@@ -34,6 +34,9 @@ const MOST_CELLS: u16 = 1024;
 /// The share of dots from which on the shading of a surface is heavier in ASCII.
 const LIGHT: f64 = 0.6;
 
+/// One in so many cells of a surface has a character in ASCII.
+const SPARSE: i32 = 4;
+
 /// How a line is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pen {
@@ -47,12 +50,26 @@ pub struct Pen {
     pub coverage: f64,
     /// The pattern along the line.
     pub dash: Dash,
+    /// Its characters in ASCII.
+    pub letters: Letters,
+}
+
+/// The characters of a line in ASCII.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Letters {
+    /// The height at which it crosses each cell, as in a plot of a function.
+    #[default]
+    Height,
+    /// Its direction: an edge of a body in space.
+    Direction,
+    /// Dots: scenery.
+    Dots,
 }
 
 impl Pen {
     /// A solid line on a layer.
     pub fn new(style: Style, layer: u8) -> Self {
-        Self { style, layer, fresh: 0, coverage: 1.0, dash: Dash::Full }
+        Self { style, layer, fresh: 0, coverage: 1.0, dash: Dash::Full, letters: Letters::Height }
     }
 
     /// The same pen with fewer dots: 0.5 looks dotted, 1 is solid.
@@ -64,7 +81,7 @@ impl Pen {
     /// A line in a shade of the theme.
     pub fn shaded(shade: Shade, layer: u8) -> Self {
         let Shade { style, coverage, dash } = shade;
-        Self { style, layer, fresh: 0, coverage, dash }
+        Self { coverage, dash, ..Self::new(style, layer) }
     }
 
     fn aged(shade: Shade, layer: u8, fresh: usize) -> Self {
@@ -155,11 +172,18 @@ impl Raster {
         self.ink(dot, pen, None);
     }
 
-    /// Sets one dot of a shaded surface. In ASCII a cell has a light character in place of its dots, so that lines on the
-    /// surface are seen.
+    /// Sets one dot of a shaded surface. In ASCII some of its cells have a light character in place of their dots, so that lines on
+    /// the surface are seen.
     pub fn shade(&mut self, dot: [i32; 2], pen: &Pen) {
-        let light = if pen.coverage < LIGHT { '.' } else { ':' };
-        self.ink(dot, pen, (self.glyphs.is_ascii() && pen.coverage < 1.0).then_some(light));
+        if !self.glyphs.is_ascii() || pen.coverage >= 1.0 {
+            return self.ink(dot, pen, None);
+        }
+        let [wide, high] = self.cell();
+        let [column, row] = [dot[0] / wide, dot[1] / high];
+        if (column + SPARSE / 2 * row) % SPARSE == 0 {
+            let light = if pen.coverage < LIGHT { '.' } else { ':' };
+            self.ink(dot, &pen.covering(1.0), Some(light));
+        }
     }
 
     /// Draws single dots.

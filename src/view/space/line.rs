@@ -5,7 +5,7 @@
 use ratatui::style::Style;
 
 use super::{DISTANCES, GROUND, ScenePainter, solid};
-use crate::view::plot::Pen;
+use crate::view::plot::{Letters, Pen};
 
 impl ScenePainter<'_> {
     /// Draws what is visible of a line through points, dimmer where it is farther away.
@@ -22,10 +22,16 @@ impl ScenePainter<'_> {
             return self.raster.polyline(&self.frame, flat, pen);
         };
         let last = DISTANCES - 1;
+        let letters = if pen.layer <= GROUND { Letters::Dots } else { Letters::Direction };
+        // dots are light enough
+        let ascii_scenery = letters == Letters::Dots && self.q.style.glyphs.is_ascii();
+        let coverage = if ascii_scenery { 1.0 } else { pen.coverage };
         let styles = self.receding(pen.style);
         let pens: [Pen; DISTANCES] = std::array::from_fn(|step| Pen {
             style: styles[step],
             fresh: (last - step) as u8,
+            letters,
+            coverage,
             ..*pen
         });
         // Scenery behind a see-through surface is left out; what moves is as dim there as at the back.

@@ -6,6 +6,7 @@ use ratatui::style::Style;
 
 use super::annotation::Label;
 use super::{ScenePainter, is_colourless, scene};
+use crate::expr::Expr;
 use crate::model::{Point, Shape};
 use crate::view::plot::{Pen, Visibility};
 use crate::view::theme::Role;
@@ -70,6 +71,15 @@ impl ScenePainter<'_> {
         let pool = &self.q.lab.loaded.equations.pool;
         let motion = self.mechanics.as_ref().and_then(|both| both.colour(pool, centre));
         motion.or_else(|| self.colours.iter().position(|point| point == centre))
+    }
+
+    /// The style of the shade that a map has at a share of its range, where there are colours.
+    pub(super) fn shade(&self, share: Option<Expr>) -> Option<Style> {
+        let share = self.q.number(share?);
+        let ramp = self.q.style.theme.density();
+        let last = ramp.len().checked_sub(1)?;
+        let step = (share.clamp(0.0, 1.0) * ramp.len() as f64) as usize;
+        (share.is_finite() && !is_colourless(self.q.style)).then(|| ramp[step.min(last)].style)
     }
 
     /// A pen in the colour of the body about this point.

@@ -10,7 +10,9 @@ impl ScenePainter<'_> {
     /// Draws the rims and the silhouette of a disc, a cone or a cylinder. Other shapes have none here.
     pub(super) fn outline(&mut self, shape: &Shape, pen: &Pen) {
         match shape {
-            Shape::Disc { centre, radius, normal } => {
+            Shape::Disc { centre, radius, normal, shade } => {
+                let style = self.shade(*shade).unwrap_or(pen.style);
+                let pen = &Pen { style, ..*pen };
                 let (centre, normal) = (self.point(centre), self.direction(normal));
                 let radius = self.q.number(*radius);
                 let rim = self.rim(centre, radius, normal);

@@ -130,7 +130,8 @@ impl Scene {
                 let radius = body.map_or(0.0, Outline::reach);
                 self.reached(q, at, reached, radius);
             }
-            Shape::Circle { centre, radius, normal } | Shape::Disc { centre, radius, normal } => {
+            Shape::Circle { centre, radius, normal }
+            | Shape::Disc { centre, radius, normal, .. } => {
                 let radius = room(q, *radius);
                 if rests(q, centre) && rests(q, normal) {
                     self.points(circle(q.point(centre), radius, q.point(normal)));

@@ -12,10 +12,12 @@ use crate::view::plot::{DepthBuffer, Pen, Visibility};
 use crate::view::theme::Role;
 
 /// The share of a surface's dots that are drawn in the shade, and in full light: of spheres, on which curves are drawn,
-/// of other solids, and of masses. Without colour a curve differs from the dots of its sphere by their number alone.
+/// of other solids, and of masses. Without colour a curve differs from the dots of its sphere, and an edge from those of its solid, by
+/// their number alone.
 const SPHERE: [f64; 2] = [0.06, 0.55];
 const COLOURLESS_SPHERE: [f64; 2] = [0.02, 0.12];
 const OPAQUE: [f64; 2] = [0.2, 0.9];
+const COLOURLESS_OPAQUE: [f64; 2] = [0.06, 0.35];
 const WHOLE: [f64; 2] = [1.0, 1.0];
 
 /// The share of its light that a shaded surface has behind a veil.
@@ -32,20 +34,26 @@ impl ScenePainter<'_> {
             return;
         }
         let theme = &self.q.style.theme;
+        // without colour an edge differs from what it bounds by its dots alone
+        let colourless = theme.depth() == ColourDepth::None;
+        let opaque = if colourless { COLOURLESS_OPAQUE } else { OPAQUE };
         let faint = |own: Option<usize>| {
             let style = own.map_or(theme[Role::Level], |series| theme.curve(series));
-            (Pen::new(style, SURFACE), OPAQUE)
+            (Pen::new(style, SURFACE), opaque)
         };
         let piece =
             |surface, extents| Piece { surfaces: vec![surface], edges: Vec::new(), extents };
         let ((pen, shares), pieces) = match shape {
-            Shape::Disc { centre, radius, normal } => {
+            Shape::Disc { centre, radius, normal, shade } => {
                 let own = self.own_colour(centre);
+                let filled = self
+                    .shade(*shade)
+                    .map_or(faint(own), |style| (Pen::new(style, SURFACE), WHOLE));
                 let (centre, normal) = (self.point(centre), self.direction(normal));
                 let radius = self.q.number(*radius);
                 let above = [0, 1, 2].map(|k| centre[k] + normal[k]);
                 let disc = Surface::Disc { centre, above, radius };
-                (faint(own), vec![piece(disc, solid::disc(radius))])
+                (filled, vec![piece(disc, solid::disc(radius))])
             }
             Shape::Cone { tip, base, radius } => {
                 let own = self.own_colour(base);
@@ -62,7 +70,6 @@ impl ScenePainter<'_> {
                 (faint(own), vec![piece(tube, solid::along(ends[0], ends[1], radius))])
             }
             Shape::Sphere { centre, radius } => {
-                let colourless = theme.depth() == ColourDepth::None;
                 let shares = if colourless { COLOURLESS_SPHERE } else { SPHERE };
                 let radius = self.q.number(*radius).abs();
                 let ball = Occluder::Ball(self.point(centre), radius);

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use phaselab::view::glyphs::Glyphs;
-use phaselab::view::plot::{Marker, Pen, PlotFrame, Raster, Scale};
+use phaselab::view::plot::{Letters, Marker, Pen, PlotFrame, Raster, Scale};
 use phaselab::view::theme::{Dash, Shade};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -11,7 +11,14 @@ use ratatui::style::{Color, Modifier, Style};
 
 use super::{dots, rows, unit};
 
-const PLAIN: Pen = Pen { style: Style::new(), layer: 0, fresh: 0, coverage: 1.0, dash: Dash::Full };
+const PLAIN: Pen = Pen {
+    style: Style::new(),
+    layer: 0,
+    fresh: 0,
+    coverage: 1.0,
+    dash: Dash::Full,
+    letters: Letters::Height,
+};
 
 fn drawn(area: Rect, glyphs: Glyphs, draw: impl FnOnce(&mut Raster)) -> Buffer {
     let mut raster = Raster::new(area, glyphs);

@@ -76,9 +76,36 @@ pub(super) fn faded(age: usize, ages: usize) -> char {
     AGES[(age * AGES.len() / ages.max(1)).min(AGES.len() - 1)]
 }
 
+/// The slope, in rows by columns, from which on a line is slanted, and from which on it is upright.
+const SLANTED: f64 = 0.5;
+const UPRIGHT: f64 = 2.5;
+
+/// The character for the direction of a line, in columns to the right and rows down, that ends at a height in rows.
+pub(super) fn stroke([right, down]: [f64; 2], end: f64) -> char {
+    match (down / right).abs() {
+        slope if slope >= UPRIGHT => '|',
+        slope if slope >= SLANTED => ['/', '\\'][usize::from((down > 0.0) == (right > 0.0))],
+        _ if end - end.floor() > LOW => '_',
+        _ => '-',
+    }
+}
+
+/// The height in a cell, from its upper edge, below which a level line is at the bottom.
+const LOW: f64 = 2.0 / 3.0;
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_stroke_has_the_direction_of_its_line() {
+        let high = |along: [f64; 2]| stroke(along, 7.1);
+        assert_eq!([[1.0, -1.0], [-1.0, 1.0], [1.0, -2.0]].map(high), ['/'; 3]);
+        assert_eq!([[1.0, 1.0], [-1.0, -1.0]].map(high), ['\\'; 2]);
+        assert_eq!([[0.0, 1.0], [0.1, -3.0]].map(high), ['|'; 2]);
+        assert_eq!([[1.0, 0.0], [3.0, 1.0], [0.0, 0.0], [f64::NAN, 1.0]].map(high), ['-'; 4]);
+        assert_eq!([0.5, 0.7, -0.1].map(|end| stroke([1.0, 0.1], end)), ['-', '_', '_']);
+    }
 
     #[test]
     fn every_pattern_has_a_character_and_the_heights_differ() {

@@ -3,8 +3,8 @@
 //! In: successive data points, each with its pen. Out: dots of a raster. Never here: the course of the line.
 
 use super::course::{Course, Inked};
-use super::letter::faded;
-use super::{Pen, Raster};
+use super::letter::{faded, stroke};
+use super::{Letters, Pen, Raster};
 use crate::view::glyphs::Glyphs;
 use crate::view::plot::scale::PlotFrame;
 use crate::view::theme::Shade;
@@ -71,13 +71,16 @@ struct Polyline<'a, 'p> {
     course: Course<DotStyle<'p>>,
     /// The age and the number of ages of a trail, which choose the character in ASCII.
     fading: Option<(usize, usize)>,
+    frame: PlotFrame,
+    /// The last point in dots, from which the direction of the line is taken.
+    last: [f64; 2],
 }
 
 impl<'a, 'p> Polyline<'a, 'p> {
     /// Creates a polyline without points.
     fn new(raster: &'a mut Raster, frame: &PlotFrame) -> Self {
         let course = Course::new(frame, raster.size());
-        Self { raster, course, fading: None }
+        Self { raster, course, fading: None, frame: *frame, last: [f64::NAN; 2] }
     }
 
     /// Sets the age of the following part of the line, one of `ages` steps.
@@ -87,7 +90,7 @@ impl<'a, 'p> Polyline<'a, 'p> {
 
     /// Continues the line to a point.
     fn to(&mut self, point: [f64; 2], pen: &'p Pen) {
-        let sign = self.sign(pen);
+        let sign = self.sign(pen, point);
         // Lines of characters are drawn cell by cell.
         let grid = if sign.is_some() { self.raster.cell() } else { [1, 1] };
         let raster = &mut *self.raster;
@@ -102,13 +105,21 @@ impl<'a, 'p> Polyline<'a, 'p> {
         self.course.rest(&mut |dot, inked| inked.put(raster, dot));
     }
 
-    /// The ASCII character for the age of a trail, or for one of several lines.
-    fn sign(&self, pen: &Pen) -> Option<char> {
+    /// The ASCII character for the age of a trail, for one of several lines, or for the direction to a point.
+    fn sign(&mut self, pen: &Pen, point: [f64; 2]) -> Option<char> {
         if self.raster.glyphs != Glyphs::Ascii {
             return None;
         }
-        let faint = (pen.coverage < FAINT).then_some('.');
-        self.fading.map(|(age, ages)| faded(age, ages)).or(pen.dash.letter()).or(faint)
+        let faint = (pen.coverage < FAINT || pen.letters == Letters::Dots).then_some('.');
+        let known = self.fading.map(|(age, ages)| faded(age, ages)).or(pen.dash.letter()).or(faint);
+        if known.is_some() || pen.letters != Letters::Direction {
+            return known;
+        }
+        let cell = self.raster.cell();
+        let next = self.frame.dot(point, self.raster.size());
+        let along = [0, 1].map(|k| (next[k] - self.last[k]) / f64::from(cell[k]));
+        self.last = next;
+        Some(stroke(along, next[1] / f64::from(cell[1])))
     }
 }
 
