@@ -21,7 +21,14 @@ pub(super) struct Answers {
     pub(super) periodic: Vec<Arc<PeriodicOrbits>>,
     /// Whether something has changed since the needs were last determined.
     pub(super) stale: bool,
+    /// Whether a job waits until the values rest.
+    pub(super) held: bool,
+    /// The bits of the values when jobs were last asked for, and for how long they have been these.
+    resting: (Vec<u64>, Duration),
 }
+
+/// How long values have not changed when they rest: longer than a frame.
+const REST: Duration = Duration::from_millis(100);
 
 /// The last result for a plot, and the job under way.
 #[derive(Clone, Debug)]
@@ -82,7 +89,17 @@ impl EquilibriaSearch {
 impl Answers {
     /// Advances the time.
     pub(super) fn tick(&mut self, elapsed: Duration) {
+        self.resting.1 = self.resting.1.saturating_add(elapsed);
         self.all_under_way().for_each(|job| job.tick(elapsed));
+    }
+
+    /// Whether these values have not changed for a while.
+    pub(super) fn rest(&mut self, values: impl Iterator<Item = f64>) -> bool {
+        let values: Vec<u64> = values.map(f64::to_bits).collect();
+        if values != self.resting.0 {
+            self.resting = (values, Duration::ZERO);
+        }
+        self.resting.1 >= REST
     }
 
     pub(super) fn all_under_way(&mut self) -> impl Iterator<Item = &mut UnderWay> {

@@ -39,8 +39,16 @@ impl Lab {
         self.answers.of(plot)?.under_way.as_ref()
     }
 
+    /// Whether the values of the motion have not changed for a while.
+    fn rests(&mut self) -> bool {
+        let Some(present) = self.present() else { return false };
+        let values = [present.parameters, present.initial].concat();
+        self.answers.rest(values.into_iter())
+    }
+
     /// Returns the jobs that plots need and that are not yet under way.
-    fn needs(&mut self, jobs: &mut Jobs) -> Vec<Computation> {
+    fn needs(&mut self, jobs: &mut Jobs, rests: bool) -> Vec<Computation> {
+        let mut held = false;
         let mut entries = Vec::new();
         let mut wanted: Vec<Computation> = Vec::new();
         for (place, plot) in self.plots.iter().enumerate() {
@@ -63,7 +71,11 @@ impl Lab {
                 Need::Nothing => continue,
                 Need::Addition(_) if !jobs.in_background || !is_drawn => None,
                 Need::Valid => None,
-                Need::Job(job) | Need::Addition(job) => {
+                Need::AtRest(_) if !rests || !is_drawn => {
+                    held |= is_drawn;
+                    None
+                }
+                Need::Job(job) | Need::Addition(job) | Need::AtRest(job) => {
                     let computation = jobs.request(Asker::Plot(place), job);
                     let under_way = UnderWay::new(&computation);
                     wanted.push(computation);
@@ -75,6 +87,7 @@ impl Lab {
             entries.push(PlotJob { kind, columns, view, over, answer, under_way, is_drawn });
         }
         self.answers.replace(entries);
+        self.answers.held = held;
         wanted
     }
 }
@@ -118,8 +131,10 @@ impl App {
     pub(super) fn request_jobs(&mut self, effects: &mut Vec<Effect>) {
         let Some(lab) = &mut self.lab else { return };
         // Keys that change no picture cost nothing here.
-        let stale = std::mem::take(&mut lab.answers.stale);
-        let wanted = if stale { lab.needs(&mut self.jobs) } else { Vec::new() };
+        let stale = std::mem::take(&mut lab.answers.stale) | std::mem::take(&mut lab.answers.held);
+        // in the background a job that is no longer wanted is stopped
+        let rests = self.jobs.in_background || stale && lab.rests();
+        let wanted = if stale { lab.needs(&mut self.jobs, rests) } else { Vec::new() };
         effects.extend(wanted.into_iter().map(Effect::Compute));
         effects.extend(lab.ask_for_closed_forms(&mut self.jobs).map(Effect::Compute));
         if self.page == Page::Equations {
@@ -133,7 +148,7 @@ impl App {
             self.run_jobs(effects);
             let Some(lab) = self.lab.as_mut().filter(|lab| lab.answers.stale) else { return };
             lab.answers.stale = false;
-            effects.extend(lab.needs(&mut self.jobs).into_iter().map(Effect::Compute));
+            effects.extend(lab.needs(&mut self.jobs, rests).into_iter().map(Effect::Compute));
         }
     }
 

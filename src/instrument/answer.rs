@@ -21,6 +21,9 @@ pub enum Need {
     Valid,
     /// This job is needed. The last result stays until it has finished.
     Job(Job<Answer>),
+    /// This job is needed once the values of the motion rest, and the last result stays until it has finished: where a sweep moves
+    /// them in each frame, it would be begun anew in each.
+    AtRest(Job<Answer>),
     /// This job adds to the picture and may take long: where there is no background it is left out.
     Addition(Job<Answer>),
 }

@@ -38,6 +38,9 @@ const ORBITS: Level = 1;
 const OWN: Level = 2;
 const NOW: Level = 3;
 
+/// The colours of single orbits: none of the running motion's, and none that is like that of chaotic ones.
+const SINGLE: [usize; 5] = [2, 3, 4, 5, 6];
+
 /// The row.
 pub(super) struct SectionPlot;
 
@@ -106,6 +109,8 @@ impl Instrument for SectionPlot {
             let key =
                 |(regular, words): (_, &str)| Entry::Key(chaos_ink(regular), words.to_owned());
             entries.splice(0..0, keys.map(key));
+        } else if !dissipates(present.physics) {
+            entries.push(Entry::Key(chaos_ink(Some(false)), "chaotic".to_owned()));
         }
         Some(plot.heading(present.physics, "Section", entries))
     }
@@ -154,7 +159,9 @@ impl Instrument for SectionPlot {
                 let ink = match orbit.regular() {
                     regular if by_chaos => chaos_ink(regular),
                     _ if dissipates => Ink::Curve(0),
-                    _ => Ink::Curve(index + 1),
+                    // one chaotic orbit is like the next
+                    Some(false) => chaos_ink(Some(false)),
+                    _ => Ink::Curve(SINGLE[index % SINGLE.len()]),
                 };
                 (ORBITS, Layer::Points(Arc::clone(&orbit.points), ink))
             };
@@ -257,8 +264,10 @@ impl Instrument for SectionPlot {
             seeds: known.iter().flat_map(|known| known.seeds.clone()).chain(seed).collect(),
         };
         let job = Job::new("orbits", move |progress| Answer::new(task.portrait(progress)));
-        // what a person asks for is computed in any case
-        if plot.seeds.is_empty() { Need::Addition(job) } else { Need::Job(job) }
+        // what a person asks for is computed at once, and what follows from other values when these rest
+        let shown = Portrait::of(answer).map_or(0, |portrait| portrait.seeds.len());
+        let is_asked = !plot.seeds.is_empty() && (known.is_some() || shown < plot.seeds.len());
+        if is_asked { Need::Job(job) } else { Need::AtRest(job) }
     }
 
     fn table(&self, PlotContext { plot, present, answer }: PlotContext<'_>) -> Option<PlotTable> {

@@ -1,11 +1,12 @@
 //! Sections in the lab: the crossings of the running motion, the orbits beside it, what is forbidden, keys, sessions.
 
 use std::sync::Arc;
+use std::time::Duration;
 
 use phaselab::app::{App, Drawn, Effect, Event, Saved};
 use phaselab::cancel::Cancel;
 use phaselab::ensemble::{NotInPlane, NotOnShell, Region, SectionPlane};
-use phaselab::experiment::{Command, Prepared, Snapshot};
+use phaselab::experiment::{Command, Experiment, Prepared, Snapshot};
 use phaselab::instrument::{Entry, Ink, Layer, Plot, PlotContext, Seed};
 use phaselab::system::{ChannelKind, InitialOverride};
 use phaselab::view::RenderStyle;
@@ -259,6 +260,7 @@ fn the_running_motion_has_its_rotation_number_in_the_title() {
         let heading = plot.kind.heading(plot, &lab.present().unwrap()).unwrap();
         let entries = heading.entries.into_iter().map(|entry| match entry {
             Entry::Words(words) => words,
+            Entry::Key(Ink::Warn, words) => format!("amber: {words}"),
             other => panic!("{other:?}"),
         });
         entries.collect::<Vec<_>>()
@@ -272,7 +274,7 @@ fn the_running_motion_has_its_rotation_number_in_the_title() {
     assert_eq!(counted(&app, index), "crossings");
     // too few crossings have none, and what the title of the view says is not said again
     let (app, index) = opened(shipped("henon-heiles"), 30.0);
-    assert_eq!(words(&app, index), ["rising", "each colour one orbit"]);
+    assert_eq!(words(&app, index), ["rising", "each colour one orbit", "amber: chaotic"]);
     let lab = app.lab.as_ref().unwrap();
     let own = lab.plots[index].kind.measures().iter().find(|m| m.word == "own_rotation").unwrap();
     let present = lab.present().unwrap();
@@ -296,11 +298,16 @@ fn a_key_colours_orbits_by_whether_they_are_regular() {
         (opened(shipped("henon-heiles"), 30.0).0, true),
     ] {
         typed(&mut app, "Tab Tab Tab");
-        assert!(inks(&app, 0).iter().all(|ink| matches!(ink, Ink::Curve(_))));
         let plain = inks(&app, 0);
+        let plot = app.lab.as_ref().unwrap().plots[0].clone();
+        // each regular orbit has a colour of its own, and chaotic ones are amber without a key, too
+        let amber = plain.iter().filter(|ink| **ink == Ink::Warn).count() as f64;
+        assert_eq!(amber, measure(&app, &plot, "chaotic"));
+        let others = plain.iter().filter(|ink| **ink != Ink::Warn);
+        assert!(others.clone().all(|ink| matches!(ink, Ink::Curve(2..))), "{plain:?}");
+        assert!(others.clone().any(|ink| Some(ink) != others.clone().next()), "{plain:?}");
         typed(&mut app, "H");
         let inked = inks(&app, 0);
-        let plot = app.lab.as_ref().unwrap().plots[0].clone();
         let of = |wanted: Ink| inked.iter().filter(|ink| **ink == wanted).count() as f64;
         assert_eq!(of(Ink::Warn), measure(&app, &plot, "chaotic"));
         assert_eq!(of(Ink::Curve(0)), measure(&app, &plot, "regular"));
@@ -450,6 +457,34 @@ fn the_picture_is_computed_anew_only_where_it_would_be_another() {
     assert!(answer(&app) == first);
     ready.experiment.execute(Command::Initial { index: 3, value: 0.3 });
     assert_eq!(asked(&mut app, ready.experiment.snapshot()), ["orbits"], "another energy");
+}
+
+/// A recording has no background: its section fills where the values rest, and a sweep, which moves them in each frame, keeps what
+/// there is.
+#[test]
+fn without_a_background_orbits_are_computed_where_the_values_rest() {
+    let (mut app, mut experiment) = open(prepared(OSCILLATORS));
+    app.jobs.in_background = false;
+    let frame = |app: &mut App, experiment: &Experiment| {
+        app.update(Event::Snapshot(Arc::new(experiment.snapshot())));
+        app.update(Event::Tick(Duration::from_millis(33)));
+        let lab = app.lab.as_ref().unwrap();
+        lab.answer(&lab.plots[0]).cloned()
+    };
+    experiment.advance(1.0, u64::MAX);
+    assert_eq!(frame(&mut app, &experiment), None);
+    let first = (0..4).filter_map(|_| frame(&mut app, &experiment)).last();
+    assert!(first.is_some());
+    for step in 1..10 {
+        let value = 1.0 + 0.05 * f64::from(step);
+        experiment.execute(Command::Parameter { index: 0, value });
+        assert!(frame(&mut app, &experiment) == first, "{value}");
+    }
+    let last = (0..4).filter_map(|_| frame(&mut app, &experiment)).last();
+    assert!(last.is_some() && last != first);
+    assert!((0..4).all(|_| frame(&mut app, &experiment) == last));
+    let lab = app.lab.as_ref().unwrap();
+    assert_eq!(measure(&app, &lab.plots[0], "orbits"), 16.0);
 }
 
 #[test]
