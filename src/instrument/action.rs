@@ -98,9 +98,9 @@ impl Instrument for ActionPlot {
                 "{name} + ε sin(kπs)/k, s = 0 … 1 on the way, k = 1 … {VARIATIONS}"
             ))],
             Principle::PhaseSpace => vec![
-                Entry::Key(Ink::Curve(0), format!("{name} + ε sin πs")),
-                Entry::Key(Ink::Curve(1), "p + ε c cos πs".to_owned()),
-                Entry::Key(Ink::Curve(2), format!("{name}, p = ∂L/∂q̇")),
+                Entry::Line(0, format!("{name} + ε sin πs")),
+                Entry::Line(1, "p + ε c cos πs".to_owned()),
+                Entry::Line(2, format!("{name}, p = ∂L/∂q̇")),
             ],
         });
         let kind = match self.0 {

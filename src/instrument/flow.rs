@@ -94,8 +94,8 @@ impl Instrument for FlowPlot {
             vec![Entry::Words(format!("M = ∂η(t)/∂η({}) by {}", origin(present), present.method))];
         if present.method != EXACT && only_h_acts(present.physics.model) {
             entries = vec![
-                Entry::Key(Ink::Curve(0), present.method.to_owned()),
-                Entry::Key(Ink::Curve(1), "exact flow".to_owned()),
+                Entry::Line(0, present.method.to_owned()),
+                Entry::Line(1, "exact flow".to_owned()),
             ];
         }
         Some(plot.heading(present.physics, "Flow map", entries))

@@ -30,8 +30,10 @@ pub enum Entry {
     Number(String, f64),
     /// Text.
     Words(String),
-    /// What an ink stands for, in it.
+    /// What points of an ink stand for, in it.
     Key(Ink, String),
+    /// What the line of the curve of this index stands for, in its colour and pattern.
+    Line(usize, String),
     /// The names of recent occurrences, whose marks are in the picture.
     Occurrences,
 }

@@ -71,6 +71,7 @@ fn piece(canvas: &Canvas<'_>, q: &Quantities<'_>, entry: &Entry) -> Vec<Span> {
         }
         Entry::Occurrences => marks::legend(canvas, q),
         Entry::Curve(index, channel) => key(canvas, q, *index, *channel),
+        Entry::Line(index, words) => sampled(canvas, *index, words),
     }
 }
 
@@ -85,7 +86,7 @@ fn curves(heading: &Heading) -> Vec<(usize, usize)> {
 
 /// Whether an entry is the key of a curve or of a kind of points.
 fn is_key(entry: &Entry) -> bool {
-    matches!(entry, Entry::Curve(..) | Entry::Key(..))
+    matches!(entry, Entry::Curve(..) | Entry::Key(..) | Entry::Line(..))
 }
 
 /// The entries of a heading: with its keys if all of them fit, else without, as then all are above the axes.
@@ -138,8 +139,13 @@ fn keys(
     }
 }
 
-/// A sample of a curve's line, and its name.
+/// A sample of a channel's curve, and its name.
 fn key(canvas: &Canvas<'_>, q: &Quantities<'_>, index: usize, channel: usize) -> Vec<Span> {
+    sampled(canvas, index, &q.name(channel))
+}
+
+/// A sample of a curve's line, and words.
+fn sampled(canvas: &Canvas<'_>, index: usize, words: &str) -> Vec<Span> {
     let theme = &canvas.style.theme;
     let dash = theme.series(index).dash;
     let [unicode, ascii] = dash.sample();
@@ -147,7 +153,7 @@ fn key(canvas: &Canvas<'_>, q: &Quantities<'_>, index: usize, channel: usize) ->
     // A colour is visible on one character; a pattern needs three.
     let plain = theme.depth() != ColourDepth::None && dash == Dash::Full;
     let mark = if plain { canvas.style.glyphs.pick("━", "-") } else { sample };
-    vec![(format!("  {mark} "), theme.curve(index)), canvas.span(Role::Dim, q.name(channel))]
+    vec![(format!("  {mark} "), theme.curve(index)), canvas.span(Role::Dim, words)]
 }
 
 /// Keys, pairs of a mark and a name, in a width: where they are too long, words that all names begin with are left out of
