@@ -43,7 +43,7 @@ impl RegionKind {
 /// One region at one energy.
 #[derive(Clone, PartialEq, Debug)]
 pub struct ActionRow {
-    /// The energy.
+    /// The value of H that all motions of the row have.
     pub energy: f64,
     /// The kind of motion.
     pub kind: RegionKind,
@@ -86,9 +86,9 @@ pub struct ActionSystems<'a> {
     pub rotating: Option<(&'a System, &'a str)>,
     /// The column of the coordinate in a row of crossings.
     pub column: usize,
-    /// The method.
+    /// By which periods and actions are integrated.
     pub method: &'static Method,
-    /// Its settings.
+    /// Those of the method.
     pub settings: Settings,
 }
 
@@ -131,7 +131,7 @@ pub enum NoAction {
     SeveralRests {
         /// Where it turned.
         place: f64,
-        /// With which momentum.
+        /// The momentum at that place.
         momentum: f64,
         /// That at which it begins at rest.
         rest: f64,

@@ -47,7 +47,7 @@ pub struct Landscape {
 pub struct Plane<'a> {
     /// A system of one degree of freedom.
     pub system: &'a System,
-    /// Its parameters.
+    /// Those that the level curves belong to, in the order of the model.
     pub parameters: &'a [f64],
     /// The time at which the energy is taken.
     pub time: f64,

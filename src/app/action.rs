@@ -198,7 +198,6 @@ pub enum Action {
     Mark,
 }
 
-/// A direction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[expect(missing_docs, reason = "the four directions")]
 pub enum ArrowDirection {
@@ -239,7 +238,7 @@ impl AxisChoice {
 /// A command of the editor, besides typing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum EditCommand {
-    /// Save it.
+    /// Write it to its file.
     Save,
     /// Search for a text.
     Find,
@@ -255,7 +254,7 @@ pub enum EditCommand {
     PutBack,
     /// Undo the last change.
     Undo,
-    /// Redo it.
+    /// Make again the change undone last.
     Redo,
     /// Read the file again.
     Reread,

@@ -159,7 +159,7 @@ impl Answers {
 /// What was found, with the equations in whose pool it is.
 #[derive(Debug)]
 pub struct FurtherForms {
-    /// The equations.
+    /// Those in whose pool the results are.
     pub equations: Equations,
     /// What was found.
     pub further: Further,

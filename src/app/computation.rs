@@ -49,11 +49,11 @@ impl Jobs {
 /// A job to be run in the background.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Computation {
-    /// Its ticket.
+    /// The number by which its outcome finds whoever asked for it.
     pub ticket: u64,
     /// Its requester.
     pub asker: Asker,
-    /// The job.
+    /// What is to be computed, for a thread beside the screen.
     pub job: Job<Answer>,
 }
 

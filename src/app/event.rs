@@ -44,21 +44,21 @@ pub enum Event {
     FileSaved(Result<(PathBuf, String), SaveError>),
     /// The file of the system was read.
     FileRead {
-        /// Its text.
+        /// What it holds now.
         text: String,
         /// Whether it was read because [`Effect::Reread`] asked for it.
         asked: bool,
     },
     /// A job requested by [`Effect::Compute`] has ended.
     Computed {
-        /// Its ticket.
+        /// The number of the computation.
         ticket: u64,
-        /// Its outcome.
+        /// What it came to.
         outcome: Outcome<Answer>,
     },
     /// The progress of a job.
     Progress {
-        /// Its ticket.
+        /// The number of the computation.
         ticket: u64,
         /// The completed share.
         share: Share,
@@ -94,7 +94,7 @@ pub enum Effect {
         ticket: u64,
         /// The name used in diagnostics.
         title: String,
-        /// The text.
+        /// What is to be checked.
         text: String,
     },
     /// Run a job and cancel the previous one of the same asker; [`Event::Computed`] answers.
@@ -107,7 +107,7 @@ pub enum Effect {
     Save {
         /// The file.
         place: PathBuf,
-        /// The text.
+        /// What is to be written.
         text: String,
         /// The expected contents of the file; with `None` the file is overwritten in any case.
         known: Option<String>,
@@ -116,7 +116,7 @@ pub enum Effect {
     SaveCopy {
         /// A preset's name, or a file's path.
         name: String,
-        /// The text.
+        /// What is to be written.
         text: String,
     },
     /// Read the system's file again; [`Event::FileRead`] answers.
@@ -134,7 +134,7 @@ pub enum Effect {
     Copy {
         /// What is copied, for the answer.
         what: &'static str,
-        /// The text.
+        /// What is to be copied.
         text: String,
         /// The ending of the file.
         ending: &'static str,

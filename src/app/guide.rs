@@ -9,13 +9,13 @@ pub struct Guide {
     pub kind: GuideKind,
     /// Its name, by which it is opened.
     pub name: String,
-    /// Its title.
+    /// As lists show it.
     pub title: String,
     /// The title of the system that it is about.
     pub system: String,
 }
 
-/// What kind of guide it is.
+/// Whether a person or a script is at the keys.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum GuideKind {
     /// A lesson, and how far it was taken.

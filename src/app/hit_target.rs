@@ -36,7 +36,7 @@ pub enum HitTarget {
         /// The value at this column.
         value: f64,
     },
-    /// A gauge.
+    /// A line of the list of gauges, by its index.
     Gauge(usize),
     /// The time bar, at this time.
     Time(f64),
@@ -47,7 +47,7 @@ pub enum HitTarget {
         /// The position in it.
         place: [f64; 2],
     },
-    /// A plot.
+    /// The inside of a plot's frame.
     Plot {
         /// The index of the plot.
         index: usize,
@@ -65,9 +65,9 @@ pub enum Grab {
     Bar(ValueId),
     /// The time bar.
     Time,
-    /// A picture.
+    /// A view of the motion or a plot, which follows the mouse.
     Picture {
-        /// Its index.
+        /// Which one of the lab.
         index: usize,
         /// The last position of the mouse.
         place: [f64; 2],

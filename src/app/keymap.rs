@@ -29,7 +29,7 @@ pub enum Place {
     Plot,
     /// A list of values: parameters or initial values.
     Values,
-    /// The gauges.
+    /// The list of conserved quantities and their drifts.
     Gauges,
     /// The law of motion.
     Law,

@@ -37,9 +37,9 @@ pub enum Choosing {
     Method,
     /// Any action.
     Action,
-    /// An impulse.
+    /// Which one is applied.
     Impulse,
-    /// A theme.
+    /// The colours of the screen.
     Theme,
     /// A lesson or a demo.
     Guide,
@@ -81,7 +81,7 @@ pub struct Item {
 pub enum Choice {
     /// The method of this name.
     Method(&'static str),
-    /// An action.
+    /// What a key would do.
     Action(Action),
     /// An action in the nearest pane of this place, which then has the focus.
     ActionAt(Place, Action),
@@ -91,7 +91,7 @@ pub enum Choice {
     Flow(usize),
     /// The generator of this index of the file.
     Generator(usize),
-    /// A generator to be typed.
+    /// One that is not in the file: a field asks for it.
     TypedGenerator,
     /// The symmetries of the equations of motion, which have flows, too.
     Symmetries,
@@ -101,7 +101,7 @@ pub enum Choice {
     Offer(usize),
     /// The same offer, in the nearest plot, which then has the focus.
     Show(usize),
-    /// A channel.
+    /// A quantity for an axis, by its index.
     Channel(usize),
     /// The system of this index in the catalog.
     System(usize),

@@ -36,7 +36,7 @@ pub enum NotificationKind {
 /// The notification shown, and those that wait until it has been.
 #[derive(Clone, Debug, Default)]
 pub struct Notifications {
-    /// The one shown.
+    /// What is in the status line now.
     pub shown: Option<Notification>,
     waiting: VecDeque<Notification>,
 }

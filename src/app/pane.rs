@@ -10,11 +10,11 @@ use serde::{Deserialize, Serialize};
 pub enum Pane {
     /// A picture, by its index among the plots.
     Plot(usize),
-    /// The parameters.
+    /// The list of what can be changed while the system runs.
     Parameters,
     /// The initial values.
     Initial,
-    /// The gauges.
+    /// The list of conserved quantities and their drifts.
     Gauges,
     /// The law of motion, which has the focus only where not all of it is in view.
     Law,

@@ -14,7 +14,7 @@ const PAUSE: Duration = Duration::from_secs(2);
 /// The snapshot being read, and the reader's position. It stays unchanged until a refresh is requested.
 #[derive(Clone, Debug, Default)]
 pub struct Reading {
-    /// The snapshot.
+    /// What the page shows until another one is asked for.
     pub snapshot: Option<Arc<Snapshot>>,
     /// The reader's line.
     pub line: usize,

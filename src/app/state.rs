@@ -129,7 +129,7 @@ pub enum Overlay {
     Message(LoadError),
     /// A pop-up list.
     Menu(Menu),
-    /// A field.
+    /// A line of input, with what is asked for.
     Field(InputField),
     /// The prompt for brackets.
     Prompt(Prompt),

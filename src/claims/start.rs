@@ -13,13 +13,13 @@ use crate::system::{MotionError, MotionErrorKind};
 /// A term of the law longer than this is not reported.
 const LONGEST: u64 = 60;
 
-/// The rounding of a value at the start, relative to it; …
+/// The rounding of a value at the start, relative to it.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
-/// … what changes by more than this part within it has no digits, …
+/// A term that changes by more than this part within the rounding of the start has no digits.
 const UNKNOWN: f64 = 0.1;
 
-/// … and what is larger by this factor than at this relative distance is large by a pole.
+/// What is larger by this factor than at this relative distance is large by a pole.
 const BESIDE_A_POLE: f64 = 1e8;
 const BESIDE: f64 = 1e-3;
 

@@ -46,7 +46,6 @@ impl Assignment {
         &self.value
     }
 
-    /// The name.
     pub(super) fn name(&self) -> &str {
         &self.name
     }

@@ -18,7 +18,7 @@ pub enum Severity {
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 #[error("{message}")]
 pub struct Diagnostic {
-    /// The severity.
+    /// Whether it prevents the use of the text.
     pub severity: Severity,
     /// The place, as bytes of the file.
     pub place: SourceRange,

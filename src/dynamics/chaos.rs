@@ -39,7 +39,7 @@ pub enum Chaos {
 }
 
 impl Chaos {
-    /// The word for it.
+    /// As it is written in tables and JSON.
     pub fn word(self) -> &'static str {
         match self {
             Chaos::Regular => "regular",

@@ -49,7 +49,6 @@ const DIFFERENCE: f64 = 1e-5;
 /// The period of a drive at some parameters.
 pub type DrivePeriod<'a> = &'a dyn Fn(&[f64]) -> Option<f64>;
 
-/// One side of a family.
 #[derive(Clone)]
 pub(super) struct FamilySide {
     pub(super) begin: FamilyPoint,

@@ -8,16 +8,16 @@ use super::kind::Kind;
 use super::small_oscillation::{LinearMotion, Mode, rests};
 use super::virtual_work::VirtualWork;
 
-/// An equilibrium.
+/// A state in which nothing moves but what is cyclic.
 #[derive(Clone, Debug)]
 pub struct Equilibrium {
     /// The name that the file gives it, once [`name_equilibria`](super::name_equilibria) has; else nothing.
     pub name: String,
-    /// The variables.
+    /// q and p, or the variables of brackets.
     pub variables: Vec<f64>,
     /// The unit of each coordinate in which it was searched for.
     pub(super) units: Vec<f64>,
-    /// The energy.
+    /// The value of H there.
     pub energy: f64,
     /// What the effective potential does there; `None` for brackets.
     pub kind: Option<Kind>,
@@ -37,9 +37,9 @@ pub struct Equilibrium {
     pub(super) linear: LinearMotion,
     /// The rates of the cyclic coordinates, by index.
     pub rates: Vec<(usize, f64)>,
-    /// The forces that balance there, once [`with_virtual_work`](super::with_virtual_work) has written them …
+    /// The forces that balance there, once [`with_virtual_work`](super::with_virtual_work) has written them.
     pub work: Vec<VirtualWork>,
-    /// … and the multiplier of each constraint.
+    /// The multiplier of each constraint, once the same function has written them.
     pub multipliers: Vec<f64>,
 }
 

@@ -64,9 +64,9 @@ struct OneDegree {
 pub(super) enum Departure {
     /// At this time it is at rest at an unstable equilibrium, within rounding.
     Separatrix(f64),
-    /// Its rates grow exponentially all the time, …
+    /// Its rates grow exponentially all the time.
     Escape,
-    /// … or fall.
+    /// Its rates fall exponentially all the time.
     Rest,
     /// It has not come back.
     Unreturned,

@@ -12,9 +12,9 @@ pub const NOT_ISOLATED: &str = "each orbit has others of the same value beside i
 /// What changes along a family.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Along {
-    /// The energy.
+    /// Members differ by their energies.
     Energy,
-    /// The period.
+    /// Members differ by their periods.
     Period,
     /// The parameter of this index; the energy or the period stays what it is.
     Parameter(usize),
@@ -47,7 +47,7 @@ impl Bifurcation {
 pub struct Member {
     /// What changes along the family, here.
     pub value: f64,
-    /// The orbit.
+    /// A closed one, corrected by Newton's method.
     pub orbit: Orbit,
     /// What happens here; `None` at the values asked for.
     pub bifurcation: Option<Bifurcation>,

@@ -22,10 +22,10 @@ const ENDLESS: f64 = 1e150;
 const FIRST_LOOK: f64 = 1.0;
 const GROWTH: f64 = 8.0;
 
-/// A return this near, relative to the farthest distance, is taken at once, …
+/// A return this near, relative to the farthest distance, is taken at once.
 const NEAR: f64 = 0.2;
 
-/// … and one up to this distance if there is no other.
+/// A return up to this distance is taken if there is no nearer one.
 const FAR: f64 = 0.5;
 
 /// The difference of two states, exact, and less whole periods of the coordinates.

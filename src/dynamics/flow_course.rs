@@ -16,11 +16,11 @@ use crate::system::{Form, MotionError, State};
 /// The derivative of a motion by its initial values, at one time.
 #[derive(Clone, PartialEq, Debug)]
 pub struct FlowMoment {
-    /// The time.
+    /// When the derivative is taken.
     pub time: f64,
     /// ∂η_i(t)/∂η_j(0).
     pub matrix: DMatrix<f64>,
-    /// Its determinant.
+    /// What volumes have grown by.
     pub determinant: f64,
     /// exp ∫ div f dt along the motion, times the determinants of its impulses: 1 where nothing but H acts.
     pub determinant_expected: f64,

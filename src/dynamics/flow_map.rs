@@ -21,10 +21,10 @@ use crate::integrate::{Method, Settings, Stepping};
 use crate::num::{gauss, math};
 use crate::system::{MotionError, MotionErrorKind, State};
 
-/// The nodes in a step at which the divergence is summed: a long step of a series, …
+/// The nodes in a step at which the divergence is summed: a long step of a series.
 const NODES: usize = 16;
 
-/// … and a short one of a method of fixed step, whose states between cost a step each.
+/// The nodes in a short step of a method of fixed step, whose states between cost a step each.
 const FEW_NODES: usize = 3;
 
 /// The derivative of a motion by its initial values.

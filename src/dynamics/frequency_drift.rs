@@ -15,13 +15,14 @@ use super::spectrum::spectrum;
 /// The lines of a half that are searched for, so that they do not disturb the strongest.
 const LINES: usize = 6;
 
-/// A line of a half may be the one that was the strongest if it is at least this part of the half's own strongest, …
+/// A line of a half may be the one that was the strongest if it is at least this part of the half's own strongest.
 const STRONG: f64 = 0.1;
 
-/// … the strongest of those this many turns in the time of a half from it comes first, …
+/// Of these lines the strongest within this many turns in the time of a half comes first.
 const WINDOW: f64 = 4.0;
 
-/// … unless it is within this many turns another line of the whole time, with the same amplitude up to a factor.
+/// A line does not count if it is within this many turns another line of the whole time, with the same amplitude up
+/// to a factor.
 const SAME: f64 = 0.25;
 const LASTS: f64 = 0.7;
 
@@ -33,7 +34,7 @@ const ALIKE: f64 = 0.5;
 pub struct FrequencyDrift {
     /// In the first half.
     pub first: f64,
-    /// In the second.
+    /// The same in the second half of the time.
     pub second: f64,
     /// What is not known of their difference, as if what the lines of a half leave were noise: much where lines are
     /// closer than a half can tell apart, where several lines may be the same one, and in chaos.

@@ -33,7 +33,7 @@ pub struct Lyapunov {
     pub time: f64,
     /// All exponents, the largest first.
     pub exponents: Vec<f64>,
-    /// Their uncertainties.
+    /// How far each of them is known.
     pub uncertainty: Vec<f64>,
     /// Whether the mean rate of each has settled; where it has not, the uncertainty is a lower bound.
     pub settled: Vec<bool>,
@@ -41,7 +41,7 @@ pub struct Lyapunov {
     pub removed: Removed,
     /// MEGNO, averaged over the time.
     pub megno: f64,
-    /// The verdict.
+    /// Whether they show chaos.
     pub verdict: Chaos,
     /// Its reason.
     pub reason: String,

@@ -23,23 +23,22 @@ use crate::integrate::Settings;
 use crate::num::math;
 use crate::system::State;
 
-/// Vectors are made orthonormal where one has grown or shrunk by this factor, …
+/// Vectors are made orthonormal where one has grown or shrunk by this factor.
 const GROWN: f64 = 8.0;
 
-/// … where the part of one across those before it is less than this of its length: on a limit cycle all keep their lengths and turn
-/// into the direction of the flow, …
+/// Vectors are made orthonormal as well where the part of one across those before it is less than this of its length:
+/// on a limit cycle all keep their lengths and turn into the direction of the flow.
 const FLAT: f64 = 1e-4;
 
-/// … which is checked after so many steps, since that costs as much as a part of one, …
+/// The steps after which that is checked, since a check costs as much as a part of a step.
 const CHECKED: u64 = 4;
 
-/// … and at least so often on the way.
+/// The least number of times that vectors are made orthonormal on the way.
 const LEAST_ROUNDS: f64 = 256.0;
 
 /// The parts of a step at which MEGNO is summed.
 const MEGNO_PARTS: u32 = 4;
 
-/// How a motion was carried.
 pub(super) struct CarriedMotion {
     pub(super) settings: Settings,
     /// Whether all steps are equal.

@@ -48,11 +48,11 @@ const DIRECTIONS: f64 = 4.0 * f64::EPSILON;
 /// A periodic orbit.
 #[derive(Clone, Debug)]
 pub struct Orbit {
-    /// The period.
+    /// The least time after which it closes.
     pub period: f64,
-    /// A state on it.
+    /// One of those through which it passes.
     pub state: State,
-    /// The energy there.
+    /// The value of H on it.
     pub energy: f64,
     /// The distance by which it does not close, relative to its size.
     pub closure: f64,

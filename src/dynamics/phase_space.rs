@@ -188,12 +188,12 @@ impl PhaseSpace {
         })
     }
 
-    /// The system.
+    /// The compiled law.
     pub fn system(&self) -> &System {
         &self.system
     }
 
-    /// The parameters.
+    /// The values that it is at, in the order of the model.
     pub fn parameters(&self) -> &[f64] {
         &self.parameters
     }

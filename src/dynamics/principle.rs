@@ -60,7 +60,6 @@ pub fn action_at_energy(
 /// Why a way has no abbreviated action at an energy.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum NotOnEnergy {
-    /// The law has none.
     Law,
     /// The energy forbids a place of it.
     Forbidden,

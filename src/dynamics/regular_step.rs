@@ -2,10 +2,10 @@
 //!
 //! In: their lengths. Out: whether they vanish. Never here: what lies there.
 
-/// A step below this part of those before it leads up to a singular place, …
+/// A step below this part of those before it leads up to a singular place.
 const VANISHING: f64 = 1e-6;
 
-/// … though what they are compared with shrinks by this factor with each, as a motion may become faster for good.
+/// What steps are compared with shrinks by this factor with each, as a motion may become faster for good.
 const FORGETTING: f64 = 0.99;
 
 /// The length of the steps before they began to vanish.

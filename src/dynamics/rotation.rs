@@ -17,10 +17,10 @@ use crate::num::{birkhoff_average, math, short};
 /// The fewest crossings of which a rotation number is given.
 const FEWEST: usize = 16;
 
-/// The widest part of a turn that no turn of the orbit lies in is at least this wide, …
+/// The widest part of a turn that no turn of the orbit lies in is at least this wide.
 const GAP: f64 = 0.05;
 
-/// … and the points of an orbit differ by more than this part of their size.
+/// The points of an orbit with a rotation number differ by more than this part of their size.
 const SPREAD: f64 = 1e-9;
 
 /// An average converges if its parts differ by less than this over the number of crossings.
@@ -30,7 +30,7 @@ const CONVERGED: f64 = 0.05;
 /// Regular ones without a rotation number yet may be above it: those that do not wander are not called chaotic.
 const RANDOM: f64 = 0.25;
 
-/// What turns.
+/// By which angle the turns of an orbit are counted.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Turning {
     /// The angle on this axis.
@@ -46,7 +46,7 @@ pub struct Rotation {
     pub number: f64,
     /// The largest difference between the averages of the first half, the middle half and the last half of the orbit.
     pub error: f64,
-    /// What turns.
+    /// The kind of turns that were counted.
     pub turning: Turning,
 }
 

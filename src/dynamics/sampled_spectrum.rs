@@ -15,13 +15,15 @@ use crate::num::math;
 /// Where between two values the quantity is evaluated, as a part of the interval.
 const BETWEEN: f64 = 0.618_033_988_749_894_9;
 
-/// Lines are those of the quantity if they leave, between the values, no more than this many times what they leave at them, …
+/// Lines are those of the quantity if they leave, between the values, no more than this many times what they leave at
+/// them.
 const MORE: f64 = 3.0;
 
-/// … or than this part of the quantity's size, …
+/// Lines are also those of the quantity if they leave no more than this part of its size.
 const NOTICED: f64 = 1e-7;
 
-/// … or than this part of its largest value, which may be rounding.
+/// Lines are also those of the quantity if they leave no more than this part of its largest value, which may be
+/// rounding.
 const ROUNDING: f64 = 1e-12;
 
 /// Lines that leave more than this part of the quantity between the values are not there.
@@ -31,16 +33,16 @@ const FALSE: f64 = 0.5;
 /// number of Fibonacci's, and few others, leave less: see [`is_faint_image`].
 const IMAGE: f64 = 0.3;
 
-/// The orders up to which such images are known, …
+/// The orders up to which such images are known.
 const ORDERS: u32 = 100;
 
-/// … if they leave what they should to this part of it, …
+/// A line is such an image if it leaves what one should to this part of it.
 const AGREES: f64 = 0.5;
 
-/// … lie at a multiple of a frequency within this many times the errors, …
+/// Such an image lies at a multiple of a frequency within this many times the errors.
 const SURE: f64 = 3.0;
 
-/// … and these make no more than this part of that frequency, so that it is not met by chance.
+/// The errors make no more than this part of that frequency, so that it is not met by chance.
 const CHANCE: f64 = 1e-2;
 
 /// What is wanted of a quantity.

@@ -19,9 +19,9 @@ const REAL: f64 = 1e-7;
 pub struct Mode {
     /// Its angular frequency.
     pub frequency: f64,
-    /// The displacement of each coordinate, the largest is 1: its part in phase with that …
+    /// The displacement of each coordinate, the largest is 1: its part in phase with that.
     pub in_phase: Vec<f64>,
-    /// … and the part a quarter of a period earlier.
+    /// The part of each displacement a quarter of a period earlier.
     pub quadrature: Vec<f64>,
 }
 

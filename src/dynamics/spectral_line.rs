@@ -19,13 +19,13 @@ pub struct SpectralLine {
     /// How far ω is known: its standard deviation, as if what is left of the signal were noise, or what an unresolved line beside it
     /// may have moved it by, if that is more.
     pub error: f64,
-    /// Its amplitude.
+    /// Half the distance between crest and trough.
     pub amplitude: f64,
-    /// Its phase.
+    /// At t = 0, in radians.
     pub phase: f64,
-    /// The integers k with ω = k·(the fundamental frequencies), if it is such a combination, …
+    /// The integers k with ω = k·(the fundamental frequencies), if it is such a combination.
     pub combination: Option<Vec<i32>>,
-    /// … to which this multiple of the frequency of a drive is added.
+    /// The multiple of the frequency of a drive that is added to that combination.
     pub drive: i32,
 }
 

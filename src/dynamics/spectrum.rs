@@ -49,7 +49,7 @@ const BETTER: f64 = 0.5;
 /// The lines of a signal.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spectrum {
-    /// The mean.
+    /// The constant part of the signal.
     pub mean: f64,
     /// How the mean changes in time, beside the lines, at the times of the numbers; empty where it does not.
     pub trend: Vec<f64>,

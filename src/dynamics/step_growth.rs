@@ -2,10 +2,11 @@
 //!
 //! In: the logarithm of the vector's length after each step. Out: the greatest growth. Never here: the vector, or a verdict.
 
-/// Within one step of a motion that it resolves, neighbours part by less than this power of e, …
+/// Within one step of a motion that it resolves, neighbours part by less than this power of e.
 const PARTED: f64 = 1.0;
 
-/// … unless they do in all of its steps, as under a map whose steps are long: by a few times as much as on the average.
+/// A step stands out where neighbours part in it by so many times as much as on the average: under a map, whose steps
+/// are long, they part by more than that power in all of them.
 const OUTSTANDING: f64 = 20.0;
 
 /// By how much a vector has grown within single steps.

@@ -5,10 +5,10 @@
 
 use std::f64::consts::{PI, TAU};
 
-/// The window's own transform reaches so many turns in the whole time to either side, …
+/// The window's own transform reaches so many turns in the whole time to either side.
 const LOBE: f64 = 3.0;
 
-/// … and what is left there, a wave that changes in the time, has skirts that are larger by this factor than those of a line.
+/// A wave that changes in the time has skirts that are larger by this factor than those of a line.
 const SKIRTS: f64 = 100.0;
 
 /// The places of lines that are not resolved.

@@ -19,11 +19,11 @@ const INTERVALS: usize = 4;
 const PANELS: usize = 32;
 const MOST: usize = 2048;
 
-/// A panel is cut in two if its part of the integral is known less well than this part of all while there are few panels,
-/// and than [`UNKNOWN`] where there is room for no more, …
+/// A panel is cut in two if its part of the integral is known less well than this part of all while there are few
+/// panels, and than [`UNKNOWN`] where there is room for no more.
 const TOLERANCE: f64 = 1e-11;
 
-/// … or if one of its intervals is longer than this part of the extent of the curve.
+/// A panel is cut in two as well if one of its intervals is longer than this part of the extent of the curve.
 const LONGEST: f64 = 0.05;
 
 /// A panel that is known less well than this part of all, and can be cut no more, leaves the integral unknown.

@@ -229,7 +229,8 @@ impl EnergyShell {
         Err(NotOnShell::NotFound { energy: self.energy, by: by.to_owned(), side })
     }
 
-    /// Corrects a root by Newton's method; the slope is that of a secant.
+    /// Corrects a root by Newton's method; the slope is that of a secant. Unlike `num::newton` it stays on its side of the
+    /// extremum, and where no step leaves less.
     fn corrected(&self, energies: &mut Energies<'_>, rate: f64) -> Result<f64, NotOnShell> {
         let mut best = (rate, (energies.at(rate)? - self.energy).abs());
         let mut rate = rate;

@@ -22,11 +22,11 @@ const STEPS_PER_CHECK: u64 = 64;
 /// The flow of a system at fixed parameters, by a method.
 #[derive(Clone)]
 pub struct SystemFlow {
-    /// The system.
+    /// The compiled law.
     pub system: System,
     /// The method, and its step or tolerance.
     pub method: (&'static Method, Settings),
-    /// The parameters.
+    /// Those of all its motions, in the order of the model.
     pub parameters: Vec<f64>,
     /// The time at which the motion of the system began, from which periodic impulses count.
     pub start: f64,

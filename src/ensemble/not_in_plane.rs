@@ -13,7 +13,7 @@ pub enum NotInPlane {
     /// The energy forbids the point, or does not determine the start.
     #[error(transparent)]
     Shell(#[from] NotOnShell),
-    /// There is no state.
+    /// The numbers of the point determine no state.
     #[error(transparent)]
     NoState(#[from] MotionError),
     /// The motions through it cross in the other direction.

@@ -64,7 +64,6 @@ pub fn crossings_of_all(
     results.collect()
 }
 
-/// What was found of an orbit.
 #[derive(Clone)]
 enum OrbitFound {
     /// Its crossings.
@@ -73,7 +72,6 @@ enum OrbitFound {
     Alone,
 }
 
-/// The orbit in a lane.
 struct LaneOrbit {
     orbit: usize,
     observer: Observer,

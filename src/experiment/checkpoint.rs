@@ -61,16 +61,16 @@ pub struct Checkpoint {
 pub struct Changed {
     /// The parameter's name.
     pub name: String,
-    /// Its value.
+    /// What it was changed to.
     pub value: f64,
     /// The file's value when the checkpoint was made.
     pub of_file: f64,
 }
 
-/// The state of a motion.
+/// Where a motion is, to the last bit, by names.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct MotionState {
-    /// The time.
+    /// Without what rounding cut off from it.
     pub time: f64,
     /// The rounding error carried with the time.
     pub time_carry: f64,

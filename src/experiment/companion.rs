@@ -9,7 +9,7 @@ use crate::analysis::CrossingLog;
 use crate::integrate::Settings;
 use crate::system::{InitialOverride, State};
 
-/// What a companion is.
+/// How a motion beside the main one came to be.
 #[derive(Clone, PartialEq, Debug)]
 pub enum CompanionOrigin {
     /// A motion from other initial values, with the parameters and the method of the main one.
@@ -36,7 +36,7 @@ impl CompanionOrigin {
         format!("motion {number} {is}")
     }
 
-    /// The word for it.
+    /// In one or two words, for lists.
     pub fn word(&self) -> &'static str {
         match self {
             CompanionOrigin::Start(_) => "start",
@@ -58,7 +58,7 @@ pub struct Companion {
     pub time: f64,
     /// The value of each channel.
     pub values: Arc<[f64]>,
-    /// Its parameters.
+    /// Those that it moves at, in the order of the model.
     pub parameters: Arc<[f64]>,
     /// The name of its method.
     pub method: &'static str,

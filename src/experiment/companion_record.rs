@@ -14,7 +14,6 @@ use crate::system::System;
 /// A row of the main motion that a companion has yet to reach: its time, and the canonical variables.
 pub(super) type Due = (f64, Arc<[f64]>);
 
-/// The record of a companion.
 pub(super) struct CompanionRecord {
     /// The value of each channel where it has come to.
     pub(super) values: Vec<f64>,

@@ -118,7 +118,7 @@ impl Experiment {
         self.epoch = epoch;
     }
 
-    /// The model.
+    /// The checked file that the motion is of.
     pub fn model(&self) -> &Arc<Model> {
         &self.model
     }

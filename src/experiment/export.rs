@@ -13,7 +13,7 @@ use crate::system::{ChannelKind, System};
 /// The exported file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Export {
-    /// The text.
+    /// A preset, as it would be written.
     pub text: String,
     /// Sentences about what the file cannot express.
     pub missing: Vec<String>,

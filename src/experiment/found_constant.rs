@@ -13,6 +13,6 @@ pub struct FoundConstant {
     pub expression: String,
     /// Why it is constant: *found at degree 2, proved*.
     pub reason: String,
-    /// Whether it is proved.
+    /// Whether that is proved, and not only seen at points.
     pub proved: bool,
 }

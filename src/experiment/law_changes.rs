@@ -10,7 +10,6 @@ use super::last_change::LastChange;
 /// The changes since the motion began.
 #[derive(Debug, Default)]
 pub(super) struct LawChanges {
-    /// The last one, if there was one.
     pub(super) last: Option<Arc<LastChange>>,
     /// The index of the parameter that is being changed, and the jump of the energy in all steps of that change so far.
     jump: Option<(usize, f64)>,

@@ -10,7 +10,7 @@ use crate::system::InitialOverride;
 /// A named number.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct Named {
-    /// The name.
+    /// As expressions have it.
     pub name: String,
     /// The number.
     pub value: f64,

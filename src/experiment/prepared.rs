@@ -57,7 +57,7 @@ pub struct Prepared {
     pub equations: Arc<Equations>,
     /// The compiled system.
     pub system: Arc<System>,
-    /// The experiment.
+    /// With the state at the start, before its first step.
     pub experiment: Experiment,
 }
 

@@ -5,7 +5,6 @@
 use super::event_log::EventLog;
 use crate::analysis::CrossingLog;
 
-/// The logs of a run.
 #[derive(Clone, Debug)]
 pub(super) struct RunLog {
     /// The events and impulses since the last restart.

@@ -19,7 +19,7 @@ use crate::system::{Form, InitialOverride, State};
 /// A motion beside the main one.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct SavedCompanion {
-    /// Its number.
+    /// As it is counted in the lab, from 1.
     pub number: usize,
     /// What it is.
     pub origin: OriginKind,
@@ -61,7 +61,7 @@ pub struct SavedCompanion {
 pub enum OriginKind {
     /// Another start.
     Start,
-    /// A neighbour.
+    /// A motion that began close beside the main one.
     Neighbour,
     /// A pinned run.
     Pinned,

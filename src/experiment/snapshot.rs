@@ -163,7 +163,7 @@ pub struct Gauge {
     pub left: Option<f64>,
     /// The drift at past times (evenly thinned), the oldest first, for the sparkline.
     pub history: Arc<[f32]>,
-    /// The verdict.
+    /// What the history of its drift shows.
     pub verdict: Verdict,
 }
 

@@ -63,7 +63,6 @@ impl StepSampler {
         !self.depends_on_time || is_resolved((end - begin).abs(), spacing_of_samples, spacing(end))
     }
 
-    /// Sets the parameters.
     pub(super) fn set_parameters(&mut self, parameters: &[f64]) {
         self.terms.set_parameters(parameters);
         self.parameters = parameters.to_vec();

@@ -62,7 +62,7 @@ pub struct Function {
     pub latex: &'static str,
     /// The number of arguments, 1 or 2.
     pub arity: usize,
-    /// Its value.
+    /// In `f64`, at as many arguments as the function has.
     pub value: fn(&[f64]) -> f64,
     /// A simpler canonical form of the call, if there is one, by special values and parity.
     pub fold: fn(&mut Pool, &[Expr]) -> Option<Expr>,

@@ -49,7 +49,7 @@ pub enum FunctionId {
 /// One canonical node.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 pub enum Node {
-    /// A number.
+    /// A constant, exact where it can be.
     Number(Number),
     /// The number π.
     Pi,

@@ -207,12 +207,12 @@ impl Pool {
         self.variable(symbol)
     }
 
-    /// A number.
+    /// Interns a constant.
     pub fn number(&mut self, n: Number) -> Expr {
         self.intern(Node::Number(n.canonical()))
     }
 
-    /// An integer.
+    /// Interns a whole number.
     pub fn integer(&mut self, n: i64) -> Expr {
         self.number(Number::integer(n))
     }

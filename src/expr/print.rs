@@ -8,7 +8,6 @@ use super::pool::Pool;
 use super::symbol::{Rank, Symbol};
 use crate::num::Number;
 
-/// What terms are ordered by.
 type OrderOfTerm = (Reverse<Rank>, bool, usize, bool, [Vec<Symbol>; 3], Expr);
 
 /// The binding strength of a written piece.

@@ -22,7 +22,7 @@ pub enum Rank {
     Constant,
     /// Time or a coordinate.
     Variable,
-    /// A momentum.
+    /// After coordinates, before velocities.
     Momentum,
     /// A velocity or an acceleration.
     Rate,

@@ -7,7 +7,6 @@ use super::notation::{
 use super::syntax::{Span, SyntaxError};
 use crate::num::Number;
 
-/// One token.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) enum Token {
     Number(Number),

@@ -12,7 +12,6 @@ use crate::ensemble::Start;
 use crate::integrate::{Method, Settings};
 use crate::system::State;
 
-/// An orbit that was closed.
 pub(super) struct ClosedOrbit {
     pub(super) space: PhaseSpace,
     pub(super) orbit: Orbit,

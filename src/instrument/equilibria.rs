@@ -29,7 +29,7 @@ pub struct FoundEquilibria {
     pub found: Vec<Equilibrium>,
     /// The coordinates in which the law is periodic, with the period: of places that differ by it one is found.
     pub periods: Vec<(usize, f64)>,
-    /// The parameters.
+    /// Those at which the search was made.
     pub parameters: Vec<f64>,
     /// Whether the search came to its end; otherwise there may be more.
     pub is_complete: bool,

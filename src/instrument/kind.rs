@@ -20,7 +20,7 @@ pub type Columns = Vec<Vec<usize>>;
 /// The contents of a pane.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plot {
-    /// The kind.
+    /// The row of the table that draws it.
     pub kind: &'static dyn Instrument,
     /// The channels chosen for its axes.
     pub columns: Columns,
@@ -37,7 +37,7 @@ pub struct Plot {
 /// What a plot is drawn from.
 #[derive(Clone, Copy)]
 pub struct PlotContext<'a> {
-    /// The plot.
+    /// What is chosen for its axes.
     pub plot: &'a Plot,
     /// The current state of the motion.
     pub present: &'a Present<'a>,
@@ -235,7 +235,7 @@ pub enum MotionCurve {
 /// An axis of a kind: a key of files and sessions, and a step of the choice.
 #[derive(Clone, Copy, Debug)]
 pub struct Axis {
-    /// The key.
+    /// As in files and sessions.
     pub key: &'static str,
     /// The heading of the list of choices.
     pub heading: &'static str,
@@ -296,7 +296,7 @@ pub enum NoStart {
 
 /// A number of a plot that a script can assert: `Assert KIND.WORD > 2`.
 pub struct Measure {
-    /// Its word.
+    /// As in scripts: `KIND.WORD`.
     pub word: &'static str,
     /// A description on one line.
     pub about: &'static str,

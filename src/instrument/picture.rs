@@ -64,11 +64,11 @@ pub enum Upwards {
     Around(usize, [f64; 2]),
     /// A channel, over all of its motion or a range, with words behind its name.
     Annotated {
-        /// The channel.
+        /// The quantity, by its index.
         channel: usize,
         /// The range.
         range: Option<[f64; 2]>,
-        /// The words.
+        /// What is written behind its name.
         words: String,
     },
     /// A number of this name, over a range that is rounded outwards.
@@ -107,7 +107,7 @@ pub enum Layer {
     Curve {
         /// The index of the curve.
         index: usize,
-        /// The channel.
+        /// The quantity, by its index.
         channel: usize,
     },
     /// A line through points.
@@ -205,11 +205,11 @@ pub enum Ink {
     Plain,
     /// The most important part.
     Accent,
-    /// A warning.
+    /// What a person should look at.
     Warn,
     /// A faint level curve.
     Level,
-    /// A separatrix.
+    /// The level curve through a saddle.
     Separatrix,
     /// The colour of the curve of this index.
     Curve(usize),

@@ -28,7 +28,7 @@ pub struct Physics<'a> {
 pub struct Present<'a> {
     /// The system.
     pub physics: Physics<'a>,
-    /// The time.
+    /// When all of this is so.
     pub time: f64,
     /// Whether time is running: where it is not, what is carried along beside the motion is wanted at this very time.
     pub running: bool,
@@ -36,7 +36,7 @@ pub struct Present<'a> {
     pub carried: f64,
     /// What of the law was changed last, and the state from which the motion continued, if it was since the start.
     pub changed: Option<(&'a str, &'a Arc<State>)>,
-    /// The parameters.
+    /// The values now, in the order of the model.
     pub parameters: &'a [f64],
     /// The initial values: coordinates, then velocities or momenta.
     pub initial: &'a [f64],

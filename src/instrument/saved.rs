@@ -43,7 +43,7 @@ pub struct SavedPlot {
 pub enum SavedVariations {
     /// One of them.
     One(String),
-    /// Several, or none.
+    /// More than one, or none.
     Several(Vec<String>),
 }
 

@@ -12,7 +12,6 @@ const FEWEST: usize = 8;
 /// A straight line through points.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct StraightLine {
-    /// The slope.
     pub(super) slope: f64,
     /// The standard error of the slope, as if the distances from the line were independent of each other.
     pub(super) error: f64,

@@ -196,7 +196,6 @@ pub(super) fn named(physics: Physics<'_>, over: Variation) -> (&str, &str) {
     }
 }
 
-/// The names of all of them.
 pub(super) fn names(physics: Physics<'_>, over: &[Variation]) -> String {
     let names: Vec<&str> = over.iter().map(|&one| named(physics, one).0).collect();
     names.join(" and ")

@@ -9,7 +9,6 @@ use super::random::Random;
 use crate::expr::{Expr, Pool};
 use crate::num::{Number, PrimeField, Residue};
 
-/// The exponents of a monomial.
 type MonomialExponents = Vec<u32>;
 
 /// A finite set of monomials: one in the momenta times one in the other generators.

@@ -95,7 +95,6 @@ impl Commuting {
 /// Constants of the motion, as functions of the state, with the parameters' names and with their values put in.
 pub(super) struct Given<'a> {
     pub(super) functions: &'a [(Expr, Expr)],
-    /// Their brackets.
     pub(super) brackets: &'a [Vec<Option<Expr>>],
     /// Whether each is proved to be constant.
     pub(super) proved: &'a [bool],

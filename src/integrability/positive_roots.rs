@@ -13,10 +13,10 @@ use super::random::Random;
 use crate::expr::Symbol;
 use crate::num::{PrimeField, Residue};
 
-/// A symbol is drawn this many times as often as it takes on average, …
+/// A symbol is drawn this many times as often as it takes on average.
 const PATIENCE: usize = 16;
 
-/// … which is counted up to this number of roots.
+/// The most roots that the average is taken of.
 const MOST_ROOTS: usize = 12;
 
 /// What lies under roots of even order and is made of symbols by sums, products and roots alone.

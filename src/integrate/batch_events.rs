@@ -21,7 +21,7 @@ use crate::system::{
 pub struct LaneEvent {
     /// Its index among those of the system.
     pub event: usize,
-    /// Its time.
+    /// The zero of its function.
     pub time: f64,
 }
 
@@ -36,7 +36,6 @@ pub(super) struct BatchEvents {
     tolerance: Option<f64>,
 }
 
-/// That of one lane.
 struct LaneSearch {
     locator: EventLocator,
     start: f64,

@@ -11,12 +11,11 @@
 /// The maximal number of passes.
 pub(super) const PASSES: usize = 120;
 
-/// A number counts as moving by rounding alone only if it moves by less than this part of its size
-/// …
+/// A number counts as moving by rounding alone only if it moves by less than this part of its size.
 pub(super) const SMALL: f64 = 1e-9;
 
-/// … or, checked after every so many passes, by less than this multiple of the rounding of its
-/// rate.
+/// After every so many passes a number also counts as moving by rounding alone if it moves by less than this multiple
+/// of the rounding of its rate.
 pub(super) const PATIENCE: usize = 12;
 const _: () = assert!(PASSES.is_multiple_of(PATIENCE), "passes are made by so many");
 pub(super) const ROUNDINGS: f64 = 64.0;

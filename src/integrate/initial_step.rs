@@ -24,12 +24,12 @@ const SHORTEST: f64 = 1e-4;
 /// Longer than every time scale, in any units; the square of a distance covered in it is a number.
 const FAR: f64 = 1e150;
 
-/// Over a longer time than this, in the shortest times in which velocity and acceleration at the
-/// start change anything, a velocity on a kink is nothing beside what forces do there, …
+/// Over a longer time than this, in the shortest times in which velocity and acceleration at the start change
+/// anything, a velocity on a kink is nothing beside what forces do there.
 const SOON: f64 = 1e6;
 
-/// … and over longer ones than this the squares of what a parabola covers between two kinks are no
-/// numbers; but so many of the longest of these times must be ahead.
+/// Over longer times than the first of these the squares of what a parabola covers between two kinks are no numbers;
+/// but so many of the longest of these times must be ahead.
 const LATE: (f64, f64) = (1e140, 1e10);
 
 /// The order of the series from which these times follow.

@@ -15,7 +15,7 @@ pub struct Method {
     pub order: Option<u32>,
     /// How it chooses its steps.
     pub stepping: Stepping,
-    /// What it preserves.
+    /// Which structure of the flow it leaves intact.
     pub preserves: Preserves,
     /// Whether steps end on kinks of the motion, rather than pass over them.
     pub locates_kinks: bool,

@@ -127,9 +127,9 @@ impl NarrowPlaces {
 #[derive(Clone, Debug)]
 pub(super) struct PassedPlaces {
     arguments: SteepArguments,
-    /// Those at the last ends, the newest last, …
+    /// Those at the last ends, the newest last.
     ends: [Vec<f64>; 3],
-    /// … and how many of these are known.
+    /// How many of the last arguments are known.
     known: usize,
 }
 

@@ -34,7 +34,6 @@ pub(super) struct SignCourse {
     pub(super) changes: Vec<PieceSignChange>,
 }
 
-/// A change of sign.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct PieceSignChange {
     /// The time after the beginning of the piece.
@@ -150,10 +149,10 @@ mod tests {
             assert_eq!((thrown.side, places(&thrown).len()), (1.0, 1), "{speed}");
             assert!((places(&thrown)[0] - speed).abs() < 1e-12 * speed);
         }
-        // a known sign is not doubted because of rounding …
+        // a known sign is not doubted because of rounding
         let passed = course(&[-1e-17, 1.0, 0.1], 1.0);
         assert_eq!(passed, SignCourse { side: 1.0, changes: Vec::new() });
-        // … and a crossing between two pieces is detected
+        // a crossing between two pieces is detected
         assert_eq!(course(&[1e-17, -1.0, 0.1], 1.0).changes.len(), 1);
         assert_eq!(course(&[-1e-17, -1.0, 0.1], 1.0).side, -1.0);
         // the time of a crossing has been rounded to one just before it

@@ -292,7 +292,7 @@ impl Propagator {
         self.active_set_changes
     }
 
-    /// The method.
+    /// The row of the table by which steps are taken.
     pub fn method(&self) -> &'static Method {
         self.method
     }

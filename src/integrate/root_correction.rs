@@ -20,10 +20,10 @@ const CORRECTIONS: u32 = 3;
 /// A correction larger than this part of a piece is rejected: the root is of a higher order.
 const SMALL: f64 = 1e-6;
 
-/// At a simple root each correction is less than this part of the one before …
+/// At a simple root each correction is less than this part of the one before.
 const CONVERGES: f64 = 1e-3;
 
-/// … or than this part of the piece.
+/// A correction below this part of the piece is none.
 const NOTHING: f64 = 1e-20;
 
 /// The first distance of a bracket from the root of the series, as a part of the piece, and how often it is doubled: up

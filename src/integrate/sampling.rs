@@ -49,10 +49,10 @@ const POLE_FALLS: f64 = 0.9;
 /// The sign of a value below this part of those beside it is not trusted.
 pub(super) const SIGNLESS: f64 = 1e-13;
 
-/// A function has left its zero where its value is so many times that at the zero …
+/// A function has left its zero where its value is so many times that at the zero.
 const CLEAR: f64 = 4.0;
 
-/// … and grows by this factor from each sample to the next.
+/// It has left its zero only if its value also grows by this factor from each sample to the next.
 const GROWS: f64 = 1.2;
 
 /// A sample of one function.

@@ -164,7 +164,6 @@ fn leading(column: &BatchDouble<STAGES>) -> Stages {
     column.high
 }
 
-/// Begins a step.
 struct BeginStep<'a> {
     lanes: &'a mut StageLanes,
     step: f64,
@@ -269,7 +268,6 @@ impl Kernel for Passes<'_> {
     }
 }
 
-/// Ends a step.
 struct EndStep<'a> {
     lanes: &'a mut StageLanes,
     step: f64,

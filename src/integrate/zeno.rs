@@ -3,10 +3,10 @@
 //!
 //! In: the times of one event. Out: whether they accumulate. Never here: the consequences.
 
-/// Events accumulate if their intervals shrink this many times in a row, …
+/// Events accumulate if their intervals shrink this many times in a row.
 const PATIENCE: u32 = 4;
 
-/// … and the last one is at most this part of the time that has passed.
+/// The last of these intervals is at most this part of the time that has passed.
 const ACCUMULATION: f64 = 1e-9;
 
 /// An interval shrinks if it is at most this part of the one before.

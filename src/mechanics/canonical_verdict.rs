@@ -32,7 +32,7 @@ const LARGEST: f64 = 1e4;
 pub struct CanonicalVerdict {
     /// Whether it is: proved, or to rounding at the points tried.
     pub canonical: bool,
-    /// Whether that is proved.
+    /// Whether that holds by proof, and not only at points.
     pub proved: bool,
     /// The largest entry of |M 𝕁 Mᵀ − 𝕁| at the points, in units in which conjugate variables are of like size; `None` if there
     /// are none.

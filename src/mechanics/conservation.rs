@@ -39,7 +39,7 @@ pub enum Class {
     Numerically,
     /// Its rate is proved to vanish at the file's values of the parameters, but not at others.
     AtTheseParameters,
-    /// It changes.
+    /// Its rate does not vanish.
     Changing,
     /// Neither is known, or its rate could not be computed.
     Unknown,

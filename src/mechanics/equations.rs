@@ -152,7 +152,7 @@ impl Supplements {
     }
 }
 
-/// The symbols of one coordinate.
+/// What expressions call a coordinate and its rates.
 #[derive(Clone, Copy, Debug)]
 pub struct CoordinateSymbols {
     /// q.

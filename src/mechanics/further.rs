@@ -28,7 +28,7 @@ pub struct Further {
     pub right_hand_side: Vec<Expr>,
     /// The rate of change of each Casimir.
     pub casimir_rates: Vec<Expr>,
-    /// The transformations.
+    /// In the order of the file.
     pub transformations: Vec<TransformationReport>,
     /// The generators of infinitesimal transformations.
     pub generators: Vec<GeneratorReport>,
@@ -39,7 +39,7 @@ pub struct Further {
 /// A transformation of the file.
 #[derive(Clone, Debug)]
 pub struct TransformationReport {
-    /// The map.
+    /// The relations between old and new variables.
     pub map: PhaseMap,
     /// Whether it is canonical.
     pub verdict: CanonicalVerdict,
@@ -61,7 +61,7 @@ pub struct TransformationReport {
 /// A generator of the file.
 #[derive(Clone, Debug)]
 pub struct GeneratorReport {
-    /// Its name.
+    /// As the file calls it.
     pub name: String,
     /// G, as far as possible as a function of (q, p, t).
     pub expression: Expr,

@@ -19,7 +19,7 @@ use crate::num::Number;
 pub struct GeneratorFlow {
     /// The model, whose law is G; its time is ε, from 0.
     pub model: Model,
-    /// Its equations.
+    /// Those of the law G.
     pub equations: Equations,
     /// The columns, as functions of (q, p).
     pub columns: Vec<WrittenExpr>,

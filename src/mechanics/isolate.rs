@@ -16,10 +16,11 @@ use crate::num::Number;
 /// The number of steps after which a search is given up.
 const BUDGET: usize = 400;
 
-/// … or after which it has built so many expressions: what has a solution that can be read needs far fewer.
+/// The number of expressions after which it is given up: what has a solution that can be read needs far fewer.
 const MOST_BUILT: usize = 10_000;
 
-/// … or after so many steps of the pool, ten times those of the longest search of a preset that has a result.
+/// The number of steps of the pool after which it is given up, ten times those of the longest search of a preset that
+/// has a result.
 const ALLOWANCE: u64 = 300_000;
 
 /// A solution, or an expression on the way to it, may not be heavier.

@@ -30,7 +30,7 @@ pub enum LeftSide {
     Jump(Symbol),
 }
 
-/// A reported equation.
+/// An equation with its two sides, for all renderers.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct ReportedEquation {
     /// The left-hand side.
@@ -67,13 +67,13 @@ pub struct ConstraintReport<'a> {
 pub struct Reaction {
     /// The coordinate.
     pub on: Symbol,
-    /// The factor.
+    /// What λ is multiplied by.
     pub factor: Expr,
-    /// The multiplier.
+    /// λ of the constraint.
     pub multiplier: Symbol,
 }
 
-/// A reported impulse.
+/// What an impulse does to each momentum.
 #[derive(Clone, Debug)]
 pub struct ImpulseReport<'a> {
     /// The impulse as the file gives it.
@@ -85,9 +85,9 @@ pub struct ImpulseReport<'a> {
 /// The kind of a conserved quantity.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum ConservedKind<'a> {
-    /// A momentum.
+    /// The momentum of this symbol.
     Momentum(Symbol),
-    /// The energy.
+    /// H, or the energy function of L.
     Energy,
     /// The Casimir of this name.
     Casimir(&'a str),
@@ -109,7 +109,7 @@ pub struct ConservedReport<'a> {
 /// A body in numbers, at the file's values of the parameters.
 #[derive(Clone, Debug)]
 pub struct BodyNumbers {
-    /// Its mass.
+    /// Of all pieces together.
     pub mass: f64,
     /// Its centre of mass.
     pub centre: [f64; 3],
@@ -131,14 +131,14 @@ pub struct BodyReport {
     names: BodyNames,
 }
 
-/// The report.
+/// A derivation in the order in which it is told, for any renderer.
 #[derive(Clone, Debug)]
 pub struct Report<'a> {
     /// The model that the file describes.
     pub model: &'a Model,
     /// The equations derived from the model.
     pub equations: &'a Equations,
-    /// The body, if there is one.
+    /// Its lines, if the file has a `[body]`.
     pub body: Option<BodyReport>,
     /// The law: L or H.
     pub law: ReportedEquation,
@@ -158,9 +158,9 @@ pub struct Report<'a> {
     pub multipliers: Result<Vec<ReportedEquation>, &'a NoClosedForm>,
     /// The forces of the constraints on the coordinates.
     pub reactions: Vec<Reaction>,
-    /// The impulses.
+    /// The jumps that the file's impulses cause.
     pub impulses: Vec<ImpulseReport<'a>>,
-    /// The momenta.
+    /// Each momentum in terms of coordinates and velocities.
     pub momenta: Vec<ReportedEquation>,
     /// The quantities for which the equations of motion are solved.
     pub rates: Vec<LeftSide>,
@@ -168,7 +168,7 @@ pub struct Report<'a> {
     pub motion: Result<Vec<ReportedEquation>, &'a NoClosedForm>,
     /// H, or why it has no closed form.
     pub hamiltonian: Result<ReportedEquation, &'a NoClosedForm>,
-    /// The energy.
+    /// The energy function in terms of the state.
     pub energy: ReportedEquation,
     /// The rate of change of the energy.
     pub energy_rate: Expr,

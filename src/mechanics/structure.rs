@@ -23,7 +23,7 @@ pub enum Holonomy {
     Not {
         /// The variables of the component.
         variables: Vec<Symbol>,
-        /// The component.
+        /// The one that does not vanish.
         component: Expr,
     },
     /// Neither is proved.

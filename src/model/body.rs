@@ -58,7 +58,7 @@ impl BodyNames {
 pub struct Piece {
     /// Its shape.
     pub solid: Solid,
-    /// Its mass.
+    /// As the file writes it.
     pub mass: Expr,
     /// Its centre of mass.
     pub at: Point,
@@ -81,21 +81,21 @@ pub enum Solid {
     Cylinder {
         /// Its radius.
         radius: Expr,
-        /// Its length.
+        /// From end to end.
         length: Expr,
     },
     /// A thin open tube along z.
     CylindricalShell {
         /// Its radius.
         radius: Expr,
-        /// Its length.
+        /// From end to end.
         length: Expr,
     },
     /// A solid cone about z, with its tip up.
     Cone {
         /// The radius of its base.
         radius: Expr,
-        /// Its height.
+        /// From its base to its tip.
         height: Expr,
     },
     /// A thin disc perpendicular to z.
@@ -108,16 +108,16 @@ pub enum Solid {
     Cuboid([Expr; 3]),
 }
 
-/// The orientation of a piece.
+/// How a piece is turned within the body.
 #[derive(Clone, Debug)]
 pub enum PieceOrientation {
     /// Not rotated.
     None,
     /// Rotated by the right-hand rule about an axis of any length.
     Axis {
-        /// The axis.
+        /// About what it is turned, of any length.
         axis: Point,
-        /// The angle.
+        /// By how much it is turned.
         angle: Expr,
     },
     /// Euler's angles φ, θ, ψ: about z by ψ, then about x by θ, then about z by φ.

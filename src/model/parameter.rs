@@ -7,7 +7,7 @@ use crate::expr::Symbol;
 pub struct Parameter {
     /// As written in expressions.
     pub name: String,
-    /// As shown.
+    /// As it is printed.
     pub shown: String,
     /// Its symbol in the model's pool.
     pub symbol: Symbol,

@@ -66,9 +66,9 @@ pub enum Shape {
         /// Its second end.
         to: Point,
     },
-    /// A circle.
+    /// A thin line about a point.
     Circle {
-        /// Its centre.
+        /// The point that it is about.
         centre: Point,
         /// Its radius.
         radius: Expr,
@@ -91,7 +91,7 @@ pub enum Shape {
     Vector {
         /// Its tail.
         at: Point,
-        /// Its components.
+        /// Along x, y and z.
         components: Point,
         /// The name beside its tip, or empty.
         label: String,
@@ -105,14 +105,14 @@ pub enum Shape {
     Plane {
         /// Its centre.
         at: Point,
-        /// Its normal.
+        /// What it is perpendicular to.
         normal: Point,
         /// The length of its edge.
         size: Expr,
     },
     /// A filled disc.
     Disc {
-        /// Its centre.
+        /// The point in its middle.
         centre: Point,
         /// Its radius.
         radius: Expr,
@@ -123,14 +123,14 @@ pub enum Shape {
     },
     /// A sphere that hides what is behind it.
     Sphere {
-        /// Its centre.
+        /// The point in its middle.
         centre: Point,
         /// Its radius.
         radius: Expr,
     },
     /// A solid cone.
     Cone {
-        /// Its tip.
+        /// The point at which it ends.
         tip: Point,
         /// The centre of its base.
         base: Point,

@@ -54,7 +54,7 @@ pub struct Ramped {
 /// A parameter that keeps its name in the law, with the function of the time that it is.
 #[derive(Clone, Debug)]
 pub struct NamedRamp {
-    /// The parameter.
+    /// The one that changes with the time.
     pub parameter: Symbol,
     /// Its first three derivatives by the time.
     pub derivatives: [Symbol; 3],
@@ -67,7 +67,7 @@ pub struct NamedRamp {
 /// How far a part of a ramp is.
 #[derive(Clone, Copy, Debug)]
 pub struct RampProgress {
-    /// Its symbol.
+    /// By which the function has it.
     pub symbol: Symbol,
     /// When the part begins, and when it ends.
     pub times: [Expr; 2],

@@ -129,7 +129,7 @@ pub struct CompleteIntegral {
 /// A constant of a complete integral.
 #[derive(Clone, Debug)]
 pub struct IntegralConstant {
-    /// Its name.
+    /// As the file calls it.
     pub name: String,
     /// α.
     pub symbol: Symbol,

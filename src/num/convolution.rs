@@ -108,7 +108,6 @@ pub struct DoubleLanes<const N: usize> {
 }
 
 impl<const N: usize> DoubleLanes<N> {
-    /// Zeros.
     pub(super) const ZERO: DoubleLanes<N> = DoubleLanes { high: [0.0; N], low: [0.0; N] };
 
     #[inline(always)]

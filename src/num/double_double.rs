@@ -25,7 +25,7 @@ pub struct DoubleDouble {
 }
 
 impl DoubleDouble {
-    /// Zero.
+    /// 0 without a sign.
     pub const ZERO: DoubleDouble = DoubleDouble { high: 0.0, low: 0.0 };
     /// One.
     pub const ONE: DoubleDouble = DoubleDouble { high: 1.0, low: 0.0 };

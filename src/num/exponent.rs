@@ -17,10 +17,10 @@ pub(super) struct Exponent {
     far: f64,
 }
 
-/// Beyond this the large part of an exponent is stored in `far`, …
+/// Beyond this the large part of an exponent is stored in `far`.
 const FAR: i128 = 1 << 122;
 
-/// … and below this, in `near` again.
+/// Below this it is stored in `near` again.
 const NEAR: f64 = (1_i128 << 121) as f64;
 
 /// A rest up to this size is kept.

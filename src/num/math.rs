@@ -9,7 +9,7 @@
 //! In and out: numbers. Never here: other precisions (`double_double`), expressions. Elsewhere
 //! `clippy.toml` and a test forbid the elementary functions of `std`.
 
-/// The sine.
+/// With the same bits on every machine.
 pub fn sin(x: f64) -> f64 {
     libm::sin(x)
 }

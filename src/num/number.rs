@@ -23,13 +23,13 @@ pub enum Number {
 }
 
 impl Number {
-    /// Zero.
+    /// 0, an exact integer.
     pub const ZERO: Number = Number::Rational(0, 1);
     /// One.
     pub const ONE: Number = Number::Rational(1, 1);
-    /// Minus one.
+    /// −1, an exact integer.
     pub const MINUS_ONE: Number = Number::Rational(-1, 1);
-    /// One half.
+    /// ½, an exact ratio.
     pub const HALF: Number = Number::Rational(1, 2);
 
     /// The integer `n`.

@@ -62,7 +62,7 @@ impl PrimeField {
         PrimeField { p, negative_inverse: inverse.wrapping_neg(), square_of_radix }
     }
 
-    /// The prime.
+    /// The modulus p: residues are below it.
     pub fn prime(&self) -> u64 {
         self.p
     }

@@ -26,7 +26,7 @@ pub trait Analytic:
     + Div<f64, Output = Self>
     + 'static
 {
-    /// Zero.
+    /// The number that changes no sum.
     const ZERO: Self;
     /// One.
     const ONE: Self;

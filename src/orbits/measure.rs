@@ -11,7 +11,7 @@ use crate::mechanics::Equations;
 use crate::model::Model;
 use crate::system::System;
 
-/// A measure of an orbit.
+/// A number that is taken of an orbit, as a row of the table.
 pub struct OrbitMeasure {
     /// Its name on the command line.
     pub name: &'static str,
@@ -35,19 +35,19 @@ pub enum Zeros {
     None,
 }
 
-/// Orbits to be measured.
+/// What a measure is given: a system, and where each orbit begins and ends.
 pub struct MeasuredOrbits<'a> {
     /// The model.
     pub model: &'a Model,
-    /// Its equations.
+    /// What was derived from the model.
     pub equations: &'a Equations,
     /// The system, with the measure's zeros as an event.
     pub system: &'a System,
     /// The event's name.
     pub event: &'a str,
-    /// The method.
+    /// By which orbits are integrated.
     pub method: &'static Method,
-    /// Its settings.
+    /// Those of the method.
     pub settings: Settings,
     /// Where each orbit begins, and the time at which it ends.
     pub orbits: &'a [(&'a Start, f64)],
@@ -100,10 +100,10 @@ impl MeasuredOrbits<'_> {
     }
 }
 
-/// All measures.
+/// All rows, in the order of lists.
 pub const MEASURES: &[OrbitMeasure] = &[PERIOD, ESCAPE, CROSSINGS, LYAPUNOV];
 
-/// The measure of a name.
+/// Finds a row by the word that a person writes.
 pub fn measure_named(name: &str) -> Option<&'static OrbitMeasure> {
     MEASURES.iter().find(|measure| measure.name == name)
 }

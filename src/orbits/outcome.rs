@@ -24,7 +24,7 @@ use crate::system::{BatchTerms, State, System};
 pub struct RunPlan {
     /// The model.
     pub model: Arc<Model>,
-    /// Its equations.
+    /// What was derived from the model.
     pub equations: Arc<Equations>,
     /// The compiled system.
     pub system: System,
@@ -56,7 +56,7 @@ pub struct RunOutcome {
 /// A conserved quantity that has left its value.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct Departed {
-    /// Its name.
+    /// As its gauge is called.
     pub name: String,
     /// Its greatest drift, relative to what moves.
     #[serde(deserialize_with = "unbounded")]

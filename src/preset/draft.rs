@@ -68,7 +68,6 @@ pub(super) struct Draft {
     pub(super) mechanics: Vec<DraftMechanics>,
     /// The constraints.
     pub(super) constraints: Vec<DraftConstraint>,
-    /// The impulses.
     pub(super) impulses: Vec<DraftImpulse>,
     /// The events, crossings to be located.
     pub(super) events: Vec<DraftEvent>,
@@ -78,15 +77,12 @@ pub(super) struct Draft {
     pub(super) attitude: Option<DraftAttitude>,
     /// The incorrect mechanics for comparison.
     pub(super) comparison: Option<DraftComparison>,
-    /// The transformations.
     pub(super) transformations: Vec<DraftTransformation>,
-    /// The generators.
     pub(super) generators: Vec<DraftGenerator>,
     /// The names of equilibria.
     pub(super) equilibria: Vec<DraftEquilibrium>,
     /// The complete integral.
     pub(super) integral: Option<DraftIntegral>,
-    /// The observables.
     pub(super) observables: Vec<DraftObservable>,
     /// The file's claims.
     pub(super) expect: DraftExpect,

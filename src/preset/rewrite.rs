@@ -19,9 +19,9 @@ pub struct Rewrite {
     pub initial: Vec<Beginning>,
     /// The initial Euler angles, for a body whose attitude is integrated.
     pub attitude: Option<[f64; 3]>,
-    /// The parameters.
+    /// Their new values, by name.
     pub parameters: Vec<(String, f64)>,
-    /// The method.
+    /// Its name, if it is to be another one.
     pub method: Option<String>,
     /// The numbers of `[run]`: `step`, `tolerance`, `speed`.
     pub run: Vec<(&'static str, f64)>,
@@ -30,9 +30,9 @@ pub struct Rewrite {
 /// The initial value of a coordinate or variable.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Beginning {
-    /// Its name.
+    /// Of the coordinate or variable.
     pub name: String,
-    /// Its value.
+    /// Where it begins.
     pub value: f64,
     /// The key `velocity` or `momentum` and its value; a variable has neither.
     pub rate: Option<(&'static str, f64)>,
@@ -144,7 +144,7 @@ impl Rewrite {
 /// A ramp to be written into a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NewRamp {
-    /// The parameter.
+    /// The one that is to change with the time.
     pub parameter: String,
     /// Its value at the end.
     pub to: f64,
@@ -193,7 +193,7 @@ impl NewRamp {
 /// An observable to be added to a text.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct NewObservable {
-    /// Its name.
+    /// What it is to be called.
     pub name: String,
     /// What it is.
     pub expression: String,

@@ -15,11 +15,11 @@ use crate::diagnostic::{Diagnostic, Diagnostics};
 /// A key of the file with its value.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Setting {
-    /// The key.
+    /// As in the file: the part before `=`.
     pub key: &'static str,
     /// The byte range of its value in the file.
     pub place: SourceRange,
-    /// Its value.
+    /// What stands behind the `=`.
     pub value: Plain,
 }
 

@@ -13,7 +13,7 @@ use crate::printable;
 /// A cast in memory.
 #[derive(Clone, Debug)]
 pub struct RecordedCast {
-    /// The title, if it has one.
+    /// That of the header; `None` if it has none.
     pub title: Option<String>,
     /// The initial number of columns and rows.
     pub size: (u16, u16),
@@ -23,7 +23,7 @@ pub struct RecordedCast {
     pub end: Micros,
 }
 
-/// An event of a cast.
+/// What happens at one time of a cast.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum CastEvent {
     /// Text for the emulated terminal.

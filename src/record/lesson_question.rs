@@ -6,7 +6,6 @@ use super::script::{Assert, LineText};
 use crate::app::Prediction;
 use crate::diagnostic::SourceRange;
 
-/// A question.
 #[derive(Clone, Debug)]
 pub(super) struct Question {
     pub(super) place: SourceRange,
@@ -40,7 +39,6 @@ pub(super) struct AnswerChoice {
     pub(super) claim: Assert,
 }
 
-/// An answer.
 #[derive(Clone, Debug)]
 pub(super) enum GivenAnswer {
     Option(usize),
@@ -59,7 +57,6 @@ pub(super) struct AnswerVerdict {
 /// What is right.
 #[derive(Clone, Debug)]
 pub(super) enum Truth {
-    /// Which options.
     Options(Vec<bool>),
     /// A number, and how far a prediction may be off.
     Value(f64, f64),

@@ -22,7 +22,7 @@ use crate::view::frame::Frames;
 /// A recorded performance.
 #[derive(Clone, Debug)]
 pub struct Recording {
-    /// The title.
+    /// What the header of the cast says.
     pub title: String,
     /// Columns and rows.
     pub size: (u16, u16),
@@ -48,7 +48,7 @@ pub struct Recording {
     pub false_claims: Vec<Diagnostic>,
 }
 
-/// An event of a recording.
+/// What happens at one time while a script is recorded.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum RecordingEvent {
     /// Text for the terminal.
@@ -57,10 +57,10 @@ pub enum RecordingEvent {
     Marker(String),
 }
 
-/// A chapter.
+/// A place in a recording to which a player can jump.
 #[derive(Clone, Debug)]
 pub struct ChapterMarker {
-    /// The name.
+    /// As a player lists it.
     pub name: String,
     /// The time of its beginning.
     pub time: Micros,
@@ -70,7 +70,7 @@ pub struct ChapterMarker {
     pub colourless: Buffer,
 }
 
-/// An entry of the transcript.
+/// What is told of a script that was run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum TranscriptEntry {
     /// An action.

@@ -159,7 +159,7 @@ pub enum LessonStep {
     Predict {
         /// The question.
         text: String,
-        /// What is asked for.
+        /// What is expected of the person.
         asked: Asked,
     },
     /// The answer is compared with what has happened.
@@ -191,7 +191,7 @@ pub enum Asked {
     },
     /// A place on a plot, set by its cursor: a point, or the curve that the motion draws from here to the outcome.
     Place {
-        /// Whether it is a curve.
+        /// Whether the curve is asked for, and not a point.
         is_curve: bool,
         /// The horizontal and the vertical axis.
         axes: Box<[AskedAxis; 2]>,
@@ -220,7 +220,7 @@ pub enum Assert {
     Verdict(LineText, Word),
     /// A number compares with another.
     Number {
-        /// The measure.
+        /// What is compared.
         measure: AssertedNumber,
         /// Its subject, or the expression.
         of: LineText,
@@ -258,7 +258,7 @@ pub enum AssertedNumber {
 pub enum Comparator {
     /// Equal, within a tolerance.
     Equal,
-    /// Less.
+    /// The first is below the second.
     Less,
     /// Greater.
     More,
@@ -331,7 +331,6 @@ struct ScriptReading {
 pub(super) enum Said {
     /// A setting of the whole demo.
     Head(Box<dyn FnOnce(&mut ScriptHeader)>),
-    /// A step.
     Step(ScriptStep),
 }
 

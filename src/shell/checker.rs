@@ -17,7 +17,6 @@ pub(super) struct Checker {
     begun: Instant,
 }
 
-/// The result of a check.
 pub(super) struct CheckResult {
     /// The ticket of the check.
     pub(super) ticket: u64,

@@ -7,7 +7,7 @@ use super::request::Request;
 use crate::view::colour::ColourDepth;
 use crate::view::glyphs::Glyphs;
 
-/// One finding.
+/// A line of what `doctor` reports.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DoctorFinding {
     /// Its subject.

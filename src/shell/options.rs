@@ -203,7 +203,7 @@ impl FromStr for LogTarget {
 /// The description of one option.
 #[derive(Debug)]
 pub struct OptionRow {
-    /// Its name.
+    /// By which it is typed.
     pub name: String,
     /// Its purpose, as a sentence.
     pub about: String,

@@ -26,7 +26,7 @@ pub struct LessonMark {
     pub step: usize,
 }
 
-/// The progress in all lessons.
+/// How far a person has come in every lesson.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct LessonProgress {
     version: u32,

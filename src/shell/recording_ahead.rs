@@ -44,7 +44,7 @@ pub struct LeftRecording {
     pub reached: Micros,
     /// The number of claims that were checked, and of all that the script makes.
     pub claims: (usize, usize),
-    /// The claims that are false.
+    /// Those that did not hold so far.
     pub false_claims: Vec<Diagnostic>,
 }
 

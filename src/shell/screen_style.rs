@@ -5,7 +5,6 @@
 use crate::view::colour::Rgb;
 use crate::view::{Detail, RenderStyle};
 
-/// The style of a screen.
 pub(super) struct ScreenStyle {
     /// The style in full detail.
     full: RenderStyle,

@@ -67,12 +67,10 @@ impl TerminalError {
     }
 }
 
-/// A mode of a terminal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum TerminalMode {
     /// The alternate screen; the shell's screen reappears unchanged.
     AlternateScreen,
-    /// The cursor is hidden.
     HiddenCursor,
     /// Pasted text is enclosed in brackets.
     Paste,
@@ -125,7 +123,6 @@ impl Command for ReportMouse {
 /// The result of a wait.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Ready {
-    /// Whether there is input.
     pub(super) input: bool,
     /// Whether the terminal has hung up.
     pub(super) gone: bool,
@@ -225,7 +222,6 @@ impl Terminal {
         Ok(rustix::io::read(self.input, buffer)?)
     }
 
-    /// Whether there is input.
     pub(super) fn has_input(&self) -> io::Result<bool> {
         let mut fds = [PollFd::new(&self.input, PollFlags::IN)];
         match poll(&mut fds, Some(&timespec(Duration::ZERO))) {

@@ -25,7 +25,6 @@ pub struct BatchEventSigns {
 enum Functions {
     /// They are these numbers of it.
     Numbers(Vec<usize>),
-    /// By a program.
     Program {
         jet: Box<Jet<Batch>>,
         /// What depends on the parameters of one lane alone is computed here.

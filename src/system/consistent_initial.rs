@@ -17,7 +17,6 @@ const SMALLEST_PIVOT: f64 = 1e-10;
 const CORRECTIONS: usize = 60;
 const HALVINGS: u32 = 60;
 
-/// What is known of a velocity.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum KnownVelocity {
     /// Its value, which the state contains.

@@ -13,11 +13,11 @@ use super::value::Evaluator;
 use super::{Form, State, System};
 use crate::num::DoubleDouble;
 
-/// If the orthogonal components of the enforced rows fall below this, another choice among the
-/// redundant constraints is tried …
+/// If the orthogonal components of the enforced rows fall below this, another choice among the redundant constraints
+/// is tried.
 const DEPENDENT: f64 = 0.03;
 
-/// … and taken if its components are larger by this factor.
+/// Another choice is taken if its orthogonal components are larger by this factor.
 const GAINED: f64 = 4.0;
 
 impl System {

@@ -33,7 +33,7 @@ pub struct EventFunctions {
 }
 
 impl EventFunctions {
-    /// Sets the parameters.
+    /// Takes other values, in the order of the model, for all evaluations to come.
     pub fn set_parameters(&mut self, parameters: &[f64]) {
         let inputs = self.system.inputs(parameters);
         self.native.set_parameters(parameters, &inputs);
@@ -161,7 +161,6 @@ impl System {
         system
     }
 
-    /// Whether there are events to be located.
     pub(super) fn locates_events(&self) -> bool {
         !self.unmarked && !self.discontinuities().events.is_empty()
     }

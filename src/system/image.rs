@@ -25,10 +25,11 @@ const HALVINGS: u32 = 12;
 /// Nothing is found where so many steps leave more than half of the residual: even at a double root each leaves a quarter.
 const STALLED: u32 = 8;
 
-/// A step is the last but one if it is this small relative to each number, …
+/// A step is the last but one if it is this small relative to each number.
 const SMALL: f64 = 1e-14;
 
-/// … or to the largest of them, where a number passes through zero.
+/// A step is the last but one as well if it is this small relative to the largest number, where another passes
+/// through zero.
 const ROUNDING: f64 = 1e-25;
 
 /// If the first step leaves at most this part of the residual, it leads to the solution nearest to the guess.

@@ -12,7 +12,7 @@ use super::value::Evaluator;
 use super::{Form, MotionError, MotionErrorKind, State, System};
 use crate::num::DoubleDouble;
 
-/// The times of one impulse.
+/// When an impulse is applied.
 #[derive(Clone, PartialEq, Debug)]
 pub struct ImpulseTimes {
     /// Single times.

@@ -222,7 +222,6 @@ impl<R: Coefficient> Jet<R> {
         vectorized(Advance { jet: self, orders: 0..=last, time, scale })
     }
 
-    /// The series of an output.
     pub(super) fn output_series(&self, i: usize) -> &[R] {
         self.series(self.program.outputs[i])
     }

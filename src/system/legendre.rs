@@ -29,10 +29,10 @@ const STEPS: u32 = 100;
 /// The number of halvings where little is to be tried.
 const FEW_HALVINGS: u32 = 8;
 
-/// A residual this small relative to the terms is rounding in double-double …
+/// A residual this small relative to the terms is rounding in double-double.
 const ROUNDING: f64 = 1e-29;
 
-/// … and so is one this small that no step reduces.
+/// A residual this small that no step reduces is rounding as well.
 const STUBBORN: f64 = 1e-20;
 
 /// A larger residual is never a solution, however small the last step was: the iteration is stuck

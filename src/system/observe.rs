@@ -43,7 +43,7 @@ impl Observer {
         observer
     }
 
-    /// Sets the parameters.
+    /// Takes other values, in the order of the model, for all evaluations to come.
     pub fn set_parameters(&mut self, parameters: &[f64]) {
         let inputs = self.system.inputs(parameters);
         self.precise.set_parameters(&inputs);

@@ -23,7 +23,6 @@ pub(super) trait Parts {
     ) -> Result<(), E>;
 }
 
-/// All of it is interpreted.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Interpreted;
 

@@ -40,7 +40,7 @@ pub struct ConstraintProjector {
 }
 
 impl ConstraintProjector {
-    /// Sets the parameters.
+    /// Takes other values, in the order of the model, for all evaluations to come.
     pub fn set_parameters(&mut self, parameters: &[f64]) {
         self.projection.set_parameters(&self.system.inputs(parameters));
     }

@@ -165,7 +165,7 @@ impl Rates {
         self.solver.is_none()
     }
 
-    /// The system.
+    /// What the rates are of.
     pub fn system(&self) -> &System {
         &self.system
     }

@@ -66,7 +66,6 @@ impl<R: StageNumber> RatesList<R> {
         self.suits
     }
 
-    /// Sets the time.
     #[inline(always)]
     pub(super) fn set_time(&mut self, time: R) {
         if let Some(place) = self.map.time {

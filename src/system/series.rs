@@ -73,7 +73,7 @@ impl System {
 }
 
 impl Series {
-    /// Sets the parameters.
+    /// Takes other values, in the order of the model, for all evaluations to come.
     pub fn set_parameters(&mut self, parameters: &[DoubleDouble]) {
         if let Some(low) = &mut self.low {
             low.jet.set_parameters(parameters);

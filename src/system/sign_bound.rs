@@ -10,16 +10,16 @@ use crate::num::{Analytic, BATCH, Batch, math};
 /// turn.
 pub(super) const LAST: usize = 3;
 
-/// The argument of an exponential may change by this amount, …
+/// The argument of an exponential may change by this amount.
 const FARTHEST_ARGUMENT: f64 = 3.0;
 
-/// … or by this part of itself: far out in the tail nothing happens.
+/// It may also change by this part of itself: far out in the tail nothing happens.
 const PART_OF_ARGUMENT: f64 = 0.5;
 
-/// The first term must outweigh the others by this part of it, …
+/// The first term must outweigh the others by this part of it.
 const MARGIN: f64 = 1e-3;
 
-/// … and be more than this part of all terms, so that no rounding counts.
+/// The first term must be more than this part of all terms, so that no rounding counts.
 const LEAST: f64 = 1e-9;
 
 /// Whether a series keeps the sign of its first term up to a time, in its unit, and represents its function up to a part

@@ -21,7 +21,7 @@ pub enum Form {
 /// its sums. Reading `values` alone is enough for display.
 #[derive(Clone, PartialEq, Debug)]
 pub struct State {
-    /// The time.
+    /// On the motion's clock, as an `f64`.
     pub time: f64,
     /// What rounding cut off from the time.
     pub time_carry: f64,
@@ -55,7 +55,7 @@ impl State {
         DoubleDouble { high: self.time, low: self.time_carry }
     }
 
-    /// Sets the time.
+    /// Takes both parts of a time.
     pub fn set_time(&mut self, time: DoubleDouble) {
         (self.time, self.time_carry) = (time.high, time.low);
     }

@@ -44,7 +44,7 @@ impl TermWatch {
         watch
     }
 
-    /// Sets the parameters.
+    /// Takes other values, in the order of the model, for all evaluations to come.
     pub fn set_parameters(&mut self, parameters: &[f64]) {
         let inputs = self.system.inputs(parameters);
         self.native.set_parameters(&inputs);

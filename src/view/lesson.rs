@@ -33,7 +33,7 @@ pub struct Speech {
 pub struct Paragraph {
     /// What it is.
     pub kind: ParagraphKind,
-    /// Its text.
+    /// Its words, without the mark of its kind.
     pub text: String,
 }
 
@@ -44,7 +44,7 @@ pub enum ParagraphKind {
     Text,
     /// Something beside the point: a number, a committed answer.
     Quiet,
-    /// An option.
+    /// One of the answers to choose from.
     Option,
     /// The selected option, or where the cursor of a plot is.
     Selected,

@@ -58,7 +58,7 @@ impl Widget for Sparkline<'_> {
 /// A value within its range: `━━━━●────`. Outside the range an arrow marks the end; NaN has no knob.
 #[derive(Clone, Copy, Debug)]
 pub struct RangeBar {
-    /// The value.
+    /// What the knob stands at.
     pub value: f64,
     /// Its range, linear or logarithmic.
     pub scale: Scale,

@@ -26,10 +26,10 @@ const AGES: usize = 8;
 /// The number of steps of the density ramp, from sparse to dense.
 const DENSITIES: usize = 12;
 
-/// By how much the brightness of a line differs at least from that of a surface behind it, …
+/// By how much the brightness of a line differs at least from that of a surface behind it.
 const LEGIBLE: f64 = 0.25;
 
-/// … and the number of steps to the foreground that are tried.
+/// The number of steps to the foreground that are tried to reach that difference.
 const LEGIBLE_STEPS: u8 = 5;
 
 /// The styles of a palette at one depth.
@@ -109,7 +109,7 @@ impl Theme {
         Some(Self::named(name, self.asked)?.with_ages(self.trails[0].len()))
     }
 
-    /// The palette.
+    /// The colours by their roles.
     pub fn palette(&self) -> &'static Palette {
         self.palette
     }

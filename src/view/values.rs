@@ -30,7 +30,6 @@ struct ListColumns {
     bar: u16,
 }
 
-/// A list of values.
 pub(super) struct ValueList<'a> {
     pub(super) lab: &'a Lab,
     /// Makes the identifier: parameters or initial values.

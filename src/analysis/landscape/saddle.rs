@@ -10,7 +10,6 @@ use super::energy::{Energy, spread};
 pub(super) struct Saddle {
     /// The coordinate and the rate.
     pub(super) at: [f64; 2],
-    /// The energy there.
     pub(super) energy: f64,
 }
 

@@ -36,7 +36,6 @@ pub(super) struct JudgedPath {
     pub(super) varied: Vec<VariedPath>,
 }
 
-/// A varied path.
 pub(super) struct VariedPath {
     pub(super) epsilon: f64,
     /// Hamilton's action, or that in phase space.
@@ -63,7 +62,6 @@ impl BasePath {
     }
 }
 
-/// By what a path is varied.
 pub(super) struct PathVariation {
     positions: Option<PathFunctions>,
     momenta: Option<MomentumVariation>,

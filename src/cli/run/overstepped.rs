@@ -14,11 +14,11 @@ use crate::system::System;
 /// The method that finds where a motion ends.
 const BY_SERIES: &str = "taylor";
 
-/// It is followed for as many steps as the run has taken, since each of its own leads farther (at loose tolerances about as far), and for so many more to a
-/// singularity, …
+/// It is followed for as many steps as the run has taken, since each of its own leads farther (at loose tolerances
+/// about as far), and for so many more to a singularity.
 const MORE_STEPS: u64 = 2000;
 
-/// … but for at most so many.
+/// The most steps for which it is followed.
 const MOST_STEPS: u64 = 20_000;
 
 /// Whether a method may not see where a motion ends.

@@ -31,7 +31,6 @@ pub(super) struct Identity {
     pub(super) digest: String,
     /// The rows of the whole sweep.
     pub(super) rows: usize,
-    /// The shard.
     pub(super) shard: Option<Shard>,
 }
 

@@ -9,7 +9,6 @@ use super::super::newton::NewtonIterate;
 
 /// The equations of an orbit at a point, and their derivatives.
 pub(super) struct FamilyEquations {
-    /// What is missing.
     pub(super) missing: DVector<f64>,
     pub(super) matrix: DMatrix<f64>,
     pub(super) here: NewtonIterate,

@@ -5,9 +5,7 @@
 use super::point::FamilyPoint;
 use crate::num::significant;
 
-/// Where a family ends.
 pub(super) enum FamilyEnd {
-    /// At an equilibrium.
     Equilibrium(FamilyPoint),
     /// At an orbit of another family, as tori about a steady precession shrink to that.
     Branching(FamilyPoint),

@@ -14,7 +14,6 @@ const CLOSING: f64 = 1e-9;
 /// Between two points whose tangents have at least this product a family is a cubic curve.
 const STRAIGHT: f64 = 0.5;
 
-/// A point of a family.
 #[derive(Clone)]
 pub(in super::super) struct FamilyPoint {
     pub(super) state: State,

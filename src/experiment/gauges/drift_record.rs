@@ -48,10 +48,10 @@ pub(super) struct Distance {
     pub(super) moving: f64,
 }
 
-/// The number of first observations, whose distances are deferred until there were …
+/// The number of first observations, whose distances are kept until the scale of what moves is known.
 const FIRST_OBSERVATIONS: u32 = 64;
 
-/// … so many.
+/// The observations after which that scale is known.
 const OBSERVATIONS_TO_KNOW: u32 = 2 * FIRST_OBSERVATIONS;
 
 /// The distances at the first observations. A motion that begins at rest moves little in its first steps, and the error of the first

@@ -21,7 +21,7 @@ pub enum Operand {
     Second,
     /// The function.
     Value,
-    /// Its companion.
+    /// The series computed along with it, as the cosine along with a sine.
     Companion,
 }
 
@@ -73,7 +73,7 @@ pub struct BilinearEquation {
     pub slope: Option<(f64, Operand)>,
     /// The convolutions; what they contain of f_k is left out.
     pub sums: &'static [Convolution],
-    /// The divisor.
+    /// What the k-th coefficient is divided by at last.
     pub divisor: Divisor,
 }
 
@@ -109,6 +109,6 @@ pub struct Recurrence {
     pub companion_first: bool,
     /// That of the function.
     pub value: BilinearEquation,
-    /// That of the companion, where there is one.
+    /// The equation for the series beside it, where the function needs one.
     pub companion: Option<BilinearEquation>,
 }

@@ -6,14 +6,16 @@
 use crate::dynamics::EndSlope;
 use crate::num::significant;
 
-/// The slopes of the action at the start and now are p and H if they are apart by no more than so many times what is known
-/// of their integrals, …
+/// The slopes of the action at the start and now are p and H if they are apart by no more than so many times what is
+/// known of their integrals.
 const TIMES: f64 = 16.0;
 
-/// … and nearly so by less than this part of the size of what is added up: a method that is not exact leaves more.
+/// The slopes are nearly p and H if they are apart by less than this part of the size of what is added up: a method
+/// that is not exact leaves more.
 const NEAR: f64 = 1e-6;
 
-/// … or by no more than so many times what the method is wrong by, up to this part of the size.
+/// They are nearly so as well if they are apart by no more than so many times what the method is wrong by, up to this
+/// part of the size.
 const OF_METHOD: f64 = 4.0;
 const NEAR_BY_METHOD: f64 = 1e-2;
 

@@ -8,7 +8,6 @@ use super::regularity::own_rotation;
 use super::surface::view;
 use crate::instrument::{Measure, PlotContext};
 
-/// The measures.
 pub(super) const MEASURES: [Measure; 9] = [
     Measure {
         word: "points",

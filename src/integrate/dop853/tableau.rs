@@ -6,7 +6,6 @@
 /// The index of a stage and the coefficient of its slope.
 pub(super) type WeightedStage = (usize, f64);
 
-/// One stage.
 pub(super) struct Stage {
     /// The time of the stage as a part of the step.
     pub(super) at: f64,
@@ -259,7 +258,6 @@ mod tests {
             1 + self.0.iter().map(Tree::order).sum::<usize>()
         }
 
-        /// The density γ.
         fn density(&self) -> f64 {
             self.0.iter().map(Tree::density).product::<f64>() * self.order() as f64
         }

@@ -16,10 +16,11 @@ use crate::system::{MotionError, State, System};
 /// it depends on make in it: they are rounded in each of the operations that lead to them.
 const ROUNDINGS: f64 = 64.0;
 
-/// A function whose rate is more than this part of its terms', over that of the numbers it depends on, leaves its zero at once …
+/// A function whose rate is more than this part of its terms', over that of the numbers it depends on, leaves its
+/// zero at once.
 const RATE: f64 = 1e-3;
 
-/// … as a displacement by this part of the numbers shows.
+/// The part by which the numbers are displaced to see that.
 const DISPLACED: f64 = 1e-5;
 
 /// The parts of a step at which a function is evaluated: no multiples of each other, so that no period hides it.
@@ -29,13 +30,13 @@ const PARTS: [f64; 8] = [0.0, 0.1271, 0.2693, 0.4127, 0.5411, 0.7039, 0.8573, 1.
 const SCALES: f64 = 4.0;
 
 /// A function is no longer taken for zero where it is more than this part of its terms, which no error of an orbit by
-/// steps chosen by their error is, …
+/// steps chosen by their error is.
 const LEFT: f64 = 1e-9;
 
-/// … or this many times its tolerance, …
+/// A function is no longer taken for zero either where it is more than this many times its tolerance.
 const TOLERANCES: f64 = 1e4;
 
-/// … or by equal steps more than this part.
+/// The part of its terms above which a function is no longer taken for zero where steps are equal.
 const LEFT_BY_EQUAL_STEPS: f64 = 1e-2;
 
 impl EventLocator {

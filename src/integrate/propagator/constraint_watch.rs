@@ -21,7 +21,7 @@ const CLOSE: f64 = 0.5;
 /// fast rotation.
 const HALVINGS: u32 = 60;
 
-/// … and a rotation within a part of the step that is as small as this multiple of the tolerance counts as a passage: the
+/// A rotation within a part of the step that is as small as this multiple of the tolerance counts as a passage: the
 /// states in between keep the constraints no better than that.
 const BLURRED: f64 = 100.0;
 
@@ -34,10 +34,10 @@ const SUDDEN: f64 = 1e-4;
 /// Rounding noise of velocities has less than this part in the kinetic energy.
 const NOISE: f64 = 1e-20;
 
-/// A step shorter than this part of the regular ones is not regular, …
+/// A step shorter than this part of the regular ones is not regular.
 const REGULAR: f64 = 0.1;
 
-/// … though the reference shrinks by this factor with each step, as a motion may become faster for good.
+/// The length of regular steps shrinks by this factor with each step, as a motion may become faster for good.
 const FORGETTING: f64 = 0.9999;
 
 impl Propagator {
@@ -149,7 +149,6 @@ impl Propagator {
         });
     }
 
-    /// Forgets the passages.
     pub(super) fn forget_passages(&mut self) {
         self.watch = SingularityRecord::default();
     }

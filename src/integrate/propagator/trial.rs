@@ -7,20 +7,21 @@ use crate::integrate::{Settings, Stepping, initial_step, method_named};
 use crate::num::{DoubleDouble, math};
 use crate::system::{MotionErrorKind, Passage, State};
 
-/// A method that may pass a singular configuration is tried with about this many steps to it, …
+/// A method that may pass a singular configuration is tried with about this many steps to it.
 const STEPS_THERE: f64 = 50.0;
 
-/// … at most with this many, …
+/// The most steps of such a trial.
 const MOST_STEPS: u32 = 4000;
 
-/// … and once more with half the step: the results may differ by this part. It is also the part of the velocities by which
-/// the rates may change them in a step that no longer moves the clock, where another method may pass.
+/// The results of a trial and of another one with half the step may differ by this part. It is also the part of the
+/// velocities by which the rates may change them in a step that no longer moves the clock, where another method may
+/// pass.
 const AGREES: f64 = 1e-3;
 
-/// Forces that are so many times those in the regular steps before grow without bound, …
+/// Forces that are so many times those in the regular steps before grow without bound.
 const UNBOUNDED: f64 = 1e6;
 
-/// … and velocities that are no more than so many times as large do not.
+/// Velocities that are no more than so many times those in the regular steps do not grow without bound.
 const BOUNDED: f64 = 10.0;
 
 /// A trial from the beginning of the motion goes beyond the place by this part of the time to it.

@@ -23,10 +23,10 @@ const STAGES: usize = 10;
 /// The maximal number of Newton iterations.
 const ITERATIONS: u32 = 30;
 
-/// A correction below this part of the velocities is the last, …
+/// A correction below this part of the velocities is the last.
 const SETTLED: f64 = 1e-15;
 
-/// … and so is one that no longer shrinks, below this part.
+/// A correction that no longer shrinks is the last as well, below this part of the velocities.
 const ROUNDING: f64 = 1e-11;
 
 /// The tolerated difference between two such polynomials, relative to the velocity at the end, and the
@@ -83,7 +83,7 @@ fn weights(end: f64) -> [f64; STAGES] {
 }
 
 impl Onset {
-    /// Finds the polynomial over a step from a state; `still` is the one at rest, with as many velocities or momenta
+    /// Finds the polynomial over a step from a state; `static_friction` is the one at rest, with as many velocities or momenta
     /// as `degrees`. `accelerations` are those with which a motion would begin at each of the points.
     pub(super) fn new(
         rates: &mut ExactRates,

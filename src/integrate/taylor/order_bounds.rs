@@ -36,10 +36,10 @@ struct BoundChunk {
     by_tolerance: Batch<LANES>,
     /// What is added for the radius of convergence; −∞ where the order gives none.
     by_radius: Batch<LANES>,
-    /// With the terms a_j = |c_j| h^j at a step h, the j-th order may allow more than h only where a_j times this is no less
-    /// than a_k: by the tolerance, …
+    /// With the terms a_j = |c_j| h^j at a step h, the j-th order may allow more than h only where a_j times this is
+    /// no less than a_k: by the tolerance.
     tolerance_factors: Batch<LANES>,
-    /// … and by the radius of convergence.
+    /// The same factor by the radius of convergence.
     radius_factors: Batch<LANES>,
 }
 

@@ -10,11 +10,10 @@ use super::{Taylor, branches, steep};
 use crate::num::DoubleDouble;
 use crate::system::{MotionError, MotionErrorKind, Side};
 
-/// A step shorter than this part of those before it ends at a point where a series has no radius of
-/// convergence; …
+/// A step shorter than this part of those before it ends at a point where a series has no radius of convergence.
 const VANISHING: f64 = 1e-11;
 
-/// … and this is that part where all is in `f64`, whose digits do not tell nearer points apart.
+/// The same part where all is in `f64`, whose digits do not tell nearer points apart.
 pub(super) const VANISHING_IN_F64: f64 = 1e-8;
 
 /// So does a step this short relative to the time, which will soon no longer advance it.
@@ -26,19 +25,19 @@ const TOUCHING: f64 = 1e-15;
 /// A step this short relative to the time hardly advances it.
 const STALLED: f64 = 5e-17;
 
-/// A step this short relative to the time cannot continue; …
+/// A step this short relative to the time cannot continue.
 const SMALLEST: f64 = 1e-17;
 
-/// … but a surface or a point where forces grow without bound is approached up to this part, since the time is
-/// in double-double. A nearer one counts as reached.
+/// A surface or a point where forces grow without bound is approached up to this part, since the time is in
+/// double-double. A nearer one counts as reached.
 const NEAREST: f64 = 1e-30;
 
-/// The last terms of all series may be this part of their largest at a surface or point that is reached
-/// beyond the step, …
+/// The last terms of all series may be this part of their largest at a surface or point that is reached beyond the
+/// step.
 const LAST_DIGIT: f64 = 1e-17;
 
-/// … and this part where it cannot be approached any farther. If they are larger, as at a pole, it
-/// cannot be reached.
+/// The last terms may be this part of the largest where the surface cannot be approached any farther. If they are
+/// larger, as at a pole, it cannot be reached.
 const NEARLY: f64 = 1e-6;
 
 /// How far beyond such a short step the point is searched for, in steps.
@@ -57,7 +56,6 @@ const HALVINGS: u32 = 60;
 /// A number this small relative to the terms of its series is zero; the rest is rounding.
 const ROUNDING: f64 = 1e-18;
 
-/// Where a step ends.
 pub(super) struct StepEnd {
     /// The time from its beginning.
     after: DoubleDouble,

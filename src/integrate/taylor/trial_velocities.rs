@@ -217,6 +217,7 @@ impl TrialVelocities<'_> {
             }
             let Some(moves) = moves else { continue };
             let (mut rests, mut moves) = (rests.0, moves.0);
+            // not `bisect`: the time asked for last is that of the trial state
             for _ in 0..HALVINGS {
                 let middle = 0.5 * (rests + moves);
                 if self.margin_at(middle)? < 0.0 {

@@ -38,7 +38,7 @@ const RECIPROCALS: [DoubleDouble; 65] = {
     table
 };
 
-/// The coefficients of the cosine in powers of the square of its argument, from the second on, …
+/// The coefficients of the cosine in powers of the square of its argument, from the second on.
 const COSINE: [DoubleDouble; 8] = [
     DoubleDouble { high: -0.5, low: 0.0 },
     DoubleDouble { high: 0.041_666_666_666_666_664, low: 2.312_964_634_635_742_7e-18 },
@@ -49,7 +49,7 @@ const COSINE: [DoubleDouble; 8] = [
     DoubleDouble { high: -1.147_074_559_772_972_5e-11, low: -2.065_551_275_283_074_5e-28 },
     DoubleDouble { high: 4.779_477_332_387_385e-14, low: 4.399_205_485_834_081e-31 },
 ];
-/// … and those after them, whose terms are below 10⁻¹⁷ up to π/4.
+/// The coefficients after those in double-double: their terms are below 10⁻¹⁷ up to π/4.
 const COSINE_TAIL: [f64; 5] = [
     -1.561_920_696_858_622_5e-16,
     4.110_317_623_312_165e-19,
@@ -68,7 +68,7 @@ const SINE: [DoubleDouble; 8] = [
     DoubleDouble { high: -7.647_163_731_819_816e-13, low: -7.038_728_777_334_53e-30 },
     DoubleDouble { high: 2.811_457_254_345_520_6e-15, low: 1.650_884_273_086_143_3e-31 },
 ];
-/// … and its tail.
+/// The coefficients of the sine after those in double-double.
 const SINE_TAIL: [f64; 5] = [
     -8.220_635_246_624_33e-18,
     1.957_294_106_339_126_3e-20,

@@ -13,7 +13,6 @@ const DEEPEST: usize = 8;
 /// The greatest number of names visited; a user has far fewer presets.
 pub(super) const MOST: usize = 4096;
 
-/// The contents of a folder.
 #[derive(Default)]
 pub(super) struct FolderContents {
     /// The presets.

@@ -25,7 +25,6 @@ pub(in crate::preset) struct DraftMechanics {
     pub(in crate::preset) brackets: Vec<DraftBracket>,
     /// The range of the brackets.
     pub(in crate::preset) brackets_place: SourceRange,
-    /// The Casimirs.
     pub(in crate::preset) casimirs: Vec<NamedFormula>,
 }
 

@@ -143,7 +143,6 @@ impl<'d> Table<'d> {
         read(found, &format!("`{key}`"), diagnostics)
     }
 
-    /// A text.
     pub(super) fn text(
         &mut self,
         key: &'static str,

@@ -29,7 +29,6 @@ fn wrong(value: &Value<'_>, called: &str, wanted: &str, diagnostics: &mut Diagno
     diagnostics.push(Diagnostic::error(value.span(), message));
 }
 
-/// A text.
 pub(super) fn text(
     value: &Value<'_>,
     called: &str,
@@ -59,7 +58,6 @@ pub(super) fn flag(
     }
 }
 
-/// A list.
 pub(super) fn list<'d>(
     value: &'d Value<'d>,
     called: &str,

@@ -39,7 +39,6 @@ pub(super) const EXPECT: SchemaTable = SchemaTable {
     ],
 };
 
-/// An expected value.
 pub(in crate::preset) const EXPECTED_VALUE: SchemaTable = SchemaTable {
     head: "`values` of [expect]",
     about: "What an expression is at a time.",
@@ -53,7 +52,6 @@ pub(in crate::preset) const EXPECTED_VALUE: SchemaTable = SchemaTable {
     ],
 };
 
-/// An expected event.
 pub(in crate::preset) const EXPECTED_EVENT: SchemaTable = SchemaTable {
     head: "`events` of [expect]",
     about: "When an event or an impulse happens.",
@@ -66,7 +64,6 @@ pub(in crate::preset) const EXPECTED_EVENT: SchemaTable = SchemaTable {
     ],
 };
 
-/// An expected count.
 pub(in crate::preset) const EXPECTED_COUNT: SchemaTable = SchemaTable {
     head: "`count` of [expect]",
     about: "How often it has happened by a time.",
@@ -78,7 +75,6 @@ pub(in crate::preset) const EXPECTED_COUNT: SchemaTable = SchemaTable {
     ],
 };
 
-/// An expected bracket.
 pub(in crate::preset) const EXPECTED_BRACKET: SchemaTable = SchemaTable {
     head: "`brackets` of [expect]",
     about: "What the bracket of two expressions is.",

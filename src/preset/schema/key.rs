@@ -23,7 +23,6 @@ pub(in crate::preset) struct SchemaTable {
 /// A key of a table.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::preset) struct Key {
-    /// Its name.
     pub(in crate::preset) name: &'static str,
     /// The kind of its value.
     pub(in crate::preset) kind: ValueKind,
@@ -66,7 +65,6 @@ impl Only {
     }
 }
 
-/// The kind of a value.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::preset) enum ValueKind {
     /// A text in quotes.
@@ -77,7 +75,6 @@ pub(in crate::preset) enum ValueKind {
     Texts,
     /// `true` or `false`.
     Flag,
-    /// A number.
     Number,
     /// A number, or an expression of numbers in quotes.
     Constant,
@@ -93,7 +90,6 @@ pub(in crate::preset) enum ValueKind {
     Names,
     /// A list of `[a, b, {a, b}]`.
     Brackets,
-    /// A table.
     Table(&'static SchemaTable),
     /// A table of names chosen by the file, each with such a table.
     Named(&'static SchemaTable),

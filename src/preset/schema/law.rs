@@ -5,7 +5,6 @@
 use super::key::ValueKind::{Brackets, Constant, Formula, Formulas, Names, Number, Text, Texts};
 use super::key::{ABOUT, FORCES, H, INITIAL, NAME, PERIOD, SYMBOL, SchemaTable, UNIT, key};
 
-/// A coordinate.
 pub(in crate::preset) const COORDINATE: SchemaTable = SchemaTable {
     head: "[coordinates]",
     about: "The coordinates in order: `theta = { initial = 2.0 }`, or `theta = 2.0`, its initial value alone.",
@@ -30,7 +29,6 @@ pub(in crate::preset) const VARIABLE: SchemaTable = SchemaTable {
     keys: &[INITIAL, SYMBOL, UNIT, PERIOD],
 };
 
-/// A parameter.
 pub(in crate::preset) const PARAMETER: SchemaTable = SchemaTable {
     head: "[parameters]",
     about: "What can be changed while it runs: a number or an expression of numbers (`\"2*pi\"`), or a table.",

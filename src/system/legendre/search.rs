@@ -19,10 +19,11 @@ const PARTS: [u32; 3] = [4, 16, 64];
 /// Two solutions whose numbers differ by less than this part of their size are equal.
 const ALIKE: f64 = 1e-8;
 
-/// Momenta that differ by more than this part are others: those of a second solution, …
+/// Momenta that differ by more than this part are others: those of a second solution.
 const OTHER: f64 = 0.5;
 
-/// … and those of the first, where the velocity has too few digits for them.
+/// Momenta that differ by more than this part are those of no first solution, where the velocity has too few digits
+/// for them.
 const ROUGH: f64 = 1e-6;
 
 /// The starting points of the search for other solutions: the first one with one of its numbers

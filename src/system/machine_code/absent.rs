@@ -21,7 +21,6 @@ impl CodeCache {
     }
 }
 
-/// No growth.
 #[derive(Clone, Debug)]
 pub(in crate::system) struct CompiledGrowth;
 

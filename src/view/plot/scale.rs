@@ -10,10 +10,10 @@ use crate::view::glyphs::Glyphs;
 /// The height of a cell relative to its width, approximately.
 pub const CELL_ASPECT: f64 = 2.0;
 
-/// The kind of a scale.
+/// How numbers become places along an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ScaleKind {
-    /// Linear.
+    /// Equal differences are equally far apart.
     Linear,
     /// Linear, with ticks at fractions of π.
     Angle,

@@ -9,11 +9,11 @@ pub enum Dash {
     /// A solid line.
     #[default]
     Full,
-    /// Dashes.
+    /// Dashes with gaps between.
     Dashed,
     /// Dots.
     Dotted,
-    /// A dash, a dot.
+    /// A dash and a dot by turns.
     DashDot,
     /// A dash, two dots.
     DashDotDot,

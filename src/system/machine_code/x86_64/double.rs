@@ -61,7 +61,6 @@ impl Code {
         self.ordered_sum(high, low)
     }
 
-    /// The quotient.
     fn exact_quotient(&mut self, a: Parts, b: Parts) -> Parts {
         let (a, b) = (Double::held(self, a), Double::held(self, b));
         let first = Plain::over_shared(self, a.0, b.0);

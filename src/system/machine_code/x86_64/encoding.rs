@@ -109,7 +109,6 @@ impl Bytes {
         self.vex(opcode, to, NONE, Source::Register(from));
     }
 
-    /// Zero.
     pub(super) fn zero(&mut self, to: Vector) {
         // vxorps, which clears what lies beyond as well
         let (prefix, width) = (PACKED_SINGLE, Width::Two);

@@ -53,7 +53,7 @@ pub struct Ages<'a> {
     pub since: &'a [f64],
     /// The shade of each age.
     pub ramp: &'a [Shade],
-    /// The layer.
+    /// Greater ones lie over lesser ones.
     pub layer: u8,
     /// The surfaces that hide a part of the trail, and how near to the eye the current point is.
     pub behind: Option<(&'a DepthBuffer, f64)>,
