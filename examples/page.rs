@@ -12,7 +12,7 @@ use std::time::Duration;
 use color_eyre::eyre::Result;
 use crossterm::event::{Event, KeyCode};
 use phaselab::shell::{
-    Ending, FramePace, LabError, Questions, Screen, ScreenRequest, perform, report_panics,
+    Ending, FramePace, LabError, Questions, Screen, ScreenRequest, report_panics, run_screen,
 };
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
@@ -119,7 +119,7 @@ impl Screen for Clock {
 
 fn main() -> Result<ExitCode> {
     report_panics()?;
-    match perform(
+    match run_screen(
         &mut Clock::default(),
         FramePace {
             frames: 30,

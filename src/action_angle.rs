@@ -18,7 +18,7 @@ mod separatrix;
 
 pub use adiabatic::is_adiabatic;
 pub use angle::angle;
-pub use angle_at_time::AngleMoment;
+pub use angle_at_time::AngleAtTime;
 pub use effective_potential::{AllowedInterval, EffectivePotential, PotentialProfile};
 pub use frozen::{FrozenMotion, FrozenSystem, NotFrozen, OwnMotion};
 pub use mean_return::average_returns;

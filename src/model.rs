@@ -29,7 +29,7 @@ pub use claim::{
 pub use constraint::{Constraint, multiplier_name};
 pub use coordinate::Coordinate;
 pub use description::{CommonSymbols, Info, Mechanics, Model, NamedEquilibrium, RunSettings};
-pub use occurrence::{Direction, Event, EventAction, Impulse};
+pub use occurrence::{Direction, EventAction, Impulse, MotionEvent};
 pub use parameter::{Parameter, RangeSpacing};
 pub use picture::{Follow, Point, Shape, SpacePicture, Variation, View, Viewpoint, WrittenExpr};
 pub use ramp::{Ramp, RampRefused, replace_by_ramps};

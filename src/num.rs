@@ -5,7 +5,8 @@
 //! orbits. A [`Number`] is a constant in an
 //! expression. A [`PrimeField`] has the residues in which ranks are computed. [`math`] has the
 //! elementary functions, with the same bits on every machine. [`eigenvalues`] are those of a small
-//! matrix of `f64`, [`gauss`] the nodes of a quadrature. Never here: expressions, units, files.
+//! matrix of `f64`, [`gauss`] the nodes of a quadrature. [`bisect`] and [`newton`] find a root of one number, [`significant`]
+//! and its kin write one. Never here: expressions, units, files.
 
 mod batch;
 mod batch_double;
@@ -28,6 +29,7 @@ mod power_series;
 mod prime_field;
 mod quadrature;
 mod real;
+mod root;
 
 pub use batch::{BATCH, Batch};
 pub use batch_double::BatchDouble;
@@ -38,12 +40,15 @@ pub use double_double::DoubleDouble;
 pub use eigenvalues::{eigenvalues, has_squares};
 pub use extended_range::ExtendedRange;
 pub use finite::all_finite;
-pub use format::{short, significant, to_its_error};
+pub use format::{
+    no_longer_than, push_shortest, rounded, short, shortest, significant, to_its_error,
+};
 pub use horner::{Polynomial, padded, polynomial, tail, tails};
 pub use instruction_set::{Kernel, vectorized};
 pub use number::Number;
 pub use polytope::OrientationPolytope;
 pub use power_series::{cosine_of_arctangent, cosine_of_half, square_root};
 pub use prime_field::{PRIMES, PrimeField, Residue, Unreduced, rational};
-pub use quadrature::gauss;
+pub use quadrature::{gauss, legendre};
 pub use real::{Analytic, Real};
+pub use root::{ALL_HALVINGS, bisect, newton};

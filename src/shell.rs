@@ -2,7 +2,7 @@
 //! application's effects.
 //!
 //! In: what to open and how to show it. Out: how it ended, and the restored terminal. Never here: what a key means,
-//! what anything looks like, or how a system moves. The lower part ([`perform`]) knows only a [`Screen`], which
+//! what anything looks like, or how a system moves. The lower part ([`run_screen`]) knows only a [`Screen`], which
 //! takes input and can be drawn.
 //!
 //! It supports Unix terminals. The vocabulary and the encoding are crossterm's: events, commands for the modes, raw
@@ -58,7 +58,7 @@ pub use bandwidth::{Bandwidth, BandwidthError};
 pub use cast_player::CastPlayer;
 pub use decoder::{PASTE_LIMIT, decode};
 pub use diagnosis::{DoctorFinding, diagnosis};
-pub use frame_loop::{Ending, FramePace, Screen, ScreenRequest, perform};
+pub use frame_loop::{Ending, FramePace, Screen, ScreenRequest, run_screen};
 pub use governor::Governor;
 pub use guided::Guided;
 pub use lab::{perform_demo, run, show, show_ahead, take_lesson};

@@ -11,8 +11,8 @@ const UNEVEN: &str = "its returns take different times, as its rate depends on a
 
 /// The motion of one coordinate at an instant.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub struct AngleMoment {
-    /// The time.
+pub struct AngleAtTime {
+    /// When the motion is there.
     pub time: f64,
     /// w = ∂S/∂J, in turns; from 0 to 1 until it is counted on.
     pub angle: f64,
@@ -20,11 +20,11 @@ pub struct AngleMoment {
     pub frequency: f64,
     /// ∮ p dq.
     pub action: f64,
-    /// The energy.
+    /// That of the frozen system at the motion's state.
     pub energy: f64,
 }
 
-impl AngleMoment {
+impl AngleAtTime {
     /// The motion at coordinates and momenta.
     ///
     /// # Errors
@@ -34,7 +34,7 @@ impl AngleMoment {
         time: f64,
         parameters: &[f64],
         state: [&[f64]; 2],
-    ) -> Result<AngleMoment, String> {
+    ) -> Result<AngleAtTime, String> {
         let mut motion = frozen.at(time, parameters, state).map_err(|why| why.to_string())?;
         let own = motion.own().map_err(|why| why.to_string())?;
         let row = own.row.map_err(|why| why.to_string())?;
@@ -43,16 +43,16 @@ impl AngleMoment {
         }
         let angle = motion.angle(&row).map_err(|why| why.to_string())?;
         let (action, energy) = (row.action, own.energy);
-        Ok(AngleMoment { time, angle, frequency: 1.0 / row.period, action, energy })
+        Ok(AngleAtTime { time, angle, frequency: 1.0 / row.period, action, energy })
     }
 
     /// The same with as many whole turns as have gone by since another.
     #[must_use]
-    pub fn after(self, last: Option<&AngleMoment>) -> AngleMoment {
+    pub fn after(self, last: Option<&AngleAtTime>) -> AngleAtTime {
         let Some(last) = last else { return self };
         let mean = f64::midpoint(last.frequency, self.frequency);
         let expected = last.angle + mean * (self.time - last.time);
-        AngleMoment { angle: self.angle + (expected - self.angle).round(), ..self }
+        AngleAtTime { angle: self.angle + (expected - self.angle).round(), ..self }
     }
 
     /// The angle at a time of a motion that continues evenly from here, w + ν (t − t₀).

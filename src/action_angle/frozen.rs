@@ -18,7 +18,8 @@ use crate::expr::{Expr, FunctionId, Pool, Symbol};
 use crate::integrate::{METHODS, Method, Settings};
 use crate::mechanics::{NoClosedForm, derive_for_motion};
 use crate::model::{
-    Direction, Event, EventAction, Expect, Impulse, Model, Parameter, RangeSpacing, WrittenExpr,
+    Direction, EventAction, Expect, Impulse, Model, MotionEvent, Parameter, RangeSpacing,
+    WrittenExpr,
 };
 use crate::num::Number;
 use crate::system::{ChannelKind, CompileError, InitialOverride, MotionError, System};
@@ -57,7 +58,7 @@ impl From<CompileError> for NotFrozen {
 /// The coordinate as the motion has it.
 #[derive(Clone, PartialEq, Debug)]
 pub struct OwnMotion {
-    /// The energy.
+    /// That of the frozen system at the motion's state.
     pub energy: f64,
     /// The action, the period, the kind of motion; or why there is none.
     pub row: Result<ActionRow, NoAction>,
@@ -96,7 +97,7 @@ impl FrozenSystem {
             return Err(NotFrozen::Constrained);
         }
         let scheduled = |impulse: &Impulse| !impulse.times.is_empty() || impulse.period.is_some();
-        let applies_impulse = |event: &Event| matches!(event.action, EventAction::Impulse(_));
+        let applies_impulse = |event: &MotionEvent| matches!(event.action, EventAction::Impulse(_));
         if model.impulses.iter().any(scheduled) || model.events.iter().any(applies_impulse) {
             return Err(NotFrozen::Impulses);
         }

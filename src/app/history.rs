@@ -22,14 +22,12 @@ const MOST_PASTS: usize = 8;
 pub(super) enum Change {
     /// A parameter was changed.
     Parameter {
-        /// Its index.
         index: usize,
         /// Its value before and after.
         numbers: [f64; 2],
     },
     /// An initial value was changed.
     Initial {
-        /// Its index.
         index: usize,
         /// Its value before and after.
         numbers: [f64; 2],
@@ -104,7 +102,7 @@ impl Change {
 
 /// A change, and where the motion was.
 #[derive(Clone, Debug)]
-struct Entry {
+struct HistoryEntry {
     change: Change,
     /// The motion before the change, and the one after it at which it was undone.
     motions: [Option<Box<Checkpoint>>; 2],
@@ -116,8 +114,8 @@ type ChangeAtMotion = (Change, Option<Box<Checkpoint>>);
 /// The changes made, and the changes undone.
 #[derive(Clone, Debug, Default)]
 pub(super) struct UndoHistory {
-    done: Vec<Entry>,
-    undone: Vec<Entry>,
+    done: Vec<HistoryEntry>,
+    undone: Vec<HistoryEntry>,
     since: Option<Duration>,
     /// The parameter that was changed last, if nothing else was since, and how long ago.
     stepped: Option<(usize, Duration)>,
@@ -152,7 +150,7 @@ impl UndoHistory {
         if joining.iter_mut().rev().any(|earlier| earlier.change.join(&change)) {
             return false;
         }
-        self.done.push(Entry { change, motions: [None, None] });
+        self.done.push(HistoryEntry { change, motions: [None, None] });
         true
     }
 
@@ -191,7 +189,7 @@ impl UndoHistory {
             let first = entries.iter().find_map(|entry| entry.motions[0].clone());
             let changes = entries.into_iter().map(|entry| entry.change).collect();
             let change = Change::Together(changes);
-            self.done.push(Entry { change, motions: [first, None] });
+            self.done.push(HistoryEntry { change, motions: [first, None] });
         }
         // without a group a change may still be a step of the one before it
         if self.begin_group.take().is_some() {

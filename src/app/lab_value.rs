@@ -3,10 +3,11 @@
 //! In: a model and the newest snapshot. Out: the description of a value, and the value one step further.
 //! Never here: the list on the screen, or the command that sets a value.
 
-use super::value::{nice_step, significant, step};
+use super::value::{nice_step, step};
 use super::{Lab, ValueId, ValueInfo};
 use crate::mechanics::Valuation;
 use crate::model::RangeSpacing;
+use crate::num::rounded;
 use crate::system::{ChannelKind, InitialOverride};
 
 impl Lab {
@@ -142,12 +143,10 @@ impl Lab {
     pub(super) fn rounded(&self, target: ValueId, value: f64) -> f64 {
         match self.value_info(target).and_then(|value_info| value_info.range) {
             Some((min, max, _)) if value <= min || value >= max => value.clamp(min, max),
-            Some((min, max, RangeSpacing::Log)) if min > 0.0 => {
-                significant(value, 3).clamp(min, max)
-            }
+            Some((min, max, RangeSpacing::Log)) if min > 0.0 => rounded(value, 3).clamp(min, max),
             Some((min, max, _)) => {
                 let fine = nice_step((max - min) / 200.0);
-                significant((value / fine).round() * fine, 12).clamp(min, max)
+                rounded((value / fine).round() * fine, 12).clamp(min, max)
             }
             None => value,
         }

@@ -6,6 +6,7 @@ use super::field::InputField;
 use super::{Above, App, Effect, Overlay, Page, Purpose};
 use crate::experiment::Command;
 use crate::integrate::{METHODS, Stepping};
+use crate::num::no_longer_than;
 
 /// How far a flow leads where nothing else is typed.
 const FLOW: f64 = 0.1;
@@ -78,6 +79,5 @@ fn idle(purpose: Purpose, method: &str) -> Option<String> {
 
 /// Formats a number for typing: short, without loss.
 fn written(value: f64) -> String {
-    let plain = value.to_string();
-    if plain.len() <= 12 { plain } else { format!("{value:e}").replace("e0", "") }
+    no_longer_than(value, 12)
 }

@@ -240,8 +240,8 @@ impl App {
             for sentence in notifications(&before, &snapshot.notices) {
                 self.notifications.add(Notification::info(sentence.clone()));
             }
-            let counts = snapshot.occurrences.tallies().iter().filter(|tally| tally.count > 1);
-            let repeated = counts.map(|tally| tally.name.as_str());
+            let counts = snapshot.occurrences.counts().iter().filter(|count| count.count > 1);
+            let repeated = counts.map(|count| count.name.as_str());
             self.notifications.outdate(repeated);
         }
         Vec::new()

@@ -4,7 +4,7 @@
 //! command that sets a value.
 
 use crate::model::RangeSpacing;
-use crate::num::math;
+use crate::num::{math, rounded};
 
 /// One value that can be changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -45,16 +45,16 @@ pub(super) fn step(
     match range {
         Some((min, max, RangeSpacing::Log)) if min > 0.0 && value > 0.0 => {
             let factor = math::powf(max / min, times / 200.0);
-            let moved = significant(value * math::powf(factor, sign), 4);
+            let moved = rounded(value * math::powf(factor, sign), 4);
             within(moved, value, min, max)
         }
         Some((min, max, _)) => {
             let fine = nice_step((max - min) / 200.0);
-            within(significant(value + sign * times * fine, 12), value, min, max)
+            within(rounded(value + sign * times * fine, 12), value, min, max)
         }
         None => {
             let fine = nice_step(value.abs().max(1.0) / 200.0);
-            significant(value + sign * times * fine, 12)
+            rounded(value + sign * times * fine, 12)
         }
     }
 }
@@ -71,10 +71,5 @@ pub(super) fn nice_step(length: f64) -> f64 {
     }
     let power = math::powf(10.0, math::log10(length).floor());
     let digit = [1.0, 2.0, 5.0, 10.0].into_iter().rfind(|d| d * power <= length * 1.5);
-    significant(digit.unwrap_or(1.0) * power, 3)
-}
-
-/// Rounds a value to this many significant digits, so that repeated steps accumulate no rounding noise.
-pub(super) fn significant(value: f64, digits: usize) -> f64 {
-    format!("{value:.*e}", digits - 1).parse().unwrap_or(value)
+    rounded(digit.unwrap_or(1.0) * power, 3)
 }

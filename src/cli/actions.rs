@@ -23,7 +23,7 @@ use crate::action_angle::{
 use crate::diagnostic::nearest;
 use crate::ensemble::add_section;
 use crate::expr::Expr;
-use crate::model::{Direction, Event, EventAction, Model};
+use crate::model::{Direction, EventAction, Model, MotionEvent};
 use crate::num::significant;
 use crate::printable;
 use crate::system::ChannelKind;
@@ -80,11 +80,11 @@ pub(super) struct Arguments {
     output: Option<PathBuf>,
 }
 
-pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
+pub(super) fn execute(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
     let reading = arguments.motion.read()?;
     let index = coordinate(&reading.model, arguments.coordinate.as_deref())?;
     if let Some(until) = arguments.until {
-        return along::perform(arguments, reading, (index, until), interrupt);
+        return along::execute(arguments, reading, (index, until), interrupt);
     }
     let name = reading.model.coordinates[index].name.clone();
     let motion = &arguments.motion;
@@ -147,7 +147,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         };
         return Err(could_not(format!("{name} {why}")));
     }
-    let is_impulse = |event: &Event| matches!(event.action, EventAction::Impulse(_));
+    let is_impulse = |event: &MotionEvent| matches!(event.action, EventAction::Impulse(_));
     if systems.turning.model.events.iter().any(is_impulse) {
         stderr::report(
             "impulses at events are left out: these are the actions of the motion without them",

@@ -5,7 +5,6 @@ use std::ffi::OsString;
 use serde_json::{Value, json};
 
 use super::assignment::{self, Assignment};
-use super::decimal::shortest;
 use super::failure::CommandError;
 use super::format::Format;
 use super::open;
@@ -17,6 +16,7 @@ use crate::mechanics::{
     self, ChainRule, ChartBracket, Equations, NoClosedForm, Recognised, Valuation,
 };
 use crate::model::{Model, WrittenExpr};
+use crate::num::shortest;
 use crate::system::{ChannelKind, InitialOverride, System};
 
 /// Compute the Poisson bracket of two expressions.
@@ -51,7 +51,7 @@ pub(super) struct Arguments {
     format: Format,
 }
 
-pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
+pub(super) fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     let document = open::find(&arguments.name)?;
     let mut model = open::read(&document)?;
     let parameters = assignment::parameters(&model, &arguments.set)?;

@@ -4,9 +4,8 @@
 
 use serde_json::{Map, Value};
 
-use super::decimal::shortest;
 use super::output::OutputForm;
-use crate::num::short;
+use crate::num::{short, shortest};
 use crate::printable;
 
 /// How a table is written.
@@ -30,14 +29,12 @@ impl TableFormat {
     }
 }
 
-/// One cell.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) enum TableCell {
     /// A place in an order.
     Count(u64),
     /// A number; what is not finite is left empty.
     Number(f64),
-    /// A word.
     Word(String),
 }
 

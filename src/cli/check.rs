@@ -46,7 +46,7 @@ enum CheckFormat {
     Json,
 }
 
-pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
+pub(super) fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     let mut files = Vec::new();
     let mut errors = 0;
     for path in &arguments.files {

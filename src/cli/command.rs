@@ -65,7 +65,7 @@ pub(super) struct Arguments {
     #[command(flatten)]
     pub(super) lab: lab::Arguments,
     #[command(subcommand)]
-    command: Option<Command>,
+    command: Option<CliCommand>,
 }
 
 /// The text below the help of the program itself.
@@ -119,7 +119,7 @@ fn options_after(matches: &clap::ArgMatches) -> Vec<OsString> {
 
 /// The commands, described with their arguments.
 #[derive(Debug, Subcommand)]
-enum Command {
+enum CliCommand {
     List(list::Arguments),
     Derive(derive::Arguments),
     Check(check::Arguments),
@@ -177,7 +177,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
             return refused(&words, &error);
         }
     };
-    match perform(arguments, &words, &[of_screen, after].concat()) {
+    match execute(arguments, &words, &[of_screen, after].concat()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
             stderr::report(failure.message());
@@ -236,7 +236,7 @@ fn options_first(words: &[OsString]) -> Result<(Vec<OsString>, Vec<OsString>), S
     }
 }
 
-fn perform(
+fn execute(
     arguments: Arguments,
     words: &[OsString],
     of_screen: &[OsString],
@@ -244,19 +244,19 @@ fn perform(
     let Some(command) = arguments.command else {
         return match arguments.lab.system().and_then(unknown) {
             Some(message) => Err(CommandError::WrongUse(message)),
-            None => lab::perform(&arguments.lab, words, options),
+            None => lab::execute(&arguments.lab, words, options),
         };
     };
     let interrupt = Interrupt::watch();
-    execute(command, &interrupt, of_screen).map_err(|failure| match interrupt.signal() {
+    dispatch(command, &interrupt, of_screen).map_err(|failure| match interrupt.signal() {
         // whatever failed, the signal stopped it
         Some(signal) => CommandError::Signal(signal),
         None => failure,
     })
 }
 
-fn execute(
-    command: Command,
+fn dispatch(
+    command: CliCommand,
     interrupt: &Interrupt,
     of_screen: &[OsString],
 ) -> Result<(), CommandError> {
@@ -266,38 +266,38 @@ fn execute(
         ended: lab::how_it_ended,
     };
     match command {
-        Command::List(arguments) => list::perform(&arguments),
-        Command::Derive(arguments) => derive::perform(&arguments),
-        Command::Check(arguments) => check::perform(&arguments),
-        Command::New(arguments) => new::perform(&arguments),
-        Command::Fmt(arguments) => fmt::perform(&arguments),
-        Command::Bracket(arguments) => bracket::perform(&arguments),
-        Command::Invariants(arguments) => invariants::perform(&arguments),
-        Command::Symmetries(arguments) => symmetries::perform(&arguments),
-        Command::Run(arguments) => run::perform(&arguments, interrupt),
-        Command::Flow(arguments) => flow::perform(&arguments, interrupt),
-        Command::Lyapunov(arguments) => lyapunov::perform(&arguments, interrupt),
-        Command::Reverse(arguments) => reverse::perform(&arguments, interrupt),
-        Command::Orbit(arguments) => orbit::perform(&arguments, interrupt),
-        Command::Spectrum(arguments) => spectrum::perform(&arguments, interrupt),
-        Command::Equilibria(arguments) => equilibria::perform(&arguments, interrupt),
-        Command::Section(arguments) => section::perform(&arguments, interrupt),
-        Command::Sweep(arguments) => sweep::perform(&arguments, interrupt),
-        Command::Path(arguments) => path::perform(&arguments, interrupt),
-        Command::Actions(arguments) => actions::perform(&arguments, interrupt),
-        Command::Record(arguments) => record::perform(&arguments),
-        Command::Script(arguments) => demo::perform(&arguments),
-        Command::Plot(arguments) => plot::perform(&arguments, interrupt),
-        Command::Play(arguments) => play::perform(&arguments, of_screen, options, interrupt),
-        Command::Tour(arguments) => lesson::tour(&arguments, interrupt, &lessons),
-        Command::Lessons(arguments) => lesson::perform(&arguments, interrupt, &lessons),
-        Command::Lesson(arguments) => lesson::check(&arguments, &lessons),
-        Command::Methods(arguments) => methods::perform(&arguments),
-        Command::Doctor(arguments) => doctor::perform(&arguments),
-        Command::Config(arguments) => config::perform(&arguments),
-        Command::Completions(arguments) => completions::perform(&arguments, self::command()),
-        Command::Man(arguments) => manual::perform(&arguments, self::command()),
-        Command::Theme(arguments) => theme::perform(&arguments),
+        CliCommand::List(arguments) => list::execute(&arguments),
+        CliCommand::Derive(arguments) => derive::execute(&arguments),
+        CliCommand::Check(arguments) => check::execute(&arguments),
+        CliCommand::New(arguments) => new::execute(&arguments),
+        CliCommand::Fmt(arguments) => fmt::execute(&arguments),
+        CliCommand::Bracket(arguments) => bracket::execute(&arguments),
+        CliCommand::Invariants(arguments) => invariants::execute(&arguments),
+        CliCommand::Symmetries(arguments) => symmetries::execute(&arguments),
+        CliCommand::Run(arguments) => run::execute(&arguments, interrupt),
+        CliCommand::Flow(arguments) => flow::execute(&arguments, interrupt),
+        CliCommand::Lyapunov(arguments) => lyapunov::execute(&arguments, interrupt),
+        CliCommand::Reverse(arguments) => reverse::execute(&arguments, interrupt),
+        CliCommand::Orbit(arguments) => orbit::execute(&arguments, interrupt),
+        CliCommand::Spectrum(arguments) => spectrum::execute(&arguments, interrupt),
+        CliCommand::Equilibria(arguments) => equilibria::execute(&arguments, interrupt),
+        CliCommand::Section(arguments) => section::execute(&arguments, interrupt),
+        CliCommand::Sweep(arguments) => sweep::execute(&arguments, interrupt),
+        CliCommand::Path(arguments) => path::execute(&arguments, interrupt),
+        CliCommand::Actions(arguments) => actions::execute(&arguments, interrupt),
+        CliCommand::Record(arguments) => record::execute(&arguments),
+        CliCommand::Script(arguments) => demo::execute(&arguments),
+        CliCommand::Plot(arguments) => plot::execute(&arguments, interrupt),
+        CliCommand::Play(arguments) => play::execute(&arguments, of_screen, options, interrupt),
+        CliCommand::Tour(arguments) => lesson::tour(&arguments, interrupt, &lessons),
+        CliCommand::Lessons(arguments) => lesson::execute(&arguments, interrupt, &lessons),
+        CliCommand::Lesson(arguments) => lesson::check(&arguments, &lessons),
+        CliCommand::Methods(arguments) => methods::execute(&arguments),
+        CliCommand::Doctor(arguments) => doctor::execute(&arguments),
+        CliCommand::Config(arguments) => config::execute(&arguments),
+        CliCommand::Completions(arguments) => completions::execute(&arguments, self::command()),
+        CliCommand::Man(arguments) => manual::execute(&arguments, self::command()),
+        CliCommand::Theme(arguments) => theme::execute(&arguments),
     }
 }
 

@@ -16,13 +16,12 @@ Examples:
   phaselab completions zsh > ~/.zfunc/_phaselab      with ~/.zfunc in $fpath
   phaselab completions fish > ~/.config/fish/completions/phaselab.fish")]
 pub(super) struct Arguments {
-    /// The shell.
     #[arg(value_enum, value_name = "SHELL")]
     shell: Shell,
 }
 
 /// `command` is the whole command line.
-pub(super) fn perform(arguments: &Arguments, command: clap::Command) -> Result<(), CommandError> {
+pub(super) fn execute(arguments: &Arguments, command: clap::Command) -> Result<(), CommandError> {
     Output::print(OutputForm::Text, &script(arguments.shell, command))
 }
 

@@ -41,7 +41,7 @@ enum ConfigCommand {
     },
 }
 
-pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
+pub(super) fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     match &arguments.command {
         ConfigCommand::PrintDefault => print(&config::default_text()),
         ConfigCommand::Path => print(&format!("{}\n", printable::path(&path()?))),

@@ -1,29 +1,6 @@
-//! Numbers as text that reads back to the same bits, and times at exact decimals.
-
-use std::fmt::Write as _;
+//! Times at exact decimals, and the sizes of errors.
 
 use crate::num::Number;
-
-/// The shortest decimal that reads back to the same `f64`: `0.1`, `2.0`, `1e-9`. Returns `None` if
-/// the number is not finite.
-pub(super) fn shortest(x: f64) -> Option<String> {
-    x.is_finite().then(|| {
-        let mut text = String::new();
-        push_shortest(&mut text, x);
-        text
-    })
-}
-
-/// Appends [`shortest`]; nothing if the number is not finite.
-pub(super) fn push_shortest(out: &mut String, x: f64) {
-    if (1e-4..1e16).contains(&x.abs()) {
-        // there the two agree, and this one is several times as fast
-        out.push_str(ryu::Buffer::new().format_finite(x));
-    } else if x.is_finite() {
-        // writing to a String cannot fail
-        let _ = write!(out, "{x:?}");
-    }
-}
 
 /// An error or a residual to two digits; 0 where there is none.
 pub(super) fn magnitude(x: f64) -> String {
@@ -56,35 +33,4 @@ pub(super) fn divisions(start: f64, until: f64, count: u32) -> impl Iterator<Ite
 
 fn exact(x: f64) -> Number {
     Number::Real(x).canonical()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_number_is_the_shortest_that_reads_back() {
-        let edges = [0.0, -0.0, 1.0, 0.1, 1e-4, 1e15, 1e16, 1e17, 1e-5, f64::MAX, 5e-324, 1e300];
-        let around = edges.into_iter().flat_map(|x| [x, x.next_up(), x.next_down(), -x]);
-        let mut seed = 7_u64;
-        let random = (0..50_000).map(|k| {
-            seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-            let any = f64::from_bits(seed);
-            if k % 2 == 0 {
-                any
-            } else {
-                (seed >> 20) as f64 / [1.0, 1e6, 1e12, 1e18][(seed % 4) as usize]
-            }
-        });
-        for x in around.chain(random).filter(|x| x.is_finite()) {
-            let (text, other) = (shortest(x).expect("finite"), format!("{x:?}"));
-            assert_eq!(text.parse::<f64>().map(f64::to_bits), Ok(x.to_bits()), "{text}");
-            // of two shortest decimals that are equally near, either may be taken
-            assert_eq!(text.len(), other.len(), "{text} {other}");
-        }
-        for x in [0.0, -0.0, 1.0, 0.1, -2.5e-3, 1e15, 1e16, 1e-5, f64::MAX, 5e-324] {
-            assert_eq!(shortest(x), Some(format!("{x:?}")));
-        }
-        assert_eq!((shortest(f64::NAN), shortest(f64::INFINITY)), (None, None));
-    }
 }

@@ -32,7 +32,7 @@ enum DemoCommand {
     },
 }
 
-pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
+pub(super) fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     let DemoCommand::Check { files } = &arguments.command;
     let mut wrong = Vec::new();
     for path in files {

@@ -42,7 +42,7 @@ pub(super) struct Arguments {
     format: Format,
 }
 
-pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
+pub(super) fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     let document = open::find(&arguments.name)?;
     let model = open::read(&document)?;
     let Derived { model, mut equations } = open::derive(&document, model)?;

@@ -31,7 +31,7 @@ pub(super) struct Arguments {
     glyphs: bool,
 }
 
-pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
+pub(super) fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     let variables = |name: &str| std::env::var(name).ok();
     let near = stdout().is_terminal();
     let text = if arguments.glyphs {

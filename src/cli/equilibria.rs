@@ -33,7 +33,7 @@ pub(super) struct Arguments {
     around: Vec<Assignment>,
 }
 
-pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
+pub(super) fn execute(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
     let study = Study::open(&arguments.study, interrupt)?;
     let middle = study.around(&arguments.around)?;
     interrupt.ends_by_itself(|| ());

@@ -20,7 +20,6 @@ Examples:
   phaselab fmt my/system.toml            the file in plain form
   phaselab fmt --write my/*.toml         the files themselves")]
 pub(super) struct Arguments {
-    /// The files.
     #[arg(value_name = "FILE", required = true)]
     files: Vec<PathBuf>,
     /// Write the files themselves.
@@ -28,7 +27,7 @@ pub(super) struct Arguments {
     write: bool,
 }
 
-pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
+pub(super) fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     for path in &arguments.files {
         let document = Document::open(path).map_err(|why| CommandError::reading(path, &why))?;
         let checked = document.read().map_err(|diagnostics| {

@@ -104,7 +104,6 @@ struct At {
     invariants: Invariants,
 }
 
-/// What is reported.
 struct InvariantsReport<'a> {
     model: &'a Model,
     equations: &'a Equations,
@@ -117,7 +116,7 @@ struct InvariantsReport<'a> {
     scan: Option<(String, Vec<At>)>,
 }
 
-pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
+pub(super) fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     let document = open::find(&arguments.name)?;
     let mut model = open::read(&document)?;
     let parameters = assignment::parameters(&model, &arguments.set)?;

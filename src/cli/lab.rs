@@ -54,7 +54,7 @@ pub(super) fn request(
     Ok(Request::new(name, &read(defaults, words)?))
 }
 
-pub(super) fn perform(
+pub(super) fn execute(
     arguments: &Arguments,
     words: &[OsString],
     read: ReadOptions,

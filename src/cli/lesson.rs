@@ -155,7 +155,7 @@ fn check_one(source: &Document, shared: &LessonHost<'_>) -> Result<(), CommandEr
     Ok(())
 }
 
-pub(super) fn perform(
+pub(super) fn execute(
     arguments: &Lessons,
     interrupt: &Interrupt,
     shared: &LessonHost<'_>,

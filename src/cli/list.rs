@@ -46,7 +46,7 @@ impl ListFormat {
     }
 }
 
-pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
+pub(super) fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     let catalog = Catalog::load();
     if catalog.is_cut() {
         let folder =
@@ -107,8 +107,8 @@ fn text(entries: &[CatalogEntry]) -> String {
             text.push_str(&format!("\n  {}\n", printable::line(topic)));
             above = Some((chapter, entry.topic()));
         }
-        let about = match &entry.fault {
-            Some(fault) => format!("cannot be used: {fault}"),
+        let about = match &entry.diagnostic {
+            Some(diagnostic) => format!("cannot be used: {diagnostic}"),
             None if entry.info.summary.is_empty() => entry.info.title.clone(),
             None => entry.info.summary.clone(),
         };
@@ -133,6 +133,6 @@ fn object(entry: &CatalogEntry) -> Value {
         "source": entry.info.source,
         "chapter": entry.info.chapter,
         "file": path,
-        "mistake": entry.fault,
+        "mistake": entry.diagnostic,
     })
 }

@@ -56,7 +56,7 @@ fn count(text: &str) -> Result<Count, String> {
     }
 }
 
-pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
+pub(super) fn execute(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
     let study = Study::open_on_constraints(&arguments.study, interrupt)?;
     let until = study.until(arguments.until);
     interrupt.ends_by_itself(|| ());

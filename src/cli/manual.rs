@@ -57,7 +57,7 @@ const ENVIRONMENT: &[(&str, &str)] = &[
 ];
 
 /// `command` is the whole command line.
-pub(super) fn perform(arguments: &Arguments, command: clap::Command) -> Result<(), CommandError> {
+pub(super) fn execute(arguments: &Arguments, command: clap::Command) -> Result<(), CommandError> {
     let page = match arguments.command.as_slice() {
         [] => whole(command),
         words => of_command(command, words)?,

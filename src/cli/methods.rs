@@ -41,7 +41,7 @@ impl MethodsFormat {
     }
 }
 
-pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
+pub(super) fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     let text = match arguments.format {
         MethodsFormat::Text => METHODS.iter().map(text).collect::<Vec<_>>().join("\n"),
         MethodsFormat::Json => {

@@ -22,7 +22,7 @@ pub(super) struct Arguments {
     name: PathBuf,
 }
 
-pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
+pub(super) fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     let mut path = arguments.name.clone();
     if path.file_name().is_none() {
         let shown = printable::path(&path);

@@ -76,7 +76,7 @@ impl FromStr for Values {
     }
 }
 
-pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
+pub(super) fn execute(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
     let study = Study::open_on_constraints(&arguments.study, interrupt)?;
     let fixed = fixed(arguments, &study)?;
     let along = arguments.along.as_ref().map(|values| along(values, &study)).transpose()?;

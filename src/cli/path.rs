@@ -90,7 +90,7 @@ impl Epsilons {
     }
 }
 
-pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
+pub(super) fn execute(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
     if arguments.duration <= 0.0 {
         return Err(CommandError::WrongUse("--in: a path takes a time above zero".to_owned()));
     }

@@ -38,7 +38,7 @@ pub(super) struct Arguments {
 /// The greatest size of a cast that is read.
 const LIMIT: u64 = 64 << 20;
 
-pub(super) fn perform(
+pub(super) fn execute(
     arguments: &Arguments,
     of_screen: &[OsString],
     read: ReadOptions,
@@ -54,9 +54,7 @@ pub(super) fn perform(
     }
 }
 
-/// What is played.
 enum Played {
-    /// A cast.
     Cast(RecordedCast),
     /// The text of a script.
     Script(Document),

@@ -69,7 +69,7 @@ fn size(text: &str) -> Result<[u16; 2], String> {
     if fits { Ok(size) } else { Err(shape()) }
 }
 
-pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
+pub(super) fn execute(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
     let path = &arguments.file;
     let table = NumberTable::read(path)?;
     let plot = table.plot(arguments)?;
@@ -83,7 +83,6 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
 /// What a column without a number is worth to be drawn.
 const NOTHING: u8 = 3;
 
-/// The columns that are drawn.
 struct DrawnColumns {
     x: usize,
     y: usize,

@@ -68,7 +68,7 @@ enum CastFormat {
     Account,
 }
 
-pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
+pub(super) fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     let system = open::find(&arguments.name)?;
     let source = match &arguments.script {
         Some(path) => Document::open(path).map_err(|why| CommandError::reading(path, &why))?,

@@ -46,7 +46,7 @@ const STEPS: u64 = 256;
 /// The number of times that the gauges are sampled on the way.
 const OBSERVATIONS: f64 = 1000.0;
 
-pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
+pub(super) fn execute(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
     let motion = &arguments.study.motion;
     let laid = motion.compile(motion.read()?, &[], "", interrupt)?;
     let start = laid.start.time;

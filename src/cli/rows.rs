@@ -6,8 +6,8 @@ use std::io::{self, Write};
 
 use serde_json::{Value, json};
 
-use super::decimal::push_shortest;
 use super::report::{Closing, Header, RunStatus, one_line};
+use crate::num::push_shortest;
 use crate::printable;
 
 /// How rows are written.

@@ -97,7 +97,7 @@ pub(super) struct Arguments {
 /// The number of times that the gauges are sampled, whatever the rows.
 const OBSERVATIONS: f64 = 1000.0;
 
-pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
+pub(super) fn execute(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
     let document = open::find(&arguments.name)?;
     let mut model = open::read(&document)?;
     model.leave_views_out();

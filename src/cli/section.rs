@@ -131,7 +131,7 @@ impl Sense {
     }
 }
 
-pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
+pub(super) fn execute(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
     let mut reading = arguments.motion.read()?;
     let (on, sense) = match (&arguments.on, reading.surface.take()) {
         (Some(on), _) => (on.clone(), Sense::Rising),

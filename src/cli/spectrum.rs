@@ -54,7 +54,6 @@ pub(super) struct Arguments {
     lines: u32,
 }
 
-/// What is found, and of what.
 struct FoundSpectrum {
     of: String,
     from: f64,
@@ -64,7 +63,7 @@ struct FoundSpectrum {
     drive: Option<f64>,
 }
 
-pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
+pub(super) fn execute(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
     let motion = &arguments.study.motion;
     let reading = motion.read()?;
     let (kind, column) = match arguments.of.as_deref().map(str::trim) {

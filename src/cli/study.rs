@@ -21,7 +21,7 @@ use crate::dynamics::{DynamicsError, PhaseSpace};
 use crate::integrate::{Method, Settings};
 use crate::mechanics::Equations;
 use crate::model::Model;
-use crate::num::DoubleDouble;
+use crate::num::{DoubleDouble, significant};
 use crate::system::{InitialOverride, State, System};
 
 /// The arguments of each of these commands.
@@ -190,22 +190,8 @@ pub(super) fn write(
 
 /// A number in a text: seven digits.
 pub(super) fn shown(x: f64) -> String {
-    if x == 0.0 {
-        return "0".to_owned();
-    }
-    let plain = format!("{x:.6e}");
-    let (digits, exponent) = plain.split_once('e').unwrap_or((&plain, "0"));
-    let exponent: i32 = exponent.parse().unwrap_or(0);
-    if (-5..7).contains(&exponent) {
-        let places = usize::try_from(6 - exponent).unwrap_or(0);
-        let written = format!("{x:.places$}");
-        if !written.contains('.') {
-            return written;
-        }
-        return written.trim_end_matches('0').trim_end_matches('.').to_owned();
-    }
-    let digits = digits.trim_end_matches('0').trim_end_matches('.');
-    format!("{digits}e{exponent}")
+    // a zero has no sign
+    significant(x + 0.0, 7, 1e-5..1e7)
 }
 
 /// Rows of cells in columns, the first to the left, the others to the right.

@@ -81,13 +81,13 @@ pub(super) struct Arguments {
     output: Option<PathBuf>,
 }
 
-pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
+pub(super) fn execute(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
     let wrong = |message: &str| Err(CommandError::WrongUse(message.to_owned()));
     if !arguments.merge.is_empty() {
         if arguments.format != TableFormat::Csv {
             return wrong("--merge: shards are put together as comma-separated values");
         }
-        return merge::perform(&arguments.merge, arguments.output.as_deref());
+        return merge::execute(&arguments.merge, arguments.output.as_deref());
     }
     let Some(motion) = &arguments.motion else {
         return wrong("a sweep is of a preset or a file, or --merge puts shards together");

@@ -56,7 +56,7 @@ pub(super) struct Arguments {
 /// The budget of time in seconds where none is given.
 const BUDGET: f64 = 10.0;
 
-pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
+pub(super) fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     let document = open::find(&arguments.name)?;
     let mut model = open::read(&document)?;
     let parameters = assignment::parameters(&model, &arguments.set)?;

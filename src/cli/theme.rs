@@ -29,7 +29,7 @@ enum ThemeCommand {
     List,
 }
 
-pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
+pub(super) fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     let ThemeCommand::List = arguments.command;
     let variable = |name: &str| std::env::var(name).ok();
     let depth = if std::io::stdout().is_terminal() {

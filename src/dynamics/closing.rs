@@ -10,6 +10,7 @@ use super::error::DynamicsError;
 use super::excursion::Excursion;
 use super::phase_space::PhaseSpace;
 use crate::integrate::{Method, Settings};
+use crate::num::bisect;
 use crate::system::State;
 
 /// A motion has closed where each variable is as near its start as this part of the way it goes, or of its size.
@@ -17,7 +18,7 @@ const OF_WAY: f64 = 1e-9;
 const OF_SIZE: f64 = 1e-13;
 
 /// The halvings of a step in which it passes its start.
-const HALVINGS: usize = 60;
+const HALVINGS: u32 = 60;
 
 /// The time after which the motion of this way is back at its start, until a time at the latest; nothing if it is not, or cannot be
 /// followed.
@@ -70,19 +71,10 @@ fn followed(
         let (state, _) = carrier.at(end)?;
         let ahead = along(space, way, (&state, &rates)) >= 0.0;
         if behind && ahead {
-            let (mut low, mut high) = (begin, end);
-            for _ in 0..HALVINGS {
-                let middle = f64::midpoint(low, high);
-                if middle <= low || middle >= high {
-                    break;
-                }
+            let [_, high] = bisect([begin, end], HALVINGS, |middle| {
                 let (state, _) = carrier.at(middle)?;
-                if along(space, way, (&state, &rates)) >= 0.0 {
-                    high = middle;
-                } else {
-                    low = middle;
-                }
-            }
+                Ok::<_, DynamicsError>(along(space, way, (&state, &rates)) < 0.0)
+            })?;
             let (state, _) = carrier.at(high)?;
             if is_back(space, way, &state) {
                 return Ok(Some(high - start.time));

@@ -20,7 +20,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::equilibrium::{Equilibria, Equilibrium, in_order};
 use super::error::DynamicsError;
-use super::kind::{Inertia, Kind};
+use super::kind::{Kind, Signature};
 use super::linear;
 use super::phase_space::PhaseSpace;
 use super::small_oscillation::{LinearMotion, Mode, growth_errors, linear_motion, modes};
@@ -264,7 +264,7 @@ impl EquilibriumSearch<'_> {
         let unit = |k: usize| self.units[self.unknowns[k]];
         let in_units = DMatrix::from_fn(count, count, |i, j| df[(i, j)] * unit(j) / unit(i));
         let canonical = self.space.form() == Form::Momentum;
-        let inertia = canonical.then(|| Inertia::of_canonical(&df, &error));
+        let inertia = canonical.then(|| Signature::of_canonical(&df, &error));
         let flat = inertia.map_or(0, |inertia| inertia.flat).max(along.len());
         let eigenvalues = if canonical && flat == 0 {
             linear::rates(&df)
@@ -291,7 +291,7 @@ impl EquilibriumSearch<'_> {
         let is_least = kind == Kind::Minimum && self.space.is_passive();
         let is_greatest = || {
             let hamiltonian = self.space.is_hamiltonian() && along.is_empty();
-            hamiltonian && Inertia::of_energy(&df, &error).kind() == Kind::Maximum
+            hamiltonian && Signature::of_energy(&df, &error).kind() == Kind::Maximum
         };
         let is_extremum = is_least || is_greatest();
         let places = DMatrix::identity(count / 2, count);
@@ -320,7 +320,7 @@ impl EquilibriumSearch<'_> {
         let kind = potential.map(|(second, _)| match family {
             0 => {
                 let error = second.map(|_| ON_SURFACE * second.amax());
-                Inertia::of(&second, &error).kind()
+                Signature::of(&second, &error).kind()
             }
             _ => Kind::Degenerate,
         });

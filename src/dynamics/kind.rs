@@ -29,15 +29,15 @@ pub enum Kind {
 
 /// In how many directions a potential grows, falls, or does neither by a square.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) struct Inertia {
+pub(super) struct Signature {
     pub(super) growing: usize,
     pub(super) falling: usize,
     pub(super) flat: usize,
 }
 
-impl Inertia {
+impl Signature {
     /// That of the second derivative of a potential, whose entries are known to these errors.
-    pub(super) fn of(second: &DMatrix<f64>, error: &DMatrix<f64>) -> Inertia {
+    pub(super) fn of(second: &DMatrix<f64>, error: &DMatrix<f64>) -> Signature {
         let n = second.nrows();
         let mut scale = DVector::from_element(n, 1.0);
         let symmetric = (second + second.transpose()) * 0.5;
@@ -57,11 +57,11 @@ impl Inertia {
         let values = scaled(&symmetric, &scale).symmetric_eigenvalues();
         let growing = values.iter().filter(|value| **value > error).count();
         let falling = values.iter().filter(|value| **value < -error).count();
-        Inertia { growing, falling, flat: n - growing - falling }
+        Signature { growing, falling, flat: n - growing - falling }
     }
 
     /// That by ∂(q̇, ṗ)/∂(q, p), with its errors: of the least energy at fixed coordinates.
-    pub(super) fn of_canonical(df: &DMatrix<f64>, error: &DMatrix<f64>) -> Inertia {
+    pub(super) fn of_canonical(df: &DMatrix<f64>, error: &DMatrix<f64>) -> Signature {
         let n = df.nrows() / 2;
         let parts = |of: &DMatrix<f64>| {
             [(0, 0), (0, 1), (1, 0), (1, 1)]
@@ -76,21 +76,21 @@ impl Inertia {
                 + c.abs() * ROUNDING
                 + (&dd + d.abs() * ROUNDING) * &size * a.abs()
                 + d.abs() * &size * da;
-            return Inertia::of(&-(c - d * mass * a), &error);
+            return Signature::of(&-(c - d * mass * a), &error);
         }
         // no kinetic energy that is positive: the energy itself decides
-        Inertia::of_energy(df, error)
+        Signature::of_energy(df, error)
     }
 
     /// That of the energy itself by ∂(q̇, ṗ)/∂(q, p) of Hamilton's equations, with its errors.
-    pub(super) fn of_energy(df: &DMatrix<f64>, error: &DMatrix<f64>) -> Inertia {
+    pub(super) fn of_energy(df: &DMatrix<f64>, error: &DMatrix<f64>) -> Signature {
         let n = df.nrows() / 2;
         let ordered = |of: &DMatrix<f64>, sign: f64| {
             DMatrix::from_fn(2 * n, 2 * n, |i, j| {
                 if i < n { of[(n + i, j)] * sign } else { of[(i - n, j)] }
             })
         };
-        Inertia::of(&ordered(df, -1.0), &ordered(error, 1.0))
+        Signature::of(&ordered(df, -1.0), &ordered(error, 1.0))
     }
 
     pub(super) fn kind(self) -> Kind {
@@ -109,7 +109,7 @@ mod tests {
 
     fn of(rows: [[f64; 2]; 2], error: f64) -> Kind {
         let second = DMatrix::from_fn(2, 2, |i, j| rows[i][j]);
-        Inertia::of(&second, &DMatrix::from_element(2, 2, error)).kind()
+        Signature::of(&second, &DMatrix::from_element(2, 2, error)).kind()
     }
 
     /// By determinant and trace.

@@ -27,7 +27,7 @@ pub(super) struct Levels {
 
 /// The value of a function at a state, and its gradient.
 #[derive(Clone, Debug)]
-pub(super) struct Level {
+pub(super) struct LevelValue {
     pub(super) value: f64,
     pub(super) gradient: DVector<f64>,
 }
@@ -87,7 +87,7 @@ impl Levels {
         &self,
         state: &State,
         parameters: &[f64],
-    ) -> Result<Vec<Level>, DynamicsError> {
+    ) -> Result<Vec<LevelValue>, DynamicsError> {
         let count = self.model.coordinates.len();
         let built = body_constants(&self.model, parameters).into_iter().map(|(_, value)| value);
         let values: Vec<DoubleDouble> =
@@ -100,7 +100,7 @@ impl Levels {
         let total = self.names.len();
         let slope =
             |k: usize| DVector::from_fn(count, |i, _| evaluator.output(total + k * count + i));
-        let level = |k: usize| Level { value: evaluator.output(k), gradient: slope(k) };
+        let level = |k: usize| LevelValue { value: evaluator.output(k), gradient: slope(k) };
         Ok((0..total).map(level).collect())
     }
 }

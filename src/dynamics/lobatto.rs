@@ -6,29 +6,18 @@
 
 use nalgebra::DMatrix;
 
-use crate::num::math;
+use crate::num::{legendre, math, newton};
 
 /// Nodes with what belongs to them.
 #[derive(Clone, Debug)]
 pub(super) struct Lobatto {
     /// The nodes, ascending.
     pub(super) nodes: Vec<f64>,
-    /// The weights.
     pub(super) weights: Vec<f64>,
     /// D_ij = ℓ_j′(x_i).
     pub(super) derivative: DMatrix<f64>,
     /// The weights of barycentric interpolation.
     barycentric: Vec<f64>,
-}
-
-/// P_n and P_(n−1) at x.
-fn legendre(n: usize, x: f64) -> (f64, f64) {
-    let (mut last, mut value) = (1.0, x);
-    for k in 2..=n {
-        let k = k as f64;
-        (last, value) = (value, ((2.0 * k - 1.0) * x * value - (k - 1.0) * last) / k);
-    }
-    (value, last)
 }
 
 impl Lobatto {
@@ -39,17 +28,13 @@ impl Lobatto {
             (0..=n).map(|i| -math::cos(std::f64::consts::PI * i as f64 / degree)).collect();
         for x in &mut nodes[1..n] {
             // zeros of P_n′, by (1 − x²) P_n″ = 2x P_n′ − n(n+1) P_n
-            for _ in 0..50 {
-                let (value, last) = legendre(n, *x);
-                let rest = 1.0 - *x * *x;
-                let slope = degree * (last - *x * value) / rest;
-                let curvature = (2.0 * *x * slope - degree * (degree + 1.0) * value) / rest;
-                let change = slope / curvature;
-                *x -= change;
-                if change.abs() < 1e-16 {
-                    break;
-                }
-            }
+            *x = newton(*x, 50, |x| {
+                let (value, last) = legendre(n, x);
+                let rest = 1.0 - x * x;
+                let slope = degree * (last - x * value) / rest;
+                let curvature = (2.0 * x * slope - degree * (degree + 1.0) * value) / rest;
+                slope / curvature
+            });
         }
         (nodes[0], nodes[n]) = (-1.0, 1.0);
         let values: Vec<f64> = nodes.iter().map(|&x| legendre(n, x).0).collect();

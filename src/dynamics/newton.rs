@@ -41,9 +41,9 @@ pub(super) const ROUNDING: f64 = 2e-15;
 /// What is the same for the orbit that is searched for.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Fixed {
-    /// The energy.
+    /// The orbit has this energy.
     Energy(f64),
-    /// The period.
+    /// The orbit has this period.
     Period(f64),
     /// Neither: a limit cycle.
     Nothing,
@@ -61,17 +61,17 @@ pub(super) struct Newton<'a> {
 }
 
 /// A level set on which an orbit is to lie, beside a start, in the units of the orbit.
-struct Surface {
+struct LevelSet {
     /// The direction across it, a unit vector; zero where it has none.
     normal: DVector<f64>,
     /// How far the start lies beyond it.
     excess: f64,
 }
 
-impl Surface {
-    fn new(gradient: &DVector<f64>, excess: f64) -> Surface {
+impl LevelSet {
+    fn new(gradient: &DVector<f64>, excess: f64) -> LevelSet {
         let slope = gradient.norm().max(f64::MIN_POSITIVE);
-        Surface { normal: gradient / slope, excess: excess / slope }
+        LevelSet { normal: gradient / slope, excess: excess / slope }
     }
 }
 
@@ -84,7 +84,7 @@ pub(super) struct Circuit {
     /// The rates at its two ends.
     pub(super) rates: [DVector<f64>; 2],
     /// What is to have given values at the start.
-    surfaces: Vec<Surface>,
+    surfaces: Vec<LevelSet>,
     pub(super) size: f64,
     /// How often each variable with a period has gone round.
     pub(super) rounds: Vec<i64>,
@@ -213,7 +213,7 @@ impl Newton<'_> {
 
     /// The level sets on which the orbit is to lie, beside a state with these rates: those of the energy, if it is given, and of
     /// the Casimirs.
-    fn surfaces(&self, state: &State, rate: &DVector<f64>) -> Result<Vec<Surface>, DynamicsError> {
+    fn surfaces(&self, state: &State, rate: &DVector<f64>) -> Result<Vec<LevelSet>, DynamicsError> {
         let (space, mut surfaces) = (self.space, Vec::new());
         let levels = match space.levels() {
             Some(levels) => levels.at(state, space.parameters())?,
@@ -225,12 +225,12 @@ impl Newton<'_> {
                 Some(energy) => self.units.covector(&energy.gradient),
                 None => self.units.gradient(rate),
             };
-            surfaces.push(Surface::new(&gradient, energy - wanted));
+            surfaces.push(LevelSet::new(&gradient, energy - wanted));
         }
         let casimirs = levels.iter().skip(usize::from(space.has_energy_levels()));
         for (casimir, wanted) in casimirs.zip(&self.casimirs) {
             let gradient = self.units.covector(&casimir.gradient);
-            surfaces.push(Surface::new(&gradient, casimir.value - wanted));
+            surfaces.push(LevelSet::new(&gradient, casimir.value - wanted));
         }
         Ok(surfaces)
     }
@@ -401,7 +401,7 @@ impl Newton<'_> {
         self.listed(&circuit.miss, &circuit.surfaces)
     }
 
-    fn listed(&self, miss: &DVector<f64>, surfaces: &[Surface]) -> DVector<f64> {
+    fn listed(&self, miss: &DVector<f64>, surfaces: &[LevelSet]) -> DVector<f64> {
         let n = self.space.dimension();
         let mut missed = DVector::zeros(self.count());
         missed.rows_mut(0, n).copy_from(miss);

@@ -81,7 +81,6 @@ fn added(terms: impl Iterator<Item = String>) -> String {
     text
 }
 
-/// A term of a force.
 struct ForceTerm {
     shown: String,
     expression: Expr,
@@ -120,13 +119,13 @@ impl ForceTerm {
 }
 
 /// A place: its variables, the units of the coordinates, the rates of the cyclic ones by index.
-type Place<'a> = (&'a [f64], &'a [f64], &'a [(usize, f64)]);
+type TestConfiguration<'a> = (&'a [f64], &'a [f64], &'a [(usize, f64)]);
 
 /// The forces at each place on the coordinates that rest; none where the law is a bracket.
 pub(super) fn virtual_work(
     (model, equations): (&Model, &Equations),
     parameters: &[f64],
-    places: &[Place],
+    places: &[TestConfiguration],
 ) -> Vec<Balance> {
     let (Flow::Lagrange { momentum_rates, .. } | Flow::Hamilton { momentum_rates, .. }) =
         &equations.flow
@@ -160,7 +159,7 @@ pub(super) fn virtual_work(
         }
         forces.push((i, force));
     }
-    let at = |&(variables, units, rates): &Place| {
+    let at = |&(variables, units, rates): &TestConfiguration| {
         let mut known = Valuation::of_parameters(model, parameters);
         known.set(equations.symbols.time, 0.0);
         for (i, symbols) in equations.coordinates.iter().enumerate() {

@@ -16,7 +16,7 @@ use crate::system::{ChannelKind, InitialOverride, MotionError, Observer, System}
 pub struct SectionPlane {
     /// The two numbers that a point gives.
     axes: [ChannelKind; 2],
-    surface: Surface,
+    surface: SurfaceCondition,
     direction: Direction,
     time: f64,
     parameters: Vec<f64>,
@@ -24,7 +24,7 @@ pub struct SectionPlane {
 
 /// What the surface fixes.
 #[derive(Clone, PartialEq, Debug)]
-enum Surface {
+enum SurfaceCondition {
     /// A coordinate; the energy fixes the rate that is left.
     Place {
         /// Its index.
@@ -35,7 +35,6 @@ enum Surface {
         grows: bool,
         /// The rate that completes a start.
         solved: InitialOverride,
-        /// The energy.
         energy: f64,
     },
     /// Only the time.
@@ -102,7 +101,7 @@ impl SectionPlane {
                     Direction::Rising => rises,
                     Direction::Falling => !rises,
                 };
-                Surface::Stroboscope { begins: at.abs() <= ON && wanted }
+                SurfaceCondition::Stroboscope { begins: at.abs() <= ON && wanted }
             }
             (Some(&coordinate), false) if held.len() == 1 => {
                 let place = free.iter().position(|slot| *slot == (coordinate, false))?;
@@ -117,7 +116,7 @@ impl SectionPlane {
                 } else {
                     InitialOverride::Momentum(rate, 0.0)
                 };
-                Surface::Place { coordinate, value, grows: above > below, solved, energy }
+                SurfaceCondition::Place { coordinate, value, grows: above > below, solved, energy }
             }
             _ => return None,
         };
@@ -127,10 +126,10 @@ impl SectionPlane {
 
     /// Whether the energy bounds the plane.
     pub fn is_bounded(&self) -> bool {
-        matches!(self.surface, Surface::Place { .. })
+        matches!(self.surface, SurfaceCondition::Place { .. })
     }
 
-    /// The parameters.
+    /// The values that the plane is at, in the order of the model.
     pub fn parameters(&self) -> &[f64] {
         &self.parameters
     }
@@ -139,18 +138,18 @@ impl SectionPlane {
     pub fn is_accessible(&self, system: &System, observer: &mut Observer, at: [f64; 2]) -> bool {
         let start = self.given(at);
         match self.surface {
-            Surface::Place { solved, energy, .. } => {
+            SurfaceCondition::Place { solved, energy, .. } => {
                 let root = Root::Positive;
                 let shell = EnergyShell { energy, by: solved, root, about: 0.0 };
                 shell.allows(system, observer, &start)
             }
-            Surface::Stroboscope { .. } => start.state(system).is_ok(),
+            SurfaceCondition::Stroboscope { .. } => start.state(system).is_ok(),
         }
     }
 
     /// Whether initial values at a point of the plane lie at another phase than its points do, and need a [`PhaseShift`].
     pub fn is_at_another_phase(&self) -> bool {
-        matches!(self.surface, Surface::Stroboscope { begins: false })
+        matches!(self.surface, SurfaceCondition::Stroboscope { begins: false })
     }
 
     /// The start whose orbit begins at a point of the plane; of a stroboscope its initial values, at whatever phase.
@@ -164,7 +163,7 @@ impl SectionPlane {
         at: [f64; 2],
     ) -> Result<Start, NotInPlane> {
         let given = self.given(at);
-        let Surface::Place { coordinate, grows, solved, energy, .. } = self.surface else {
+        let SurfaceCondition::Place { coordinate, grows, solved, energy, .. } = self.surface else {
             given.state(system)?;
             return Ok(given);
         };
@@ -207,7 +206,7 @@ impl SectionPlane {
     /// A start without the rate that the energy determines.
     fn given(&self, at: [f64; 2]) -> Start {
         let mut overrides = Vec::new();
-        if let Surface::Place { coordinate, value, .. } = self.surface {
+        if let SurfaceCondition::Place { coordinate, value, .. } = self.surface {
             overrides.push(InitialOverride::Position(coordinate, value));
         }
         for (kind, value) in self.axes.into_iter().zip(at) {
@@ -245,7 +244,8 @@ fn slot(kind: ChannelKind) -> Option<(usize, bool)> {
     }
 }
 
-/// The root of a function next to zero, by Newton's method with the slopes of secants.
+/// The root of a function next to zero, by Newton's method with the slopes of secants. Unlike `num::newton` it says where
+/// there is none.
 fn root(function: impl Fn(f64) -> f64) -> Option<f64> {
     let mut x = 0.0_f64;
     for _ in 0..CORRECTIONS {

@@ -9,7 +9,7 @@ use super::Start;
 use crate::cancel::Cancel;
 use crate::expr::Expr;
 use crate::integrate::{Method, OccurrenceKind, Propagator, Reached, Settings, spacing};
-use crate::model::{Direction, Event, EventAction, Model};
+use crate::model::{Direction, EventAction, Model, MotionEvent};
 use crate::num::short;
 use crate::system::{MotionError, Observer, State, System};
 
@@ -135,7 +135,7 @@ impl Crossings {
 /// other event or impulse has.
 pub fn add_section(model: &mut Model, when: Expr, direction: Direction) -> String {
     let name = section_name(model);
-    model.events.push(Event {
+    model.events.push(MotionEvent {
         name: name.clone(),
         when,
         direction,

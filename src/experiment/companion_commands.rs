@@ -3,7 +3,7 @@
 //! In: commands. Out: an experiment with other companions, or a notice why not. Never here: how they are carried along.
 
 use super::advance::HORIZON;
-use super::companion_motion::{Change, CompanionMotion};
+use super::companion_motion::{CompanionChange, CompanionMotion};
 use super::companions::MOST_COMPANIONS;
 use super::recorder::NUMBERS;
 use super::{CompanionOrigin, Experiment};
@@ -174,17 +174,17 @@ impl Experiment {
 
     /// The parameters of the main motion have changed.
     pub(super) fn pass_parameters(&mut self) {
-        self.pass(&Change::Parameters(self.setup.parameters.clone()));
+        self.pass(&CompanionChange::Parameters(self.setup.parameters.clone()));
     }
 
     /// The method of the main motion has changed.
     pub(super) fn pass_method(&mut self) {
-        self.pass(&Change::Method(self.motion.method(), self.motion.settings()));
+        self.pass(&CompanionChange::Method(self.motion.method(), self.motion.settings()));
     }
 
     /// Lets all meet a change of the main motion where that is: those that were farther, as they are where it was carried back,
     /// go back, and those that are behind change once they are there. Of a pinned run nothing changes but the distances.
-    fn pass(&mut self, change: &Change) {
+    fn pass(&mut self, change: &CompanionChange) {
         let (time, start) = (self.time(), self.setup.start);
         for one in &mut self.companions.all {
             one.forget_rows_after(time);

@@ -29,19 +29,18 @@ enum Ahead {
     /// A row of the main motion.
     Row(Due),
     /// Another law or method.
-    Change(f64, Change),
+    CompanionChange(f64, CompanionChange),
 }
 
 /// What of the main motion a companion takes over, if it follows it.
 #[derive(Clone)]
-pub(super) enum Change {
+pub(super) enum CompanionChange {
     /// Other parameters; q and p stay.
     Parameters(Vec<f64>),
     /// Another method, which suits the system because the main motion has it.
     Method(&'static Method, Settings),
 }
 
-/// A companion in motion.
 pub(super) struct CompanionMotion {
     pub(super) number: usize,
     pub(super) origin: CompanionOrigin,
@@ -86,7 +85,7 @@ impl CompanionMotion {
     /// Begins at a state. Nothing of what was recorded remains.
     pub(super) fn begin(&mut self, state: Result<State, MotionError>) {
         for ahead in std::mem::take(&mut self.due) {
-            if let Ahead::Change(_, Change::Method(method, settings)) = ahead {
+            if let Ahead::CompanionChange(_, CompanionChange::Method(method, settings)) = ahead {
                 let suits = self.motion.change_method(method, settings).is_ok();
                 debug_assert!(suits, "the main motion has it");
             }
@@ -146,24 +145,24 @@ impl CompanionMotion {
     }
 
     /// The main motion has changed at a time, where this one does as well once it is there.
-    pub(super) fn expect_change(&mut self, time: f64, change: Change) {
+    pub(super) fn expect_change(&mut self, time: f64, change: CompanionChange) {
         let is_there = self.due.is_empty() && self.motion.state().time >= time;
         if is_there || self.message.is_some() {
             self.take(change);
         } else {
-            self.due.push_back(Ahead::Change(time, change));
+            self.due.push_back(Ahead::CompanionChange(time, change));
         }
     }
 
-    fn take(&mut self, change: Change) {
+    fn take(&mut self, change: CompanionChange) {
         let state = match change {
-            Change::Parameters(parameters) => {
+            CompanionChange::Parameters(parameters) => {
                 let old = std::mem::replace(&mut self.parameters, parameters);
                 self.record.crossings.clear();
                 let system = self.motion.system();
                 system.change_parameters(self.motion.state(), &old, &self.parameters)
             }
-            Change::Method(method, settings) => {
+            CompanionChange::Method(method, settings) => {
                 if self.motion.change_method(method, settings).is_err() {
                     return;
                 }
@@ -181,7 +180,7 @@ impl CompanionMotion {
     pub(super) fn forget_rows_after(&mut self, time: f64) {
         self.due.retain(|ahead| match ahead {
             Ahead::Row((row, _)) => *row <= time,
-            Ahead::Change(..) => true,
+            Ahead::CompanionChange(..) => true,
         });
     }
 
@@ -242,7 +241,7 @@ impl CompanionMotion {
             let mut index = 0;
             self.due.retain(|ahead| {
                 index += 1;
-                index % 2 == 0 || matches!(ahead, Ahead::Change(..))
+                index % 2 == 0 || matches!(ahead, Ahead::CompanionChange(..))
             });
         }
         self.due.push_back(Ahead::Row(due));
@@ -264,7 +263,7 @@ impl CompanionMotion {
     ) {
         while *budget > 0 && self.is_behind(time) {
             let next = match self.due.front() {
-                Some(Ahead::Row((time, _)) | Ahead::Change(time, _)) => *time,
+                Some(Ahead::Row((time, _)) | Ahead::CompanionChange(time, _)) => *time,
                 None => time,
             };
             let outcome = if next <= self.motion.state().time {
@@ -280,7 +279,7 @@ impl CompanionMotion {
                             self.record.add_row(&main, variables, periods);
                             self.log_state();
                         }
-                        Some(Ahead::Change(_, change)) => self.take(change),
+                        Some(Ahead::CompanionChange(_, change)) => self.take(change),
                         None => {}
                     }
                 }

@@ -21,7 +21,7 @@ const BYTES: usize = 128 << 20;
 pub struct EventLog {
     sealed: VecDeque<Arc<Vec<Occurrence>>>,
     open: Arc<Vec<Occurrence>>,
-    tallies: Arc<Vec<EventCount>>,
+    counts: Arc<Vec<EventCount>>,
     /// The size of the sealed chunks in bytes.
     bytes: usize,
     only_counts: bool,
@@ -51,12 +51,12 @@ impl EventLog {
 
     /// Adds an occurrence.
     pub(super) fn push(&mut self, occurrence: Occurrence) {
-        let tallies = Arc::make_mut(&mut self.tallies);
-        match tallies.iter_mut().find(|tally| tally.name == occurrence.name) {
-            Some(tally) => (tally.count, tally.last) = (tally.count + 1, occurrence.time),
+        let counts = Arc::make_mut(&mut self.counts);
+        match counts.iter_mut().find(|entry| entry.name == occurrence.name) {
+            Some(entry) => (entry.count, entry.last) = (entry.count + 1, occurrence.time),
             None => {
                 let (name, last) = (occurrence.name.clone(), occurrence.time);
-                tallies.push(EventCount { name, count: 1, last });
+                counts.push(EventCount { name, count: 1, last });
             }
         }
         if self.only_counts {
@@ -82,15 +82,15 @@ impl EventLog {
         if gone.is_empty() {
             return;
         }
-        let mut tallies = (*self.tallies).clone();
+        let mut counts = (*self.counts).clone();
         let mut rest: EventLog = self.iter().filter(|o| !later(o)).cloned().collect();
-        for tally in &mut tallies {
-            tally.count -= gone.iter().filter(|name| **name == tally.name).count() as u64;
-            let left = rest.tallies().iter().find(|left| left.name == tally.name);
-            tally.last = left.map_or(tally.last, |left| left.last);
+        for entry in &mut counts {
+            entry.count -= gone.iter().filter(|name| **name == entry.name).count() as u64;
+            let left = rest.counts().iter().find(|left| left.name == entry.name);
+            entry.last = left.map_or(entry.last, |left| left.last);
         }
-        tallies.retain(|tally| tally.count > 0);
-        (rest.tallies, rest.only_counts) = (Arc::new(tallies), self.only_counts);
+        counts.retain(|entry| entry.count > 0);
+        (rest.counts, rest.only_counts) = (Arc::new(counts), self.only_counts);
         *self = rest;
     }
 
@@ -100,13 +100,13 @@ impl EventLog {
     }
 
     /// The count of each occurrence, in the order of first appearance.
-    pub fn tallies(&self) -> &[EventCount] {
-        &self.tallies
+    pub fn counts(&self) -> &[EventCount] {
+        &self.counts
     }
 
     /// The total number of occurrences.
     pub fn count(&self) -> u64 {
-        self.tallies.iter().map(|tally| tally.count).sum()
+        self.counts.iter().map(|entry| entry.count).sum()
     }
 
     /// The number of occurrences that were dropped.
@@ -116,7 +116,7 @@ impl EventLog {
 
     /// Whether nothing has happened.
     pub fn is_empty(&self) -> bool {
-        self.tallies.is_empty()
+        self.counts.is_empty()
     }
 }
 
@@ -172,9 +172,9 @@ mod tests {
         assert_eq!(back.forgotten(), event_log.forgotten());
         assert_eq!(back.iter().next_back().map(|o| o.time), Some(count as f64 - 11.0));
         let half = count as u64 / 2;
-        let tally = |name: &str, last| EventCount { name: name.to_owned(), count: half, last };
+        let entry = |name: &str, last| EventCount { name: name.to_owned(), count: half, last };
         let last = count as f64;
-        assert_eq!(event_log.tallies(), [tally("tick", last - 2.0), tally("tock", last - 1.0)]);
+        assert_eq!(event_log.counts(), [entry("tick", last - 2.0), entry("tock", last - 1.0)]);
     }
 
     #[test]

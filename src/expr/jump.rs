@@ -4,22 +4,25 @@
 //! In: a function and a divisor in it. Out: whether the function has two limits at a zero of the divisor. Never here: jumps of
 //! functions that have names, as sign.
 
+use std::convert::Infallible;
+
 use super::evaluate::Repeated;
 use super::node::Expr;
 use super::pool::Pool;
 use super::sample::sample;
 use super::symbol::Symbol;
 use super::vanishing::on_lines;
+use crate::num::bisect;
 
 /// The distances from a zero at which both sides are compared, in units of its place and 1: with the digits of an `f64` a zero is
 /// known to 1e-16 of these, and of whatever is steeper by a million both limits are seen.
 const DISTANCES: [f64; 3] = [1e-7, 1e-8, 1e-9];
 
-/// A difference of both sides that is more than this part of the values and …
+/// A jump is a difference of both sides that is more than this part of the values.
 const SEEN: f64 = 1e-6;
 
-/// … changes by less than this part of it from one distance to the next is a jump: at a pole it grows by ten, beside the tip of a
-/// root it falls by three.
+/// A difference that changes by less than this part of it from one distance to the next is a jump: at a pole it grows
+/// by ten, beside the tip of a root it falls by three.
 const SETTLED: f64 = 0.1;
 
 /// The halvings between two places down to neighbouring numbers.
@@ -46,12 +49,10 @@ impl Pool {
 }
 
 /// Where a function changes its sign between two places.
-fn change_of_sign(at: &dyn Fn(f64) -> f64, mut left: f64, mut right: f64) -> f64 {
+fn change_of_sign(at: &dyn Fn(f64) -> f64, left: f64, right: f64) -> f64 {
     let side = at(left);
-    for _ in 0..HALVINGS {
-        let middle = f64::midpoint(left, right);
-        if at(middle) * side > 0.0 { left = middle } else { right = middle }
-    }
+    let is_left = |place| Ok::<_, Infallible>(at(place) * side > 0.0);
+    let Ok([_, right]) = bisect([left, right], HALVINGS, is_left);
     right
 }
 

@@ -12,7 +12,7 @@ mod ends;
 mod in_phase_space;
 mod principle;
 
-use self::along_motion::{Actions, Beside, beside};
+use self::along_motion::{ActionAlongMotion, Actions, beside};
 use self::ends::by_its_ends;
 use self::in_phase_space::{beside_by, nature};
 pub(super) use self::principle::Principle;
@@ -46,7 +46,7 @@ struct ComputedAction {
     coordinate: usize,
     begin: f64,
     duration: f64,
-    outcome: Result<Beside, String>,
+    outcome: Result<ActionAlongMotion, String>,
 }
 
 impl Instrument for ActionPlot {
@@ -256,7 +256,7 @@ fn computed(answer: Option<&Answer>) -> Option<&ComputedAction> {
     answer?.of::<ComputedAction>()
 }
 
-fn found(answer: Option<&Answer>) -> Option<&Beside> {
+fn found(answer: Option<&Answer>) -> Option<&ActionAlongMotion> {
     computed(answer)?.outcome.as_ref().ok()
 }
 

@@ -18,7 +18,7 @@ use crate::action_angle::{FrozenMotion, OwnMotion, RegionKind, Separatrix, is_ad
 use crate::job::{Job, Progress};
 use crate::num::{math, significant};
 use crate::system::ChannelKind;
-use action_at_time::{Moment, signed};
+use action_at_time::{ActionAtTime, signed};
 
 /// The levels of the picture.
 const SEPARATRIX: Level = 0;
@@ -57,10 +57,10 @@ pub(super) struct ActionsPlot;
 
 /// What was found, and of what.
 struct ComputedActions {
-    course: FrozenCourse<Moment>,
+    course: FrozenCourse<ActionAtTime>,
     found: Result<Found, String>,
     /// The instants at which another law took the place of the one before, as a ramp by a key does.
-    replaced: Vec<Moment>,
+    replaced: Vec<ActionAtTime>,
 }
 
 /// The curve and the motion.
@@ -168,8 +168,8 @@ impl Instrument for ActionsPlot {
         }
         let replaced = known.filter(|_| leads).map_or(&[][..], |known| &known.replaced);
         // a paused motion continues at the very moment
-        let before = |instant: &&Moment| instant.time <= state.time;
-        let replaced: Vec<Moment> = replaced.iter().filter(before).copied().collect();
+        let before = |instant: &&ActionAtTime| instant.time <= state.time;
+        let replaced: Vec<ActionAtTime> = replaced.iter().filter(before).copied().collect();
         let known = known.map(|known| known.course.clone());
         let (model, system) =
             (Arc::clone(present.physics.model), Arc::clone(present.physics.system));
@@ -188,7 +188,9 @@ impl Instrument for ActionsPlot {
                     && let Ok(mut motion) = first.frozen(frozen)
                 {
                     let own = motion.own().ok();
-                    course.past.extend(own.and_then(|own| Moment::of(&motion, &own, first.time)));
+                    course
+                        .past
+                        .extend(own.and_then(|own| ActionAtTime::of(&motion, &own, first.time)));
                 }
                 let now = found.as_ref().ok().and_then(|found| found.moment(state.time));
                 course.past.extend(
@@ -279,7 +281,7 @@ impl ComputedActions {
     }
 
     /// By which part they have changed since an instant; of nothing there is no part.
-    fn changes_since(&self, first: &Moment) -> Option<[f64; 2]> {
+    fn changes_since(&self, first: &ActionAtTime) -> Option<[f64; 2]> {
         self.course.past.last()?.changes_since(first)
     }
 }
@@ -331,9 +333,14 @@ impl Found {
     }
 
     /// The motion at a time, if it returns.
-    fn moment(&self, time: f64) -> Option<Moment> {
+    fn moment(&self, time: f64) -> Option<ActionAtTime> {
         let row = self.own.row.as_ref().ok().filter(|row| row.kind != RegionKind::Unbounded)?;
-        Some(Moment { time, energy: self.own.energy, height: self.height, action: row.action })
+        Some(ActionAtTime {
+            time,
+            energy: self.own.energy,
+            height: self.height,
+            action: row.action,
+        })
     }
 }
 

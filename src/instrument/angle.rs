@@ -13,7 +13,7 @@ use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
     Need, Offer, Physics, Picture, Plot, PlotContext, Present, Upwards,
 };
-use crate::action_angle::AngleMoment;
+use crate::action_angle::AngleAtTime;
 use crate::job::{Job, Progress};
 use crate::num::significant;
 
@@ -33,7 +33,7 @@ pub(super) struct AnglePlot;
 
 /// What was found, and of what.
 struct ComputedAngle {
-    course: FrozenCourse<AngleMoment>,
+    course: FrozenCourse<AngleAtTime>,
     /// Why there is no angle now.
     lost: Option<String>,
 }
@@ -128,7 +128,7 @@ impl Instrument for AnglePlot {
             let mut course = FrozenCourse::continued(known, &state, &model, progress, |m| m.time);
             let CoordinateState { time, parameters, positions, momenta, .. } = &state;
             let found = course.frozen.as_ref().map_err(Clone::clone).and_then(|frozen| {
-                AngleMoment::of(frozen, *time, parameters, [positions, momenta])
+                AngleAtTime::of(frozen, *time, parameters, [positions, momenta])
             });
             let lost = match found {
                 Ok(found) => {
@@ -194,7 +194,7 @@ impl ComputedAngle {
     fn residual(&self) -> Option<[f64; 2]> {
         let line = self.line()?;
         let past = &self.course.past;
-        let off = |moment: &AngleMoment| moment.angle - line(moment.time);
+        let off = |moment: &AngleAtTime| moment.angle - line(moment.time);
         let largest = past.iter().map(|moment| off(moment).abs()).fold(0.0, f64::max);
         Some([off(past.last()?), largest])
     }

@@ -11,7 +11,7 @@ mod task;
 use std::borrow::Cow;
 use std::sync::Arc;
 
-pub(super) use task::Number;
+pub(super) use task::DiagramQuantity;
 use task::{ComputedDiagram, DiagramTask, MOST, PART};
 
 use super::section::zero;
@@ -40,27 +40,27 @@ const SAME: f64 = 1e-3;
 const LEVEL: f64 = 1e-6;
 
 /// The row of a number.
-pub(super) struct Diagram(pub(super) Number);
+pub(super) struct Diagram(pub(super) DiagramQuantity);
 
 impl Instrument for Diagram {
     fn name(&self) -> &'static str {
         match self.0 {
-            Number::Crossings => "diagram",
-            Number::Frequency => "frequency",
-            Number::Period => "period",
+            DiagramQuantity::Crossings => "diagram",
+            DiagramQuantity::Frequency => "frequency",
+            DiagramQuantity::Period => "period",
         }
     }
 
     fn other(&self) -> Option<&'static dyn Instrument> {
         Some(match self.0 {
-            Number::Crossings => &Diagram(Number::Frequency),
-            Number::Frequency => &Diagram(Number::Period),
-            Number::Period => &Diagram(Number::Crossings),
+            DiagramQuantity::Crossings => &Diagram(DiagramQuantity::Frequency),
+            DiagramQuantity::Frequency => &Diagram(DiagramQuantity::Period),
+            DiagramQuantity::Period => &Diagram(DiagramQuantity::Crossings),
         })
     }
 
     fn written(&self) -> &'static [Axis] {
-        if self.0 == Number::Crossings { &[Axis::UPWARDS] } else { &[] }
+        if self.0 == DiagramQuantity::Crossings { &[Axis::UPWARDS] } else { &[] }
     }
 
     fn chosen(&self) -> &'static [Axis] {
@@ -68,7 +68,7 @@ impl Instrument for Diagram {
     }
 
     fn is_section(&self) -> bool {
-        self.0 == Number::Crossings
+        self.0 == DiagramQuantity::Crossings
     }
 
     fn is_over_a_parameter(&self) -> bool {
@@ -85,11 +85,13 @@ impl Instrument for Diagram {
 
     fn offers(&self, physics: Physics<'_>) -> Vec<Offer> {
         let (noun, about) = match self.0 {
-            Number::Crossings => {
+            DiagramQuantity::Crossings => {
                 ("diagram", "where the motion crosses a surface, over the range of a parameter")
             }
-            Number::Frequency => ("frequency", "the frequency of the motion, over a range"),
-            Number::Period => ("period", "the period of the motion, over a range"),
+            DiagramQuantity::Frequency => {
+                ("frequency", "the frequency of the motion, over a range")
+            }
+            DiagramQuantity::Period => ("period", "the period of the motion, over a range"),
         };
         let offer = |over: &[Variation], view: Option<usize>| Offer {
             label: format!("{noun} over {}", name(physics, over)),
@@ -103,10 +105,10 @@ impl Instrument for Diagram {
         let mut all: Vec<Offer> =
             of_file.map(|(index, view)| offer(&view.over, Some(index))).collect();
         let is_offered = match self.0 {
-            Number::Crossings => false,
-            Number::Frequency => true,
+            DiagramQuantity::Crossings => false,
+            DiagramQuantity::Frequency => true,
             // with more degrees of freedom few motions have one
-            Number::Period => physics.system.degrees() == 1,
+            DiagramQuantity::Period => physics.system.degrees() == 1,
         };
         if is_offered && !physics.model.is_poisson() {
             all.extend(varied::offered(physics).map(|over| offer(&[over], None)));
@@ -121,9 +123,9 @@ impl Instrument for Diagram {
     fn heading(&self, plot: &Plot, present: &Present<'_>) -> Option<Heading> {
         let value = varied::now(present, *plot.over.first()?)?;
         let title = match self.0 {
-            Number::Crossings => "Diagram",
-            Number::Frequency => "Frequency",
-            Number::Period => "Period",
+            DiagramQuantity::Crossings => "Diagram",
+            DiagramQuantity::Frequency => "Frequency",
+            DiagramQuantity::Period => "Period",
         };
         let entry = Entry::Number(name(present.physics, &plot.over).to_owned(), value);
         Some(plot.heading(present.physics, title, vec![entry]))
@@ -289,9 +291,9 @@ impl Diagram {
         let time = physics.model.time_unit();
         let rate = if time.is_empty() { String::new() } else { format!("rad/{time}") };
         match self.0 {
-            Number::Crossings => crossing(plot, physics),
-            Number::Frequency => format!("frequency ω of {first}{}", unit(rate)),
-            Number::Period => format!("period 2π/ω of {first}{}", unit(time.to_owned())),
+            DiagramQuantity::Crossings => crossing(plot, physics),
+            DiagramQuantity::Frequency => format!("frequency ω of {first}{}", unit(rate)),
+            DiagramQuantity::Period => format!("period 2π/ω of {first}{}", unit(time.to_owned())),
         }
     }
 }

@@ -6,7 +6,7 @@ use super::{PeriodicPoints, Physics};
 use crate::dynamics::Orbit;
 use crate::ensemble::{SectionPlan, crossings_from};
 use crate::integrate::Method;
-use crate::model::Event;
+use crate::model::MotionEvent;
 
 /// An orbit is followed for its period and this part of it, so that a crossing at which it begins is found at its end.
 const BEYOND: f64 = 1e-6;
@@ -18,7 +18,7 @@ pub(super) fn periodic_points(
     orbit: &Orbit,
     parameters: &[f64],
 ) -> PeriodicPoints {
-    let surface = |event: &Event| {
+    let surface = |event: &MotionEvent| {
         let plan = SectionPlan {
             event: event.name.clone(),
             count: None,

@@ -7,6 +7,7 @@ use super::{
 };
 use crate::expr::{Expr, Pool, Symbol};
 use crate::mechanics::Valuation;
+use crate::num::rounded;
 
 /// The levels of the picture.
 const ALLOWED: Level = 0;
@@ -214,13 +215,9 @@ fn turning_points(
             let inner = (1..=PARTS).map(|k| from + (to - from) * k as f64 / PARTS as f64);
             between = first(from, &inner.collect::<Vec<_>>())?;
         }
-        Some(rounded(between[1]))
+        // to five digits, so that the picture is the same for a motion that returns with a rounding error
+        Some(rounded(between[1], 5))
     })
-}
-
-/// A value to five digits: the picture is the same for a motion that returns to the same place with a rounding error.
-fn rounded(value: f64) -> f64 {
-    format!("{value:.4e}").parse().unwrap_or(value)
 }
 
 /// From the bottom of the curve to well above the energy.

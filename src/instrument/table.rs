@@ -32,9 +32,9 @@ pub static INSTRUMENTS: [&dyn Instrument; 24] = [
     &action::ActionPlot(action::Principle::PhaseSpace),
     &paths::PathsPlot,
     &legendre::LegendrePlot,
-    &diagram::Diagram(diagram::Number::Crossings),
-    &diagram::Diagram(diagram::Number::Frequency),
-    &diagram::Diagram(diagram::Number::Period),
+    &diagram::Diagram(diagram::DiagramQuantity::Crossings),
+    &diagram::Diagram(diagram::DiagramQuantity::Frequency),
+    &diagram::Diagram(diagram::DiagramQuantity::Period),
     &map::Map,
 ];
 

@@ -8,13 +8,13 @@
 //! are taken from the law at the place where the motion stopped.
 
 use super::{Method, Settings, Stepper, Stepping, method_named, spacing};
-use crate::num::{Analytic, DoubleDouble, math};
+use crate::num::{self, Analytic, DoubleDouble, math};
 use crate::system::{ExactRates, Form, MotionError, MotionErrorKind, State, System};
 
-/// The least v̇²/(v v̈) of a motion to infinity, which is that of ẍ = e^x, where x grows like −2 ln τ, …
+/// The least v̇²/(v v̈) of a motion to infinity, which is that of ẍ = e^x, where x grows like −2 ln τ.
 const LEAST: f64 = 0.5;
 
-/// … to within this.
+/// How far v̇²/(v v̈) may lie below that.
 const MARGIN: f64 = 1e-3;
 
 /// The greatest: a motion that grows like e^t, with 1, never reaches infinity.
@@ -54,7 +54,7 @@ pub struct StoppedMotion<'a> {
     pub method: &'static Method,
     /// Where it stopped.
     pub stepper: &'a dyn Stepper,
-    /// The parameters.
+    /// Those that it moved at, in the order of the model.
     pub parameters: &'a [f64],
     /// Where it began, or continued after an impulse.
     pub begun: Option<&'a State>,
@@ -149,11 +149,12 @@ impl StoppedMotion<'_> {
             motion.advance(interval)?;
             samples.push(motion.speeds(&places)?);
         }
-        let speed = Growth::of([0, 1, 2].map(|k| samples[k].size))?;
+        let speed = SpeedGrowth::of([0, 1, 2].map(|k| samples[k].size))?;
         if !is_blow_up(speed.ratio) {
             return None;
         }
-        let component = |i: usize| Growth::of([0, 1, 2].map(|k: usize| samples[k].components[i]));
+        let component =
+            |i: usize| SpeedGrowth::of([0, 1, 2].map(|k: usize| samples[k].components[i]));
         let fastest = |i: &usize| samples[2].components[*i].high.abs();
         let fastest = (0..places.len()).max_by(|i, j| fastest(i).total_cmp(&fastest(j)))?;
         // an angle may turn without bound on the way to a centre
@@ -198,19 +199,20 @@ fn known_digits(tolerance: f64) -> f64 {
 }
 
 /// How a speed grows from one of three samples at equal intervals to the next, at the second of them.
-struct Growth {
+struct SpeedGrowth {
     /// v̇/v, per interval.
     rate: f64,
     /// v̇²/(v v̈).
     ratio: f64,
 }
 
-impl Growth {
+impl SpeedGrowth {
     /// `None` for one that does not grow ever faster.
-    fn of([before, now, after]: [DoubleDouble; 3]) -> Option<Growth> {
+    fn of([before, now, after]: [DoubleDouble; 3]) -> Option<SpeedGrowth> {
         let slope = ((after - before) * 0.5 / now).high;
         let bend = ((after - now - (now - before)) / now).high;
-        (slope > 0.0 && bend > 0.0).then(|| Growth { rate: slope, ratio: slope * slope / bend })
+        (slope > 0.0 && bend > 0.0)
+            .then(|| SpeedGrowth { rate: slope, ratio: slope * slope / bend })
     }
 }
 
@@ -271,8 +273,7 @@ fn rounded(number: f64, digits: f64) -> f64 {
     if digits > f64::from(f64::DIGITS) {
         return number;
     }
-    let places = (digits.max(1.0) - 1.0) as usize;
-    format!("{number:.places$e}").parse().unwrap_or(number)
+    num::rounded(number, digits as usize)
 }
 
 #[cfg(test)]

@@ -3,6 +3,8 @@
 //! Collins, A. G. Akritas, Proc. SYMSAC '76, 272; J. M. Lane, R. F. Riesenfeld, BIT 21 (1981) 112),
 //! and a bracketed Newton iteration refines it.
 
+use crate::num::{ALL_HALVINGS, DoubleDouble};
+
 /// The maximal number of coefficients of a polynomial.
 const CAPACITY: usize = 64;
 
@@ -197,14 +199,11 @@ fn signs(list: &[f64]) -> Signs {
     signs
 }
 
-/// The halvings of an interval that lead from the largest number to the smallest, and on to the last digit of a root.
-const HALVINGS: u32 = 2200;
-
 /// The root between `low` and `high`, after which the polynomial has this sign: by Newton's step if
 /// it stays inside, else by bisection.
 fn refine(coefficients: &[f64], sign: f64, mut low: f64, mut high: f64) -> f64 {
     let mut x = 0.5 * (low + high);
-    for _ in 0..HALVINGS {
+    for _ in 0..ALL_HALVINGS {
         let (value, slope) = value_and_slope(coefficients, x);
         if value * sign < 0.0 {
             low = x;
@@ -219,6 +218,23 @@ fn refine(coefficients: &[f64], sign: f64, mut low: f64, mut high: f64) -> f64 {
             return next;
         }
         x = next;
+    }
+    x
+}
+
+/// A root of a truncated series on the function itself, to the precision of the lowest orders. A root of higher order is known to
+/// fewer digits and stays.
+pub(super) fn refined(
+    coefficients: &[f64],
+    x: f64,
+    function: impl Fn(DoubleDouble) -> DoubleDouble,
+) -> DoubleDouble {
+    let mut x = DoubleDouble::from(x);
+    for _ in 0..2 {
+        let correction = function(x) / value_and_slope(coefficients, x.high).1;
+        if correction.high.abs() < 1e-6 * x.high {
+            x = x - correction;
+        }
     }
     x
 }

@@ -62,7 +62,7 @@ pub fn several_motions(
     if rates.depends_on_time() {
         return None;
     }
-    let mut beside = Beside { system, rates, parameters, still, n };
+    let mut beside = SidePush { system, rates, parameters, still, n };
     (0..n).find_map(|i| {
         let sides = [-1.0, 1.0].map(|side| beside.push(i, side));
         let [left, right] = sides;
@@ -93,7 +93,7 @@ impl Push {
 }
 
 /// Where forces are evaluated.
-struct Beside<'a> {
+struct SidePush<'a> {
     system: &'a System,
     rates: ExactRates,
     parameters: &'a [f64],
@@ -101,7 +101,7 @@ struct Beside<'a> {
     n: usize,
 }
 
-impl Beside<'_> {
+impl SidePush<'_> {
     /// The push on one side of a coordinate; `None` where forces have no value.
     fn push(&mut self, i: usize, side: f64) -> Option<Push> {
         let x = self.still.values[i].abs();

@@ -39,7 +39,7 @@ pub(super) use batch::TaylorBatch;
 use collocation_step::CollocationStep;
 use decimal_limit::DecimalLimit;
 use kinks::Kinks;
-use static_friction::Still;
+use static_friction::RestUnderFriction;
 use step_history::StepHistory;
 use step_size::{EXACT_BELOW, StepSize};
 
@@ -102,12 +102,11 @@ struct Taylor {
 /// What the last step followed, which its dense output follows too.
 #[derive(Debug)]
 enum StepCourse {
-    /// The series.
     Series,
     /// A collocation step from this state, with these rates there if it has none itself.
     Collocation(State, Option<Vec<DoubleDouble>>),
     /// A motion at rest, until it starts moving.
-    Rest(Still),
+    Rest(RestUnderFriction),
 }
 
 impl Taylor {

@@ -7,7 +7,7 @@ use super::body::{Attitude, Body, Comparison, Frame};
 use super::claim::{Expect, Observable};
 use super::constraint::Constraint;
 use super::coordinate::Coordinate;
-use super::occurrence::{Event, Impulse};
+use super::occurrence::{Impulse, MotionEvent};
 use super::parameter::Parameter;
 use super::picture::{SpacePicture, View};
 use super::ramped::Ramped;
@@ -39,13 +39,13 @@ pub struct Model {
     pub mechanics: Mechanics,
     /// The constraints on the motion; for a Lagrangian only.
     pub constraints: Vec<Constraint>,
-    /// The impulses.
+    /// In the order of the file.
     pub impulses: Vec<Impulse>,
     /// The events: crossings to be located.
-    pub events: Vec<Event>,
+    pub events: Vec<MotionEvent>,
     /// The surfaces of section of the views, in their order: crossings to be located and recorded, without effect on
     /// the motion and no part of what happens in it.
-    pub sections: Vec<Event>,
+    pub sections: Vec<MotionEvent>,
     /// The body assembled from pieces.
     pub body: Option<Body>,
     /// The attitude of a body.
@@ -88,7 +88,7 @@ pub struct NamedEquilibrium {
 /// The descriptive texts of a file.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Info {
-    /// The title.
+    /// As lists and headers show it.
     pub title: String,
     /// A one-line description.
     pub summary: String,

@@ -21,7 +21,7 @@ pub struct Impulse {
 
 /// An event: a crossing to be located on the motion.
 #[derive(Clone, Debug)]
-pub struct Event {
+pub struct MotionEvent {
     /// As written in the file.
     pub name: String,
     /// The expression whose zero crossings are located, written as an observable is.
@@ -57,7 +57,7 @@ impl Direction {
     }
 }
 
-/// The action of an event.
+/// What happens at a crossing.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum EventAction {
     /// It is only recorded.

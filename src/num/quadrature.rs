@@ -4,29 +4,32 @@
 //! polynomial, found by Newton's iteration (W. H. Press et al., Numerical Recipes, 4.6).
 
 use super::math;
+use super::root::newton;
 
 /// The nodes and weights of the rule with `count` nodes on [0, 1].
 pub fn gauss(count: usize) -> Vec<(f64, f64)> {
     (0..count).map(|i| node(count, i)).collect()
 }
 
+/// The Legendre polynomial of degree n ≥ 1, and that of the degree below it.
+pub fn legendre(n: usize, x: f64) -> (f64, f64) {
+    let (mut last, mut value) = (1.0, x);
+    for k in 2..=n {
+        let k = k as f64;
+        (last, value) = (value, ((2.0 * k - 1.0) * x * value - (k - 1.0) * last) / k);
+    }
+    (value, last)
+}
+
 fn node(count: usize, i: usize) -> (f64, f64) {
     let n = count as f64;
-    let mut x = math::cos(std::f64::consts::PI * (i as f64 + 0.75) / (n + 0.5));
+    let guess = math::cos(std::f64::consts::PI * (i as f64 + 0.75) / (n + 0.5));
     let mut slope = 1.0;
-    for _ in 0..100 {
-        let (mut last, mut value) = (1.0, x);
-        for k in 2..=count {
-            let k = k as f64;
-            (last, value) = (value, ((2.0 * k - 1.0) * x * value - (k - 1.0) * last) / k);
-        }
+    let x = newton(guess, 100, |x| {
+        let (value, last) = legendre(count, x);
         slope = n * (x * value - last) / (x * x - 1.0);
-        let change = value / slope;
-        x -= change;
-        if change.abs() < 1e-16 {
-            break;
-        }
-    }
+        value / slope
+    });
     (0.5 * (1.0 - x), 1.0 / ((1.0 - x * x) * slope * slope))
 }
 

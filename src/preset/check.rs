@@ -61,7 +61,7 @@ fn check_once(
     let mut model = Model::new(&draft.info.title);
     model.pool.set_cancel(cancel.clone());
     model.info = draft.info.clone();
-    let mut check = Check { file, diagnostics, model, used: BTreeSet::new(), keeps_ramps };
+    let mut check = ModelBuilder { file, diagnostics, model, used: BTreeSet::new(), keeps_ramps };
     if check.beyond_limits(draft) {
         return None;
     }
@@ -110,7 +110,7 @@ fn check_once(
 }
 
 /// A model under construction.
-struct Check<'c> {
+struct ModelBuilder<'c> {
     /// The file's text, for locating a position inside an expression.
     file: &'c str,
     diagnostics: &'c mut Diagnostics,
@@ -121,7 +121,7 @@ struct Check<'c> {
     keeps_ramps: bool,
 }
 
-impl Check<'_> {
+impl ModelBuilder<'_> {
     /// Parses an expression; its errors get their range in the file.
     fn formula(&mut self, scope: &mut Scope, called: &str, formula: &Formula) -> Option<Expr> {
         if self.model.pool.is_full() {

@@ -13,7 +13,6 @@ use crate::num::significant;
 
 use super::script::{Assert, AssertedNumber, Comparator, LineText};
 
-/// The result of an assertion.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct AssertionResult {
     /// Whether it is true.
@@ -172,14 +171,14 @@ pub(super) fn measured(
     }
     let (lab, snapshot) = seen(app, of)?;
     let channel = || column(app, of);
-    let tally = || {
+    let event = || {
         let model = &lab.loaded.model;
         let names = || {
             let events = model.events.iter().map(|event| event.name.as_str());
             events.chain(model.impulses.iter().map(|impulse| impulse.name.as_str()))
         };
         if names().any(|name| name == of.text) {
-            return Ok(snapshot.occurrences.tallies().iter().find(|t| t.name == of.text));
+            return Ok(snapshot.occurrences.counts().iter().find(|t| t.name == of.text));
         }
         Err(missing("event or impulse", of, names(), &lab.loaded.name))
     };
@@ -188,8 +187,8 @@ pub(super) fn measured(
         AssertedNumber::Drift => gauge(lab, snapshot, of)?.max_drift,
         AssertedNumber::Least => snapshot.bounds[channel()?].0,
         AssertedNumber::Greatest => snapshot.bounds[channel()?].1,
-        AssertedNumber::Count => tally()?.map_or(0.0, |tally| tally.count as f64),
-        AssertedNumber::Time => tally()?.map(|tally| tally.last).ok_or_else(|| {
+        AssertedNumber::Count => event()?.map_or(0.0, |event| event.count as f64),
+        AssertedNumber::Time => event()?.map(|event| event.last).ok_or_else(|| {
             Diagnostic::error(of.place.clone(), format!("`{}` has not happened yet", of.text))
         })?,
     })

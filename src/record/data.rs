@@ -9,6 +9,7 @@ use std::io::{self, Write};
 use crate::app::Loaded;
 use crate::experiment::Snapshot;
 use crate::instrument::PlotTable;
+use crate::num::shortest;
 
 /// Writes the version, title, parameters and method in `#` lines, the names of the columns, and one row for each
 /// recorded time.
@@ -68,5 +69,5 @@ fn line(row: &[f64], out: &mut impl Write) -> io::Result<()> {
 
 /// A number so that it reads back; nothing where there is none.
 fn cell(x: f64) -> String {
-    if x.is_finite() { format!("{x:?}") } else { String::new() }
+    shortest(x).unwrap_or_default()
 }

@@ -43,7 +43,7 @@ pub fn check_lesson(
     };
     // the truth does not depend on what is answered
     let (truth, tasks) = pass(&|_, question| question.any_answer())?;
-    let mut diagnostics: Vec<Diagnostic> = truth.iter().flat_map(faults).collect();
+    let mut diagnostics: Vec<Diagnostic> = truth.iter().flat_map(question_diagnostics).collect();
     if !diagnostics.is_empty() {
         return Err(diagnostics);
     }
@@ -129,9 +129,9 @@ fn solve(lesson: &mut Lesson) -> Result<(), Diagnostic> {
 }
 
 /// What is wrong with a question, once its outcome is known.
-fn faults(verdict: &AnswerVerdict) -> Vec<Diagnostic> {
+fn question_diagnostics(verdict: &AnswerVerdict) -> Vec<Diagnostic> {
     let question = &verdict.question;
-    let mut faults = Vec::new();
+    let mut diagnostics = Vec::new();
     match (&question.kind, &verdict.truth) {
         (QuestionKind::Choice { options, .. }, Truth::Options(holds)) => {
             let right = holds.iter().filter(|holds| **holds).count();
@@ -140,23 +140,24 @@ fn faults(verdict: &AnswerVerdict) -> Vec<Diagnostic> {
                     0 => "none of the options is right: every claim is false".to_owned(),
                     _ => format!("{right} of the options are right: their claims hold together"),
                 };
-                faults.push(Diagnostic::error(question.place.clone(), message));
+                diagnostics.push(Diagnostic::error(question.place.clone(), message));
             }
             for (option, holds) in options.iter().zip(holds) {
                 if !holds && option.why.is_none() {
                     let message = "this option is wrong and does not say why";
                     let help = "add why \"TEXT\" before `if`";
-                    faults.push(Diagnostic::error(option.place.clone(), message).with_help(help));
+                    diagnostics
+                        .push(Diagnostic::error(option.place.clone(), message).with_help(help));
                 }
             }
         }
         (QuestionKind::Number { within, .. }, Truth::Value(_, near)) if *near <= 0.0 => {
             let message = format!("nobody predicts a number exactly; this is within {near}");
-            faults.push(Diagnostic::error(within.place.clone(), message));
+            diagnostics.push(Diagnostic::error(within.place.clone(), message));
         }
         _ => {}
     }
-    faults
+    diagnostics
 }
 
 /// The number of points through which the right curve is drawn, as a person would set them.

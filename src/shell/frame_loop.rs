@@ -124,7 +124,7 @@ const FAILURES: u32 = 20;
 ///
 /// # Errors
 /// Returns an error if there is no terminal, or if it can no longer be used.
-pub fn perform(page: &mut impl Screen, pace: FramePace) -> Result<Ending, LabError> {
+pub fn run_screen(page: &mut impl Screen, pace: FramePace) -> Result<Ending, LabError> {
     TerminalError::check(HEADLESS)?;
     let terminal = Arc::new(Terminal::open()?);
     panic::guard(&terminal);

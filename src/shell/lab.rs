@@ -10,7 +10,7 @@ use tracing::{error, info};
 use super::cast_player::CastPlayer;
 use super::demo::Demo;
 use super::diagnosis::diagnosis;
-use super::frame_loop::{Ending, FramePace, perform};
+use super::frame_loop::{Ending, FramePace, run_screen};
 use super::lab_error::LabError;
 use super::lesson::LessonScreen;
 use super::log::Log;
@@ -66,7 +66,7 @@ pub fn run(request: &Request) -> Result<Ending, LabError> {
     } else if let Some(offered) = offered {
         session.offer(offered);
     }
-    let ended = catch_unwind(AssertUnwindSafe(|| perform(&mut session, pace)));
+    let ended = catch_unwind(AssertUnwindSafe(|| run_screen(&mut session, pace)));
     let ExitResult { recorded, kept } = session.left();
     match &ended {
         Ok(Ok(ending)) => info!("ends: {ending:?}"),
@@ -102,7 +102,7 @@ pub fn show(cast: RecordedCast, request: &Request) -> Result<Ending, LabError> {
     let variable = |name: &str| std::env::var(name).ok();
     // Nothing in a cast can be clicked, and its text can be selected.
     let pace = FramePace { mouse: false, ..request.pace(&variable) };
-    perform(&mut CastPlayer::new(cast, request.render_style(&variable)), pace)
+    run_screen(&mut CastPlayer::new(cast, request.render_style(&variable)), pace)
 }
 
 /// Shows a cast on the terminal while it is being recorded, from its first frame on, until the user leaves it. `begin` begins
@@ -118,7 +118,7 @@ pub fn show_ahead(
     let variable = |name: &str| std::env::var(name).ok();
     let pace = FramePace { mouse: false, ..request.pace(&variable) };
     let mut player = CastPlayer::following(begin(), request.render_style(&variable));
-    let ending = perform(&mut player, pace)?;
+    let ending = run_screen(&mut player, pace)?;
     Ok((ending, player.recorded()))
 }
 
@@ -137,7 +137,7 @@ pub fn perform_demo(
     let palette = style.theme.palette();
     let mut demo = Demo::new(performance, style);
     let pace = FramePace { mouse: false, ..request.pace(&variable) };
-    let ending = perform(&mut demo, pace)?;
+    let ending = run_screen(&mut demo, pace)?;
     let text = |picture| screenshot::write(&picture, palette, screenshot::ImageFormat::Ansi, "");
     Ok((ending, demo.outcome().map(|last| last.map(text))))
 }
@@ -153,6 +153,6 @@ pub fn take_lesson(
     TerminalError::check("")?;
     let variable = |name: &str| std::env::var(name).ok();
     let mut screen = LessonScreen::new(lesson, request.render_style(&variable));
-    let ending = perform(&mut screen, request.pace(&variable))?;
+    let ending = run_screen(&mut screen, request.pace(&variable))?;
     Ok((ending, screen.outcome().1))
 }

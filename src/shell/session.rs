@@ -170,7 +170,7 @@ impl Session {
             exit: Exit::default(),
         };
         session.find_guides();
-        session.perform(effects);
+        session.execute(effects);
         Ok(session)
     }
 
@@ -186,11 +186,11 @@ impl Session {
 
     fn update(&mut self, event: Event) -> ScreenRequest {
         let effects = self.app.update(event);
-        self.perform(effects)
+        self.execute(effects)
     }
 
     /// Performs the application's effects. Returns the request to the frame loop, which controls the terminal.
-    fn perform(&mut self, effects: Vec<Effect>) -> ScreenRequest {
+    fn execute(&mut self, effects: Vec<Effect>) -> ScreenRequest {
         let mut request = ScreenRequest::Nothing;
         for effect in effects {
             match effect {

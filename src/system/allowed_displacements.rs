@@ -19,7 +19,7 @@ use super::constraint_programs::VALUES;
 use super::error::MotionError;
 use super::projection::ProjectionError;
 use super::solve::Factored;
-use super::tangent::Layout;
+use super::tangent::TangentLayout;
 use super::value::Evaluator;
 use super::{Form, State, System};
 use crate::num::DoubleDouble;
@@ -145,7 +145,7 @@ impl System {
     ) -> Result<Evaluator<DoubleDouble>, MotionError> {
         let n = self.degrees();
         let moving = self.moving();
-        let layout = Layout { count: n, moving, first: moving, outputs: n, last: 0 };
+        let layout = TangentLayout { count: n, moving, first: moving, outputs: n, last: 0 };
         let program = self.legendre_program().tangent(layout);
         let mut values = Evaluator::new(Arc::clone(&program));
         values.set_parameters(&self.inputs(parameters));

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use crate::num::no_longer_than;
 use crate::printable;
 
 /// An error of a motion, where its equations have no valid numerical solution.
@@ -364,8 +365,7 @@ impl fmt::Display for MotionError {
 
 /// Formats a number with no more digits than it has.
 fn short(value: f64) -> String {
-    let plain = value.to_string();
-    if plain.len() <= LONGEST { plain } else { format!("{value:e}") }
+    no_longer_than(value, LONGEST)
 }
 
 /// The maximal length of a number written out: an `f64` has 17 digits, a sign and a point.

@@ -12,7 +12,6 @@
 
 use super::program::Register;
 
-/// The sign of a term.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum TermSign {
     Plus,
@@ -64,7 +63,7 @@ pub(super) struct LinearSum {
 /// Linear equations. The varying entries of the matrix are a range of the schedule's table; the inner products are
 /// theirs.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct LinearSolution {
+pub(super) struct LinearSolve {
     pub(super) register: Register,
     pub(super) block: u32,
     pub(super) first: u32,
@@ -81,7 +80,7 @@ pub(super) enum Step {
     Related(Related),
     Integral(Integral),
     Sum(LinearSum),
-    Solution(LinearSolution),
+    Solution(LinearSolve),
     /// An operation that is evaluated by itself.
     Alone(Register),
 }
@@ -95,7 +94,7 @@ pub(super) enum OperationRun {
     Related(Vec<Related>),
     Integrals(Vec<Integral>),
     Sums(Vec<LinearSum>),
-    Solution(LinearSolution),
+    Solution(LinearSolve),
     Alone(Register),
 }
 
@@ -178,7 +177,7 @@ fn kind_and_register(step: &Step) -> (u8, Register) {
         Step::Related(Related { register, .. }) => (3, register),
         Step::Integral(Integral { register, .. }) => (4, register),
         Step::Sum(LinearSum { register, .. }) => (5, register),
-        Step::Solution(LinearSolution { register, .. }) => (6, register),
+        Step::Solution(LinearSolve { register, .. }) => (6, register),
         Step::Alone(register) => (7, register),
     }
 }
@@ -243,7 +242,7 @@ mod tests {
     fn a_solution_is_known_in_all_its_registers() {
         let mut sorter = Sorter::new(8);
         sorter.add(
-            Step::Solution(LinearSolution { register: 2, block: 0, first: 0, count: 0, inner: 0 }),
+            Step::Solution(LinearSolve { register: 2, block: 0, first: 0, count: 0, inner: 0 }),
             2,
             [0, 1],
         );

@@ -18,19 +18,20 @@ pub(super) const PARAMETRIC_POWER_BITS: usize = 6;
 pub(super) enum Op {
     /// A number from the table of constants.
     Constant(u32),
-    /// A parameter.
     Parameter(u32),
-    /// The time.
     Time,
     /// A number supplied by the caller of the evaluator.
     Input(u32),
     /// `constant + Σ coefficient · register`, over a range of the table of terms.
-    Linear { constant: u32, first: u32, count: u32 },
+    Linear {
+        constant: u32,
+        first: u32,
+        count: u32,
+    },
     /// A product whose first factor depends on parameters only.
     Scale(Register, Register),
     /// A product.
     Multiply(Register, Register),
-    /// A square.
     Square(Register),
     /// A quotient.
     Divide(Register, Register),
@@ -44,7 +45,12 @@ pub(super) enum Op {
     /// A function of one or two arguments; the following register contains its companion.
     Call(FunctionId, [Register; 2]),
     /// One of two branches, selected by the sign of a switch.
-    Select { switch: Register, mode: Option<u32>, positive: Register, negative: Register },
+    Select {
+        switch: Register,
+        mode: Option<u32>,
+        positive: Register,
+        negative: Register,
+    },
     /// The solution of a block of linear equations, in as many registers as it has rows.
     Solve(u32),
     /// A register written by an operation before it.
@@ -222,7 +228,6 @@ impl Program {
         all.copied().try_fold(0, |most, r| Some(degrees[r as usize]?.max(most)))
     }
 
-    /// The input that each output is, if all of them are inputs.
     pub(super) fn outputs_as_inputs(&self) -> Option<Vec<usize>> {
         let input = |output: &Register| self.inputs.iter().position(|input| input == output);
         self.outputs.iter().map(input).collect()

@@ -16,7 +16,7 @@
 use rustc_hash::FxHashMap;
 
 use super::finishing_pass::{
-    Integral, LinearSolution, LinearSum, OperationRun, Product, Related, Scaling, Sorter, Step,
+    Integral, LinearSolve, LinearSum, OperationRun, Product, Related, Scaling, Sorter, Step,
     TermSign,
 };
 use super::program::{Block, Op, Program, Register};
@@ -31,7 +31,6 @@ pub(super) struct Pair {
     pub(super) right: Register,
 }
 
-/// The factor of a convolution.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum ConvolutionFactor {
     Plus,
@@ -338,7 +337,7 @@ impl ScheduleWriter<'_> {
 
     /// Linear equations whose unknowns begin at a register, with the inner products of the varying entries of the matrix
     /// and these.
-    fn solution(&mut self, register: Register, block: u32) -> LinearSolution {
+    fn solution(&mut self, register: Register, block: u32) -> LinearSolve {
         let (program, schedule) = (self.program, &mut self.schedule);
         let Block { matrix, right, .. } = &program.blocks[block as usize];
         let (inner, first) = (schedule.pairs.len() as u32, schedule.entries.len() as u32);
@@ -351,6 +350,6 @@ impl ScheduleWriter<'_> {
             }
         }
         let count = schedule.entries.len() as u32 - first;
-        LinearSolution { register, block, first, count, inner }
+        LinearSolve { register, block, first, count, inner }
     }
 }

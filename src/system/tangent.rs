@@ -20,7 +20,7 @@ use crate::num::DoubleDouble;
 
 /// Where the tangent vectors of a program stand.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Layout {
+pub(super) struct TangentLayout {
     /// The number of tangent vectors.
     pub(super) count: usize,
     /// The number of leading inputs that vary; the others are constant in the derivative.
@@ -40,11 +40,11 @@ impl Program {
     #[must_use]
     pub fn with_tangents(&self, count: usize) -> Arc<Program> {
         let (moving, outputs) = (self.inputs.len(), self.outputs.len());
-        self.tangent(Layout { count, moving, first: moving, outputs, last: 0 })
+        self.tangent(TangentLayout { count, moving, first: moving, outputs, last: 0 })
     }
 
     /// The same program with tangent vectors, laid out as required.
-    pub(super) fn tangent(&self, layout: Layout) -> Arc<Program> {
+    pub(super) fn tangent(&self, layout: TangentLayout) -> Arc<Program> {
         let mut builder = Builder::new(self);
         while builder.program.inputs.len() < layout.first {
             builder.input();

@@ -17,7 +17,7 @@ use super::program::Program;
 use super::rhs::{MotionPrograms, SplitHamiltonian, Tangents};
 use super::separability::NotSeparable;
 use super::solve::Factored;
-use super::tangent::Layout;
+use super::tangent::TangentLayout;
 use super::value::Evaluator;
 use super::{Form, MotionError, State};
 use crate::num::DoubleDouble;
@@ -38,7 +38,7 @@ impl System {
     fn variation(&self, count: usize) -> Tangents {
         let (moving, first, last) = (self.moving(), self.motion_len(), self.quadratures().count());
         let of = |program: &Program, outputs: usize| {
-            program.tangent(Layout { count, moving, first, outputs, last })
+            program.tangent(TangentLayout { count, moving, first, outputs, last })
         };
         let motion = self.motion();
         let degrees = self.degrees();
@@ -48,7 +48,7 @@ impl System {
         let (canonical, direct) = &motion.canonical;
         let legendre = self.legendre_program();
         let outputs = if self.form() == Form::Variables { 0 } else { degrees };
-        let layout = Layout { count: 1, moving, first: moving, outputs, last: 0 };
+        let layout = TangentLayout { count: 1, moving, first: moving, outputs, last: 0 };
         Tangents {
             count,
             motion: MotionPrograms {

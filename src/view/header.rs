@@ -7,12 +7,13 @@ use ratatui::layout::Rect;
 use super::canvas::{Canvas, Span, columns};
 use super::gauges::departed;
 use super::glyphs::{Glyphs, TextWidth};
-use super::number::{brief, fitted, rounded};
+use super::number::{brief, fitted};
 use super::quantity::Quantities;
 use super::theme::Role;
 use super::timeline;
 use crate::app::{App, HitTarget, Lab, Page};
 use crate::experiment::{Snapshot, Status};
+use crate::num::rounded;
 
 /// The key of a page and its name.
 type Tab = (&'static str, &'static str, Page);

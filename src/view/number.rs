@@ -20,12 +20,6 @@ pub fn fitted(value: f64, significant: usize, width: usize, glyphs: Glyphs) -> S
     texts.chain([short]).find(|text| text.width() <= width).unwrap_or_else(|| "#".repeat(width))
 }
 
-/// Rounds a value to `significant` digits (1 to 17): 17476 to two is 17000.
-pub fn rounded(value: f64, significant: usize) -> f64 {
-    let digits = significant.clamp(1, 17) - 1;
-    format!("{value:.digits$e}").parse().unwrap_or(value)
-}
-
 /// Formats a constant value: like [`readable`], without trailing zeros (`1`, not `1.000`).
 pub fn brief(value: f64, significant: usize, glyphs: Glyphs) -> String {
     format(value, significant, glyphs, true)

@@ -118,7 +118,7 @@ fn occurrences(page: &mut TextPage, q: &Quantities<'_>) {
         return;
     }
     page.heading("What happened");
-    for EventCount { name, count, last } in event_log.tallies() {
+    for EventCount { name, count, last } in event_log.counts() {
         let last = readable(*last, 10, q.style.glyphs);
         let rest = vec![(Role::Dim, format!(", last at t = {last}"))];
         let times = if *count == 1 { "time" } else { "times" };

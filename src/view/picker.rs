@@ -97,7 +97,6 @@ fn width_of_list(canvas: &Canvas<'_>, width: u16, picker: &Picker) -> u16 {
     longest.min(width.saturating_sub(BESIDE).max(LIST))
 }
 
-/// A line of the list.
 enum ListLine<'a> {
     Above(Above),
     Topic(&'a str),
@@ -189,7 +188,7 @@ fn list(canvas: &mut Canvas<'_>, frame: Rect, picker: &Picker) {
                 let selected = picker.is_selected(*place);
                 let mark = if selected { canvas.style.glyphs.pick("›", ">") } else { " " };
                 canvas.left(columns(area, 1, 1), Role::Accent, mark);
-                let role = if entry.fault.is_some() { Role::Bad } else { Role::Text };
+                let role = if entry.diagnostic.is_some() { Role::Bad } else { Role::Text };
                 let name = columns(area, 3, area.width.saturating_sub(4));
                 let whole = &entry.info.title;
                 let title = found_in(canvas, ends.get(whole).unwrap_or(whole), (fit, role));

@@ -2,14 +2,17 @@
 //!
 //! In: an energy, or a top. Out: intervals with the places at which the coordinate turns. Never here: the motion in them.
 
+use std::convert::Infallible;
+
 use super::{AllowedInterval, EffectivePotential};
+use crate::num::bisect;
 
 /// Where the energy is not reached so far, places are this many times as far from the start each, up to this distance.
 const FARTHER: f64 = 4.0;
 const FARTHEST: f64 = 1e150;
 
 /// Halvings of an interval.
-const HALVINGS: usize = 200;
+const HALVINGS: u32 = 200;
 
 impl EffectivePotential<'_> {
     /// All regions that an energy allows, from left to right; those of a rotation have no ends. Beyond the places between which
@@ -135,14 +138,9 @@ impl EffectivePotential<'_> {
     }
 
     /// The place between two at which the potential is the energy; `inside` has less, `outside` has not.
-    fn crossing(&mut self, mut inside: f64, mut outside: f64, energy: f64) -> f64 {
-        for _ in 0..HALVINGS {
-            let middle = f64::midpoint(inside, outside);
-            if middle == inside || middle == outside {
-                break;
-            }
-            if self.at(middle) < energy { inside = middle } else { outside = middle }
-        }
+    fn crossing(&mut self, inside: f64, outside: f64, energy: f64) -> f64 {
+        let allowed = |place| Ok::<_, Infallible>(self.at(place) < energy);
+        let Ok([inside, _]) = bisect([inside, outside], HALVINGS, allowed);
         inside
     }
 }

@@ -7,7 +7,7 @@
 use serde_json::{Value, json};
 
 use super::Arguments;
-use crate::action_angle::{AngleMoment, FrozenSystem};
+use crate::action_angle::{AngleAtTime, FrozenSystem};
 use crate::cli::cells::{self, TableCell, TableFormat};
 use crate::cli::count_bar::CountBar;
 use crate::cli::decimal::divisions;
@@ -23,14 +23,14 @@ use crate::system::ChannelKind;
 struct ActionsAlong {
     coordinate: String,
     places: Vec<f64>,
-    moments: Vec<AngleMoment>,
+    moments: Vec<AngleAtTime>,
     depends_on_time: bool,
     /// Why it ends before its time.
     why: Option<String>,
 }
 
 /// Follows the motion of a coordinate until a time.
-pub(super) fn perform(
+pub(super) fn execute(
     arguments: &Arguments,
     reading: ModelReading,
     (index, until): (usize, f64),
@@ -98,7 +98,7 @@ fn followed(
             return Ok(along);
         }
         let (positions, momenta) = values.split_at(degrees);
-        match AngleMoment::of(&frozen, time, &start.parameters, [positions, momenta]) {
+        match AngleAtTime::of(&frozen, time, &start.parameters, [positions, momenta]) {
             Ok(moment) => {
                 along.places.push(positions[index]);
                 along.moments.push(moment.after(along.moments.last()));
@@ -132,7 +132,7 @@ impl ActionsAlong {
             names.push("residual");
         }
         let row = |k: usize| {
-            let AngleMoment { time, angle, frequency, action, energy } = self.moments[k];
+            let AngleAtTime { time, angle, frequency, action, energy } = self.moments[k];
             let mut row = vec![time, self.places[k], energy, action, frequency, angle];
             row.extend(residuals.as_ref().map(|all| all[k]));
             row

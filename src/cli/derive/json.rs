@@ -9,7 +9,7 @@ use crate::mechanics::{
     Further, GeneratingFunction, HamiltonJacobi, Holonomy, LeftSide, NoFunction, Report,
     ReportedEquation, Separation,
 };
-use crate::model::{Direction, Event, EventAction, Model};
+use crate::model::{Direction, EventAction, Model, MotionEvent};
 
 pub(super) fn write(
     report: &Report<'_>,
@@ -309,7 +309,7 @@ impl JsonReport<'_> {
 }
 
 fn events(model: &Model) -> Vec<Value> {
-    let object = |event: &Event| {
+    let object = |event: &MotionEvent| {
         let direction = match event.direction {
             Direction::Rising => "rising",
             Direction::Falling => "falling",

@@ -13,7 +13,7 @@ use super::super::report::{Closing, Header, RunStatus};
 use super::super::rows::{RowFormat, Rows};
 use super::super::stderr;
 use super::adiabatic::Adiabatic;
-use super::invariants::Departure;
+use super::invariants::DriftedInvariant;
 use super::outlook::Outlook;
 use super::progress::Bar;
 use super::times::Times;
@@ -141,7 +141,7 @@ impl Run<'_> {
         for line in invariants::unknown(&snapshot.gauges) {
             stderr::report(&line);
         }
-        let departure = Departure::of(&snapshot.gauges, &snapshot.method);
+        let departure = DriftedInvariant::of(&snapshot.gauges, &snapshot.method);
         let refused = self.strict && departure.as_ref().is_some_and(|departure| departure.proved);
         let (drift, line) =
             departure.map(|departure| (departure.drift, departure.line)).unwrap_or_default();

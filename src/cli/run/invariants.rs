@@ -21,7 +21,7 @@ pub(super) fn of(gauges: &[Gauge]) -> Vec<Invariant> {
 
 /// A conserved quantity that has drifted, with advice, on one line.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub(super) struct Departure {
+pub(super) struct DriftedInvariant {
     /// What has drifted, without advice.
     pub(super) drift: String,
     pub(super) line: String,
@@ -29,9 +29,9 @@ pub(super) struct Departure {
     pub(super) proved: bool,
 }
 
-impl Departure {
+impl DriftedInvariant {
     /// The most important departure, if there is any.
-    pub(super) fn of(gauges: &[Gauge], method: &MethodFact) -> Option<Departure> {
+    pub(super) fn of(gauges: &[Gauge], method: &MethodFact) -> Option<DriftedInvariant> {
         if let Some(worst) = Gauge::departed(gauges) {
             let others = gauges.iter().filter(|g| g.proved && g.left.is_some()).count() - 1;
             let others = match others {
@@ -42,12 +42,12 @@ impl Departure {
             let drift = format!("{}{others}", description(worst, ""));
             let advice = advice(method.name, Some(method.step), method.tolerance);
             let line = format!("{drift}; {advice}");
-            return Some(Departure { drift, line, proved: true });
+            return Some(DriftedInvariant { drift, line, proved: true });
         }
         let contradicted = gauges.iter().filter(|g| g.left.is_some());
         let worst = contradicted.max_by(|a, b| a.max_drift.total_cmp(&b.max_drift))?;
         let line = description(worst, &format!(" ({})", worst.reason));
-        Some(Departure { drift: line.clone(), line, proved: false })
+        Some(DriftedInvariant { drift: line.clone(), line, proved: false })
     }
 }
 

@@ -11,7 +11,6 @@ use crate::cli::output::{Output, OutputForm};
 use crate::file;
 use crate::printable;
 
-/// A shard that was read.
 struct ReadShard {
     path: PathBuf,
     identity: Identity,
@@ -21,7 +20,7 @@ struct ReadShard {
     rows: Vec<String>,
 }
 
-pub(super) fn perform(paths: &[PathBuf], output: Option<&Path>) -> Result<(), CommandError> {
+pub(super) fn execute(paths: &[PathBuf], output: Option<&Path>) -> Result<(), CommandError> {
     let mut parts = paths.iter().map(|path| read(path)).collect::<Result<Vec<ReadShard>, _>>()?;
     parts.sort_by_key(|part| part.shard.index);
     let Some(first) = parts.first() else { return Ok(()) };

@@ -55,12 +55,12 @@ pub(super) type Directions = Vec<DVector<f64>>;
 
 /// A family of equilibria, in the units of the search.
 pub(super) struct EquilibriumFamily {
-    members: Vec<Member>,
+    members: Vec<FamilyPlace>,
 }
 
 /// A place of a family, and its directions there.
 #[derive(Clone)]
-struct Member {
+struct FamilyPlace {
     place: DVector<f64>,
     along: Directions,
 }
@@ -101,7 +101,7 @@ impl EquilibriumSearch<'_> {
         if directions.is_empty() {
             return Belonging::Isolated;
         }
-        let first = Member { place, along: directions.clone() };
+        let first = FamilyPlace { place, along: directions.clone() };
         if let Some(family) = self.family(&first) {
             return Belonging::Member(family);
         }
@@ -111,7 +111,7 @@ impl EquilibriumSearch<'_> {
             for side in [1.0, -1.0] {
                 let beside = &first.place + direction * (side * LONGEST * size_of(&first.place));
                 let Some(there) = self.approached(&beside, &[]) else { continue };
-                let only = Member { place: there, along: vec![direction.clone()] };
+                let only = FamilyPlace { place: there, along: vec![direction.clone()] };
                 if directions.len() > 1 || self.family(&only).is_some() {
                     met.push(self.unscaled(&only.place));
                 }
@@ -177,20 +177,20 @@ impl EquilibriumSearch<'_> {
     }
 
     /// The member that is reached by a step along a family.
-    fn stepped(&mut self, from: &Member, step: &DVector<f64>) -> Option<Member> {
+    fn stepped(&mut self, from: &FamilyPlace, step: &DVector<f64>) -> Option<FamilyPlace> {
         let place = self.approached(&(&from.place + step), &from.along)?;
         let across = (&place - &from.place - step).norm();
         if is_across(across, step.norm()) {
             return None;
         }
         let along = self.turned(&place, &from.along)?;
-        Some(Member { place, along })
+        Some(FamilyPlace { place, along })
     }
 
     /// The family of a place that has these directions, if it is one of all of them.
-    fn family(&mut self, first: &Member) -> Option<EquilibriumFamily> {
+    fn family(&mut self, first: &FamilyPlace) -> Option<EquilibriumFamily> {
         let along = self.turned(&first.place, &first.along)?;
-        let first = Member { along, ..first.clone() };
+        let first = FamilyPlace { along, ..first.clone() };
         let mut members = vec![first.clone()];
         for direction in &first.along {
             let sides = [1.0, -1.0].map(|side| self.traced(&first, &(direction * side)));
@@ -208,7 +208,11 @@ impl EquilibriumSearch<'_> {
     }
 
     /// Members in a direction of a family, as far as a unit away; `None` where they end before.
-    fn traced(&mut self, first: &Member, direction: &DVector<f64>) -> Option<Vec<Member>> {
+    fn traced(
+        &mut self,
+        first: &FamilyPlace,
+        direction: &DVector<f64>,
+    ) -> Option<Vec<FamilyPlace>> {
         let size = size_of(&first.place);
         let (mut step, mut longest, mut gone) = (LONGEST * size, 0.0_f64, 0.0);
         let (mut member, mut direction) = (first.clone(), direction.clone());
@@ -283,7 +287,12 @@ impl EquilibriumSearch<'_> {
     }
 
     /// The member nearest to a place that a walk along the family reaches, where variables count by their weights.
-    fn nearest(&mut self, from: Member, to: &DVector<f64>, weights: &DVector<f64>) -> Member {
+    fn nearest(
+        &mut self,
+        from: FamilyPlace,
+        to: &DVector<f64>,
+        weights: &DVector<f64>,
+    ) -> FamilyPlace {
         let mut member = from;
         let size = size_of(to).max(size_of(&member.place));
         let mut longest = LONGEST * size;
@@ -342,7 +351,7 @@ impl EquilibriumSearch<'_> {
         let start = self.in_units(&self.middle.clone());
         let weights = self.weights(&family.members.first()?.along);
         let distance =
-            |member: &&Member| self.way(&member.place, &start).component_mul(&weights).norm();
+            |member: &&FamilyPlace| self.way(&member.place, &start).component_mul(&weights).norm();
         let from = family.members.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
         let member = self.nearest(from.clone(), &start, &weights);
         let mut variables = self.unscaled(&member.place);

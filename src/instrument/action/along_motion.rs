@@ -1,6 +1,6 @@
 //! The action beside a motion: of the principle, on the motion as its method gives it.
 //!
-//! In: a system, a motion's conditions. Out: [`Beside`]. Never here: what is said and drawn of it.
+//! In: a system, a motion's conditions. Out: [`ActionAlongMotion`]. Never here: what is said and drawn of it.
 
 use super::principle::Principle;
 use crate::dynamics::{
@@ -22,7 +22,7 @@ const MOST_STEP_ENDS: usize = 20_000;
 const PARTS: [f64; 8] = [0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1.0];
 
 /// The action beside a motion.
-pub(super) struct Beside {
+pub(super) struct ActionAlongMotion {
     pub(super) varied: VariedAction,
     /// The times from its beginning at which it passes a kinetic focus of the principle; none are searched for where forces
     /// act that have no potential, so that the motion does not make the action stationary.
@@ -63,7 +63,7 @@ pub(super) fn beside(
     (method, conditions, (begin, start)): (&'static Method, &PlotConditions, (f64, f64)),
     coordinate: usize,
     duration: f64,
-) -> Result<Beside, String> {
+) -> Result<ActionAlongMotion, String> {
     let system = space.system();
     let first = conditions.state(system, begin).map_err(|fault| fault.to_string())?;
     let (parameters, method) = (conditions.parameters.clone(), (method, conditions.settings));
@@ -116,5 +116,5 @@ pub(super) fn beside(
     } else {
         None
     };
-    Ok(Beside { varied, foci, degrees: n, method_errors })
+    Ok(ActionAlongMotion { varied, foci, degrees: n, method_errors })
 }

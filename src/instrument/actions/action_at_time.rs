@@ -8,7 +8,7 @@ use crate::num::significant;
 
 /// An instant of the motion.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub(super) struct Moment {
+pub(super) struct ActionAtTime {
     pub(super) time: f64,
     pub(super) energy: f64,
     /// The energy above the least one of the coordinate.
@@ -16,12 +16,16 @@ pub(super) struct Moment {
     pub(super) action: f64,
 }
 
-impl Moment {
+impl ActionAtTime {
     /// That of a motion which returns.
-    pub(super) fn of(motion: &FrozenMotion<'_>, own: &OwnMotion, time: f64) -> Option<Moment> {
+    pub(super) fn of(
+        motion: &FrozenMotion<'_>,
+        own: &OwnMotion,
+        time: f64,
+    ) -> Option<ActionAtTime> {
         let row = own.row.as_ref().ok().filter(|row| row.kind != RegionKind::Unbounded)?;
         let height = own.energy - motion.bottom(own);
-        Some(Moment { time, energy: own.energy, height, action: row.action })
+        Some(ActionAtTime { time, energy: own.energy, height, action: row.action })
     }
 
     /// Its place in the picture of J over the energy, or over the height of the energy where a least one is drawn at 0.
@@ -30,7 +34,7 @@ impl Moment {
     }
 
     /// By which part action and height have changed since another moment; `None` where there was nothing to have parts.
-    pub(super) fn changes_since(&self, first: &Moment) -> Option<[f64; 2]> {
+    pub(super) fn changes_since(&self, first: &ActionAtTime) -> Option<[f64; 2]> {
         let part = |from: f64, to: f64| (from > 0.0).then(|| (to - from) / from);
         Some([part(first.action, self.action)?, part(first.height, self.height)?])
     }
@@ -47,7 +51,7 @@ pub(super) fn signed(x: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{Moment, signed};
+    use super::{ActionAtTime, signed};
 
     #[test]
     fn what_has_not_changed_has_no_sign() {
@@ -57,7 +61,7 @@ mod tests {
     /// A motion that began at rest has no action of which a part could be changed.
     #[test]
     fn of_no_action_there_is_no_part() {
-        let moment = |action, height| Moment { time: 0.0, energy: 0.0, height, action };
+        let moment = |action, height| ActionAtTime { time: 0.0, energy: 0.0, height, action };
         let (rest, later) = (moment(0.0, 0.0), moment(2.0, 1.0));
         assert_eq!(later.changes_since(&rest), None);
         assert_eq!(moment(3.0, 3.0).changes_since(&later), Some([0.5, 2.0]));

@@ -28,7 +28,7 @@ const SECONDS: f64 = 120.0;
 
 /// What is shown of each motion.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(in super::super) enum Number {
+pub(in super::super) enum DiagramQuantity {
     /// Its crossings of a surface, or its largest exponent where there is none.
     Crossings,
     /// The frequency of the first coordinate.
@@ -39,11 +39,10 @@ pub(in super::super) enum Number {
 
 /// What was computed, and under which conditions.
 pub(super) struct ComputedDiagram {
-    pub(super) number: Number,
+    pub(super) number: DiagramQuantity,
     pub(super) conditions: VariedConditions,
     /// The numbers at each value of the parameter.
     pub(super) columns: Vec<(f64, Vec<f64>)>,
-    /// All of them as points.
     pub(super) points: Arc<Vec<[f64; 2]>>,
     /// The range of the numbers.
     pub(super) extent: [f64; 2],
@@ -53,7 +52,7 @@ pub(super) struct ComputedDiagram {
 
 /// What a job computes: the numbers at the next values of the parameter.
 pub(super) struct DiagramTask {
-    pub(super) number: Number,
+    pub(super) number: DiagramQuantity,
     pub(super) motions: VariedMotions,
     pub(super) section: Option<usize>,
     /// The quantity at the crossings.
@@ -109,7 +108,7 @@ impl DiagramTask {
     fn group(&self, system: &System) -> usize {
         let (method, settings) = self.motions.method;
         match (self.number, self.section) {
-            (Number::Crossings, None) => self.motions.exponent_group(system),
+            (DiagramQuantity::Crossings, None) => self.motions.exponent_group(system),
             (_, Some(_)) => section_group(system, method, settings),
             (_, None) => 1,
         }
@@ -119,11 +118,15 @@ impl DiagramTask {
     fn numbers(&self, system: &System, values: &[f64]) -> Vec<Result<Vec<f64>, String>> {
         let VariedMotions { model, method: (method, settings), .. } = &self.motions;
         let starts: Vec<Start> = values.iter().map(|&x| self.motions.start(&[x])).collect();
-        if self.number != Number::Crossings {
+        if self.number != DiagramQuantity::Crossings {
             let length = SECONDS * model.run.speed.abs();
             let number = |start: &Start| {
                 let frequency = self.motions.frequency(system, start, length)?;
-                Ok(vec![if self.number == Number::Period { TAU / frequency } else { frequency }])
+                Ok(vec![if self.number == DiagramQuantity::Period {
+                    TAU / frequency
+                } else {
+                    frequency
+                }])
             };
             return starts.iter().map(number).collect();
         }

@@ -5,12 +5,13 @@
 
 use super::Propagator;
 use crate::integrate::clock::spacing;
+use crate::num::{ALL_HALVINGS, bisect};
 use crate::system::{Form, MotionError, MotionErrorKind};
 
-/// The part of a step on each side of a kink at which the constraints are compared, …
+/// The part of a step on each side of a kink at which the constraints are compared.
 const BESIDE: f64 = 1e-12;
 
-/// … which is at least so many digits of the time.
+/// That part is at least so many digits of the time.
 const DIGITS: f64 = 4.0;
 
 impl Propagator {
@@ -44,19 +45,10 @@ impl Propagator {
         if projector.sides(&state, -after) == sides {
             return Ok(());
         }
-        let (mut low, mut high) = (begin, end);
-        loop {
-            let middle = 0.5 * (low + high);
-            if middle == low || middle == high {
-                break;
-            }
+        let [low, high] = bisect([begin, end], ALL_HALVINGS, |middle| {
             self.stepper.at(middle, &mut self.before)?;
-            if projector.sides(&self.before, 0.0) == sides {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
+            Ok::<_, MotionError>(projector.sides(&self.before, 0.0) == sides)
+        })?;
         self.stepper.at(low, &mut self.before)?;
         let after = beside(low);
         match projector.corner(&self.before, [-after, high - low + after]) {

@@ -2,7 +2,7 @@
 //! the true root turns back. This module locates such points, and checks whether a step has left
 //! the intended branch.
 
-use super::super::roots::{first_crossing, value_and_slope};
+use super::super::roots::{first_crossing, refined, value_and_slope};
 use super::last_orders::{BEFORE, FAINT, LAST};
 use crate::num::{DoubleDouble, square_root};
 use crate::system::{ExactRates, Series};
@@ -162,15 +162,7 @@ fn passes(root: &[f64], end: f64) -> Option<f64> {
 
 /// Refines a zero to the precision of the series' lowest orders.
 fn polish(series: &Series, guard: usize, x: f64) -> DoubleDouble {
-    let mut x = DoubleDouble::from(x);
-    for _ in 0..2 {
-        let (_, slope) = value_and_slope(series.guard(guard), x.high);
-        let correction = series.guard_after(guard, x) / slope;
-        if correction.high.abs() < 1e-6 * x.high {
-            x = x - correction;
-        }
-    }
-    x
+    refined(series.guard(guard), x, |x| series.guard_after(guard, x))
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@
 //! zero, until that weight leaves [−1, 1] (A. F. Filippov, Differential Equations with
 //! Discontinuous Righthand Sides, Kluwer 1988, §4; V. I. Utkin's equivalent control).
 
-use super::super::roots::{first_crossing, value_and_slope};
+use super::super::roots::{first_crossing, refined, value_and_slope};
 use super::start_slope;
 use crate::num::{DoubleDouble, math};
 use crate::system::{ExactRates, MotionError, Series, Side, State};
@@ -15,11 +15,11 @@ use crate::system::{ExactRates, MotionError, Series, Side, State};
 /// Switches whose crossings differ by less than this part of a step cross together.
 const TOGETHER: f64 = 1e-12;
 
-/// A term smaller than this part of the largest is ignored in choosing a direction, …
+/// A term smaller than this part of the largest is ignored in choosing a direction.
 const SIGNIFICANT: f64 = 1e-9;
 
-/// … and one smaller than this part where that leaves no direction: a motion that only touches the surface arrives with a
-/// velocity of such a size, which may matter on one side, over the step there, and not on the other.
+/// Where that leaves no direction, a term smaller than this part is ignored: a motion that only touches the surface
+/// arrives with a velocity of such a size, which may matter on one side, over the step there, and not on the other.
 const TOUCHED: f64 = 1e-8;
 
 /// A switch crosses zero, and does not merely touch it, where its rate of change times the time to its zero is more than this part of
@@ -296,16 +296,7 @@ impl Kinks {
         } else {
             DoubleDouble::ZERO
         };
-        let mut x = DoubleDouble::from(x);
-        for _ in 0..2 {
-            let (_, slope) = value_and_slope(series.switch(i), x.high);
-            let correction = (series.switch_after(i, x) - origin) / slope;
-            // a root of higher order is known to fewer digits and is not refined
-            if correction.high.abs() < 1e-6 * x.high {
-                x = x - correction;
-            }
-        }
-        x
+        refined(series.switch(i), x, |x| series.switch_after(i, x) - origin)
     }
 }
 

@@ -22,7 +22,7 @@ pub(super) const FIRST: f64 = 1e-8;
 
 /// A motion at rest.
 #[derive(Debug)]
-pub(super) struct Still {
+pub(super) struct RestUnderFriction {
     /// The state at the beginning of the last step.
     from: State,
     /// The rates of all numbers at rest, zero except for the auxiliary numbers and integrals.
@@ -41,7 +41,7 @@ pub(super) struct Still {
     over: bool,
 }
 
-impl Still {
+impl RestUnderFriction {
     /// A motion at rest at a state, with the rates of its auxiliary numbers; the number of degrees of
     /// freedom and the place of the first auxiliary number, the size of trial velocities, the length of a
     /// typical step.
@@ -50,8 +50,18 @@ impl Still {
         rates: Vec<DoubleDouble>,
         (degrees, moving): (usize, usize),
         (size, stride): (f64, f64),
-    ) -> Still {
-        Still { from, rates, degrees, moving, size, stride, next: stride, onset: None, over: false }
+    ) -> RestUnderFriction {
+        RestUnderFriction {
+            from,
+            rates,
+            degrees,
+            moving,
+            size,
+            stride,
+            next: stride,
+            onset: None,
+            over: false,
+        }
     }
 
     /// Whether the motion has started at the end of the last step.

@@ -4,9 +4,9 @@
 //! In: a state in which all velocities have reached zero. Out: whether the motion stays there, or the
 //! rates with which it starts to move. It stays if a small velocity in any direction loses energy. This is
 //! tested in many directions, including those in which all other forces pull. Never: the motion at rest,
-//! which is `still`, or the trial velocities themselves, which are `trial_velocities`.
+//! which is `static_friction`, or the trial velocities themselves, which are `trial_velocities`.
 
-use super::static_friction::{FIRST, Still};
+use super::static_friction::{FIRST, RestUnderFriction};
 use super::trial_velocities::TrialVelocities;
 use crate::num::DoubleDouble;
 use crate::system::{ExactRates, Form, MotionError, State, System};
@@ -37,7 +37,7 @@ const MOST: usize = 12;
 /// The result of the test.
 pub(super) enum Sticking {
     /// The motion stays at rest: it is held by dry friction, or by a force that vanishes with the velocity.
-    Stays { still: Still, dry: bool },
+    Stays { still: RestUnderFriction, dry: bool },
     /// The motion starts from this state, with these rates.
     SetsOut(State, Vec<DoubleDouble>),
     /// The motion is not at rest, or the test is inconclusive.
@@ -104,7 +104,7 @@ pub(super) fn set_out(
     parameters: &[f64],
     still: &State,
     (stride, limit): (f64, f64),
-) -> Result<Option<(Still, State)>, MotionError> {
+) -> Result<Option<(RestUnderFriction, State)>, MotionError> {
     let n = system.degrees();
     let size = TRIAL * stride;
     let mut trial =
@@ -116,7 +116,7 @@ pub(super) fn set_out(
     let Some(state) = trial.first_step(FIRST * stride)? else { return Ok(None) };
     let none = vec![DoubleDouble::ZERO; still.values.len()];
     let (from, length) = (still.clone(), stride.abs());
-    let mut still = Still::new(from, none, (n, system.moving()), (size, length));
+    let mut still = RestUnderFriction::new(from, none, (n, system.moving()), (size, length));
     let state = still.begin(rates, (onset, state), limit)?;
     Ok(Some((still, state)))
 }
@@ -156,7 +156,7 @@ fn carried(
     }
     let known = rates.iter().all(|x| x.is_finite());
     let (from, degrees) = (trial.still, trial.n);
-    let still = Still::new(from, rates, (degrees, moving), (size, stride));
+    let still = RestUnderFriction::new(from, rates, (degrees, moving), (size, stride));
     // a drag proportional to the velocity vanishes with it
     let dry = nearer > DRY * strength;
     Ok(if known { Sticking::Stays { still, dry } } else { Sticking::Unknown })

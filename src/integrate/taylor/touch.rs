@@ -10,7 +10,7 @@
 //! Never here: what comes to rest, or begins to move.
 
 use super::onset::{Onset, points};
-use super::static_friction::Still;
+use super::static_friction::RestUnderFriction;
 use super::trial_velocities::TrialVelocities;
 use super::{StepCourse, Taylor};
 use crate::num::DoubleDouble;
@@ -93,8 +93,12 @@ impl Taylor {
         }
         let none = vec![DoubleDouble::ZERO; self.state.values.len()];
         let from = self.state.clone();
-        let mut still =
-            Still::new(from.clone(), none, (n, self.system.moving()), (size, time.abs()));
+        let mut still = RestUnderFriction::new(
+            from.clone(),
+            none,
+            (n, self.system.moving()),
+            (size, time.abs()),
+        );
         self.state = still.begin(rates, (Some(whole), from), limit)?;
         self.begin = still.step_begin().high;
         self.course = StepCourse::Rest(still);

@@ -12,7 +12,7 @@ use crate::model::Info;
 use crate::preset::{draft, toml_errors};
 use crate::printable;
 
-/// The origin of a preset.
+/// Where a preset comes from.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum PresetOrigin {
     /// Part of the program.
@@ -28,12 +28,12 @@ pub struct CatalogEntry {
     pub name: String,
     /// Its folder below `presets`; empty at the top level.
     pub folder: String,
-    /// The origin.
+    /// Whether it is shipped or the user's.
     pub origin: PresetOrigin,
     /// The title, summary, topics and chapter, without the notes.
     pub info: Info,
     /// The first error of an invalid preset, as `file:line:column: reason`.
-    pub fault: Option<String>,
+    pub diagnostic: Option<String>,
 }
 
 impl CatalogEntry {
@@ -51,7 +51,7 @@ impl CatalogEntry {
                 topics: listed.topics.iter().map(|&topic| topic.to_owned()).collect(),
                 notes: String::new(),
             },
-            fault: None,
+            diagnostic: None,
         }
     }
 
@@ -63,14 +63,14 @@ impl CatalogEntry {
             folder: path.strip_prefix(folder).map_or(String::new(), folder_of),
             origin: PresetOrigin::User(path.to_owned()),
             info: Info::default(),
-            fault: None,
+            diagnostic: None,
         };
         match entry.document() {
-            Err(unreadable) => entry.fault = Some(unreadable.to_string()),
+            Err(unreadable) => entry.diagnostic = Some(unreadable.to_string()),
             Ok(document) => {
                 entry.info = head(&document.text);
                 if let Err(diagnostics) = document.read() {
-                    entry.fault = diagnostics
+                    entry.diagnostic = diagnostics
                         .iter()
                         .find(|m| m.severity == Severity::Error)
                         .map(|m| located(&document, m));

@@ -2,7 +2,7 @@
 
 use toml::Spanned;
 
-use super::Check;
+use super::ModelBuilder;
 use crate::diagnostic::Diagnostic;
 use crate::expr::{Expr, Rank, Symbol, latex_name, unicode_name};
 use crate::model::{
@@ -11,9 +11,9 @@ use crate::model::{
 };
 use crate::preset::draft::{DraftAttitude, DraftBody, DraftPiece, DraftTurn, Formula, Formulas};
 
-impl Check<'_> {
+impl ModelBuilder<'_> {
     /// Declares the names that follow from a body and its attitude, so that all expressions know
-    /// them. Their values are read by [`Check::body`] and [`Check::attitude`].
+    /// them. Their values are read by [`ModelBuilder::body`] and [`ModelBuilder::attitude`].
     pub(super) fn body_names(
         &mut self,
         body: Option<&DraftBody>,

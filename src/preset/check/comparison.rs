@@ -3,14 +3,14 @@
 
 use toml::Spanned;
 
-use super::Check;
+use super::ModelBuilder;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::nearest;
 use crate::expr::{Rank, latex_of_unicode};
 use crate::model::Comparison;
 use crate::preset::draft::DraftComparison;
 
-impl Check<'_> {
+impl ModelBuilder<'_> {
     /// Declares the other motion: `other_x` and `other_x'` of every coordinate, shown as `x (wrong)`.
     pub(super) fn comparison(&mut self, written: &DraftComparison) {
         let mut symbols = Vec::new();

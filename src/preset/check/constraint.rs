@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use toml::Spanned;
 
-use super::Check;
+use super::ModelBuilder;
 use super::names::report_twice;
 use crate::diagnostic::Diagnostic;
 use crate::expr::{Expr, Node, Pool, Rule, Symbol, Zero};
@@ -15,9 +15,9 @@ use crate::preset::draft::{Draft, DraftConstraint, Formula};
 /// a constraint count once for each velocity in it.
 const PROOF_LIMIT: usize = 4_000_000;
 
-impl Check<'_> {
+impl ModelBuilder<'_> {
     /// Declares the constraints' names, so that all expressions know their multipliers. The
-    /// constraints themselves are read by [`Check::constraints`].
+    /// constraints themselves are read by [`ModelBuilder::constraints`].
     pub(super) fn multipliers(&mut self, draft: &Draft) {
         let mut taken: Vec<(String, &DraftConstraint)> = Vec::new();
         for written in &draft.constraints {

@@ -1,12 +1,12 @@
 //! The names of equilibria: their coordinates found, their places read.
 
-use super::Check;
+use super::ModelBuilder;
 use super::names::report_twice;
 use crate::diagnostic::{Diagnostic, nearest};
 use crate::model::{Allowed, NamedEquilibrium, Scope};
 use crate::preset::draft::DraftEquilibrium;
 
-impl Check<'_> {
+impl ModelBuilder<'_> {
     /// Reads the names of equilibria and where these are, by the parameters.
     pub(super) fn equilibria(&mut self, written: &[DraftEquilibrium]) {
         let mut scope = Scope::new(&self.model, Allowed::Parameters, "the place of an equilibrium");

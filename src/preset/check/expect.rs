@@ -2,7 +2,7 @@
 
 use toml::Spanned;
 
-use super::Check;
+use super::ModelBuilder;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::SourceRange;
 use crate::diagnostic::nearest;
@@ -25,7 +25,7 @@ const DEGREE: u32 = 2;
 /// The greatest degree that a file may ask for.
 const HIGHEST: f64 = 6.0;
 
-impl Check<'_> {
+impl ModelBuilder<'_> {
     /// Reads what the file expects of the motion.
     pub(super) fn expect(&mut self, written: &DraftExpect) {
         let mut scope = Scope::new(&self.model, Allowed::Observable, "an expectation");

@@ -2,7 +2,7 @@
 
 use toml::Spanned;
 
-use super::Check;
+use super::ModelBuilder;
 use super::names::report_twice;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::nearest;
@@ -10,7 +10,7 @@ use crate::expr::Expr;
 use crate::model::{Allowed, Frame, Point, Scope};
 use crate::preset::draft::{DraftFrame, Formulas};
 
-impl Check<'_> {
+impl ModelBuilder<'_> {
     /// Reads the frames of the file.
     pub(super) fn frames(&mut self, written: &[DraftFrame]) {
         let mut scope = Scope::new(&self.model, Allowed::Configuration, "a frame");

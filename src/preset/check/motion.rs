@@ -1,6 +1,6 @@
 //! The law of motion and the initial values it needs.
 
-use super::Check;
+use super::ModelBuilder;
 use super::names::Names;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::nearest;
@@ -8,7 +8,7 @@ use crate::expr::Expr;
 use crate::model::{Allowed, Coordinate, Mechanics, Scope};
 use crate::preset::draft::{Draft, DraftCoordinate, DraftMechanics, Formula, LawTable};
 
-impl Check<'_> {
+impl ModelBuilder<'_> {
     /// Declares the coordinates or variables and the kind of the law, which determine what
     /// expressions may name.
     pub(super) fn moving(&mut self, draft: &Draft) {

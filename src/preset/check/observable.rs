@@ -2,13 +2,13 @@
 
 use toml::Spanned;
 
-use super::Check;
+use super::ModelBuilder;
 use super::names::Names;
 use crate::expr::Expr;
 use crate::model::{Allowed, Observable, Scope};
 use crate::preset::draft::DraftObservable;
 
-impl Check<'_> {
+impl ModelBuilder<'_> {
     /// Reads the observables in order; each may use those above it.
     pub(super) fn observables(&mut self, written: &[DraftObservable], names: &mut Names) {
         let mut scope = Scope::new(&self.model, Allowed::Observable, "an observable");

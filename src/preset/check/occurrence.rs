@@ -2,19 +2,19 @@
 
 use toml::Spanned;
 
-use super::Check;
+use super::ModelBuilder;
 use super::names::report_twice;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::nearest;
 use crate::expr::{Expr, keeps_its_sign};
-use crate::model::{Allowed, Direction, Event, EventAction, Impulse, Mechanics, Scope};
+use crate::model::{Allowed, Direction, EventAction, Impulse, Mechanics, MotionEvent, Scope};
 use crate::preset::draft::{Draft, DraftEvent, DraftImpulse, Formula};
 use crate::printable::number;
 
 /// The actions of an event, as listed in messages.
 const ACTIONS: &str = "`mark`, `stop`, `release:CONSTRAINT` or `impulse:IMPULSE`";
 
-impl Check<'_> {
+impl ModelBuilder<'_> {
     /// Impulses and events share one namespace, because occurrences are reported by name.
     pub(super) fn occurrences_named_once(&mut self, draft: &Draft) {
         let impulses = draft.impulses.iter().filter_map(|i| i.name.as_ref());
@@ -163,7 +163,7 @@ impl Check<'_> {
             });
             let direction = event.direction.as_ref().map_or(Direction::Either, |d| self.sense(d));
             let action = event.action.as_ref().and_then(|a| self.action(a));
-            self.model.events.push(Event {
+            self.model.events.push(MotionEvent {
                 name,
                 when: when.unwrap_or(Expr::ZERO),
                 direction,

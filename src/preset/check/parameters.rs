@@ -2,7 +2,7 @@
 
 use toml::Spanned;
 
-use super::Check;
+use super::ModelBuilder;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::nearest;
 use crate::expr::{Rank, latex_of_unicode, unicode_name};
@@ -10,7 +10,7 @@ use crate::model::{Parameter, RangeSpacing};
 use crate::num::math;
 use crate::preset::draft::DraftParameter;
 
-impl Check<'_> {
+impl ModelBuilder<'_> {
     /// Adds a parameter to the model.
     pub(super) fn parameter(&mut self, written: &DraftParameter) {
         let name = written.name.get_ref();

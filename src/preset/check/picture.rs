@@ -4,14 +4,14 @@ use std::collections::HashMap;
 
 use toml::Spanned;
 
-use super::Check;
+use super::ModelBuilder;
 use crate::diagnostic::{Diagnostic, nearest};
 use crate::ensemble::section_name;
 use crate::expr::{Expr, Symbol};
 use crate::instrument::Instrument;
 use crate::model::{
-    Allowed, Direction, Event, EventAction, Follow, Mechanics, Point, Scope, Shape, Variation,
-    View, Viewpoint, WrittenExpr,
+    Allowed, Direction, EventAction, Follow, Mechanics, MotionEvent, Point, Scope, Shape,
+    Variation, View, Viewpoint, WrittenExpr,
 };
 use crate::preset::draft::{
     DraftCamera, DraftFollow, DraftSection, DraftShape, DraftShapeKind, DraftView, Formula,
@@ -24,7 +24,7 @@ const SAMPLES: usize = 96;
 /// The limit on the nodes of all sampled paths of a file.
 const PATHS_LIMIT: usize = 1_000_000;
 
-impl Check<'_> {
+impl ModelBuilder<'_> {
     /// Reads the views that the screen opens with. `nodes` counts those of all paths.
     pub(super) fn views(&mut self, written: &[DraftView], nodes: &mut usize) {
         let mut scope = Scope::new(&self.model, Allowed::Observable, "a view");
@@ -123,7 +123,7 @@ impl Check<'_> {
         let index = self.model.sections.len();
         let action = EventAction::Section(index);
         let place = Some(place.clone());
-        self.model.sections.push(Event { name, when, direction, action, place });
+        self.model.sections.push(MotionEvent { name, when, direction, action, place });
         Some((WrittenExpr { written: on.get_ref().trim().to_owned(), expression: when }, index))
     }
 

@@ -3,7 +3,7 @@
 
 use toml::Spanned;
 
-use super::Check;
+use super::ModelBuilder;
 use super::names::Names;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::SourceRange;
@@ -12,7 +12,7 @@ use crate::expr::Expr;
 use crate::model::{Allowed, Scope};
 use crate::preset::draft::{DraftBracket, NamedFormula};
 
-impl Check<'_> {
+impl ModelBuilder<'_> {
     /// {x_i, x_j} for all i and j; zero if the file gives none.
     pub(super) fn brackets(&mut self, written: &[DraftBracket]) -> Vec<Vec<Expr>> {
         let count = self.model.coordinates.len();

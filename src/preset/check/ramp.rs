@@ -3,13 +3,13 @@
 //! In: ramps as written. Out: the model's parameters as functions of the time, which every expression but those of initial
 //! values is read with. Never here: what follows from a law that depends on the time.
 
-use super::Check;
+use super::ModelBuilder;
 use crate::diagnostic::{Diagnostic, nearest};
 use crate::expr::{Expr, Symbol};
 use crate::model::{Allowed, Model, RampForm, RampPart, Scope};
 use crate::preset::draft::{Draft, DraftRamp};
 
-impl Check<'_> {
+impl ModelBuilder<'_> {
     /// Reads the ramps, after the parameters and before whatever uses them.
     pub(super) fn ramps(&mut self, draft: &Draft) {
         let mut ways: Vec<(Symbol, Vec<RampPart>)> = Vec::new();

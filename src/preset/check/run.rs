@@ -2,12 +2,12 @@
 
 use toml::Spanned;
 
-use super::Check;
+use super::ModelBuilder;
 use crate::model::RunSettings;
 use crate::preset::draft::DraftRun;
 use crate::printable;
 
-impl Check<'_> {
+impl ModelBuilder<'_> {
     /// Reads the settings of a run over the defaults.
     pub(super) fn run(&mut self, written: &DraftRun) {
         let usual = RunSettings::default();

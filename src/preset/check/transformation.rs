@@ -5,7 +5,7 @@
 
 use toml::Spanned;
 
-use super::Check;
+use super::ModelBuilder;
 use super::names::{Names, report_twice};
 use crate::diagnostic::{Diagnostic, SourceRange, nearest};
 use crate::expr::{Expr, Rank, Symbol};
@@ -15,7 +15,7 @@ use crate::model::{
 };
 use crate::preset::draft::{Draft, DraftTransformation, Formula, NamedFormula};
 
-impl Check<'_> {
+impl ModelBuilder<'_> {
     /// Introduces the new variables and the constants of the complete integral.
     pub(super) fn new_variables(&mut self, draft: &Draft, names: &mut Names) {
         let poisson = self.model.is_poisson();

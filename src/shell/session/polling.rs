@@ -34,7 +34,7 @@ impl Session {
                 return false;
             };
             let effects = self.app.again();
-            self.perform(effects);
+            self.execute(effects);
             return true;
         }
         let open = self.app.page != crate::app::Page::Picker;

@@ -8,7 +8,7 @@ use super::series_index::SeriesIndex;
 use super::side::Side;
 use crate::num::{Analytic, Real};
 use crate::system::finishing_pass::{
-    Integral, LinearSolution, LinearSum, OperationRun, Product, Related, Scaling, TermSign,
+    Integral, LinearSolve, LinearSum, OperationRun, Product, Related, Scaling, TermSign,
 };
 use crate::system::parametric_power;
 use crate::system::program::{Op, Program, Register};
@@ -197,10 +197,10 @@ impl<R: Coefficient> Orders<'_, R> {
         &mut self,
         program: &Program,
         schedule: &Schedule,
-        solution: LinearSolution,
+        solution: LinearSolve,
         k: usize,
     ) {
-        let LinearSolution { register, block, first, count, inner } = solution;
+        let LinearSolve { register, block, first, count, inner } = solution;
         let (width, block) = (self.width, block as usize);
         let (below, now) = self.rows.split_at_mut(k * width);
         let (unknowns, now) = (&below[register as usize..width], &mut now[..width]);

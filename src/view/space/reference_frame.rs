@@ -15,7 +15,6 @@ pub(super) struct ReferenceFrame {
     origin: [QuantitySource; 3],
 }
 
-/// The orientation of a frame.
 enum FrameOrientation {
     /// Rotated by an angle about an axis.
     Axis { axis: [QuantitySource; 3], angle: QuantitySource },
@@ -77,13 +76,13 @@ impl ReferenceFrame {
         let high = [0, 1, 2].map(|k| extent.high[k] - origin[k].0);
         let far = [0, 1, 2].map(|k| low[k].abs().max(high[k].abs()));
         match self.turning(q) {
-            Turning::Not => Extent { low, high, hull, ..*extent },
-            Turning::Upright => {
+            FrameRotation::Not => Extent { low, high, hull, ..*extent },
+            FrameRotation::Upright => {
                 let radius = math::hypot(far[0], far[1]);
                 let (low, high) = ([-radius, -radius, low[2]], [radius, radius, high[2]]);
                 Extent { low, high, hull: None, ..*extent }
             }
-            Turning::Any => {
+            FrameRotation::Any => {
                 let corner = math::hypot(math::hypot(far[0], far[1]), far[2]);
                 let farthest = hull.map_or(corner, |hull| hull.farthest().min(corner));
                 let radius = farthest + extent.radius;
@@ -94,24 +93,26 @@ impl ReferenceFrame {
 
     /// Whether it leaves what is in a horizontal plane in one.
     pub(super) fn keeps_planes(&self, q: &Quantities<'_>) -> bool {
-        !matches!(self.turning(q), Turning::Any)
+        !matches!(self.turning(q), FrameRotation::Any)
     }
 
-    fn turning(&self, q: &Quantities<'_>) -> Turning {
+    fn turning(&self, q: &Quantities<'_>) -> FrameRotation {
         match &self.turn {
-            FrameOrientation::Axis { angle, .. } if span(q, *angle) == (0.0, 0.0) => Turning::Not,
+            FrameOrientation::Axis { angle, .. } if span(q, *angle) == (0.0, 0.0) => {
+                FrameRotation::Not
+            }
             FrameOrientation::Axis { axis: [x, y, _], .. }
                 if [x, y].map(|source| span(q, *source)) == [(0.0, 0.0); 2] =>
             {
-                Turning::Upright
+                FrameRotation::Upright
             }
-            FrameOrientation::Axis { .. } | FrameOrientation::Body(_) => Turning::Any,
+            FrameOrientation::Axis { .. } | FrameOrientation::Body(_) => FrameRotation::Any,
         }
     }
 }
 
 /// How a frame turns.
-enum Turning {
+enum FrameRotation {
     Not,
     /// About the vertical.
     Upright,

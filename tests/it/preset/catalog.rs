@@ -121,7 +121,7 @@ fn the_users_own_win_over_shipped_ones() {
     assert_eq!(document.text, GOOD);
     let own = catalog.entries().iter().find(|entry| entry.name == "pendulum").unwrap();
     assert_eq!(own.origin, PresetOrigin::User(user.path().join("deep/er/pendulum.toml")));
-    assert_eq!((own.folder.as_str(), own.fault.as_deref()), ("deep/er", None));
+    assert_eq!((own.folder.as_str(), own.diagnostic.as_deref()), ("deep/er", None));
     assert_eq!(own.topic(), "deep/er");
 }
 
@@ -133,18 +133,18 @@ fn a_broken_file_is_listed_with_its_error() {
         ("empty.toml", b""),
     ]);
     let catalog = Catalog::with_folder(Some(user.path()));
-    let fault = |name: &str| {
+    let diagnostic = |name: &str| {
         let entry = catalog.entries().iter().find(|entry| entry.name == name).unwrap();
-        let fault = entry.fault.clone().unwrap();
-        (entry.info.title.clone(), fault.rsplit('/').next().unwrap().to_owned())
+        let diagnostic = entry.diagnostic.clone().unwrap();
+        (entry.info.title.clone(), diagnostic.rsplit('/').next().unwrap().to_owned())
     };
     assert_eq!(
-        fault("broken"),
+        diagnostic("broken"),
         ("Oscillator".to_owned(), "broken.toml:11:23: unknown name `kk`".to_owned())
     );
-    assert_eq!(fault("latin").1, "latin.toml:1:13: the byte 0xE9 here is not UTF-8");
+    assert_eq!(diagnostic("latin").1, "latin.toml:1:13: the byte 0xE9 here is not UTF-8");
     assert_eq!(
-        fault("empty"),
+        diagnostic("empty"),
         ("empty".to_owned(), "empty.toml:1:1: the file has no coordinates".to_owned())
     );
 }

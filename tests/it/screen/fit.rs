@@ -5,7 +5,7 @@ use std::sync::Arc;
 use phaselab::app::{App, Event, Guide, GuideKind, LessonTaken, Pane};
 use phaselab::experiment::{Growth, Snapshot, Verdict};
 use phaselab::instrument::Sight;
-use phaselab::view::number::rounded;
+use phaselab::num::rounded;
 
 use super::{find, rich, rows, screen};
 use crate::app::real::Real;

@@ -6,7 +6,7 @@
 //! Where all registers are taken, the number gives way that is read again last (L. A. Belady, IBM Syst. J. 5 (1966) 78).
 //! Every number is made once, so that it is spilled at most once.
 
-use super::basic_block::{BasicBlock, Instruction, Operand, Value, Width};
+use super::basic_block::{BasicBlock, MachineInstruction, Operand, Value, Width};
 use super::encoding::{Bytes, Source, Vector};
 use super::layout::{Address, Area};
 
@@ -18,7 +18,7 @@ const NEVER: u32 = u32::MAX;
 
 /// Where a number is.
 #[derive(Clone, Copy, Debug, Default)]
-struct Place {
+struct Location {
     register: Option<Vector>,
     memory: Option<Address>,
     width: Option<Width>,
@@ -28,7 +28,7 @@ struct Place {
 
 struct Allocator {
     bytes: Bytes,
-    places: Vec<Place>,
+    places: Vec<Location>,
     registers: [Option<Value>; REGISTERS],
     /// The registers that the current instruction reads.
     pinned: u16,
@@ -41,7 +41,7 @@ struct Allocator {
 /// `f64`; returns the bytes and where that ends.
 pub(super) fn assemble(block: &BasicBlock, room: usize, slot: usize) -> (Vec<u8>, usize) {
     let (first, next) = uses(block);
-    let places = first.into_iter().map(|next| Place { next, ..Place::default() }).collect();
+    let places = first.into_iter().map(|next| Location { next, ..Location::default() }).collect();
     let mut allocator = Allocator {
         bytes: Bytes::default(),
         places,
@@ -74,23 +74,23 @@ fn uses(block: &BasicBlock) -> (Vec<u32>, Vec<[u32; 3]>) {
 }
 
 impl Allocator {
-    fn write(&mut self, instruction: &Instruction, next: &[u32; 3]) {
+    fn write(&mut self, instruction: &MachineInstruction, next: &[u32; 3]) {
         self.pinned = 0;
         let reads = instruction.reads();
         match *instruction {
-            Instruction::Zero { width, made } => {
+            MachineInstruction::Zero { width, made } => {
                 let to = self.make(made, width);
                 self.bytes.zero(to);
             }
-            Instruction::Load { width, from, made } => {
+            MachineInstruction::Load { width, from, made } => {
                 let to = self.make(made, width);
                 self.bytes.load(width, to, from);
             }
-            Instruction::LoadBehind { from, offset, made } => {
+            MachineInstruction::LoadBehind { from, offset, made } => {
                 let to = self.make(made, Width::One);
                 self.bytes.load_behind(to, from, offset);
             }
-            Instruction::Binary { operation, width, left, right, made } => {
+            MachineInstruction::Binary { operation, width, left, right, made } => {
                 let left = self.read(left);
                 let right = match right {
                     Operand::At(address) => Source::Memory(address),
@@ -100,7 +100,7 @@ impl Allocator {
                 let to = self.make(made, width);
                 self.bytes.binary(operation, width, to, left, right);
             }
-            Instruction::ProductError { width, left, right, product, made } => {
+            MachineInstruction::ProductError { width, left, right, product, made } => {
                 let registers = [left, right, product].map(|value| self.read(value));
                 // it is written before the others are read
                 let to = self.make(made, width);
@@ -108,7 +108,7 @@ impl Allocator {
                 self.bytes.product_error(width, to, registers[1], registers[2]);
                 self.advance(&reads, next);
             }
-            Instruction::Store { width, value, to, stays } => {
+            MachineInstruction::Store { width, value, to, stays } => {
                 let from = self.read(value);
                 self.bytes.store(width, from, to);
                 if stays && self.places[value.0 as usize].width == Some(width) {

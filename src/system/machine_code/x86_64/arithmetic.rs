@@ -4,14 +4,14 @@
 //! precision. Never here: which numbers.
 
 use super::basic_block::{BasicBlock, Operand, Operation, Value, Width};
-use super::layout::{Address, Layout};
+use super::layout::{Address, MemoryLayout};
 use crate::num::DoubleDouble;
 
 /// The code so far, and where its numbers lie.
 #[derive(Debug)]
 pub(super) struct Code {
     pub(super) block: BasicBlock,
-    pub(super) layout: Layout,
+    pub(super) layout: MemoryLayout,
     /// The width of the numbers of several orbits.
     pub(super) lanes: Width,
 }
@@ -93,7 +93,6 @@ pub(super) fn four_of<T: Copy>(numbers: &[T]) -> [T; SIDE] {
 
 /// A precision. Its quotients assume divisors that have reciprocals.
 pub(super) trait Arithmetic {
-    /// A number.
     type Number: Copy;
     /// The number of `f64` of a number in memory.
     const SIZE: usize;
@@ -102,13 +101,9 @@ pub(super) trait Arithmetic {
 
     /// What lies in memory.
     fn at(address: Address) -> Self::Number;
-    /// A constant.
     fn constant(code: &mut Code, number: DoubleDouble) -> Self::Number;
-    /// The sum.
     fn sum(code: &mut Code, a: Self::Number, b: Self::Number) -> Self::Number;
-    /// The difference.
     fn difference(code: &mut Code, a: Self::Number, b: Self::Number) -> Self::Number;
-    /// The product.
     fn product(code: &mut Code, a: Self::Number, b: Self::Number) -> Self::Number;
     /// An integer multiple.
     fn multiple(code: &mut Code, a: Self::Number, n: usize) -> Self::Number;
@@ -129,7 +124,6 @@ pub(super) trait Arithmetic {
     }
     /// The quotient by an integer.
     fn over(code: &mut Code, a: Self::Number, n: usize) -> Self::Number;
-    /// The opposite.
     fn opposite(code: &mut Code, a: Self::Number) -> Self::Number;
     /// Keeps a number at hand that is read more than once.
     fn held(code: &mut Code, a: Self::Number) -> Self::Number;

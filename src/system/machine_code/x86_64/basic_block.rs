@@ -62,9 +62,8 @@ pub(super) enum Operation {
     Join,
 }
 
-/// One instruction.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Instruction {
+pub(super) enum MachineInstruction {
     Zero {
         width: Width,
         made: Value,
@@ -104,21 +103,21 @@ pub(super) enum Instruction {
     },
 }
 
-impl Instruction {
+impl MachineInstruction {
     /// The made numbers that it reads.
     pub(super) fn reads(&self) -> [Option<Value>; 3] {
         match *self {
-            Instruction::Zero { .. }
-            | Instruction::Load { .. }
-            | Instruction::LoadBehind { .. } => [None; 3],
-            Instruction::Binary { left, right, .. } => match right {
+            MachineInstruction::Zero { .. }
+            | MachineInstruction::Load { .. }
+            | MachineInstruction::LoadBehind { .. } => [None; 3],
+            MachineInstruction::Binary { left, right, .. } => match right {
                 Operand::Made(right) => [Some(left), Some(right), None],
                 Operand::At(_) => [Some(left), None, None],
             },
-            Instruction::ProductError { left, right, product, .. } => {
+            MachineInstruction::ProductError { left, right, product, .. } => {
                 [Some(left), Some(right), Some(product)]
             }
-            Instruction::Store { value, .. } => [Some(value), None, None],
+            MachineInstruction::Store { value, .. } => [Some(value), None, None],
         }
     }
 }
@@ -126,7 +125,7 @@ impl Instruction {
 /// The instructions so far.
 #[derive(Debug, Default)]
 pub(super) struct BasicBlock {
-    pub(super) instructions: Vec<Instruction>,
+    pub(super) instructions: Vec<MachineInstruction>,
     /// The number of values that were made.
     pub(super) values: u32,
 }
@@ -137,25 +136,24 @@ impl BasicBlock {
         Value(self.values - 1)
     }
 
-    fn push(&mut self, instruction: impl FnOnce(Value) -> Instruction) -> Value {
+    fn push(&mut self, instruction: impl FnOnce(Value) -> MachineInstruction) -> Value {
         let made = self.next();
         self.instructions.push(instruction(made));
         made
     }
 
-    /// Zero.
     pub(super) fn zero(&mut self, width: Width) -> Value {
-        self.push(|made| Instruction::Zero { width, made })
+        self.push(|made| MachineInstruction::Zero { width, made })
     }
 
     /// What lies in memory.
     pub(super) fn load(&mut self, width: Width, from: Address) -> Value {
-        self.push(|made| Instruction::Load { width, from, made })
+        self.push(|made| MachineInstruction::Load { width, from, made })
     }
 
     /// The number so many bytes behind an address.
     pub(super) fn load_behind(&mut self, from: Address, offset: Address) -> Value {
-        self.push(|made| Instruction::LoadBehind { from, offset, made })
+        self.push(|made| MachineInstruction::LoadBehind { from, offset, made })
     }
 
     /// An operand, loaded where it lies in memory.
@@ -180,7 +178,7 @@ impl BasicBlock {
             _ => (left, right),
         };
         let left = self.made(width, left);
-        self.push(|made| Instruction::Binary { operation, width, left, right, made })
+        self.push(|made| MachineInstruction::Binary { operation, width, left, right, made })
     }
 
     /// The rounding error of a product.
@@ -190,31 +188,33 @@ impl BasicBlock {
         (left, right): (Value, Value),
         product: Value,
     ) -> Value {
-        self.push(|made| Instruction::ProductError { width, left, right, product, made })
+        self.push(|made| MachineInstruction::ProductError { width, left, right, product, made })
     }
 
     /// Stores an operand where nothing else is written, or where it is overwritten later.
     pub(super) fn store(&mut self, width: Width, operand: Operand, to: Address, stays: bool) {
         let value = self.made(width, operand);
-        self.instructions.push(Instruction::Store { width, value, to, stays });
+        self.instructions.push(MachineInstruction::Store { width, value, to, stays });
     }
 }
 
-impl Instruction {
+impl MachineInstruction {
     /// The memory that it reads or writes, but for what lies behind an offset that is read: where, and how many `f64`.
     pub(super) fn memory(&self) -> [Option<(Address, usize)>; 2] {
         match *self {
-            Instruction::Load { width, from, .. } => [Some((from, width.numbers())), None],
-            Instruction::LoadBehind { from, offset, .. } => [Some((from, 1)), Some((offset, 1))],
-            Instruction::Binary { operation, width, right: Operand::At(from), .. } => {
+            MachineInstruction::Load { width, from, .. } => [Some((from, width.numbers())), None],
+            MachineInstruction::LoadBehind { from, offset, .. } => {
+                [Some((from, 1)), Some((offset, 1))]
+            }
+            MachineInstruction::Binary { operation, width, right: Operand::At(from), .. } => {
                 // of a pair one number is read
                 let count = if operation == Operation::Pair { 1 } else { width.numbers() };
                 [Some((from, count)), None]
             }
-            Instruction::Store { width, to, .. } => [Some((to, width.numbers())), None],
-            Instruction::Zero { .. }
-            | Instruction::Binary { .. }
-            | Instruction::ProductError { .. } => [None; 2],
+            MachineInstruction::Store { width, to, .. } => [Some((to, width.numbers())), None],
+            MachineInstruction::Zero { .. }
+            | MachineInstruction::Binary { .. }
+            | MachineInstruction::ProductError { .. } => [None; 2],
         }
     }
 }

@@ -13,7 +13,7 @@ const PATIENCE: usize = 64;
 /// The functions for one program; clones share them.
 #[derive(Clone, Debug, Default)]
 pub(in crate::system) struct CodeCache {
-    known: Arc<Mutex<Vec<Entry>>>,
+    known: Arc<Mutex<Vec<CacheEntry>>>,
 }
 
 /// Whether there is a function.
@@ -28,7 +28,7 @@ pub(super) enum Availability {
 
 /// What is wanted of one kind.
 #[derive(Debug)]
-struct Entry {
+struct CacheEntry {
     /// The numbers of orders, exact ones second.
     orders: [usize; 2],
     extent: Extent,
@@ -52,9 +52,9 @@ impl CodeCache {
     ) -> Availability {
         let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
         let orders = [plan.stride, exact.map_or(0, |exact| exact.stride)];
-        let same = |entry: &Entry| (entry.orders, entry.extent) == (orders, extent);
+        let same = |entry: &CacheEntry| (entry.orders, entry.extent) == (orders, extent);
         let place = known.iter().position(same).unwrap_or_else(|| {
-            known.push(Entry { orders, extent, wanted: 0, code: Availability::NotYet });
+            known.push(CacheEntry { orders, extent, wanted: 0, code: Availability::NotYet });
             known.len() - 1
         });
         let entry = &mut known[place];

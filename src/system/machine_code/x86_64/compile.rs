@@ -5,11 +5,11 @@
 
 use super::allocation::assemble;
 use super::arithmetic::{Arithmetic, Code};
-use super::basic_block::{BasicBlock, Instruction, Width};
+use super::basic_block::{BasicBlock, MachineInstruction, Width};
 use super::double::Double;
 use super::emitter::Emitter;
 use super::function::{CompiledFunction, NotCompiled, Work};
-use super::layout::{Address, Area, FactoredPlace, Layout, Precision, SeriesPlaces};
+use super::layout::{Address, Area, FactoredPlace, MemoryLayout, Precision, SeriesPlaces};
 use super::plain::{Lanes, Plain};
 use crate::num::BATCH;
 use crate::system::jet::JetPlan;
@@ -64,7 +64,7 @@ pub(super) fn compile(
         return Err(NotCompiled);
     }
     let mut code =
-        Code { block: BasicBlock::default(), layout: Layout::new(), lanes: extent.orbits };
+        Code { block: BasicBlock::default(), layout: MemoryLayout::new(), lanes: extent.orbits };
     let (places, exactly_factored) = if extent.orbits == Width::One {
         write_one(plan, exact, &mut code, extent)?
     } else {
@@ -88,7 +88,8 @@ pub(super) fn compile(
         Area::ExactSeries => exact.map_or(0, |exact| exact.series * Double::SIZE),
         Area::ExactState => extent.numbers * exact_stride * Double::SIZE,
     };
-    let mut accesses = code.block.instructions.iter().flat_map(Instruction::memory).flatten();
+    let mut accesses =
+        code.block.instructions.iter().flat_map(MachineInstruction::memory).flatten();
     if accesses.any(|(at, count)| at.offset + count + (slot - lanes) > length(at.area)) {
         return Err(NotCompiled);
     }

@@ -3,7 +3,7 @@
 //! In: the bytes of a function. Out: its call on slices. Never here: what it computes, how it is encoded.
 //!
 //! What the compiler of this source cannot check holds for these reasons:
-//! - The bytes are a function with the signature of [`Entry`]: they read nothing but its six arguments, change no register
+//! - The bytes are a function with the signature of [`FunctionPointer`]: they read nothing but its six arguments, change no register
 //!   that belongs to the caller, and end with a return (`encoding`).
 //! - It reads and writes only inside the six stretches of memory that it is given: `compile` compares every address with
 //!   the lengths of the layout, and each call the lengths of the slices with these. What is read is numbers, for
@@ -27,7 +27,7 @@ use super::layout::Area;
 use crate::num::{BATCH, Batch, DoubleDouble};
 
 /// The values, the work, the series and the state, and the exact series and state.
-type Entry =
+type FunctionPointer =
     unsafe extern "sysv64" fn(*const f64, *mut f64, *mut f64, *mut f64, *mut f64, *mut f64);
 
 /// The areas in the order of the arguments.
@@ -245,7 +245,7 @@ impl CompiledFunction {
         let [work, series, state, exact_series, exact_state] = stretches;
         // SAFETY: the code has this signature, and its caller vouches for the pointers
         unsafe {
-            let entry: Entry = std::mem::transmute(self.pages.start.as_ptr());
+            let entry: FunctionPointer = std::mem::transmute(self.pages.start.as_ptr());
             entry(values, work, series, state, exact_series, exact_state);
         }
     }

@@ -122,7 +122,7 @@ pub(super) struct Precision {
 
 /// All places, which grow while code is written.
 #[derive(Clone, Debug)]
-pub(super) struct Layout {
+pub(super) struct MemoryLayout {
     /// The unit of time, or those of several orbits.
     pub(super) scale: Address,
     /// The length of the stretch of work.
@@ -131,11 +131,11 @@ pub(super) struct Layout {
     constants: Vec<(usize, Vec<f64>)>,
 }
 
-impl Layout {
+impl MemoryLayout {
     /// One with room for units of time alone.
-    pub(super) fn new() -> Layout {
+    pub(super) fn new() -> MemoryLayout {
         let scale = Address { area: Area::Work, offset: 0 };
-        Layout { scale, work: LINE, constants: Vec::new() }
+        MemoryLayout { scale, work: LINE, constants: Vec::new() }
     }
 
     /// Makes room for the series of a program.

@@ -7,12 +7,12 @@ use super::arithmetic::Arithmetic;
 use super::emitter::{Emitter, SharedDivisor};
 use super::function::NotCompiled;
 use super::layout::{Address, Area};
-use crate::system::finishing_pass::LinearSolution;
+use crate::system::finishing_pass::LinearSolve;
 
 impl<A: Arithmetic> Emitter<'_, A> {
     /// `M_0 a_k = f_k − Σ_{j≥1} M_j a_{k−j}` by the factored M_0.
-    pub(super) fn solution(&mut self, solution: LinearSolution) -> Result<(), NotCompiled> {
-        let LinearSolution { register, block, first, count, inner } = solution;
+    pub(super) fn solution(&mut self, solution: LinearSolve) -> Result<(), NotCompiled> {
+        let LinearSolve { register, block, first, count, inner } = solution;
         let plan = self.plan;
         let place = self.places.factored[block as usize];
         let n = place.size;

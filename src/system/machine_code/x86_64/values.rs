@@ -8,9 +8,9 @@ use std::sync::Arc;
 
 use super::allocation::assemble;
 use super::arithmetic::{Arithmetic, Code};
-use super::basic_block::{BasicBlock, Instruction, Operand, Operation, Width};
+use super::basic_block::{BasicBlock, MachineInstruction, Operand, Operation, Width};
 use super::function::{CompiledFunction, NotCompiled, Stretches, Values, Work};
-use super::layout::{Address, Area, Layout};
+use super::layout::{Address, Area, MemoryLayout};
 use super::plain::Plain;
 use crate::num::DoubleDouble;
 use crate::system::parts::Parts;
@@ -145,7 +145,7 @@ fn is_arithmetic(program: &Program, op: Op) -> bool {
 /// The function of operations of a body.
 fn compile(program: &Program, range: Range<usize>) -> Result<Part, NotCompiled> {
     let block = BasicBlock::default();
-    let code = Code { block, layout: Layout::new(), lanes: Width::One };
+    let code = Code { block, layout: MemoryLayout::new(), lanes: Width::One };
     let mut writer = ValueWriter { program, code, now: vec![None; program.ops.len()] };
     for &register in &program.body[range] {
         if let Some(value) = writer.value(program.ops[register as usize])? {
@@ -163,7 +163,7 @@ fn compile(program: &Program, range: Range<usize>) -> Result<Part, NotCompiled> 
         Area::Work => work,
         Area::Values | Area::Series | Area::ExactSeries | Area::ExactState => 0,
     };
-    let mut accesses = block.instructions.iter().flat_map(Instruction::memory).flatten();
+    let mut accesses = block.instructions.iter().flat_map(MachineInstruction::memory).flatten();
     if accesses.any(|(at, count)| at.offset + count > length(at.area)) {
         return Err(NotCompiled);
     }
