@@ -5,15 +5,20 @@
 use std::fs;
 use std::path::Path;
 
+use crossterm::event::{KeyCode, KeyEvent};
+use phaselab::app::{Above, Guide, GuideKind, LessonTaken};
+use phaselab::diagnostic::Document;
+use phaselab::record::{Lesson, Script};
 use phaselab::view::RenderStyle;
 use phaselab::view::colour::ColourDepth;
 use phaselab::view::glyphs::Glyphs;
 use phaselab::view::theme::{Role, Theme};
 use ratatui::buffer::{Buffer, Cell};
+use ratatui::layout::Rect;
 use ratatui::style::{Color, Modifier};
 
 use super::{rich, rows, screen};
-use crate::hand::{at_picker, in_lab, lab, press};
+use crate::hand::{at_picker, catalog, in_lab, lab, press};
 
 /// The letter of each role; a dot is plain text, a hash any other style (of a curve or a trail).
 const LETTERS: [(Role, char); 10] = [
@@ -83,26 +88,85 @@ fn weights(buffer: &Buffer) -> String {
     rows.collect()
 }
 
-/// Systems of different kinds on a large screen: in colour, without, and in ASCII.
+/// A large screen in colour, without, and in ASCII.
+fn check_every_way(name: &str, mut draw: impl FnMut(&RenderStyle) -> Buffer) {
+    let look = |depth, glyphs| RenderStyle { theme: Theme::dark(depth), glyphs };
+    let colourful = draw(&rich());
+    let plain = draw(&look(ColourDepth::None, Glyphs::Braille));
+    let ascii = draw(&look(ColourDepth::Ansi16, Glyphs::Ascii));
+    let ascii = rows(&ascii).join("\n");
+    assert!(ascii.is_ascii(), "{name} in ASCII\n{ascii}");
+    let now = format!(
+        "{}\nwithout colour\n{}\n{}\nin ASCII\n{ascii}\n",
+        written(&colourful, &rich()),
+        rows(&plain).join("\n"),
+        weights(&plain),
+    );
+    check_text(&format!("{name}-120x40.txt"), &now);
+}
+
+/// Systems of different kinds.
 #[test]
 fn laboratories_on_a_large_screen() {
     for name in
         ["double-pendulum", "merry-go-round", "heavy-top-body", "rolling-race", "kicked-rotor"]
     {
-        let (app, size) = (lab(name, 2.0), (120, 40));
-        let look = |depth, glyphs| RenderStyle { theme: Theme::dark(depth), glyphs };
-        let colourful = screen(&app, &rich(), size);
-        let plain = screen(&app, &look(ColourDepth::None, Glyphs::Braille), size);
-        let ascii = screen(&app, &look(ColourDepth::Ansi16, Glyphs::Ascii), size);
-        let now = format!(
-            "{}\nwithout colour\n{}\n{}\nin ASCII\n{}\n",
-            written(&colourful, &rich()),
-            rows(&plain).join("\n"),
-            weights(&plain),
-            rows(&ascii).join("\n")
-        );
-        check_text(&format!("{name}-120x40.txt"), &now);
+        let app = lab(name, 2.0);
+        check_every_way(name, |look| screen(&app, look, (120, 40)));
     }
+}
+
+/// The pages beside the lab, the workbench and the help.
+#[test]
+fn pages_on_a_large_screen() {
+    for (name, keys) in
+        [("equations", "2"), ("notes", "3"), ("numbers", "4"), ("workbench", "E"), ("help", "?")]
+    {
+        let mut app = in_lab();
+        press(&mut app, keys);
+        check_every_way(name, |look| screen(&app, look, (120, 40)));
+    }
+}
+
+/// The list of lessons and demos, and a lesson that waits for an answer.
+#[test]
+fn lessons_on_a_large_screen() {
+    let mut app = at_picker();
+    let guide = |kind, name: &str, title: &str| Guide {
+        kind,
+        name: name.to_owned(),
+        title: title.to_owned(),
+        system: "Simple pendulum".to_owned(),
+    };
+    app.picker.guides = vec![
+        guide(GuideKind::Lesson(LessonTaken::Whole), "tour", "A tour"),
+        guide(GuideKind::Lesson(LessonTaken::Partly), "kepler", "Why does an ellipse close?"),
+        guide(GuideKind::Lesson(LessonTaken::NotYet), "top", "Why does a top not fall?"),
+        guide(GuideKind::Demo, "pendulum", "The pendulum"),
+    ];
+    while app.picker.selected_above() != Some(Above::Guides) {
+        press(&mut app, "Up");
+    }
+    press(&mut app, "Enter");
+    check_every_way("lessons", |look| screen(&app, look, (120, 40)));
+
+    let text = "Open planet\nSpeed 1/6\nSay \"This is a planet.\"\n\
+                Predict \"How far from its sun will it be?\" r within 0.1\nWait 3s\nOutcome\n";
+    let script = Script::read(&Document::new("my.lesson", text)).expect("a script");
+    let planet = catalog().find("planet").expect("a preset");
+    let mut lesson = Lesson::watched(script, &planet, "planet").expect("a lesson");
+    while !lesson.is_typing() {
+        lesson.advance(50_000).expect("it goes on");
+        if !lesson.is_typing() {
+            lesson.press(KeyEvent::from(KeyCode::Enter));
+        }
+    }
+    check_every_way("lesson", |look| {
+        let area = Rect::new(0, 0, 120, 40);
+        let mut buffer = Buffer::empty(area);
+        lesson.draw(look, area, &mut buffer);
+        buffer
+    });
 }
 
 #[test]
