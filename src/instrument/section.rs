@@ -138,9 +138,9 @@ impl Instrument for SectionPlot {
             return None;
         }
         let begin = present.to_begin();
-        let on = surface(present.physics, view);
+        let (on, of) = (surface(present.physics, view), crossing(present.physics, view));
         Some(format!(
-            "A dot for each time the motion crosses {on}; none so far.{begin} n adds orbits, G fills the section with them."
+            "A dot for each {of} ({on}); none so far.{begin} n adds orbits, G fills the section with them."
         ))
     }
 

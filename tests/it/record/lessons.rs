@@ -506,7 +506,7 @@ fn tour_until(words: &str) -> Lesson {
             return tour;
         }
         // a task is left to its hint, and then skipped
-        let task = tour.is_moving() && shown(&mut tour).contains("Now you.");
+        let task = tour.is_moving() && shown(&mut tour).contains("Double the gravity");
         if task || !tour.is_moving() {
             tour.press(KeyEvent::from(if task { KeyCode::F(9) } else { KeyCode::Enter }));
         }
