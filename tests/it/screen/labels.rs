@@ -489,7 +489,12 @@ fn the_wrong_mechanics_has_its_name_on_every_terminal() {
 fn a_camera_holds_both_of_two_mechanics() {
     for (name, right, wrong) in [
         ("rolling-disc", ["cx", "y", "cz"], ["ox", "other_y", "oz"]),
-        ("knife-edge", ["x*c", "y", "-x*s"], ["other_x*c", "other_y", "-other_x*s"]),
+        (
+            // at the ends of the handles, which nothing hides
+            "knife-edge",
+            ["bx + 0.25*s", "y", "bz + 0.25*c"],
+            ["ox + 0.25*s", "other_y", "oz + 0.25*c"],
+        ),
     ] {
         let text = std::fs::read_to_string(format!("presets/constraints/{name}.toml")).unwrap();
         let caption =
