@@ -4,7 +4,9 @@
 //! not as the file has it, and for a motion that cannot start. Never here: what is proved symbolically.
 
 use super::conservation::Claim;
+use super::look::{self, Look};
 use super::own_method::{self, LENGTH};
+use super::quantity_sizes::{QuantitySizes, tolerated_delay};
 use super::start;
 use crate::diagnostic::{Diagnostic, SourceRange};
 use crate::expr::Symbol;
@@ -16,8 +18,8 @@ use crate::system::{ChannelKind, MotionError, MotionErrorKind, Observer, State, 
 /// The assumed relative error of the values of a motion where a rate is evaluated.
 const SLACK: f64 = 1e-9;
 
-/// The number of samples of the motion.
-const SAMPLES: u32 = 200;
+/// A late event is waited for over this part of the time to when it is expected.
+const LATER: f64 = 0.5;
 
 /// The work allowed for the claims of one file: the number of steps for a system whose equations
 /// have one term. Larger systems get fewer.
@@ -249,24 +251,21 @@ impl<'a> ClaimedMotion<'a> {
     ) {
         let start = model.run.start;
         let end = model.run.until.unwrap_or(start + LENGTH);
-        let samples = if claims.is_empty() { 0 } else { SAMPLES };
-        let sample_time = |k| start + (end - start) * f64::from(k) / f64::from(SAMPLES - 1);
-        let values = model.expect.values.iter().map(|value| (value.at, Some(value)));
-        let mut schedule: Vec<(f64, Option<&ExpectedValue>)> =
-            (0..samples).map(|k| (sample_time(k), None)).chain(values).collect();
-        schedule.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let (expected, mut sizes) = (&model.expect.values, QuantitySizes::of(model));
+        let schedule = look::schedule(model, end, &sizes, !claims.is_empty());
         let last = schedule.last().map_or(end, |(time, _)| *time);
         let last = model.expect.counts.iter().map(|count| count.until).fold(last, f64::max);
-        let last = model.expect.events.iter().map(|event| event.at + 1.0).fold(last, f64::max);
-        for (k, &(time, value)) in schedule.iter().enumerate() {
-            if let (true, Some(value)) = (time < start, value) {
+        let later = |at: f64| at + LATER * (at - start);
+        let last = model.expect.events.iter().map(|event| later(event.at)).fold(last, f64::max);
+        for (k, &(time, look)) in schedule.iter().enumerate() {
+            if let (true, Look::Value(i)) = (time < start, look) {
                 let message = format!("the motion begins at {start}; {time} is before it");
-                diagnostics.push(Diagnostic::error(value.place.clone(), message));
+                diagnostics.push(Diagnostic::error(expected[i].place.clone(), message));
                 continue;
             }
             if let Err(short) = self.reach(time, last) {
-                let values = schedule[k..].iter().filter_map(|(_, value)| *value);
-                let values = values.map(|value| (&value.name, &value.place));
+                let values = schedule[k..].iter().filter_map(|(_, look)| look.value());
+                let values = values.map(|i| (&expected[i].name, &expected[i].place));
                 let unchecked = |(name, place): (&String, &SourceRange)| {
                     let message = format!("`{name}` cannot be checked: {short}");
                     Diagnostic::error(place.clone(), message)
@@ -280,9 +279,13 @@ impl<'a> ClaimedMotion<'a> {
                 let claims = claims.iter().map(|claim| (&claim.name, &claim.place));
                 return diagnostics.extend(claims.map(unchecked));
             }
-            match value {
-                Some(value) => diagnostics.extend(self.compare(value)),
-                None => self.sample(model, equations, &mut claims),
+            sizes.look(equations, &|symbol| self.value_of(model, equations, symbol, time));
+            match look {
+                Look::Value(i) => {
+                    diagnostics.extend(self.compare(&expected[i], sizes.tolerance(i)));
+                }
+                Look::Claims => self.sample(model, equations, &mut claims),
+                Look::Sizes => {}
             }
         }
         let at = |symbol: Symbol| self.value_of(model, equations, symbol, end);
@@ -307,7 +310,9 @@ impl<'a> ClaimedMotion<'a> {
         for expected in &model.expect.events {
             let (name, nth, at) = (&expected.name, expected.nth, expected.at);
             let message = match times(name).get(nth.wrapping_sub(1)) {
-                Some(&time) if (time - at).abs() <= expected.within => continue,
+                Some(&time) if (time - at).abs() <= tolerated_delay(expected, model.run.start) => {
+                    continue;
+                }
                 Some(time) => format!(
                     "`{name}` happens at t = {time}, not {at}: it is off by {:.1e}",
                     (time - at).abs()
@@ -372,13 +377,13 @@ impl<'a> ClaimedMotion<'a> {
         self.observer.observe(self.course.state(), &mut self.values).map_err(Short::MotionError)
     }
 
-    fn compare(&self, expected: &ExpectedValue) -> Option<Diagnostic> {
-        let ExpectedValue { name, at, is, within, .. } = expected;
+    fn compare(&self, expected: &ExpectedValue, within: f64) -> Option<Diagnostic> {
+        let ExpectedValue { name, at, is, .. } = expected;
         let channel = self.system.channel_of(expected.expression)?;
         let value = self.values[channel];
         let error = (value - is).abs();
         // written so that a NaN is wrong
-        if error <= *within {
+        if error <= within {
             return None;
         }
         let message = format!("{name}: this is {value} at t = {at}, not {is}");

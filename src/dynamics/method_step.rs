@@ -22,9 +22,10 @@ use crate::system::{Form, State, System};
 pub struct MethodStep {
     /// The number of points at which both were compared.
     pub points: usize,
-    /// The greatest distance of the images, in units of 1 or of the image itself.
+    /// The greatest distance of the images, relative to the larger of the variable before and after the step.
     pub image: f64,
-    /// The greatest difference of an entry of M = ∂(Q, P)/∂(q, p), in units of 1 or of the largest entry.
+    /// The greatest difference of an entry of M = ∂(Q, P)/∂(q, p), relative to the largest entry, in units in which all variables
+    /// are of like size.
     pub derivative: f64,
     /// M of the transformation and of the step at the first of the points.
     pub first: [DMatrix<f64>; 2],
@@ -61,7 +62,9 @@ impl MethodStep {
         for n in 0..TRIES {
             let point = Valuation::near_start(model, equations, n);
             let old: Vec<f64> = map.old.iter().map(|&s| point.at(s)).collect();
-            let time = point.at(model.symbols.time);
+            // a step of an atom is nothing beside a time of order one
+            let time =
+                if space.is_autonomous() { start.time } else { point.at(model.symbols.time) };
             let at = State { time, time_carry: 0.0, ..space.state_at(&start, &old) };
             let image = map.image(&equations.pool, &point);
             let tangent = image.as_ref().and_then(|image| map.tangent(&equations.pool, image));
@@ -75,11 +78,13 @@ impl MethodStep {
                 Err(_) => continue,
                 Ok(carried) => carried,
             };
-            let new = map.implicit.new.iter().map(|&s| image.at(s));
-            let apart =
-                new.zip(space.variables(&state)).map(|(a, b)| (a - b).abs() / a.abs().max(1.0));
+            let new: Vec<f64> = map.implicit.new.iter().map(|&s| image.at(s)).collect();
+            let sizes = sizes(&old, &new);
+            let stepped = new.iter().zip(space.variables(&state));
+            let apart = stepped.zip(&sizes).map(|((a, b), size)| (a - b).abs() / size);
             let apart = apart.fold(0.0, larger);
-            let differ = (&tangent - &own).amax() / tangent.amax().max(1.0);
+            let largest = in_units(&tangent, &sizes).amax();
+            let differ = in_units(&(&tangent - &own), &sizes).amax() / largest;
             let known = found.get_or_insert(MethodStep {
                 points: 0,
                 image: 0.0,
@@ -95,6 +100,19 @@ impl MethodStep {
         }
         found.ok_or_else(|| unsuited("the map has no image near the start"))
     }
+}
+
+/// The sizes of the variables: before the step or after it, or of the largest where one is zero in both.
+fn sizes(old: &[f64], new: &[f64]) -> Vec<f64> {
+    let sizes: Vec<f64> = old.iter().zip(new).map(|(a, b)| a.abs().max(b.abs())).collect();
+    let largest = sizes.iter().copied().fold(0.0, f64::max);
+    let instead = if largest > 0.0 { largest } else { 1.0 };
+    sizes.into_iter().map(|size| if size > 0.0 { size } else { instead }).collect()
+}
+
+/// M in units in which the variables have the size 1.
+fn in_units(matrix: &DMatrix<f64>, sizes: &[f64]) -> DMatrix<f64> {
+    DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, j| matrix[(i, j)] * sizes[j] / sizes[i])
 }
 
 /// The larger of two distances; what is not a number is farther than any.

@@ -60,8 +60,8 @@ pub struct ExpectedEvent {
     pub nth: usize,
     /// The expected time.
     pub at: f64,
-    /// The absolute tolerance of the time; 1e-10 if the file gives none.
-    pub within: f64,
+    /// The absolute tolerance of the time, if the file gives one.
+    pub within: Option<f64>,
     /// The source of the number.
     pub source: String,
     /// The place of the claim in the file.
@@ -109,7 +109,7 @@ pub struct ExpectedStep {
     pub method: String,
     /// The step, in parameters.
     pub step: Expr,
-    /// How far images and derivatives may lie apart, in units of 1 or of their size; 1e-10 if the file gives nothing.
+    /// How far images and derivatives may lie apart, beside their size; 1e-10 if the file gives nothing.
     pub within: f64,
     /// The source of the claim.
     pub source: String,
@@ -128,8 +128,8 @@ pub struct ExpectedValue {
     pub at: f64,
     /// The expected value.
     pub is: f64,
-    /// The absolute tolerance; 1e-10 if the file gives none.
-    pub within: f64,
+    /// The absolute tolerance, if the file gives one.
+    pub within: Option<f64>,
     /// The source of the number.
     pub source: String,
     /// The place of the claim in the file.

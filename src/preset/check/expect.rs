@@ -16,7 +16,7 @@ use crate::preset::draft::{
 };
 use crate::printable::number;
 
-/// The absolute tolerance of an expected number if the file gives none.
+/// How far a step of a method may lie from a transformation if the file does not say.
 const TOLERANCE: f64 = 1e-10;
 
 /// The degree up to which constants of the motion are searched if the file gives none.
@@ -70,7 +70,7 @@ impl ModelBuilder<'_> {
             name: name?,
             nth: nth?,
             at: *at.get_ref(),
-            within: written.within.as_ref().map_or(TOLERANCE, |w| *w.get_ref()),
+            within: written.within.as_ref().map(|w| *w.get_ref()),
             source: written.source.clone(),
             place: at.span(),
         })
@@ -271,7 +271,7 @@ impl ModelBuilder<'_> {
             expression: expression?,
             at: *written.at.as_ref()?.get_ref(),
             is: *is.get_ref(),
-            within: written.within.as_ref().map_or(TOLERANCE, |w| *w.get_ref()),
+            within: written.within.as_ref().map(|w| *w.get_ref()),
             source: written.source.clone(),
             place: is.span(),
         })

@@ -3,7 +3,7 @@
 //! In: nothing. Out: their keys. Never here: whether a claim holds.
 
 use super::key::ValueKind::{Flag, Formula, List, Number, Text, Texts};
-use super::key::{AT, EXPRESSION, NAME, SOURCE, SchemaTable, WITHIN, key};
+use super::key::{AT, EXPRESSION, NAME, SOURCE, SchemaTable, key};
 
 pub(super) const OBSERVABLE: SchemaTable = SchemaTable {
     head: "[[observables]]",
@@ -47,7 +47,11 @@ pub(in crate::preset) const EXPECTED_VALUE: SchemaTable = SchemaTable {
         EXPRESSION,
         AT,
         key("is", Number, "what it is then").needed("give the number: is = 2.0"),
-        WITHIN,
+        key(
+            "within",
+            Number,
+            "the absolute tolerance; where not given 1e-10 of the largest size of its terms until then",
+        ),
         SOURCE,
     ],
 };
@@ -59,7 +63,7 @@ pub(in crate::preset) const EXPECTED_EVENT: SchemaTable = SchemaTable {
         NAME,
         key("nth", Number, "which of them; the first where not given"),
         AT,
-        WITHIN,
+        key("within", Number, "the absolute tolerance; where not given 1e-10 of the time"),
         SOURCE,
     ],
 };
@@ -97,7 +101,7 @@ pub(in crate::preset) const EXPECTED_STEP: SchemaTable = SchemaTable {
         key(
             "within",
             Number,
-            "the largest difference between image and M, relative to the larger of their size and 1; 1e-10 where not given",
+            "the largest difference between image and M, relative to their size; 1e-10 where not given",
         ),
         SOURCE,
     ],

@@ -136,8 +136,6 @@ pub(super) const ABOUT: Key = key("about", Text, "what it is, shown beside it");
 pub(super) const UNIT: Key = key("unit", Text, "its unit, for show");
 pub(super) const SYMBOL: Key = key("symbol", Text, "the letters it is shown by");
 pub(super) const SOURCE: Key = key("source", Text, "where the claim is from");
-pub(super) const WITHIN: Key =
-    key("within", Number, "the absolute tolerance; 1e-10 where not given");
 pub(super) const PERIOD: Key =
     key("period", Formula, "after which it is the same again; for drawing and rotations");
 pub(super) const INITIAL: Key =

@@ -571,3 +571,28 @@ fn a_bracket_that_differs_only_far_from_the_start_is_refused() {
     }
     assert_eq!(with_file(&file("x + 1e-30*t^9"), &["check", "system.toml"]).success(), "");
 }
+
+/// An oscillator x = a cos ωt whose lengths and times are those of an atom, of a room, or of a galaxy: an expected number of which
+/// the file gives no tolerance is held against the size of the quantity, also where that is zero then.
+#[test]
+fn what_is_expected_is_held_against_its_size_in_all_units() {
+    for (a, omega) in [(5e-11, 4e16), (1.0, 2.0), (3e20, 1e-15)] {
+        let quarter = std::f64::consts::FRAC_PI_2 / omega;
+        let (third, two) = (2.0 / 3.0 * quarter, 2.0 * quarter);
+        let file = |x: f64, zero: f64, time: f64| {
+            format!(
+                "title = \"T\"\n[coordinates]\nx = {{ initial = {a:e} }}\n[parameters]\nw = {omega:e}\n\
+                 [lagrangian]\nL = \"1/2*(x'^2 - w^2*x^2)\"\n[[events]]\nname = \"middle\"\nwhen = \"x\"\n\
+                 [expect]\nvalues = [\n{{ expression = \"x\", at = {third:e}, is = {x:e} }},\n\
+                 {{ expression = \"x'\", at = {two:e}, is = {zero:e} }},\n]\n\
+                 events = [{{ name = \"middle\", at = {time:e} }}]\n"
+            )
+        };
+        let check = |text: String| with_file(&text, &["check", "system.toml"]);
+        assert_eq!(check(file(0.5 * a, 0.0, quarter)).success(), "", "{a}");
+        let off = 1.0 + 1e-8;
+        check(file(0.5 * a * off, 0.0, quarter)).fails(65, &["x: this is", "1 error"]);
+        check(file(0.5 * a, 1e-8 * a * omega, quarter)).fails(65, &["x': this is", "1 error"]);
+        check(file(0.5 * a, 0.0, quarter * off)).fails(65, &["`middle` happens at t =", "1 error"]);
+    }
+}

@@ -74,6 +74,29 @@ fn the_matrix_of_a_step_is_that_of_the_flow() {
     }
 }
 
+/// In the units of atoms both maps are small in one variable and steep in the other: what differs is seen in all units.
+#[test]
+fn other_steps_are_other_maps_in_all_units() {
+    // lengths of a, times of 1/ω, masses of m
+    for [a, m, w] in [[1.0, 1.0, 1.0], [5e-11, 9e-31, 4e16], [3e20, 2e30, 1e-15]] {
+        let text = |step: f64| {
+            format!(
+                "title = \"T\"\n[coordinates]\nx = {{ initial = {a:e}, momentum = {:e} }}\n\
+                 [parameters]\nm = {m:e}\nw = {w:e}\nh = {:e}\n[hamiltonian]\nH = \"p_x^2/(2*m) + m*w^2*x^2/2\"\n\
+                 [[transformations]]\nname = \"step\"\nkind = \"explicit\"\n\
+                 Q = {{ Q = \"x + {step}*h*(p_x - {step}*h*m*w^2*x)/m\" }}\n\
+                 P = {{ P = \"p_x - {step}*h*m*w^2*x\" }}\n",
+                0.5 * a * m * w,
+                0.1 / w
+            )
+        };
+        let of = |step| beside(&lowered(&text(step)), "step", ("symplectic-euler", 0.1 / w));
+        let (same, other) = (of(1.0), of(1.01));
+        assert!(same.image < 1e-13 && same.derivative < 1e-13, "{w}: {same:?}");
+        assert!(other.image > 1e-4 && other.derivative > 1e-4, "{w}: {other:?}");
+    }
+}
+
 #[test]
 fn what_a_file_says_of_a_step_is_checked() {
     let diagnostics = |text: &str| {

@@ -531,11 +531,11 @@ brackets = [ { f = "x ", g = "x'*m", is = "1", source = "3.2.3" }, { f = "energy
     let model = model(&file);
     let [first, second] = &model.expect.events[..] else { panic!("{:?}", model.expect) };
     assert_eq!((first.name.as_str(), first.nth, first.at), ("lift-off", 1, 0.5));
-    assert_eq!((first.within, first.source.as_str()), (1e-6, "book"));
+    assert_eq!((first.within, first.source.as_str()), (Some(1e-6), "book"));
     assert_eq!(&file[first.place.clone()], "0.5");
     assert_eq!(
         (second.name.as_str(), second.nth, second.at, second.within),
-        ("kick", 3, 2.0, 1e-10)
+        ("kick", 3, 2.0, None)
     );
     let count = &model.expect.counts[0];
     assert_eq!((count.name.as_str(), count.until, count.is), ("lift-off", 4.0, 15));
