@@ -163,6 +163,8 @@ fn object(found: &FoundSpectrum) -> Map<String, Value> {
     insert("lines", spectrum.lines.iter().map(line).collect());
     insert("fundamentals", json!(spectrum.fundamentals));
     insert("drive", json!(drive));
+    let close = spectrum.close.as_ref().map(|close| json!({ "frequency": close.frequency, "apart": close.apart, "parted_at": from + close.time_to_part() }));
+    insert("close_lines", json!(close));
     insert("left", json!(spectrum.left));
     insert("left_between", json!(between));
     insert("images", sampled.images.iter().map(|image| image.frequency).collect());
@@ -218,13 +220,22 @@ fn text(found: &FoundSpectrum) -> String {
             "between the values they leave {between:.1e}: there are lines too fast for so few values, {images}; take more with --count\n"
         ));
     }
+    if let Some(close) = &spectrum.close {
+        text.push_str(&format!(
+            "around ω = {} two lines lie {} apart, too close to be told apart in this time: one that ends after t = {} would part \
+             them\n",
+            significant(close.frequency, 6, 1e-4..1e6),
+            significant(close.apart, 2, 1e-4..1e6),
+            significant(from + close.time_to_part(), 3, 1e-4..1e6)
+        ));
+    }
     if let Some(change) = spectrum.change_of_mean() {
         text.push_str(&format!(
             "the mean changes by {} in this time: a slow change is fitted beside the lines\n",
             shown(change)
         ));
     }
-    if spectrum.is_continuous() && spectrum.turns.is_none() {
+    if spectrum.is_continuous() && spectrum.turns.is_none() && spectrum.close.is_none() {
         let part = 100.0 * spectrum.part_left();
         text.push_str(&format!("that is {part:.0} % of it: it is not a sum of few lines\n"));
     }

@@ -12,6 +12,10 @@ const STEPS: u64 = 120;
 const REGULAR: f64 = 2.8;
 const CHAOTIC: f64 = 5.0;
 
+/// MEGNO below which neighbours approach each other, if the largest exponent says so too: of regular motion it goes to 2, or to 0
+/// where neighbours stay where they are.
+const APPROACHING: f64 = -1.0;
+
 /// Beyond the first, MEGNO of regular motion has not grown by the second since half of the time; of chaotic motion it doubles.
 const SETTLED: f64 = 2.2;
 const RISING: f64 = 1.5;
@@ -86,6 +90,9 @@ impl Evidence<'_> {
             );
             return (Chaos::Chaotic, reason);
         }
+        if megno < APPROACHING {
+            return self.approaching();
+        }
         let rises = megno > SETTLED && self.megno_growth > RISING;
         if !rises && megno <= REGULAR && grown < GROWTH + math::ln(self.motion.steps as f64) {
             let reason = format!(
@@ -111,6 +118,24 @@ impl Evidence<'_> {
                  e^{grown:.1} in a time of {time}, and λ is known to ± {off:.1e}: a longer time may tell"
             )
         };
+        (Chaos::Undecided, reason)
+    }
+
+    /// The verdict where MEGNO is far below that of motions whose neighbours neither part nor approach.
+    fn approaching(&self) -> (Chaos, String) {
+        let Evidence { grown, megno, largest, .. } = *self;
+        let (time, off) = (short(self.lasted), self.uncertainty);
+        if grown < 0.0 && largest < -2.0 * off {
+            let reason = format!(
+                "neighbouring motions approach each other, by e^{grown:.1} in a time of {time}: MEGNO is {megno:.1}"
+            );
+            return (Chaos::Regular, reason);
+        }
+        let reason = format!(
+            "MEGNO is {megno:.1}, where regular motion has 2, but λ = {} ± {off:.1e} does not say that neighbouring motions \
+             approach each other: a longer time may tell",
+            short(largest)
+        );
         (Chaos::Undecided, reason)
     }
 }
@@ -169,6 +194,29 @@ mod tests {
             (2.21, 1.51, Chaos::Undecided),
         ] {
             assert_eq!(verdict(5.0, [megno, growth], 0.1), wanted, "{megno} grown by {growth}");
+        }
+    }
+
+    /// Chaos is not decided by MEGNO below −1 alone, which is that of motions that approach each other.
+    #[test]
+    fn a_negative_megno_is_that_of_motions_that_approach() {
+        let of = |megno: f64, grown: f64, largest: f64| {
+            let motion =
+                &CarriedMotion { settings: Settings::default(), fixed: false, steps: 1000 };
+            let (lasted, megno_growth, uncertainty) = (100.0, 2.0, 0.1);
+            Evidence { motion, lasted, grown, megno, megno_growth, largest, uncertainty }.verdict()
+        };
+        assert_eq!(of(-0.99, 0.1, 0.0).0, Chaos::Regular);
+        assert_eq!(of(-1.01, 0.1, 0.0).0, Chaos::Undecided);
+        for (grown, largest, wanted) in [
+            (-88.0, -0.21, Chaos::Regular),
+            (-88.0, -0.19, Chaos::Undecided),
+            (0.1, -0.21, Chaos::Undecided),
+            (3.0, 0.0, Chaos::Undecided),
+        ] {
+            let (verdict, reason) = of(-88.0, grown, largest);
+            assert_eq!(verdict, wanted, "{reason}");
+            assert_eq!(reason.contains("approach each other, by"), wanted == Chaos::Regular);
         }
     }
 

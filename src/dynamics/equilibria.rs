@@ -303,6 +303,13 @@ impl EquilibriumSearch<'_> {
             })
         });
         let mass = mass.filter(|mass| mass.clone().cholesky().is_some());
+        // V has a strict minimum, and so has the energy where T is positive
+        let is_flat_minimum = kind == Kind::Degenerate
+            && along.is_empty()
+            && mass.is_some()
+            && self.space.is_passive()
+            && self.space.has_one_strict_minimum();
+        let is_extremum = is_extremum || is_flat_minimum;
         let modes = self.modes(&in_units, (&eigenvalues, &errors), &places, mass.as_ref());
         Some(Around { kind: Some(kind), eigenvalues, linear, is_extremum, modes })
     }

@@ -7,6 +7,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::drive::{acts, coordinate_period, drive_period};
 use super::error::DynamicsError;
+use super::even_powers::has_one_strict_minimum;
 use super::levels::Levels;
 use super::power::never_adds_energy;
 use crate::cancel::Cancel;
@@ -38,6 +39,8 @@ pub struct PhaseSpace {
     /// The period of the law in each coordinate.
     turns: Vec<Option<f64>>,
     cyclic: Vec<usize>,
+    /// Whether the form of V, or H, shows one strict minimum.
+    has_one_strict_minimum: bool,
     /// The functions whose level sets hold motions that are given by brackets.
     levels: Option<Arc<Levels>>,
 }
@@ -177,6 +180,9 @@ impl PhaseSpace {
                 .flatten(),
             conservative,
             passive: conservative || passive,
+            has_one_strict_minimum: equations.cyclic.is_empty()
+                && system.constraints() == 0
+                && has_one_strict_minimum(model, equations, parameters),
             periods,
             turns,
             cyclic: equations
@@ -203,7 +209,9 @@ impl PhaseSpace {
     pub fn at_parameters(&self, parameters: &[f64]) -> PhaseSpace {
         let drive = self.drive.filter(|_| parameters == self.parameters);
         let passive = self.conservative || self.passive && parameters == self.parameters;
-        PhaseSpace { parameters: parameters.to_vec(), drive, passive, ..self.clone() }
+        let has_one_strict_minimum = self.has_one_strict_minimum && parameters == self.parameters;
+        let parameters = parameters.to_vec();
+        PhaseSpace { parameters, drive, passive, has_one_strict_minimum, ..self.clone() }
     }
 
     /// The same space, whose motions are followed until this token is set.
@@ -256,6 +264,11 @@ impl PhaseSpace {
     /// Whether the energy is conserved or falls: the form of its rate shows that it grows at no state.
     pub fn is_passive(&self) -> bool {
         self.passive
+    }
+
+    /// Whether the form of V, or H, shows that it has one strict minimum, which is then the only equilibrium.
+    pub(super) fn has_one_strict_minimum(&self) -> bool {
+        self.has_one_strict_minimum
     }
 
     /// Whether periodic orbits come in families over the energy: it is conserved, and its gradient is known.
@@ -354,6 +367,11 @@ fn refuse(system: &System) -> Result<(), DynamicsError> {
         return unsuited(
             "the forces have kinks or jumps (abs, sign, min, max, or a cut of atan2), across which \
              derivatives of the motion are not computed",
+        );
+    }
+    if system.has_steps_in_time() {
+        return unsuited(
+            "L has a step in time in its momenta, where velocities jump, and derivatives of such motions are not computed: write H",
         );
     }
     if !system.has_tangents_in(Form::Momentum) && system.form() == Form::Velocity {

@@ -29,7 +29,7 @@ const ROUNDING: f64 = 1e-12;
 /// Lines that leave more than this part of the quantity between the values are not there.
 const FALSE: f64 = 0.5;
 
-/// A line that leaves more than this part of itself between the values is the image of a faster one. Those whose order is a large
+/// A line that leaves more than this part of itself between the values, and little at them, is the image of a faster one. Those whose order is a large
 /// number of Fibonacci's, and few others, leave less: see [`is_faint_image`].
 const IMAGE: f64 = 0.3;
 
@@ -168,23 +168,30 @@ fn taken(
     let rate_taken = advance(count, spacing, rate);
     let off = |(k, value): (usize, &f64)| {
         let time = (k as f64 + BETWEEN) * spacing;
-        value - rate_taken * time - given(&spectrum, k, time)
+        value - rate_taken * time - given(&spectrum, (k, BETWEEN), time)
     };
+    let left = |(k, value): (usize, &f64)| value - given(&spectrum, (k, 0.0), k as f64 * spacing);
+    let left: Vec<f64> = straight.iter().enumerate().map(left).collect();
     let off: Vec<f64> = others.iter().enumerate().map(off).collect();
     let squares: f64 = off.iter().map(|off| off * off).sum();
     let between = (squares / count as f64).sqrt();
-    let images = images(&spectrum, &off, spacing);
+    let images = images(&spectrum, [&left, &off], spacing);
     without(&mut spectrum, &images.iter().map(|line| line.frequency).collect::<Vec<f64>>());
     let rounding = ROUNDING * all.iter().fold(0.0_f64, |size, x| size.max(x.abs()));
     Ok(SampledSpectrum { count, spectrum, rate, drift, between, images, rounding })
 }
 
-/// The lines that are images of faster ones, by what all lines leave between the values. What is no sum of lines at
+/// The lines that are images of faster ones, by what all lines leave at and between the values. What is no sum of lines at
 /// all, as noise, has none that others could be images of.
-fn images(spectrum: &Spectrum, off: &[f64], spacing: f64) -> Vec<SpectralLine> {
-    let left = |line: &SpectralLine| amplitude(off, line.frequency * spacing) / line.amplitude;
+fn images(spectrum: &Spectrum, [left, off]: [&[f64]; 2], spacing: f64) -> Vec<SpectralLine> {
+    let part = |off: &[f64], line: &SpectralLine| {
+        amplitude(off, line.frequency * spacing) / line.amplitude
+    };
+    // a line for which several stand, closer than the time tells apart, leaves as much at the values
+    let at_values = |line: &SpectralLine| MORE * part(left, line);
+    let left = |line: &SpectralLine| part(off, line);
     let (mut images, own): (Vec<&SpectralLine>, Vec<_>) =
-        spectrum.lines.iter().partition(|line| left(line) > IMAGE);
+        spectrum.lines.iter().partition(|line| left(line) > at_values(line).max(IMAGE));
     let is_named_by = |line: &&&SpectralLine| spectrum.fundamentals.contains(&line.frequency);
     let bases: Vec<&SpectralLine> = own.iter().filter(is_named_by).copied().collect();
     let is_faint = |line: &&SpectralLine| {
@@ -257,12 +264,12 @@ fn amplitude(numbers: &[f64], advance: f64) -> f64 {
     2.0 * math::hypot(re, im) / weights
 }
 
-/// What the lines give at a time from the beginning, behind the value of this index.
-fn given(spectrum: &Spectrum, index: usize, time: f64) -> f64 {
+/// What the lines give at a time from the beginning, this part of an interval behind the value of this index.
+fn given(spectrum: &Spectrum, (index, part): (usize, f64), time: f64) -> f64 {
     let slow = |k: usize| spectrum.trend.get(k).copied();
     let trend = slow(index).map_or(0.0, |here| {
         let next = slow(index + 1).unwrap_or(here);
-        here + BETWEEN * (next - here)
+        here + part * (next - here)
     });
     let lines = spectrum.lines.iter().map(|line| {
         let (_, cos) = math::sin_cos(line.frequency * time + line.phase);

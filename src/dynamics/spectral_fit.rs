@@ -60,6 +60,10 @@ impl<'a> SpectralFit<'a> {
         Self { signal, spacing, window, size, mean: 0.0, trend, lines: Vec::new() }
     }
 
+    pub(super) fn spacing(&self) -> f64 {
+        self.spacing
+    }
+
     pub(super) fn length(&self) -> f64 {
         self.spacing * self.signal.len() as f64
     }
@@ -88,11 +92,21 @@ impl<'a> SpectralFit<'a> {
 
     /// The signal without the lines.
     pub(super) fn left(&self) -> Vec<f64> {
+        self.left_of(&|_| true)
+    }
+
+    /// The signal without the lines that are farther than this from a frequency.
+    pub(super) fn left_around(&self, frequency: f64, reach: f64) -> Vec<f64> {
+        self.left_of(&|line| (line.frequency - frequency).abs() > reach)
+    }
+
+    fn left_of(&self, taken: &dyn Fn(&Wave) -> bool) -> Vec<f64> {
         let one = |(k, x): (usize, &f64)| {
             let time = self.time(k);
             let lines: f64 = self
                 .lines
                 .iter()
+                .filter(|line| taken(line))
                 .map(|line| {
                     let (sin, cos) = math::sin_cos(line.frequency * time);
                     line.cosine * cos + line.sine * sin

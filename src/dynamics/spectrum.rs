@@ -11,6 +11,7 @@
 
 use std::f64::consts::TAU;
 
+use super::close_lines::CloseLines;
 use super::spectral_fit::{SpectralFit, Wave};
 use super::spectral_line::SpectralLine;
 use super::unresolved_lines::UnresolvedLines;
@@ -24,6 +25,12 @@ const FAINTEST: f64 = 1e-12;
 
 /// Lines closer than this many turns in the whole time are one that is not a line.
 const APART: f64 = 1.5;
+
+/// A line that was fitted for two is within so many turns in the whole time of what is left.
+const STRAY: f64 = 3.0;
+
+/// A line beside which no more than this part of it is left is one.
+const SINGLE: f64 = 1e-3;
 
 /// So many times as many lines as are wanted are tried: some are not resolved from others.
 const TRIES: usize = 2;
@@ -66,6 +73,8 @@ pub struct Spectrum {
     /// The turns that the strongest line would make in the whole time, where these are less than one: nothing has come back
     /// yet, as where a motion escapes, and there are no lines.
     pub turns: Option<f64>,
+    /// Where two lines lie so close together that the time does not tell them apart, and one is fitted for them.
+    pub close: Option<CloseLines>,
 }
 
 /// A motion of which the lines leave more than this part is no sum of few lines, as a chaotic one is not.
@@ -227,6 +236,7 @@ fn fitted(
     for line in &mut lines {
         line.error = line.error.max(unresolved(&fit, &left, line));
     }
+    let close = close_lines(&fit, &left, &beside);
     let left = root_mean_square(&left);
     let mean = signal.iter().sum::<f64>() / signal.len() as f64;
     let trend = if degree > 0 { fit.slow() } else { Vec::new() };
@@ -234,7 +244,7 @@ fn fitted(
     let about: Vec<f64> = signal.iter().enumerate().map(|(k, x)| x - mean - slow(k)).collect();
     let size = root_mean_square(&about);
     let mean = fit.mean;
-    let spectrum = Spectrum { mean, trend, lines, fundamentals, curve, left, size, turns };
+    let spectrum = Spectrum { mean, trend, lines, fundamentals, curve, left, size, turns, close };
     Fitted { spectrum, fewest: slowest }
 }
 
@@ -250,6 +260,24 @@ fn unresolved(fit: &SpectralFit<'_>, left: &[f64], line: &SpectralLine) -> f64 {
     let beside = BESIDE.map(|part| fit.amplitude(left, line.frequency + part * APART * turn));
     let amplitude = beside.into_iter().fold(0.0, f64::max);
     if line.amplitude > 0.0 { APART * turn * amplitude / line.amplitude } else { 0.0 }
+}
+
+/// Two lines where most is left beside one that was fitted for them.
+fn close_lines(
+    fit: &SpectralFit<'_>,
+    left: &[f64],
+    unresolved: &UnresolvedLines,
+) -> Option<CloseLines> {
+    let at = unresolved.strongest()?;
+    let turn = TAU / fit.length();
+    let distance = |line: &&Wave| (line.frequency - at).abs();
+    let nearest = fit.lines.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+    // a line between two that are nearly equal goes astray in the last corrections
+    if distance(&nearest) > STRAY * turn || fit.amplitude(left, at) <= SINGLE * nearest.amplitude()
+    {
+        return None;
+    }
+    CloseLines::of(&fit.left_around(nearest.frequency, APART * turn), fit.spacing(), at)
 }
 
 /// An angle that goes round less its mean advance, so that what is left has lines.
@@ -292,8 +320,8 @@ mod tests {
     fn a_signal_of_which_lines_leave_a_tenth_is_continuous() {
         let of = |left: f64| {
             let (trend, lines, fundamentals, curve) = Default::default();
-            let (mean, size, turns) = (0.0, 2.0, None);
-            Spectrum { mean, trend, lines, fundamentals, curve, left, size, turns }
+            let (mean, size, turns, close) = (0.0, 2.0, None, None);
+            Spectrum { mean, trend, lines, fundamentals, curve, left, size, turns, close }
         };
         assert!(of(0.201).is_continuous() && !of(0.199).is_continuous());
     }

@@ -23,6 +23,12 @@ impl UnresolvedLines {
         self.places.push([frequency, amplitude]);
     }
 
+    /// The frequency where most is left.
+    pub(super) fn strongest(&self) -> Option<f64> {
+        let strongest = self.places.iter().max_by(|a, b| a[1].total_cmp(&b[1]));
+        strongest.map(|place| place[0])
+    }
+
     /// A transform, over a time of this length, without what may belong to them.
     pub(super) fn masked(&self, transform: &[[f64; 2]], length: f64) -> Vec<[f64; 2]> {
         let is_hidden = |[frequency, amplitude]: [f64; 2]| {

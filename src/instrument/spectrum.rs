@@ -309,7 +309,10 @@ fn sentences(physics: Physics<'_>, answer: Option<&Answer>) -> Vec<String> {
     if found(answer).is_some_and(ComputedSpectrum::has_images) {
         all.insert(second, "lines too fast for so many values are left out".to_owned());
     }
-    if lines.is_continuous() && lines.turns.is_none() {
+    if let Some(close) = &lines.close {
+        let (at, apart) = (brief(close.frequency), brief(close.apart));
+        all.insert(second, format!("two lines around {at}, {apart} apart, are not told apart"));
+    } else if lines.is_continuous() && lines.turns.is_none() {
         all.insert(0, format!("no sum of lines: they leave {:.0} %", 100.0 * lines.part_left()));
     }
     if let Some(turns) = lines.turns {

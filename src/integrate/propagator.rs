@@ -16,6 +16,7 @@ mod passed_event;
 mod passed_event_watch;
 mod singular_mass;
 mod singularity_record;
+mod step_in_time;
 mod trial;
 mod vanishing_event_watch;
 
@@ -75,6 +76,10 @@ pub struct Propagator {
     /// The last impulse, and the event that caused it.
     impulse: Option<(usize, Option<usize>)>,
     steps: u64,
+    /// The time at which the last step ended, where velocities may jump, …
+    awaited_step: Option<DoubleDouble>,
+    /// … and the state just after the last instant at which they did.
+    crossed: Option<State>,
 }
 
 impl Propagator {
@@ -112,6 +117,8 @@ impl Propagator {
             narrow_passage: None,
             impulse: None,
             steps: 0,
+            awaited_step: None,
+            crossed: None,
         };
         motion.take_system();
         Ok(motion)
@@ -254,6 +261,7 @@ impl Propagator {
         self.near.copy_from(&self.state);
         self.search.continue_from(state.time);
         self.watch_from_here();
+        (self.awaited_step, self.crossed) = (None, None);
         self.domain = MotionDomain::around(&self.system, &self.state, &self.parameters);
         self.stepper.start(&self.state, &self.parameters)?;
         self.watch_narrow_places();

@@ -41,9 +41,10 @@ impl Equations {
     /// Returns whether a momentum of L, as a function of the velocities, jumps at a time. The momentum itself does not, so that the
     /// velocities do.
     pub fn momenta_jump(&self) -> bool {
-        let time = [self.symbols.time];
-        self.is_lagrangian()
-            && self.momenta.iter().any(|&momentum| self.has_sign_of(momentum, &time))
+        let time = self.symbols.time;
+        let moving: Vec<Symbol> = self.moving().into_iter().filter(|s| *s != time).collect();
+        let any = |symbols: &[Symbol]| self.momenta.iter().any(|&p| self.has_sign_of(p, symbols));
+        self.is_lagrangian() && any(&[time]) && !any(&moving)
     }
 
     /// Whether a function jumps with the sign of something that depends on some symbols.

@@ -138,6 +138,10 @@ impl ProgramBuilder<'_> {
         let (kkt, backwards) = (self.kkt.clone(), self.backwards);
         let mut lowering = self.on_full_state();
         lowering.switch_at_cuts();
+        if equations.momenta_jump() {
+            // velocities jump there, also where no force does
+            lowering.lower_all(&equations.momenta);
+        }
         let mut outputs = match &equations.flow {
             Flow::Lagrange { force, .. } => {
                 let accelerations = kkt.bind(&mut lowering, equations, force);

@@ -43,6 +43,9 @@ impl Propagator {
             if self.ended {
                 return Ok(Reached::Ended);
             }
+            if self.search.clear >= self.stepper.time() {
+                self.cross_step_in_time()?;
+            }
             if self.search.clear <= time {
                 let due = self.search.due();
                 self.search.find_next();
@@ -172,6 +175,7 @@ impl Propagator {
             return Err(no_digits_left(before.high));
         }
         self.steps += 1;
+        self.note_step_in_time();
         self.note_side();
         self.note_narrow_place();
         self.note_departures();
@@ -198,7 +202,9 @@ impl Propagator {
     /// Sets the current state to that at a time within the last step.
     pub(super) fn move_to(&mut self, time: f64) -> Result<(), MotionError> {
         let (begin, end) = self.stepper.interval();
-        if time == end || begin == end {
+        if let Some(crossed) = self.crossed.as_ref().filter(|crossed| crossed.time == time) {
+            self.state.copy_from(crossed);
+        } else if time == end || begin == end {
             self.state.copy_from(self.stepper.state());
         } else {
             self.stepper.at(time, &mut self.state)?;

@@ -1077,9 +1077,16 @@ fn families_may_be_flat_and_may_cross() {
 /// What is soft is found and judged beside what is stiff; a ring that a weak force tilts is a minimum and a saddle.
 #[test]
 fn a_soft_direction_is_seen_beside_a_stiff_one() {
-    for potential in ["x^4 + 1/2*1e6*y^2", "x^60 + 1/2*1e6*y^2"] {
+    for (potential, stable) in [
+        ("x^4 + 1/2*1e6*y^2", Some(true)),
+        ("x^60 + 1/2*1e6*y^2", Some(true)),
+        ("x^4 - x^6 + 1/2*1e6*y^2", None),
+        ("x^3 + 1/2*1e6*y^2", None),
+    ] {
         let found = in_plane(potential, [0.3, 0.3]);
-        assert_eq!(kinds(&found), [(Some(Kind::Degenerate), None)], "{potential}: {found:?}");
+        let flat = found.iter().find(|one| one.variables[0].abs() < 0.1).expect("at 0");
+        let kind = Some(Kind::Degenerate);
+        assert_eq!((flat.kind, flat.stable), (kind, stable), "{potential}: {found:?}");
     }
     for stiffness in ["1e12", "1e17"] {
         let found = in_plane(&format!("1/2*{stiffness}*x^2 + 1/2*y^2"), [1.3, 0.4]);
@@ -1252,4 +1259,35 @@ fn slow_growth_is_told_from_rounding() {
             judged(&law, "x = 0.01", [0.0, 0.0], stability, growth);
         }
     }
+}
+
+/// Lagrange and Dirichlet: a strict minimum of V is stable, also where its second derivatives vanish; its form proves that.
+#[test]
+fn a_flat_minimum_of_even_powers_is_stable() {
+    let one = |mechanics: &str| {
+        let found = held(&format!("title = \"t\"\n{mechanics}"), &[]);
+        assert_eq!(found.len(), 1, "{mechanics}: {found:?}");
+        (found[0].kind, found[0].stable)
+    };
+    let lagrangian = |law: &str| {
+        one(&format!(
+            "[coordinates]\nx = {{ initial = 0.6 }}\ny = {{ initial = 0.3 }}\n[parameters]\nk = 2\n[lagrangian]\n{law}"
+        ))
+    };
+    let flat = |stable| (Some(Kind::Degenerate), stable);
+    for (law, stable) in [
+        ("L = \"1/2*(x'^2 + y'^2) - k*(x - y)^4 - (x + y - 1)^6\"", Some(true)),
+        ("L = \"1/2*(1 + x^2)*x'^2 + x'*y' + y'^2 + x*y' - k*x^4 - y^2 + 3\"", Some(true)),
+        ("L = \"1/2*(x'^2 + y'^2) - x^4 - y^4\"\ndissipation = \"k*x'^2\"", Some(true)),
+        // what drives it adds energy, and a sum that does not determine a place has no strict minimum
+        ("L = \"1/2*(x'^2 + y'^2) - x^4 - y^4\"\nforces = { x = \"k*x'^3\" }", None),
+        ("L = \"1/2*(x'^2 - y'^2) - x^4 - y^4\"", None),
+    ] {
+        assert_eq!(lagrangian(law), flat(stable), "{law}");
+    }
+    let hamiltonian = |law: &str| {
+        one(&format!("[coordinates]\nx = {{ initial = 0.6 }}\n[hamiltonian]\nH = \"{law}\""))
+    };
+    assert_eq!(hamiltonian("p_x^2/2 + x^4"), flat(Some(true)));
+    assert_eq!(hamiltonian("p_x^2/2 + x^4 + x^3*p_x"), flat(None));
 }

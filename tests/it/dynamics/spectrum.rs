@@ -457,3 +457,48 @@ fn lines_are_found_beside_a_slow_change_of_higher_degree() {
     let line = found.lines.first().expect("a line");
     assert!((line.frequency - 3.1).abs() <= 3.0 * line.error && line.error < 1e-2, "{line:?}");
 }
+
+/// Two lines that make from a half of a turn to nearly one and a half about each other in the whole time: neither is an image of a
+/// faster one, how far they lie apart is known, and a motion followed for as long as is said has both.
+#[test]
+fn lines_too_close_to_be_told_apart_are_not_called_too_fast() {
+    let sampled = |apart: f64, amplitude: f64, until: f64| {
+        let beside = 1.0 + apart;
+        let mut sample = |times: &[f64]| {
+            let at = |&t: &f64| t.cos() + amplitude * (beside * t + 1.0).cos();
+            times.iter().map(at).collect()
+        };
+        let request = SpectrumRequest {
+            span: [0.0, until],
+            counts: [2048, 65_536],
+            is_angle: false,
+            lines: (6, 2),
+            drive: None,
+        };
+        sampled_spectrum(&request, &mut sample, &mut |_| true).unwrap()
+    };
+    for amplitude in [1.0, 0.9, 0.5] {
+        for turns in [0.5, 0.8, 1.0, 1.2, 1.4] {
+            let apart = turns * TAU / 1000.0;
+            let found = sampled(apart, amplitude, 1000.0);
+            assert!(found.is_resolved() && !found.is_false(), "{amplitude}, {turns}: {found:?}");
+            let close = found.spectrum.close;
+            // lines without noise may be told apart sooner
+            let longer = match close {
+                Some(close) => {
+                    assert!((close.apart / apart - 1.0).abs() < 0.01, "{turns}: {close:?}");
+                    sampled(apart, amplitude, close.time_to_part())
+                }
+                None => found,
+            };
+            assert!(close.is_some() || turns > 1.0, "{amplitude}, {turns}");
+            let lines = &longer.spectrum.lines;
+            assert!(longer.spectrum.close.is_none() && lines.len() == 2, "{lines:?}");
+            let distance = (lines[0].frequency - lines[1].frequency).abs();
+            assert!((distance / apart - 1.0).abs() < 1e-6, "{amplitude}, {turns}: {lines:?}");
+        }
+    }
+    // one line, and two that are told apart, are not close
+    assert!(sampled(0.0, 1.0, 1000.0).spectrum.close.is_none());
+    assert!(sampled(3.0 * TAU / 1000.0, 1.0, 1000.0).spectrum.close.is_none());
+}
