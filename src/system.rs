@@ -103,6 +103,7 @@ mod state_layout;
 mod state_sum;
 mod steep_arguments;
 mod steep_program;
+mod step_in_time;
 mod step_series;
 mod surface;
 mod tangent;

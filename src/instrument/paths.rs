@@ -371,17 +371,31 @@ fn lines(answer: Option<&Answer>) -> Vec<String> {
             None => lines.push((line, 1)),
         }
     }
+    named(lines).into_iter().chain(until).chain(since).collect()
+}
+
+/// The first of several lines, with how many paths each stands for, and how many more there are.
+fn named(lines: Vec<(String, usize)>) -> Vec<String> {
     let more = lines.len().saturating_sub(NAMED);
     let named = lines.into_iter().take(NAMED).map(|(line, count)| match count {
         1 => line,
         count => format!("{line} ({count} paths)"),
     });
-    named.chain((more > 0).then(|| format!("and {more} more"))).chain(until).chain(since).collect()
+    named.chain((more > 0).then(|| format!("and {more} more"))).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn five_paths_are_named() {
+        let lines = |count: usize| (0..count).map(|k| (format!("S = {k}"), 1 + k)).collect();
+        assert_eq!(named(lines(5)).len(), 5);
+        let all = named(lines(7));
+        assert_eq!((all.len(), all[1].as_str()), (6, "S = 1 (2 paths)"));
+        assert_eq!(all[5], "and 2 more");
+    }
 
     #[test]
     fn paths_are_the_same_to_a_millionth_of_their_reach() {

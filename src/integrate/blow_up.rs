@@ -141,8 +141,7 @@ impl StoppedMotion<'_> {
         let near = PART_OF_CHANGE * part;
         motion.advance(near)?;
         let change = (motion.speeds(&places)?.size - first.size).high;
-        let interval = (PART_OF_CHANGE * first.size.high * near / change).abs().min(part.abs());
-        let interval = interval.copysign(step);
+        let interval = compared_after(first.size.high * near / change, part).copysign(step);
         motion = before;
         let mut samples = vec![first];
         for _ in 0..2 {
@@ -276,12 +275,24 @@ fn rounded(number: f64, digits: f64) -> f64 {
     num::rounded(number, digits as usize)
 }
 
+/// The time between the speeds that are compared, where they change in this time, and no more than a part of a step.
+fn compared_after(change: f64, part: f64) -> f64 {
+    (PART_OF_CHANGE * change).abs().min(part.abs())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     /// v = τ^−β has β/(β + 1): 1/2 for x = −2 ln τ, 2/3 for 1/τ and 3/4 for 1/τ², 2/5 for a collision of two bodies with β = 2/3 and
     /// 1 for e^t.
+    #[test]
+    fn speeds_are_compared_after_a_thousandth_of_the_time_in_which_they_change() {
+        let time = compared_after(-2.0, 1.0);
+        assert!((1.5e-3..2.5e-3).contains(&time), "{time}");
+        assert_eq!(compared_after(2.0, -1e-4), 1e-4);
+    }
+
     #[test]
     fn a_speed_that_grows_at_least_as_that_of_a_logarithm_and_less_than_exponentially_blows_up() {
         let of = |beta: f64| beta / (beta + 1.0);

@@ -10,9 +10,13 @@
 //! Source: E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary Differential Equations I, second
 //! edition, II.4 (step control), II.5 (method), II.6 (interpolant).
 
+mod along_kink;
+mod controlled_step;
+mod kink_course;
 mod kinks;
 mod tableau;
 
+use self::kink_course::KinkCourse;
 use self::tableau::{DENSE, FIFTH, METHOD_STAGES, STAGES, THIRD, WeightedStage};
 use super::dense_output::DenseOutput;
 use super::method::{Method, MethodError, Preserves, Settings, Stepping};
@@ -62,7 +66,7 @@ pub(super) const METHOD: Method = Method {
     locates_kinks: false,
     needs: "",
     about: "The Runge–Kutta method of order 8 that many programs use, for comparison. Kinks are \
-            stepped over, not located. Hairer, Nørsett & Wanner, Solving Ordinary Differential \
+            stepped over, not located; what follows one, as a body at rest under dry friction, takes steps of `taylor`. Hairer, Nørsett & Wanner, Solving Ordinary Differential \
             Equations I, II.5.",
     fits: |_| Ok(()),
     leapfrogs: Vec::new,
@@ -103,6 +107,9 @@ struct DormandPrince {
     narrow: Option<NarrowPlaces>,
     /// The switches and roots whose kink lies within the attempted step.
     parted: (Vec<usize>, Vec<usize>),
+    /// Whether the motion follows a kink.
+    course: KinkCourse,
+    parameters: Vec<f64>,
 }
 
 impl DormandPrince {
@@ -136,6 +143,8 @@ impl DormandPrince {
             crossings: 0,
             narrow: None,
             parted: Default::default(),
+            course: KinkCourse::Away,
+            parameters: Vec::new(),
         })
     }
 
@@ -320,6 +329,8 @@ impl Stepper for DormandPrince {
         self.crossings = 0;
         self.noise.fill(0.0);
         self.stale = false;
+        self.parameters = parameters.to_vec();
+        self.begin_beside_kinks()?;
         self.rates.evaluate(self.state.time, &self.state.values, &mut self.slopes[0])
     }
 
@@ -327,75 +338,16 @@ impl Stepper for DormandPrince {
         if self.state.time == limit {
             return Ok(());
         }
-        let time = self.state.exact_time();
-        let left = DoubleDouble::from_decimal(limit) - time;
-        if self.stale {
-            self.rates.evaluate(time.high, &self.state.values, &mut self.slopes[0])?;
-            self.stale = false;
+        if self.is_along_kink() {
+            return self.step_along_kink(limit);
         }
-        for (kept, noise) in self.kept_noise.iter_mut().zip(&self.noise) {
-            *kept = FORGETTING * noise;
+        match self.controlled_step(limit) {
+            Err(fault) if fault.kind == MotionErrorKind::Sticks => {
+                self.follow_kink()?;
+                self.step_along_kink(limit)
+            }
+            outcome => outcome,
         }
-        let mut failures = 0;
-        loop {
-            self.noise.copy_from_slice(&self.kept_noise);
-            // take a last step that is a little longer rather than another tiny one
-            let last = 1.01 * self.size >= left.high.abs();
-            let step = if last { left.high } else { self.size.copysign(left.high) };
-            self.may_try(step, last)?;
-            if let Err(fault) = self.attempt(step) {
-                // a stage of a step too long may lie where there are no rates
-                if failures == TRIES || fault.kind == MotionErrorKind::Cancelled {
-                    return Err(fault);
-                }
-                self.size = step.abs() * SHORTER;
-                failures += 1;
-                continue;
-            }
-            self.measure(step);
-            let mut error = self.error(step);
-            if error > 1.0 && error.is_finite() {
-                self.estimate_roundoff(step);
-                error = self.error(step);
-            }
-            let passes_kink = error > 1.0 && self.passes_kink(step)?;
-            if passes_kink {
-                error = 1.0;
-            }
-            let part = if error <= 1.0 { self.resolved_part(step) } else { 1.0 };
-            if part < 1.0 {
-                self.size = step.abs() * part;
-                failures += 1;
-                continue;
-            }
-            let most = if failures > 0 { 1.0 } else { LONGER };
-            let factor = (SAFETY * math::powf(error, -1.0 / 8.0)).clamp(SHORTER, most);
-            if error <= 1.0 {
-                self.count_crossings(step)?;
-                let end =
-                    if last { DoubleDouble::from(limit) } else { time + DoubleDouble::from(step) };
-                (self.next.time, self.next.time_carry) = (end.high, end.low);
-                let slope = &mut self.slopes[METHOD_STAGES];
-                self.rates.evaluate(end.high, &self.next.values, slope)?;
-                self.longest = self.longest.max(step.abs());
-                // a step cut short is no measure of the next one
-                self.size =
-                    if last { self.size.max(step.abs() * factor) } else { self.size * factor };
-                if passes_kink {
-                    // the clock has too few digits for steps that grow slowly from there
-                    self.size = self.size.max(self.longest);
-                }
-                break;
-            }
-            self.size = step.abs() * factor;
-            failures += 1;
-        }
-        std::mem::swap(&mut self.before, &mut self.state);
-        std::mem::swap(&mut self.state, &mut self.next);
-        std::mem::swap(&mut self.slopes, &mut self.last);
-        self.slopes[0].clone_from(&self.last[METHOD_STAGES]);
-        self.has_interpolant = false;
-        Ok(())
     }
 
     fn replace_state(&mut self, state: &State) {
@@ -403,6 +355,7 @@ impl Stepper for DormandPrince {
         // exceed rounding
         self.stale |= state.values != self.state.values;
         self.state.copy_from(state);
+        self.replace_along_kink(state);
     }
 
     fn state(&self) -> &State {
@@ -423,6 +376,9 @@ impl DenseOutput for DormandPrince {
         if time == self.state.time {
             out.copy_from(&self.state);
             return Ok(());
+        }
+        if let Some(outcome) = self.at_along_kink(time, out) {
+            return outcome;
         }
         self.complete()?;
         out.copy_from(&self.before);

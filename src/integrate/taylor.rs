@@ -48,7 +48,7 @@ use super::method::{Method, MethodError, Preserves, Settings, Stepping};
 use super::stepper::Stepper;
 use crate::num::DoubleDouble;
 use crate::system::{
-    ExactRates, Form, MotionError, MotionErrorKind, Series, State, StepSeries, System,
+    ExactRates, Form, MotionError, MotionErrorKind, Series, Side, State, StepSeries, System,
 };
 
 /// The default tolerance. It is far below the last digit shown, so that the results carry the error
@@ -77,7 +77,7 @@ pub(super) const METHOD: Method = Method {
 
 /// A motion by Taylor series.
 #[derive(Debug)]
-struct Taylor {
+pub(super) struct Taylor {
     system: System,
     series: Series,
     /// The series in `f64`, while digits of double-double are needed to pass a place.
@@ -110,7 +110,7 @@ enum StepCourse {
 }
 
 impl Taylor {
-    fn new(system: &System, settings: &Settings) -> Result<Taylor, MethodError> {
+    pub(super) fn new(system: &System, settings: &Settings) -> Result<Taylor, MethodError> {
         let tolerance = settings.tolerance.unwrap_or(TOLERANCE);
         if !(1e-30..1.0).contains(&tolerance) {
             let reason = format!("the tolerance {tolerance:e} is not between 1e-30 and 1");
@@ -143,6 +143,13 @@ impl Taylor {
         })
     }
 
+    /// Whether the motion is beside all kinks at the end of the last step, and not at rest on one.
+    pub(super) fn is_beside_kinks(&self) -> bool {
+        matches!(self.course, StepCourse::Series)
+            && !self.kinks.is_on_surface()
+            && !self.series.sides().contains(&Side::Between)
+    }
+
     /// The state of the last step at the time of another, if it has one: that before an impulse. Else the other itself.
     fn before(&mut self, start: &State) -> Result<State, MotionError> {
         let (begin, end) = (self.begin.min(self.state.time), self.begin.max(self.state.time));
@@ -165,7 +172,10 @@ impl Taylor {
         };
         let after = part_of_step(time - begin, self.state.exact_time() - begin);
         match &self.course {
-            StepCourse::Series => self.series.state_after(after, out),
+            StepCourse::Series => {
+                self.series.state_after(after, out);
+                hold_on_kinks(&self.series, out);
+            }
             StepCourse::Collocation(from, _) if after.high == 0.0 => out.copy_from(from),
             StepCourse::Collocation(from, toward) => {
                 self.bridge.inside(&mut self.rates, from, after, toward.as_deref(), out)?;
@@ -173,6 +183,15 @@ impl Taylor {
             StepCourse::Rest(still) => out.copy_from(&still.at(&mut self.rates, begin + after)?),
         }
         Ok(())
+    }
+}
+
+/// Where a motion is held on a kink by a number that is zero there, as a velocity at rest, that is zero and no rounding.
+fn hold_on_kinks(series: &Series, state: &mut State) {
+    for (i, side) in series.sides().iter().enumerate() {
+        if let (Side::Between, Some(number)) = (side, series.switch_number(i)) {
+            state.set(number, DoubleDouble::ZERO);
+        }
     }
 }
 

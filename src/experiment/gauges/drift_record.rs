@@ -4,7 +4,7 @@
 //! from, or which of them rounding explains.
 
 use super::mean::Mean;
-use crate::analysis::History;
+use crate::analysis::{History, LEFT};
 
 /// The distances from the reference since it was taken.
 #[derive(Clone, Debug)]
@@ -18,6 +18,8 @@ pub(super) struct DriftRecord {
     /// The greatest drift: a distance over the mean moving part up to that time, or over the moving part at that time
     /// if it was greater.
     pub(super) worst: f64,
+    /// What that is relative to.
+    pub(super) worst_scale: f64,
     /// When the drift first exceeded the limit.
     pub(super) left: Option<f64>,
     /// The first distances beyond rounding, as long as it is not known how much moves.
@@ -33,10 +35,50 @@ impl DriftRecord {
             moving,
             farthest: 0.0,
             worst: 0.0,
+            worst_scale: 0.0,
             left: None,
             early: Early::default(),
             distances: History::new(),
         }
+    }
+
+    /// Begins anew where so much moves that the motion had not begun before: the noise of a rest is no drift of what follows.
+    pub(super) fn begin_if_at_rest(&mut self, time: f64, distance: f64, moving: f64) {
+        let is_noise = distance.abs() <= LEFT * moving;
+        if self.worst > LEFT && is_noise && is_beginning(moving, self.worst_scale) {
+            (self.worst, self.worst_scale, self.left) = (0.0, 0.0, None);
+            self.moving = Mean::beginning(time);
+            self.early = Early::default();
+        }
+    }
+}
+
+/// A motion begins where so many times as much moves as before.
+const BEGINS: f64 = 1e20;
+
+/// Whether a motion begins in which this much moves, after this much.
+fn is_beginning(moving: f64, before: f64) -> bool {
+    moving.is_finite() && moving > BEGINS * before
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_motion_begins_where_1e20_times_as_much_moves() {
+        assert!(is_beginning(2.1e20, 2.0) && !is_beginning(1.9e20, 2.0));
+        assert!(is_beginning(1e-300, 0.0) && !is_beginning(f64::INFINITY, 1.0));
+        let lost = |moving: f64| {
+            let mut record = DriftRecord::beginning(Mean::default());
+            (record.worst, record.worst_scale, record.left) = (0.5, 1e-90, Some(0.0));
+            record.begin_if_at_rest(1.0, 1e-50, moving);
+            record.worst
+        };
+        assert_eq!(lost(1e-30), 0.0);
+        // what moves is no measure of an error that is as large, nor of one that is far above rounding
+        assert_eq!(lost(1e-71), 0.5);
+        assert_eq!(lost(1e-50), 0.5);
     }
 }
 

@@ -135,6 +135,7 @@ impl InvariantMonitor {
         self.drift.moving = Mean::of(scale, time - known.since, time);
         self.drift.farthest = known.farthest.unwrap_or(known.max_drift * scale);
         self.drift.worst = known.max_drift;
+        self.drift.worst_scale = scale;
         self.drift.left = known.left;
         self.drift.early = Early::over();
     }
@@ -243,6 +244,7 @@ impl InvariantMonitor {
     ) {
         let distance = self.rough(value, work) - self.reference.rough;
         self.widen(size);
+        self.drift.begin_if_at_rest(time, distance, moving);
         // the moving part of a lost motion is no measure of it
         if self.drift.worst <= LOST {
             self.drift.moving.note(time, moving);
@@ -273,7 +275,10 @@ impl InvariantMonitor {
             self.drift.early.take(beyond.then_some(Distance { time, size: distance, moving }));
         if beyond && !deferred {
             let drift = self.drift_of(distance, moving);
-            self.drift.worst = self.drift.worst.max(drift);
+            if drift > self.drift.worst {
+                self.drift.worst = drift;
+                self.drift.worst_scale = self.scale_of(moving.max(self.drift.moving.value()));
+            }
             // rows lie before the end of the step, which was recorded first
             if drift > LEFT && self.drift.left.is_none_or(|left| time < left) {
                 self.drift.left = Some(time);
@@ -281,6 +286,7 @@ impl InvariantMonitor {
         }
         if self.drift.early.is_known() {
             (self.drift.worst, self.drift.left) = self.drifted();
+            self.drift.worst_scale = self.scale();
             self.drift.early = Early::over();
         }
     }

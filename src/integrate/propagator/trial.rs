@@ -89,7 +89,7 @@ impl Propagator {
         let mut ways = Vec::new();
         for (from, part) in [(&self.watch.regular, 1.0), (&self.watch.begun, BEYOND)] {
             let Some(from) = from else { continue };
-            let mut way = (part * (time - from.time)).max(2.0 * self.stepper.step_size());
+            let mut way = way_beyond(part, time - from.time, self.stepper.step_size());
             if way == 0.0 && !self.method.locates_kinks {
                 // it begins on a kink that this method does not know, and has not taken a step
                 way = initial_step::of(&self.system, from, &self.parameters);
@@ -215,9 +215,21 @@ fn agree(from: &State, coarse: &State, fine: &State, degrees: usize) -> bool {
     })
 }
 
+/// How far a trial goes beyond a place that is so far from its beginning: by a part of that, and by two steps at least.
+fn way_beyond(part: f64, since: f64, step: f64) -> f64 {
+    (part * since).max(2.0 * step)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_trial_from_the_beginning_goes_a_twentieth_beyond_the_place() {
+        let way = way_beyond(BEYOND, 2.0, 1e-9);
+        assert!((0.08..0.12).contains(&way), "{way}");
+        assert_eq!(way_beyond(BEYOND, 2.0, 0.5), 1.0);
+    }
     use crate::system::Form;
 
     fn state(values: [f64; 4]) -> State {

@@ -20,6 +20,10 @@ const QUARTERINGS: u32 = 24;
 /// order.
 pub(super) const FIRST: f64 = 1e-8;
 
+/// What is left of the rates with two small velocities, less what is proportional to these, is their rounding below this part of them:
+/// the work of a friction that does none.
+const CANCELLED: f64 = 1e-20;
+
 /// A motion at rest.
 #[derive(Debug)]
 pub(super) struct RestUnderFriction {
@@ -210,7 +214,11 @@ impl RestUnderFriction {
             Ok((self.moving..self.rates.len()).map(|i| rates.rate(i)).collect())
         };
         let (faster, slower) = (at(self.size)?, at(0.5 * self.size)?);
-        Ok(faster.into_iter().zip(slower).map(|(fast, slow)| slow + slow - fast).collect())
+        let at_rest = |(fast, slow): (DoubleDouble, DoubleDouble)| {
+            let left = slow + slow - fast;
+            if is_cancelled(left.high, fast.high) { DoubleDouble::ZERO } else { left }
+        };
+        Ok(faster.into_iter().zip(slower).map(at_rest).collect())
     }
 
     /// The numbers at rest, except for one small velocity.
@@ -219,5 +227,20 @@ impl RestUnderFriction {
             (0..self.from.values.len()).map(|i| self.from.exact(i)).collect();
         numbers[self.degrees] = numbers[self.degrees] + DoubleDouble::from(size);
         numbers
+    }
+}
+
+/// Whether what is left of rates of this size is their rounding.
+fn is_cancelled(left: f64, rate: f64) -> bool {
+    left.abs() <= CANCELLED * rate.abs()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_cancelled;
+
+    #[test]
+    fn what_is_left_at_rest_is_rounding_below_1e_20() {
+        assert!(is_cancelled(1.9e-20, -2.0) && !is_cancelled(2.1e-20, -2.0));
     }
 }

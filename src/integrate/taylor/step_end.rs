@@ -6,7 +6,7 @@
 
 use super::branches::Passing;
 use super::kinks::{KinkCrossing, represents};
-use super::{Taylor, branches, steep};
+use super::{Taylor, branches, hold_on_kinks, steep};
 use crate::num::DoubleDouble;
 use crate::system::{MotionError, MotionErrorKind, Side};
 
@@ -223,6 +223,7 @@ impl Taylor {
         } else {
             self.history.unit.take(size, step, left);
         }
+        hold_on_kinks(&self.series, &mut self.state);
         if !self.kinks.arrive(end.crossing, &self.series, &mut self.state) {
             return Err(self.system.fault(MotionErrorKind::Sticks, begin, &self.state.values));
         }

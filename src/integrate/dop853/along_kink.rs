@@ -1,0 +1,89 @@
+//! Motion along a kink, as that of a body at rest under dry friction: no size of a step has an error there that its tolerance allows.
+//! The steps are those of the default method, which follows kinks, until the motion leaves.
+//!
+//! In: a state at which the laws on both sides lead towards a kink, or on one where the motion begins. Out: steps, and the first
+//! state beside it. Never here: how a kink is followed (`taylor`), when one is met (`kinks`).
+
+use super::kink_course::KinkCourse;
+use super::{DormandPrince, FIRST};
+use crate::integrate::dense_output::DenseOutput;
+use crate::integrate::method::Settings;
+use crate::integrate::stepper::Stepper;
+use crate::integrate::taylor::Taylor;
+use crate::num::DoubleDouble;
+use crate::system::{MotionError, State};
+
+impl DormandPrince {
+    /// Whether the next step follows a kink. If the motion has left one, steps are its own from here on.
+    pub(super) fn is_along_kink(&mut self) -> bool {
+        if let KinkCourse::Left(taylor) = &self.course {
+            self.size = FIRST * taylor.step_size().abs();
+            self.course = KinkCourse::Away;
+            self.crossings = 0;
+            self.noise.fill(0.0);
+            self.stale = true;
+        }
+        matches!(self.course, KinkCourse::Along(_))
+    }
+
+    /// At the start: follows a kink on which the motion begins.
+    pub(super) fn begin_beside_kinks(&mut self) -> Result<(), MotionError> {
+        self.course = KinkCourse::Away;
+        if !self.system.has_kinks() {
+            return Ok(());
+        }
+        let numbers: Vec<DoubleDouble> =
+            (0..self.state.values.len()).map(|i| self.state.exact(i)).collect();
+        self.exact.evaluate(self.state.exact_time(), &numbers)?;
+        let switches = self.rates.sides().switches();
+        if (0..switches).any(|i| self.exact.switch(i) == 0.0) { self.follow_kink() } else { Ok(()) }
+    }
+
+    /// From here on the motion follows a kink.
+    pub(super) fn follow_kink(&mut self) -> Result<(), MotionError> {
+        let Ok(mut taylor) = Taylor::new(&self.system, &Settings::default()) else {
+            return Ok(());
+        };
+        taylor.start(&self.state, &self.parameters)?;
+        self.course = KinkCourse::Along(Box::new(taylor));
+        Ok(())
+    }
+
+    /// Takes a step of the method that follows kinks.
+    pub(super) fn step_along_kink(&mut self, limit: f64) -> Result<(), MotionError> {
+        let KinkCourse::Along(mut taylor) = std::mem::replace(&mut self.course, KinkCourse::Away)
+        else {
+            return Ok(());
+        };
+        let outcome = taylor.step(limit);
+        if outcome.is_ok() {
+            std::mem::swap(&mut self.before, &mut self.state);
+            self.state.copy_from(taylor.state());
+            self.has_interpolant = false;
+        }
+        self.course = if outcome.is_ok() && taylor.is_beside_kinks() {
+            KinkCourse::Left(taylor)
+        } else {
+            KinkCourse::Along(taylor)
+        };
+        outcome
+    }
+
+    pub(super) fn replace_along_kink(&mut self, state: &State) {
+        if let KinkCourse::Along(taylor) = &mut self.course {
+            taylor.replace_state(state);
+        }
+    }
+
+    /// Writes the state at a time within the last step into `out`, if that step followed a kink.
+    pub(super) fn at_along_kink(
+        &mut self,
+        time: f64,
+        out: &mut State,
+    ) -> Option<Result<(), MotionError>> {
+        match &mut self.course {
+            KinkCourse::Away => None,
+            KinkCourse::Along(taylor) | KinkCourse::Left(taylor) => Some(taylor.at(time, out)),
+        }
+    }
+}
