@@ -554,15 +554,16 @@ fn steps_that_nobody_gave_do_not_depend_on_units() {
     }
 }
 
-/// A start on a kink that a root hides stops a method that does not locate kinks before its first step.
+/// From a start on a kink that a root hides a method that does not locate kinks leaves it as the default method does.
 #[test]
-fn a_start_on_a_hidden_kink_is_reported_with_the_method_that_passes_it() {
+fn a_start_on_a_hidden_kink_is_passed() {
     let text = "[coordinates]\nu = { initial = 0.321, velocity = -0.432 }\nv = { initial = 0, velocity = 0.689 }\n[lagrangian]\n\
                 L = \"0.5*u'^2 + 0.5*v'^2 + 0.581*exp(-v^2) - 1.466*(v^2)^0.5\"\n";
-    let message = fault(by("dop853", None, text), 1.0);
-    assert!(message.contains("at t = 0,") && message.ends_with("taylor passes it"), "{message}");
+    let mut other = by("dop853", None, text);
+    run(&mut other, 1.0);
     let mut taylor = file(text);
     run(&mut taylor, 1.0);
+    assert!((value(&taylor, "v") - value(&other, "v")).abs() < 1e-11, "{}", value(&other, "v"));
     let mut written = file(&text.replace("(v^2)^0.5", "abs(v)"));
     run(&mut written, 1.0);
     assert!((value(&taylor, "v") - value(&written, "v")).abs() < 1e-13);
@@ -735,8 +736,8 @@ fn collisions_and_exponential_growth_reach_no_infinity() {
     }
 }
 
-/// Where the law on both sides of a kink leads to it the motion follows it, which dop853 cannot; after however long a rest it
-/// passes the others.
+/// Where the law on both sides of a kink leads to it the motion follows it, by dop853 as well; after however long a rest it passes
+/// the others.
 #[test]
 fn what_follows_a_kink_is_told_by_the_forces_on_its_sides() {
     let law = |x: f64, force: &str| {
@@ -746,17 +747,13 @@ fn what_follows_a_kink_is_told_by_the_forces_on_its_sides() {
     };
     // x' = −x/2 from where t = ½ (1 − ½t²) on
     let sliding = law(1.0, "-sign(x' + 0.5*x)");
-    let message = fault(by("dop853", None, &sliding), 9.0);
-    assert!(
-        message.contains("the motion sticks") && message.contains("taylor passes it"),
-        "{message}"
-    );
-    let mut exact = file(&sliding);
+    let [mut exact, mut other] = [file(&sliding), by("dop853", None, &sliding)];
     run(&mut exact, 4.0);
+    run(&mut other, 4.0);
     let begin = 6.0_f64.sqrt() - 2.0;
-    assert!((fault_time(&message) - begin).abs() < 1e-6, "{message}");
     let expected = (1.0 - 0.5 * begin * begin) * (-(4.0 - begin) / 2.0).exp();
     assert!((value(&exact, "x") - expected).abs() < 1e-13, "{}", value(&exact, "x"));
+    assert!((value(&other, "x") - expected).abs() < 1e-11, "{}", value(&other, "x"));
     let passing = law(0.0, "-max(0, min(1, t - 1e4))*sign(x - 1)");
     let mut exact = file(&passing);
     let mut other = by("dop853", None, &passing);
