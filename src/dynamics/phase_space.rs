@@ -211,7 +211,7 @@ impl PhaseSpace {
         let passive = self.conservative || self.passive && parameters == self.parameters;
         let has_one_strict_minimum = self.has_one_strict_minimum && parameters == self.parameters;
         let parameters = parameters.to_vec();
-        PhaseSpace { parameters, drive, passive, has_one_strict_minimum, ..self.clone() }
+        PhaseSpace { parameters, passive, drive, has_one_strict_minimum, ..self.clone() }
     }
 
     /// The same space, whose motions are followed until this token is set.
