@@ -2,10 +2,12 @@
 //!
 //! In: nothing. Out: [`Drawn`], which `view` fills in. Never here: cells.
 
+use std::sync::Arc;
+
 use super::Pane;
 
 /// What drawing the screen has determined.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Drawn {
     /// The number of rows of the text page beyond the screen when it is scrolled to its start.
     pub beyond: u16,
@@ -30,7 +32,7 @@ pub struct Drawn {
 }
 
 /// What drawing the panes of the lab has determined.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct DrawnPanes {
     /// Whether there is room for one pane only.
     pub single: bool,
@@ -40,29 +42,24 @@ pub struct DrawnPanes {
     pub in_view: PanesInView,
 }
 
-/// The most panes of which it is remembered that they are in view.
-const MOST: usize = 24;
-
 /// The panes in view, in the order of their places; all of them before anything was drawn.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct PanesInView(Option<[Option<Pane>; MOST]>);
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct PanesInView(Option<Arc<[Pane]>>);
 
 impl PanesInView {
     /// These, in order.
     pub fn of(panes: impl IntoIterator<Item = Pane>) -> Self {
-        let mut all = [None; MOST];
-        all.iter_mut().zip(panes).for_each(|(place, pane)| *place = Some(pane));
-        Self(Some(all))
+        Self(Some(panes.into_iter().collect()))
     }
 
     /// Whether a pane is among them.
-    pub fn has(self, pane: Pane) -> bool {
-        self.0.is_none_or(|all| all.contains(&Some(pane)))
+    pub fn has(&self, pane: Pane) -> bool {
+        self.0.as_ref().is_none_or(|all| all.contains(&pane))
     }
 
     /// All of them, if anything was drawn.
     pub fn iter(&self) -> impl DoubleEndedIterator<Item = Pane> {
-        self.0.iter().flatten().flatten().copied()
+        self.0.iter().flat_map(|all| all.iter()).copied()
     }
 }
 

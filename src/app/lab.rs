@@ -233,12 +233,12 @@ impl Lab {
         // what comes into view may be refined
         self.answers.stale |= drawn.in_view != self.drawn.in_view;
         self.drawn = drawn;
-        if let LawInView::Clipped(beyond) = drawn.law {
+        if let LawInView::Clipped(beyond) = self.drawn.law {
             self.law_scroll = self.law_scroll.min(beyond);
-        } else if drawn.law == LawInView::Whole {
+        } else if self.drawn.law == LawInView::Whole {
             self.law_scroll = 0;
         }
-        if drawn.single && self.focus.untouched {
+        if self.drawn.single && self.focus.untouched {
             self.focus.pane = self.motion().unwrap_or(self.focus.pane);
         }
     }

@@ -117,11 +117,11 @@ impl App {
             Event::Drawn(drawn) => {
                 self.drawn = drawn;
                 self.hold_cursor();
-                if let (Some(panes), Some(lab)) = (drawn.panes, &mut self.lab) {
+                if let (Some(panes), Some(lab)) = (self.drawn.panes.clone(), &mut self.lab) {
                     lab.take_drawn(panes);
                 }
                 self.follow_cursor();
-                self.scroll = drawn.scroll.unwrap_or(self.scroll).min(drawn.beyond);
+                self.scroll = self.drawn.scroll.unwrap_or(self.scroll).min(self.drawn.beyond);
                 Vec::new()
             }
         }

@@ -121,7 +121,7 @@ impl Instrument for ActionPlot {
         let letter = self.0.letter();
         let what = format!("{letter} of paths beside this motion that have the same ends");
         match (nothing_yet(present), computed(answer).map(|known| &known.outcome)) {
-            (Some(why), _) => Some(format!("{what}: {why}.{}", present.to_begin())),
+            (Some(why), _) => Some(format!("{what}: {why}.{}", present.how_to_begin())),
             (None, None) => Some(format!("{what}. It is being computed.")),
             (None, Some(Err(why))) => Some(why.clone()),
             (None, Some(Ok(_))) => None,

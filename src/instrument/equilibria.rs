@@ -348,7 +348,7 @@ mod tests {
         ] {
             assert_eq!(part_of_pi(x).as_deref(), Some(shown));
         }
-        for x in [0.0, 1.0, 3.14159, PI + 1e-6, 100.0 * PI, PI / 5.0, f64::NAN, f64::INFINITY] {
+        for x in [0.0, 1.0, 3.1, PI + 1e-6, 100.0 * PI, PI / 5.0, f64::NAN, f64::INFINITY] {
             assert_eq!(part_of_pi(x), None, "{x}");
         }
     }

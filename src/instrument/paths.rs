@@ -106,7 +106,7 @@ impl Instrument for PathsPlot {
     fn awaits(&self, PlotContext { present, answer, .. }: PlotContext<'_>) -> Option<String> {
         let what = "All true paths from where the motion began to where it is, in the same time";
         match (nothing_yet(present), computed(answer).map(|known| &known.outcome)) {
-            (Some(why), _) => Some(format!("{what}: {why}.{}", present.to_begin())),
+            (Some(why), _) => Some(format!("{what}: {why}.{}", present.how_to_begin())),
             (None, None) => Some(format!("{what}. They are being computed.")),
             (None, Some(Err(why))) => Some(why.clone()),
             (None, Some(Ok(_))) => None,

@@ -104,7 +104,7 @@ impl<'a> Physics<'a> {
 
 impl Present<'_> {
     /// The key that starts the motion, after a sentence, where time is not running.
-    pub(super) fn to_begin(&self) -> &'static str {
+    pub(super) fn how_to_begin(&self) -> &'static str {
         if self.running { "" } else { " Space starts the motion." }
     }
 

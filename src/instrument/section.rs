@@ -137,7 +137,7 @@ impl Instrument for SectionPlot {
         if own > 0 || orbits || !present.separations.is_empty() || !present.equilibria.is_empty() {
             return None;
         }
-        let begin = present.to_begin();
+        let begin = present.how_to_begin();
         let (on, of) = (surface(present.physics, view), crossing(present.physics, view));
         Some(format!(
             "A dot for each {of} ({on}); none so far.{begin} n adds orbits, G fills the section with them."

@@ -116,8 +116,9 @@ impl ScriptRunner {
         let area = Rect::from(self.size);
         let mut buffer = Buffer::empty(area);
         let drawn = self.paint(&mut Painter::default(), &style, area, &mut buffer);
+        let reading = drawn.reading;
         self.lab.happen(Event::Drawn(drawn));
-        drawn.reading
+        reading
     }
 
     /// What lies under a position of the screen as it was last drawn.

@@ -357,7 +357,7 @@ impl ScriptRunner {
         let mut painter = std::mem::take(&mut self.painter);
         let drawn = self.paint(&mut painter, style, area, buffer);
         self.painter = painter;
-        self.lab.happen(Event::Drawn(drawn));
+        self.lab.happen(Event::Drawn(drawn.clone()));
         drawn
     }
 

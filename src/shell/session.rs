@@ -373,8 +373,9 @@ impl Screen for Session {
         {
             self.give_up_recording(&why);
         }
+        let cursor = drawn.cursor;
         self.update(Event::Drawn(drawn));
-        drawn.cursor.map(Position::from)
+        cursor.map(Position::from)
     }
 
     fn is_typing(&self) -> bool {

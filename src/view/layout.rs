@@ -126,7 +126,7 @@ fn square(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
     let below = wanted.clamp(area.height / 3, area.height * 9 / 20);
     let (above, below) = split_rows(area, area.height - below);
     let (left, right) = split_columns(below, below.width / 2);
-    let line = if area.height < WITH_LAW { 0 } else { 1 };
+    let line = u16::from(area.height >= WITH_LAW);
     let (above, law) = split_rows(above, above.height - line);
     let mut slots = side_by_side(above, &chosen(lab, 2));
     if line > 0 {

@@ -206,7 +206,7 @@ fn the_cursor_stays_at_its_coordinates_while_the_axes_change() {
     assert!(real.lab().has_cursor());
     let seen = |real: &mut Real| {
         let (buffer, shown) = drawn(&real.app, &rich(), size);
-        real.app.update(Event::Drawn(shown));
+        real.app.update(Event::Drawn(shown.clone()));
         let mark = find(&buffer, "┼").expect("the cursor is drawn");
         (mark, shown.reading.expect("it is read"))
     };
@@ -412,7 +412,7 @@ fn keys_zoom_a_plot_about_the_moving_point_or_the_cursor() {
     assert_eq!(now.len(), 1);
     let draw = |real: &mut Real| {
         let drawn = super::drawn(&real.app, &rich(), (120, 40)).1;
-        real.app.update(Event::Drawn(drawn));
+        real.app.update(Event::Drawn(drawn.clone()));
         drawn
     };
     for _ in 0..5 {

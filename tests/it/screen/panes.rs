@@ -97,8 +97,8 @@ fn the_law_of_motion_scrolls_where_it_is_clipped() {
         press(&mut app, keys);
         assert_eq!(app.lab.as_ref().unwrap().focus.pane, Pane::Law, "{size:?}");
         let (buffer, drawn) = super::drawn(&app, &rich(), size);
-        app.update(Event::Drawn(drawn));
-        let Some(LawInView::Clipped(beyond)) = drawn.panes.map(|panes| panes.law) else {
+        app.update(Event::Drawn(drawn.clone()));
+        let Some(LawInView::Clipped(beyond)) = drawn.panes.as_ref().map(|panes| panes.law) else {
             panic!("{size:?}: {drawn:?}")
         };
         assert!(find(&buffer, &format!("+{beyond} ↓")).is_some(), "{size:?} {:#?}", rows(&buffer));

@@ -122,7 +122,7 @@ fn the_cursor_stands_at_the_line_that_is_read() {
         let mut lines = Vec::new();
         for _ in 0..400 {
             let (buffer, seen) = drawn(&app, &rich(), size);
-            app.update(Event::Drawn(seen));
+            app.update(Event::Drawn(seen.clone()));
             let (x, y) = seen.cursor.expect("a cursor");
             let line: String = (x..size.0).map(|x| buffer[(x, y)].symbol()).collect();
             lines.push((app.reading.line, line.trim_matches(['│', ' ']).to_owned()));
