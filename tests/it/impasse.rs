@@ -747,7 +747,7 @@ fn what_follows_a_kink_is_told_by_the_forces_on_its_sides() {
     };
     // x' = −x/2 from where t = ½ (1 − ½t²) on
     let sliding = law(1.0, "-sign(x' + 0.5*x)");
-    let [mut exact, mut other] = [file(&sliding), by("dop853", None, &sliding)];
+    let (mut exact, mut other) = (file(&sliding), by("dop853", None, &sliding));
     run(&mut exact, 4.0);
     run(&mut other, 4.0);
     let begin = 6.0_f64.sqrt() - 2.0;

@@ -411,7 +411,7 @@ fn reasons_are_in_full_where_there_is_room() {
                 .iter()
                 .map(|row| {
                     row.chars()
-                        .skip(size.0 as usize - LISTS_COLUMN[(size.0 == 200) as usize])
+                        .skip(size.0 as usize - LISTS_COLUMN[usize::from(size.0 == 200)])
                         .collect()
                 })
                 .collect();

@@ -93,7 +93,7 @@ fn a_key_turns_the_tabs_of_a_frame_through_all_panes_that_are_hidden() {
             lab.focus.pane = Pane::Plot(0);
         }
         let mut seen = Vec::new();
-        for _ in 0..pictures + 1 {
+        for _ in 0..=pictures {
             real.press("\\");
             let buffer = look(&mut real, &rich(), size);
             let pane = real.lab().focus.pane;
@@ -111,7 +111,7 @@ fn a_key_turns_the_tabs_of_a_frame_through_all_panes_that_are_hidden() {
             .collect();
         panes.sort_unstable();
         panes.dedup();
-        let beside = if size.0 == 70 { 0 } else { 1 };
+        let beside = usize::from(size.0 != 70);
         assert!(panes.len() > 1 && panes.len() + beside <= pictures, "{name} {size:?}: {panes:?}");
     }
     // where every pane has a frame of its own there is nothing to turn, and it is said

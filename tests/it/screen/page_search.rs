@@ -27,7 +27,7 @@ fn a_page_of_text_is_searched() {
     assert!(x > 60 && y == 2, "{x} {y}");
     let marked = |buffer: &ratatui::buffer::Buffer| {
         let cells = buffer.content.iter().filter(|c| c.modifier.contains(Modifier::REVERSED));
-        cells.map(|cell| cell.symbol()).collect::<String>()
+        cells.map(ratatui::buffer::Cell::symbol).collect::<String>()
     };
     assert!(marked(&buffer).to_lowercase().contains("separatrix"), "{}", marked(&buffer));
     // n types a letter until Enter ends the typing
