@@ -69,6 +69,8 @@ impl ObservedMotion {
         if self.inner.method().stepping != Stepping::Fixed {
             return 0;
         }
+        // what waits was before
+        self.watch.record_gathered(gauges);
         let time = time.min(self.watch.next);
         let mut left = budget;
         while left > 0 && !self.watch.pending && self.inner.computed().time < time {
@@ -108,6 +110,7 @@ impl ObservedMotion {
             }
             if due {
                 self.observe_step(gauges, spacing, true);
+                self.watch.record_gathered(gauges);
             }
             self.log_step();
         }
