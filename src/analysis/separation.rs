@@ -172,7 +172,7 @@ mod tests {
         for k in 0..=400 {
             let t = f64::from(k) * 0.01;
             let d = 1e-9 * math::exp(0.5 * t * t);
-            separation.add(t, &[t], &[t + d], &[None]);
+            separation.add(t, &[1.0 + t], &[1.0 + t + d], &[None]);
         }
         let slope = separation.slope().expect("a slope");
         assert!((slope.rate - 2.0).abs() < 0.02, "{slope:?}");

@@ -16,6 +16,7 @@ Examples:
   phaselab completions zsh > ~/.zfunc/_phaselab      with ~/.zfunc in $fpath
   phaselab completions fish > ~/.config/fish/completions/phaselab.fish")]
 pub(super) struct Arguments {
+    /// The shell.
     #[arg(value_enum, value_name = "SHELL")]
     shell: Shell,
 }

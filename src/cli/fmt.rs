@@ -20,6 +20,7 @@ Examples:
   phaselab fmt my/system.toml            the file in plain form
   phaselab fmt --write my/*.toml         the files themselves")]
 pub(super) struct Arguments {
+    /// The files.
     #[arg(value_name = "FILE", required = true)]
     files: Vec<PathBuf>,
     /// Write the files themselves.
