@@ -3,7 +3,7 @@
 
 use std::time::Duration;
 
-use phaselab::app::{App, Asker, Effect, Event, Page};
+use phaselab::app::{App, Asker, Computation, Effect, Event, Page};
 use phaselab::experiment::{Command, Gauge};
 use phaselab::job::Progress;
 
@@ -141,21 +141,27 @@ fn another_value_of_a_parameter_is_another_question() {
     assert!(summary(&real.app).starts_with("integrable: 2 invariants in involution"));
 }
 
+/// The searches for constants that these keys begin.
+fn searches(app: &mut App, keys: &str) -> Vec<Computation> {
+    let computed = press(app, keys).into_iter().filter_map(|effect| match effect {
+        Effect::Compute(computation) => Some(computation),
+        _ => None,
+    });
+    computed.filter(|computation| computation.asker == Asker::Search).collect()
+}
+
 #[test]
 fn the_search_is_a_job_with_a_budget_that_can_be_stopped() {
     let mut app = lab("henon-heiles", 0.0);
     app.jobs.in_background = true;
-    let effects = press(&mut app, "2");
-    let [Effect::Compute(computation)] = &effects[..] else { panic!("{effects:?}") };
-    assert_eq!(computation.asker, Asker::Search);
+    let [computation] = &searches(&mut app, "2")[..] else { panic!("one search") };
     assert_eq!(computation.job.budget, Some(Duration::from_secs(1)));
     let stopped = press(&mut app, "Esc");
     assert_eq!(stopped, [Effect::StopComputing(Asker::Search)]);
     assert_eq!(app.page, Page::Equations);
     // it is not begun again by itself, and I begins it
-    assert!(press(&mut app, "1 2").is_empty());
-    let again = press(&mut app, "I");
-    let [Effect::Compute(computation)] = &again[..] else { panic!("{again:?}") };
+    assert!(searches(&mut app, "1 2").is_empty());
+    let [computation] = &searches(&mut app, "I")[..] else { panic!("one search") };
     // a job whose budget is spent ends with what it has, and claims nothing beyond
     let progress = Progress::new();
     progress.spend();

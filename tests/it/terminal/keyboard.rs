@@ -60,7 +60,7 @@ fn where_it_is_known_shift_enter_is_a_key_of_its_own() {
     for shift_enter in ["\x1b[13;2u", "\x1b[27;2;13~"] {
         let mut lab = known();
         // the cursor of the phase plane, and a motion added there
-        lab.press("\t\t\t\t");
+        lab.press("\t\t\t\t\t");
         lab.shows("cursor");
         lab.press("c");
         // what the key does next
