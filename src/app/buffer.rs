@@ -83,7 +83,7 @@ pub struct Unsaved {
     /// The file it is saved to.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub place: Option<PathBuf>,
-    /// With what has not been saved.
+    /// The text, with the changes that have not been saved.
     pub text: String,
     /// The file's text on which it is based.
     pub of: String,

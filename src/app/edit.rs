@@ -434,7 +434,10 @@ impl App {
                     return Vec::new();
                 }
                 let Some(buffer) = self.buffer() else { return Vec::new() };
-                buffer.is_wrong(&diagnostics);
+                // behind the text stand the quantities typed for axes
+                let mut within = diagnostics;
+                within.retain(|one| one.place.start <= own.len());
+                buffer.is_wrong(&within);
                 if mends {
                     buffer.step_to_first();
                 }

@@ -13,7 +13,7 @@ const LISTS: [(&str, Pane); 4] = [
 ];
 
 impl Lab {
-    /// The pane that Tab leads to, or Shift-Tab: among those in view, in the order of their places. A pane alone is followed by all.
+    /// The pane that Tab leads to, or Shift-Tab: among those in view, in the order of their places. Where one pane is in view, it leads through all.
     pub(super) fn pane_beside(&self, forwards: bool) -> Pane {
         let all: Vec<Pane> = self.panes().collect();
         let seen: Vec<Pane> = self.drawn.in_view.iter().filter(|pane| all.contains(pane)).collect();

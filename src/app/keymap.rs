@@ -285,7 +285,7 @@ pub const KEYS: &[Binding] = &[
 
     row(Place::Lab, &[TAB], Action::NextPane, "pane", "focus the next pane in view"),
     row(Place::Lab, &[BACKTAB], Action::PreviousPane, "", "focus the previous pane in view"),
-    row(Place::Lab, &[c('\\')], Action::NextTab, "tabs", "turn the tabs: show the next of the panes that share a frame"),
+    row(Place::Lab, &[c('\\')], Action::NextTab, "tabs", "show the next tab: the next of the panes that share a frame"),
     row(Place::Lab, &[c('/')], Action::Palette, "", "search all actions by name, as : does"),
     row(Place::Lab, &[c('b')], Action::ApplyImpulse, "impulse", "apply an impulse that waits for a key"),
     row(Place::Lab, &[c('f')], Action::NextFrame, "frame", "view the motion in space in the next reference frame of the file, or in the original one again"),
@@ -368,8 +368,8 @@ pub const KEYS: &[Binding] = &[
     row(Place::Text, &[END, c('G')], Action::Last, "", "to the end"),
 
     row(Place::Text, &[c('/')], Action::Search, "search", "search the text, or the keys in this help; a capital letter matches itself only"),
-    row(Place::Text, &[c('n')], Action::NextMatch, "", "the next match in the text"),
-    row(Place::Text, &[c('N')], Action::PreviousMatch, "", "the previous match in the text"),
+    row(Place::Text, &[c('n')], Action::NextMatch, "", "the next match in a page of text"),
+    row(Place::Text, &[c('N')], Action::PreviousMatch, "", "the previous match in a page of text"),
 
     row(Place::HelpSearch, &[UP], Action::Move(ArrowDirection::Up), "", "a line up"),
     row(Place::HelpSearch, &[DOWN], Action::Move(ArrowDirection::Down), "scroll", "a line down"),

@@ -220,7 +220,7 @@ impl Lab {
         self.searches.tick(elapsed);
     }
 
-    /// Returns the panes in Tab order.
+    /// Returns all panes that can be focused, in view or not: pictures, the law, lists.
     pub fn panes(&self) -> impl DoubleEndedIterator<Item = Pane> + Clone {
         let lists = [Pane::Parameters, Pane::Initial, Pane::Gauges];
         let clipped = self.drawn.law != LawInView::Whole || self.focus.pane == Pane::Law;

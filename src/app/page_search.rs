@@ -13,6 +13,8 @@ pub struct PageSearch {
     pub typing: bool,
     /// Which of the matches is meant, counted from the first.
     pub place: usize,
+    /// The first row that was in view before it.
+    pub from: u16,
     /// Whether that match is to be in view: until the page is scrolled.
     pub seeks: bool,
 }

@@ -54,7 +54,7 @@ impl App {
                 if let Some(Overlay::Help { search, typing, .. }) = &mut self.overlay {
                     search.get_or_insert_default();
                     *typing = true;
-                } else if self.page != Page::Picker {
+                } else if self.page != Page::Picker || self.overlay.is_some() {
                     return self.search_page();
                 } else {
                     self.picker.search(|_| ());
@@ -161,7 +161,7 @@ impl App {
                     lab.focus.pane = pane;
                     Vec::new()
                 }
-                None => self.notify("Every pane is in view: there are no tabs."),
+                None => self.notify("There are no tabs here."),
             },
             Action::Zoom => {
                 lab.focus.zoomed = !lab.focus.zoomed;

@@ -27,7 +27,8 @@ impl App {
         if !self.is_on_text() || self.overlay.is_some() {
             return self.notify("There is nothing to search here.");
         }
-        self.page_search = Some(PageSearch { typing: true, ..PageSearch::default() });
+        self.page_search =
+            Some(PageSearch { typing: true, from: self.scroll, ..PageSearch::default() });
         Vec::new()
     }
 
@@ -35,7 +36,13 @@ impl App {
     pub(super) fn next_match(&mut self, forwards: bool) -> Vec<Effect> {
         let count = self.drawn.matches;
         if self.search_of_page().is_none() {
-            return self.notify("/ searches the text first.");
+            let here = self.overlay.is_none() && self.is_on_text();
+            let sentence = if here {
+                "/ searches the text first."
+            } else {
+                "There are no matches to go to here."
+            };
+            return self.notify(sentence);
         }
         if let Some(search) = self.page_search.as_mut().filter(|_| count > 0) {
             let by = if forwards { 1 } else { count - 1 };
@@ -44,9 +51,13 @@ impl App {
         Vec::new()
     }
 
-    /// Ends the search. Returns whether there was one.
+    /// Ends the search, and returns to where it began if its words are still being typed. Returns whether there was one.
     pub(super) fn end_page_search(&mut self) -> bool {
         let shown = self.search_of_page().is_some();
-        self.page_search.take_if(|_| shown).is_some()
+        let ended = self.page_search.take_if(|_| shown);
+        if let Some(search) = ended.as_ref().filter(|search| search.typing) {
+            self.scroll = search.from;
+        }
+        ended.is_some()
     }
 }

@@ -120,10 +120,10 @@ impl App {
             )));
         }
         self.remind();
-        // The motion belongs to the unsaved text, and waits until that is checked;
+        // the motion belongs to the unsaved text, and waits until that is checked
         let has_typed = !saved.typed.is_empty();
         let waits = saved.edited && self.wake() || has_typed && self.check_again().is_ok();
-        // so do pictures with axes that were typed
+        // pictures with axes that were typed wait as well
         self.awaited.view = Some(saved).filter(|_| waits && has_typed);
         if waits { Vec::new() } else { self.restore() }
     }

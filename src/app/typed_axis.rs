@@ -61,11 +61,14 @@ impl App {
         let Some(lab) = self.lab.as_mut().filter(|lab| !lab.typed.is_empty()) else { return false };
         let is_error = |one: &&Diagnostic| one.severity == Severity::Error;
         let errors = || diagnostics.iter().filter(is_error);
-        if !errors().all(|error| error.place.start >= length) {
+        if !errors().all(|error| error.place.start > length) {
             return false;
         }
         let names: Vec<String> = lab.typed.drain(..).map(|one| one.name).collect();
-        let sentence = format!("The axis {} does not fit this text.", names.join(", "));
+        let sentence = format!(
+            "The text no longer has what the axis {} is made of; it was removed.",
+            names.join(", ")
+        );
         self.notifications.show(Notification::error(sentence));
         self.check_again().is_ok()
     }

@@ -12,7 +12,7 @@ use crate::diagnostic::{Diagnostic, SourceRange};
 use crate::expr::Symbol;
 use crate::integrate::{self, Occurrence, Reached, Settings, method_named};
 use crate::mechanics::Equations;
-use crate::model::{ExpectedValue, Model};
+use crate::model::{ExpectedEvent, ExpectedValue, Model};
 use crate::system::{ChannelKind, MotionError, MotionErrorKind, Observer, State, System};
 
 /// The assumed relative error of the values of a motion where a rate is evaluated.
@@ -255,8 +255,10 @@ impl<'a> ClaimedMotion<'a> {
         let schedule = look::schedule(model, end, &sizes, !claims.is_empty());
         let last = schedule.last().map_or(end, |(time, _)| *time);
         let last = model.expect.counts.iter().map(|count| count.until).fold(last, f64::max);
-        let later = |at: f64| at + LATER * (at - start);
-        let last = model.expect.events.iter().map(|event| later(event.at)).fold(last, f64::max);
+        let later = |event: &ExpectedEvent| {
+            event.at + (LATER * (event.at - start)).max(tolerated_delay(event, start))
+        };
+        let last = model.expect.events.iter().map(later).fold(last, f64::max);
         for (k, &(time, look)) in schedule.iter().enumerate() {
             if let (true, Look::Value(i)) = (time < start, look) {
                 let message = format!("the motion begins at {start}; {time} is before it");

@@ -10,10 +10,10 @@ use crate::model::{ExpectedEvent, ExpectedValue, Model};
 /// The tolerated error of an expected number, relative to the largest size of its terms until then.
 const TOLERANCE: f64 = 1e-10;
 
-/// The looks between the start and the last time at which a value is expected, …
+/// How often the motion is looked at between the start and the last time at which a value is expected.
 const LOOKS: u32 = 64;
 
-/// … at this part of each interval between them.
+/// Where in each interval between two looks it is looked at.
 const PLACE: f64 = 0.618;
 
 /// The largest size of the terms of each expected quantity.

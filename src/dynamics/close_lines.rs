@@ -11,10 +11,10 @@ use nalgebra::Complex;
 
 use crate::num::math;
 
-/// The means are taken over this part of the time, …
+/// Each mean is taken over this part of the time.
 const PART: f64 = 0.5;
 
-/// … which begins this part of it later each time.
+/// Each mean begins this part of the time later than the one before.
 const LATER: f64 = 1.0 / 6.0;
 
 /// α and β of lines lie on the unit circle to this.
@@ -70,7 +70,9 @@ fn apart(signal: &[f64], spacing: f64, frequency: f64) -> Option<f64> {
         return None;
     }
     let between = alpha * beta.conj();
-    Some(math::atan2(between.im, between.re).abs() / interval).filter(|apart| *apart > 0.0)
+    // what grows like the time has both in one place
+    let turned = math::atan2(between.im, between.re).abs();
+    (turned > LINES).then_some(turned / interval)
 }
 
 #[cfg(test)]
@@ -94,6 +96,14 @@ mod tests {
                 assert!((apart / turns - 1.0).abs() < 1e-3, "{amplitude}, {turns}: {apart}");
             }
         }
+    }
+
+    /// t sin t, as an oscillator has at resonance, is no sum of two lines.
+    #[test]
+    fn what_grows_like_the_time_is_not_two_lines() {
+        let at = |t: f64| (1.0 + 0.05 * t) * math::sin_cos(t).0;
+        let signal: Vec<f64> = (0..4000).map(|k| at(0.25 * f64::from(k))).collect();
+        assert_eq!(CloseLines::of(&signal, 0.25, 1.0), None);
     }
 
     #[test]

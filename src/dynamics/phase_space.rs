@@ -369,7 +369,7 @@ fn refuse(system: &System) -> Result<(), DynamicsError> {
              derivatives of the motion are not computed",
         );
     }
-    if system.has_steps_in_time() {
+    if system.momenta_jump() {
         return unsuited(
             "L has a step in time in its momenta, where velocities jump, and derivatives of such motions are not computed: write H",
         );

@@ -70,7 +70,7 @@ pub struct Changed {
 /// Where a motion is, to the last bit, by names.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct MotionState {
-    /// Without what rounding cut off from it.
+    /// The time, without what rounding cut off from it.
     pub time: f64,
     /// The rounding error carried with the time.
     pub time_carry: f64,

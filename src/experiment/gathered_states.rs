@@ -7,7 +7,7 @@ use super::gauges::Gauges;
 use crate::num::{Analytic, BATCH, Batch};
 use crate::system::{BatchTerms, Form, State, TermWatch};
 
-/// As many states are evaluated together in less time than one by one.
+/// From this many states on, evaluating them together takes less time than one by one.
 const FEWEST: usize = 3;
 
 /// When a state was observed.

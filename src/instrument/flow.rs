@@ -112,7 +112,7 @@ impl Instrument for FlowPlot {
     fn awaits(&self, PlotContext { answer, .. }: PlotContext<'_>) -> Option<String> {
         match followed(answer).map(|known| &known.outcome) {
             None => Some(
-                "M, the derivative of the motion by its initial state, against time: how far M J Mᵀ is \
+                "M, the derivative of the state with respect to the initial one, against time: how far M J Mᵀ is \
                  from J, or det M. It is being computed."
                     .to_owned(),
             ),

@@ -37,7 +37,7 @@ pub struct Plot {
 /// What a plot is drawn from.
 #[derive(Clone, Copy)]
 pub struct PlotContext<'a> {
-    /// What is chosen for its axes.
+    /// The plot, with the channels chosen for its axes.
     pub plot: &'a Plot,
     /// The current state of the motion.
     pub present: &'a Present<'a>,
@@ -235,7 +235,7 @@ pub enum MotionCurve {
 /// An axis of a kind: a key of files and sessions, and a step of the choice.
 #[derive(Clone, Copy, Debug)]
 pub struct Axis {
-    /// As in files and sessions.
+    /// Its key in files and sessions.
     pub key: &'static str,
     /// The heading of the list of choices.
     pub heading: &'static str,
@@ -296,7 +296,7 @@ pub enum NoStart {
 
 /// A number of a plot that a script can assert: `Assert KIND.WORD > 2`.
 pub struct Measure {
-    /// As in scripts: `KIND.WORD`.
+    /// Its word in scripts: `KIND.WORD`.
     pub word: &'static str,
     /// A description on one line.
     pub about: &'static str,

@@ -28,7 +28,7 @@ pub struct Physics<'a> {
 pub struct Present<'a> {
     /// The system.
     pub physics: Physics<'a>,
-    /// When all of this is so.
+    /// The time at which all of this holds.
     pub time: f64,
     /// Whether time is running: where it is not, what is carried along beside the motion is wanted at this very time.
     pub running: bool,

@@ -38,7 +38,7 @@ const ORBITS: Level = 1;
 const OWN: Level = 2;
 const NOW: Level = 3;
 
-/// The colours of single orbits: none of the running motion's, and none that is like that of chaotic ones.
+/// The colours of regular orbits, in turn: none of the running motion's, and none that is like that of chaotic ones.
 const SINGLE: [usize; 5] = [2, 3, 4, 5, 6];
 
 /// The row.
@@ -99,7 +99,7 @@ impl Instrument for SectionPlot {
         let titled = plot.title(present.physics).is_some_and(|title| title.contains(&zero));
         let on = if titled { words.split(", ").nth(1) } else { Some(words.as_str()) };
         let is_portrait = present.physics.equations.energy_rate == Expr::ZERO && !by_chaos(plot);
-        let coloured = is_portrait.then(|| "each colour one orbit".to_owned());
+        let coloured = is_portrait.then(|| "regular orbits in several colours".to_owned());
         let on = on.map(str::to_owned);
         // where there is little room the first are shown
         let entries = rotation.into_iter().chain(on).chain(coloured);

@@ -311,7 +311,10 @@ fn sentences(physics: Physics<'_>, answer: Option<&Answer>) -> Vec<String> {
     }
     if let Some(close) = &lines.close {
         let (at, apart) = (brief(close.frequency), brief(close.apart));
-        all.insert(second, format!("two lines around {at}, {apart} apart, are not told apart"));
+        all.insert(
+            second,
+            format!("two lines around {at}, {apart} apart, cannot be told apart in this time"),
+        );
     } else if lines.is_continuous() && lines.turns.is_none() {
         all.insert(0, format!("no sum of lines: they leave {:.0} %", 100.0 * lines.part_left()));
     }

@@ -76,9 +76,9 @@ pub struct Propagator {
     /// The last impulse, and the event that caused it.
     impulse: Option<(usize, Option<usize>)>,
     steps: u64,
-    /// The time at which the last step ended, where velocities may jump, …
+    /// The time at which the last step ended, where velocities may jump.
     awaited_step: Option<DoubleDouble>,
-    /// … and the state just after the last instant at which they did.
+    /// The state just after the last instant at which velocities jumped.
     crossed: Option<State>,
 }
 

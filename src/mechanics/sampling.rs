@@ -84,7 +84,7 @@ impl Valuation {
         Valuation::around_start(model, equations, n, (n / count, FAR[(n % count) as usize]))
     }
 
-    /// The n-th point at any distance from the start: first those [far from it](Valuation::far_from_start), which are close
+    /// The n-th point at any distance from the start: first those far from it, which are close
     /// enough to each other to see what is there alone, then others by powers of ten.
     pub fn at_any_distance(model: &Model, equations: &Equations, n: u64) -> Valuation {
         let Some(n) = n.checked_sub(FAR_POINTS) else {

@@ -67,7 +67,7 @@ pub struct NamedRamp {
 /// How far a part of a ramp is.
 #[derive(Clone, Copy, Debug)]
 pub struct RampProgress {
-    /// By which the function has it.
+    /// The symbol by which the function contains it.
     pub symbol: Symbol,
     /// When the part begins, and when it ends.
     pub times: [Expr; 2],

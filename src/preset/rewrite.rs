@@ -30,7 +30,7 @@ pub struct Rewrite {
 /// The initial value of a coordinate or variable.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Beginning {
-    /// Of the coordinate or variable.
+    /// The name of the coordinate or variable.
     pub name: String,
     /// Where it begins.
     pub value: f64,

@@ -26,7 +26,7 @@ impl LessonView {
         let app = &host.app;
         let page_scrolls = app.page != Page::Lab;
         let looks = match key.code {
-            KeyCode::Tab | KeyCode::BackTab | KeyCode::Char('1'..='4' | '9') => true,
+            KeyCode::Tab | KeyCode::BackTab | KeyCode::Char('\\' | '1'..='4' | '9') => true,
             KeyCode::PageUp | KeyCode::PageDown => page_scrolls,
             _ => false,
         };

@@ -11,7 +11,7 @@ use crate::printable;
 /// Why the laboratory could not be opened, or not be left cleanly.
 #[derive(Debug, thiserror::Error)]
 pub enum LabError {
-    /// The terminal does not do what is asked of it.
+    /// There is no terminal that can be used.
     #[error(transparent)]
     TerminalError(#[from] TerminalError),
     /// There is no such preset or file.

@@ -203,7 +203,7 @@ impl FromStr for LogTarget {
 /// The description of one option.
 #[derive(Debug)]
 pub struct OptionRow {
-    /// By which it is typed.
+    /// The name by which it is typed.
     pub name: String,
     /// Its purpose, as a sentence.
     pub about: String,

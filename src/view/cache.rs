@@ -31,7 +31,7 @@ pub(super) struct FrameCache {
     trails: Vec<CachedEntry<TrailKey, DrawnTrail>>,
     levels: Vec<CachedEntry<LevelsKey, Raster>>,
     lines: Vec<CachedEntry<LinesKey, Raster>>,
-    /// Of a pane, and of its first line.
+    /// The law as laid out for a pane, and for its first line alone.
     law: Vec<(LawKey, Vec<Row>)>,
     /// How many rows of trails have been stroked.
     stroked: u64,

@@ -135,7 +135,7 @@ impl Canvas<'_> {
 
     /// Says in the lower border of a frame how many of its rows are out of sight.
     pub(super) fn out_of_sight(&mut self, frame: Rect, above: usize, below: usize) {
-        if above + below == 0 || frame.width < 16 {
+        if above + below == 0 || frame.width < 16 || frame.height == 0 {
             return;
         }
         let glyphs = self.style.glyphs;

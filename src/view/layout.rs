@@ -44,9 +44,9 @@ impl ScreenLayout {
 pub(super) enum Slot {
     /// A pane that can be focused.
     Pane(Pane),
-    /// The parameters or, while they are focused, the initial values; both titles are in the frame.
+    /// The parameters or, while they are focused, the initial values or the law; all titles are in the frame.
     Values(Pane),
-    /// One of the three lists; all titles are in the frame.
+    /// One of the three lists, or the law; all titles are in the frame.
     Lists(Pane),
     /// The law of motion, if there is room to spare.
     Law,

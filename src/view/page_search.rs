@@ -18,11 +18,11 @@ fn folded(text: &str, words: &str) -> Vec<char> {
 
 /// Where some words stand in a row: the places of their first letters, counted in letters.
 fn places(line: &[Span], words: &str) -> Vec<usize> {
-    let text: String = line.iter().map(|(text, _)| text.as_str()).collect();
-    let (text, sought) = (folded(&text, words), folded(words, words));
-    if sought.is_empty() {
+    if words.is_empty() {
         return Vec::new();
     }
+    let text: String = line.iter().map(|(text, _)| text.as_str()).collect();
+    let (text, sought) = (folded(&text, words), folded(words, words));
     text.windows(sought.len()).enumerate().filter(|(_, w)| *w == sought).map(|(at, _)| at).collect()
 }
 
@@ -43,12 +43,15 @@ pub(super) fn mark(canvas: &mut Canvas<'_>, at: Rect, line: &[Span], words: &str
     }
 }
 
+/// The columns kept for the number of matches.
+const COUNT: u16 = 12;
+
 /// Draws the line of the search in the first row of an area, with the number of matches, and returns the words.
 pub(super) fn line(canvas: &mut Canvas<'_>, area: Rect, search: &PageSearch) -> String {
     let field = columns(row(area, 0), 1, area.width.saturating_sub(2));
     let used = canvas.left(field, Role::Accent, "/ ");
     let place = columns(field, used, field.width);
-    let room = usize::from(place.width.saturating_sub(1));
+    let room = usize::from(place.width.saturating_sub(1 + COUNT));
     let skipped = search.input.visual_scroll(room);
     let text: String = search.input.value().chars().skip(skipped).take(room).collect();
     canvas.left(place, Role::Text, &text);

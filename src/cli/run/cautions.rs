@@ -47,8 +47,13 @@ fn where_velocities_are_kept(system: &System, method: &Method) -> String {
         let stepper = (method.make)(system, &Settings::default());
         stepper.is_ok_and(|stepper| stepper.form() == Form::Velocity)
     };
-    if method.locates_kinks || !works_in_velocities(method) {
+    if !works_in_velocities(method) || method.locates_kinks && system.keeps_momenta_at_steps() {
         return String::new();
+    }
+    if !system.keeps_momenta_at_steps() {
+        return ": beside impulses and releases the motion keeps the velocities; make the step a steep slope, as with tanh, or \
+                write H"
+            .to_owned();
     }
     let others = METHODS.iter().filter(|m| m.locates_kinks || m.preserves.is_symplectic());
     let others: Vec<&str> =

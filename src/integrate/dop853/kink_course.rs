@@ -7,9 +7,9 @@ use crate::integrate::taylor::Taylor;
 /// Where the motion is beside the kinks of its law.
 #[derive(Debug)]
 pub(super) enum KinkCourse {
-    /// On none.
+    /// The motion is on no kink.
     Away,
-    /// On one.
+    /// The motion is on a kink.
     Along(Box<Taylor>),
     /// On none since the end of the last step, which belongs to the other method still.
     Left(Box<Taylor>),

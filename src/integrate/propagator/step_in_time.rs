@@ -14,7 +14,7 @@ impl Propagator {
     /// Notes that the last step may have ended where the momenta have a step in time.
     pub(super) fn note_step_in_time(&mut self) {
         let state = self.stepper.state();
-        if self.system.has_steps_in_time()
+        if self.system.keeps_momenta_at_steps()
             && self.method.locates_kinks
             && state.form == Form::Velocity
         {

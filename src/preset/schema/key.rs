@@ -40,7 +40,7 @@ pub(in crate::preset) struct Key {
 #[derive(Clone, Copy, Debug)]
 pub(in crate::preset) enum Only {
     All,
-    /// Those of these kinds.
+    /// Only entries of these kinds.
     Of(&'static [&'static str]),
     /// The views whose kind of plot has this property.
     Plots(fn(&dyn Instrument) -> bool),

@@ -1214,6 +1214,36 @@ fn an_impulse_at_an_event_of_the_velocities_is_not_said_to_miss_its_wall() {
 
 /// The mass of a free particle, and of one on a spring, is tripled at t = 1, and is that of before again at t = 3: no force acts at these
 /// instants, so p is what it was, in closed form and by H alike, and the energy changes with 1/m.
+/// A mass that changes smoothly for long after its step is followed as smoothly, however few digits of the clock a change of it has;
+/// beside an impulse the velocities are kept, and one line says so.
+#[test]
+fn a_mass_jumps_where_its_law_does_and_only_where_nothing_else_acts() {
+    let law = |step: &str, start: f64, more: &str| {
+        format!(
+            "title = \"m\"\n[coordinates]\nx = {{ initial = 1.0, velocity = 0.0 }}\n[lagrangian]\n\
+             L = \"(1 + {step} + 0.5*sin(t))*x'^2/2 - x^2/2\"\n[run]\nstart = {start:e}\n{more}"
+        )
+    };
+    let start = 1e9;
+    let end = |text: &str| {
+        let done = with_file(text, &["run", "system.toml", "--at", "1000000010"]);
+        assert_eq!(done.code, 0, "{}", done.stderr);
+        let row: Vec<f64> =
+            done.stdout.lines().last().unwrap().split(',').map(|x| x.parse().unwrap()).collect();
+        row[1]
+    };
+    let stepped = end(&law("(1 + sign(t - 3))/2", start, ""));
+    let smooth = end(&law("1", start, ""));
+    assert!((stepped - smooth).abs() < 1e-7, "{stepped} and {smooth}");
+
+    let kick = "[[impulses]]\nname = \"kick\"\nchange = { p_x = \"1\" }\nat = [1.0]\n";
+    let done = with_file(
+        &law("(1 + sign(t - 1))/2", 0.0, kick),
+        &["run", "system.toml", "--at", "0.5,1,1.5"],
+    );
+    assert!(done.stderr.contains("the motion keeps the velocities"), "{}", done.stderr);
+}
+
 #[test]
 fn momenta_keep_their_values_at_a_step_in_time_of_a_mass() {
     let mass = "(2 + sign(t - 1)*sign(3 - t))";

@@ -119,7 +119,7 @@ fn a_key_turns_the_tabs_of_a_frame_through_all_panes_that_are_hidden() {
     look(&mut real, &rich(), (300, 90));
     real.press("\\");
     let text = rows(&look(&mut real, &rich(), (300, 90))).join("\n");
-    assert!(text.contains("there are no tabs"), "{text}");
+    assert!(text.contains("There are no tabs"), "{text}");
 }
 
 #[test]
