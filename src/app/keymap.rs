@@ -285,7 +285,7 @@ pub const KEYS: &[Binding] = &[
 
     row(Place::Lab, &[TAB], Action::NextPane, "pane", "focus the next pane in view"),
     row(Place::Lab, &[BACKTAB], Action::PreviousPane, "", "focus the previous pane in view"),
-    row(Place::Lab, &[c('\\')], Action::NextTab, "tabs", "show the next tab: the next of the panes that share a frame"),
+    row(Place::Lab, &[c('\\')], Action::NextTab, "tabs", "show the next of the tabs: the panes that share a frame"),
     row(Place::Lab, &[c('/')], Action::Palette, "", "search all actions by name, as : does"),
     row(Place::Lab, &[c('b')], Action::ApplyImpulse, "impulse", "apply an impulse that waits for a key"),
     row(Place::Lab, &[c('f')], Action::NextFrame, "frame", "view the motion in space in the next reference frame of the file, or in the original one again"),

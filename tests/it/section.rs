@@ -274,7 +274,10 @@ fn the_running_motion_has_its_rotation_number_in_the_title() {
     assert_eq!(counted(&app, index), "crossings");
     // too few crossings have none, and what the title of the view says is not said again
     let (app, index) = opened(shipped("henon-heiles"), 30.0);
-    assert_eq!(words(&app, index), ["rising", "each colour one orbit", "amber: chaotic"]);
+    assert_eq!(
+        words(&app, index),
+        ["rising", "regular orbits in several colours", "amber: chaotic"]
+    );
     let lab = app.lab.as_ref().unwrap();
     let own = lab.plots[index].kind.measures().iter().find(|m| m.word == "own_rotation").unwrap();
     let present = lab.present().unwrap();
