@@ -17,7 +17,7 @@ use std::rc::Rc;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use phaselab::app::{App, Event, Loaded};
+use phaselab::app::{App, AppEvent, Loaded};
 use phaselab::experiment::{Experiment, Prepared};
 use phaselab::preset::Catalog;
 use phaselab::view::colour::ColourDepth;
@@ -56,7 +56,7 @@ impl Motion {
         let name = name.to_owned();
         let (mut app, _) = App::new(&catalog, Some(&name));
         let loaded = Loaded { name, epoch: 1, document, model, equations, system };
-        app.update(Event::Loaded(Ok(loaded)));
+        app.update(AppEvent::Loaded(Ok(loaded)));
         let look = RenderStyle { theme: Theme::dark(depth), glyphs: Glyphs::Braille };
         Self { app, experiment, look, painter: Painter::default() }
     }
@@ -64,8 +64,8 @@ impl Motion {
     fn advance(&mut self, frame: u32) {
         let time = f64::from(frame) / 30.0 * self.experiment.speed();
         self.experiment.advance(time, u64::MAX);
-        self.app.update(Event::Tick(Duration::from_secs(1) / 30));
-        self.app.update(Event::Snapshot(Arc::new(self.experiment.snapshot())));
+        self.app.update(AppEvent::Tick(Duration::from_secs(1) / 30));
+        self.app.update(AppEvent::Snapshot(Arc::new(self.experiment.snapshot())));
     }
 
     fn picture(&mut self, frame: u32, size: Size) -> Buffer {

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use color_eyre::eyre::{Result, eyre};
-use phaselab::app::{App, Event, Loaded};
+use phaselab::app::{App, AppEvent, Loaded};
 use phaselab::experiment::Prepared;
 use phaselab::preset::Catalog;
 use phaselab::view::colour::ColourDepth;
@@ -35,15 +35,15 @@ fn main() -> Result<ExitCode> {
     let Prepared { document, model, equations, system, mut experiment } = Prepared::of(&document)?;
     experiment.set_epoch(1);
     let (mut app, _) = App::new(&catalog, Some(&name));
-    app.update(Event::Loaded(Ok(Loaded { name, epoch: 1, document, model, equations, system })));
+    app.update(AppEvent::Loaded(Ok(Loaded { name, epoch: 1, document, model, equations, system })));
     let look = RenderStyle { theme: Theme::dark(ColourDepth::Ansi256), glyphs: Glyphs::Braille };
     let (mut frames, mut painter) = (Frames::new(true)?, Painter::default());
     let (start, mut bytes, mut first) = (experiment.time(), 0, 0);
     for frame in 0..count {
         let time = start + f64::from(frame) / 30.0 * experiment.speed();
         experiment.advance(time, u64::MAX);
-        app.update(Event::Tick(Duration::from_secs(1) / 30));
-        app.update(Event::Snapshot(Arc::new(experiment.snapshot())));
+        app.update(AppEvent::Tick(Duration::from_secs(1) / 30));
+        app.update(AppEvent::Snapshot(Arc::new(experiment.snapshot())));
         let draw = |area, buffer: &mut _| {
             painter.draw(&app, &look, area, buffer);
         };

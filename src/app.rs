@@ -1,11 +1,12 @@
 //! The application: what is on the screen and what each key does there.
 //!
-//! In: [`Event`]s. Out: [`Effect`]s, and the state that `view` draws. Pure: the same events give the same state.
+//! In: [`AppEvent`]s. Out: [`Effect`]s, and the state that `view` draws. Pure: the same events give the same state.
 //! Never here: a clock, a thread, a file, a terminal, or how anything looks.
 //!
-//! A key is looked up in [`keymap::KEYS`], which gives an [`Action`]; `perform` carries it out.
+//! A key is looked up in [`keymap::KEYS`], which gives an [`Action`]; `App::handle_action` carries it out.
 
 mod action;
+mod action_handler;
 mod answers;
 mod buffer;
 mod change;
@@ -38,6 +39,7 @@ mod lab_value;
 mod loaded;
 mod mend;
 mod menu;
+mod navigation;
 mod nearest;
 mod notification;
 mod open;
@@ -46,7 +48,6 @@ mod page_search;
 mod palette;
 mod pane;
 mod pending;
-mod perform;
 mod picker;
 mod plain;
 mod pointer;
@@ -81,7 +82,7 @@ pub use buffer::{Asking, BufferDiagnostic, BufferState, SourceBuffer, Unsaved};
 pub use computation::{Asker, Computation, Jobs, UnderWay};
 pub use drawn::{Drawn, DrawnPanes, LawInView, PanesInView};
 pub use editor::{Caret, Editor};
-pub use event::{CheckedText, Effect, Event, SaveError};
+pub use event::{AppEvent, CheckedText, Effect, SaveError};
 pub use field::{InputField, Purpose};
 pub use findings::{Findings, InvariantSearch};
 pub use fuzzy::FuzzyMatch;

@@ -1,6 +1,6 @@
 //! Events that reach the application, and the effects it asks for.
 //!
-//! In: nothing. Out: [`Event`]s as the shell reports them, [`Effect`]s as the shell performs them, both plain data.
+//! In: nothing. Out: [`AppEvent`]s as the shell reports them, [`Effect`]s as the shell performs them, both plain data.
 //! Never here: how an effect is performed.
 
 use std::path::PathBuf;
@@ -17,7 +17,7 @@ use crate::job::{Outcome, Share};
 
 /// An event from outside.
 #[derive(Clone, Debug)]
-pub enum Event {
+pub enum AppEvent {
     /// A key was pressed.
     Key(KeyEvent),
     /// Text was pasted; it is ignored unless text is being typed.
@@ -81,14 +81,14 @@ pub enum Event {
 pub enum Effect {
     /// Send a command to the experiment.
     Execute(Command),
-    /// Load a preset or file and start it as a new experiment; [`Event::Loaded`] answers.
+    /// Load a preset or file and start it as a new experiment; [`AppEvent::Loaded`] answers.
     Load(String),
     /// Cancel the last load; there is no response.
     StopLoading,
-    /// Export the current state as a system file; [`Event::Written`] answers.
+    /// Export the current state as a system file; [`AppEvent::Written`] answers.
     Export,
     /// Check a text and cancel the previous check; if the text is correct, its system replaces the one in the lab.
-    /// [`Event::Checked`] answers.
+    /// [`AppEvent::Checked`] answers.
     Check {
         /// The number of the check, counted over all texts.
         ticket: u64,
@@ -97,13 +97,13 @@ pub enum Effect {
         /// What is to be checked.
         text: String,
     },
-    /// Run a job and cancel the previous one of the same asker; [`Event::Computed`] answers.
+    /// Run a job and cancel the previous one of the same asker; [`AppEvent::Computed`] answers.
     Compute(Computation),
     /// Cancel the job of an asker; there is no response.
     StopComputing(Asker),
     /// Cancel the check; there is no response.
     StopCheck,
-    /// Write a text to its file if the file still has the expected contents. [`Event::FileSaved`] answers.
+    /// Write a text to its file if the file still has the expected contents. [`AppEvent::FileSaved`] answers.
     Save {
         /// The file.
         place: PathBuf,
@@ -112,14 +112,14 @@ pub enum Effect {
         /// The expected contents of the file; with `None` the file is overwritten in any case.
         known: Option<String>,
     },
-    /// Write a text to a new user preset, or to a new file. [`Event::FileSaved`] answers.
+    /// Write a text to a new user preset, or to a new file. [`AppEvent::FileSaved`] answers.
     SaveCopy {
         /// A preset's name, or a file's path.
         name: String,
         /// What is to be written.
         text: String,
     },
-    /// Read the system's file again; [`Event::FileRead`] answers.
+    /// Read the system's file again; [`AppEvent::FileRead`] answers.
     Reread(PathBuf),
     /// Redraw every cell.
     Repaint,
@@ -130,7 +130,7 @@ pub enum Effect {
     /// Write a still image of the screen to a new file.
     Still,
     /// Put a text into the terminal's clipboard or, where it has none, write it to a new file with this ending.
-    /// [`Event::Written`] answers.
+    /// [`AppEvent::Written`] answers.
     Copy {
         /// What is copied, for the answer.
         what: &'static str,
@@ -143,7 +143,7 @@ pub enum Effect {
     Data,
     /// Start or stop recording the screen.
     Record(bool),
-    /// Take a lesson, or perform a demo, on the screen of the lab; [`Event::GuideLeft`] follows.
+    /// Take a lesson, or perform a demo, on the screen of the lab; [`AppEvent::GuideLeft`] follows.
     TakeGuide(Guide),
     /// Suspend the process, as Ctrl-Z does.
     Suspend,

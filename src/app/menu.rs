@@ -6,7 +6,7 @@ use tui_input::Input;
 
 use super::action::Action;
 use super::fuzzy::{FuzzyMatch, Query, Texts};
-use super::keymap::Place;
+use super::keymap::KeyContext;
 use super::synonyms::synonyms;
 use super::{Pane, ValueId};
 use crate::instrument::Plot;
@@ -84,7 +84,7 @@ pub enum Choice {
     /// What a key would do.
     Action(Action),
     /// An action in the nearest pane of this place, which then has the focus.
-    ActionAt(Place, Action),
+    ActionAt(KeyContext, Action),
     /// The impulse of this index.
     Impulse(usize),
     /// The constant of the motion of this index among those that have a flow.

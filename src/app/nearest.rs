@@ -1,35 +1,35 @@
 //! The nearest pane of an action: where an action chosen by name goes when no pane that it is for has the focus.
 //!
-//! In: the place of an action, the lab. Out: the pane, and the changed focus. Never here: which actions there are.
+//! In: the context of an action, the lab. Out: the pane, and the changed focus. Never here: which actions there are.
 
-use super::keymap::Place;
+use super::keymap::KeyContext;
 use super::{Action, App, Effect, Lab, Notification, Page, Pane};
 use crate::instrument::{Plot, Sight};
 
 impl App {
-    /// Returns the pane of the lab for which an action of this place is meant, if there is one.
-    pub fn nearest(&self, place: Place) -> Option<Pane> {
+    /// Returns the pane of the lab for which an action of this context is meant, if there is one.
+    pub fn nearest(&self, context: KeyContext) -> Option<Pane> {
         let lab = self.lab.as_ref().filter(|_| self.page != Page::Picker)?;
-        match place {
-            Place::Lab => Some(lab.focus.pane),
-            Place::Space => lab.nearest_plot(true),
-            Place::Plot => lab.nearest_plot(false),
-            Place::Values => Some(Pane::Parameters),
-            Place::Gauges => Some(Pane::Gauges),
+        match context {
+            KeyContext::Lab => Some(lab.focus.pane),
+            KeyContext::Space => lab.nearest_plot(true),
+            KeyContext::Plot => lab.nearest_plot(false),
+            KeyContext::Values => Some(Pane::Parameters),
+            KeyContext::Gauges => Some(Pane::Gauges),
             _ => None,
         }
     }
 
-    /// Focuses the nearest pane of this place and carries out an action there.
-    pub(super) fn perform_at(&mut self, place: Place, action: Action) -> Vec<Effect> {
-        let Some(pane) = self.nearest(place) else { return Vec::new() };
+    /// Focuses the nearest pane of this context and carries out an action there.
+    pub(super) fn handle_action_in(&mut self, context: KeyContext, action: Action) -> Vec<Effect> {
+        let Some(pane) = self.nearest(context) else { return Vec::new() };
         let before = self.lab.as_ref().map(|lab| lab.focus.pane);
         self.go(Page::Lab);
         let Some(lab) = &mut self.lab else { return Vec::new() };
         lab.focus.pane = pane;
         let name = lab.spoken(pane);
         self.notifications.dismiss();
-        let effects = self.perform(action);
+        let effects = self.handle_action(action);
         // What the action itself reports is more important.
         if before != Some(pane) && self.notifications.shown.is_none() {
             self.notifications.show(Notification::info(format!("The focus moved to {name}.")));
@@ -42,7 +42,7 @@ impl App {
     /// Shows or hides the cursor of the focused plot; elsewhere goes to that of the nearest one.
     pub(super) fn toggle_cursor(&mut self) -> Vec<Effect> {
         let focused = self.lab.as_ref().map(|lab| lab.focus.pane);
-        let near = self.nearest(Place::Plot);
+        let near = self.nearest(KeyContext::Plot);
         let shown = match (near, &self.lab) {
             (Some(Pane::Plot(i)), Some(lab)) => lab.plots.get(i).and_then(Plot::viewport),
             _ => None,
@@ -55,7 +55,7 @@ impl App {
                 viewport.put_cursor(middle);
             }),
             Some(_) => {
-                let mut effects = self.perform_at(Place::Plot, Action::Cursor);
+                let mut effects = self.handle_action_in(KeyContext::Plot, Action::Cursor);
                 // one that was shown stays
                 effects.extend(self.with_viewport(|viewport| {
                     *viewport = shown.unwrap_or(*viewport);
@@ -70,7 +70,7 @@ impl App {
 impl App {
     /// Shows the offer of this index in the nearest plot, or in that of the motion if there is no other.
     pub(super) fn show_nearest(&mut self, index: usize) -> Vec<Effect> {
-        let pane = self.nearest(Place::Plot).or_else(|| self.nearest(Place::Space));
+        let pane = self.nearest(KeyContext::Plot).or_else(|| self.nearest(KeyContext::Space));
         let Some(Pane::Plot(plot)) = pane else { return Vec::new() };
         self.go(Page::Lab);
         if let Some(lab) = &mut self.lab {

@@ -4,7 +4,7 @@
 //! reason.
 //! Never here: how a line is searched, drawn or carried out.
 
-use super::keymap::{Binding, KEYS, Place};
+use super::keymap::{Binding, KEYS, KeyContext};
 use super::{Action, App, Choice, Choosing, Effect, Item, Lab, Menu, Overlay, Pane, ValueId};
 use crate::instrument::{INSTRUMENTS, Instrument, Offer, offers};
 use crate::integrate::METHODS;
@@ -17,24 +17,25 @@ impl App {
             self.scroll = scroll;
         }
         self.overlay = None;
-        let places = self.places_below();
+        let contexts = self.key_contexts_below();
         let rows = |wanted: fn(&Binding) -> bool| {
             // Actions on the motion come first, global ones last.
-            let outer = places.iter().filter(|place| OUTER.contains(place));
-            let inner = places.iter().filter(|place| !OUTER.contains(place)).rev();
-            let places = inner.chain(outer);
-            places.flat_map(move |place| {
-                let of_place = KEYS.iter().filter(move |row| row.place == *place && !repeats(row));
-                of_place.filter(move |row| wanted(row))
+            let outer = contexts.iter().filter(|context| OUTER.contains(context));
+            let inner = contexts.iter().filter(|context| !OUTER.contains(context)).rev();
+            let contexts = inner.chain(outer);
+            contexts.flat_map(move |context| {
+                let of_context =
+                    KEYS.iter().filter(move |row| row.context == *context && !repeats(row));
+                of_context.filter(move |row| wanted(row))
             })
         };
         let often = rows(|row| !row.hint.is_empty() && !moves(row.action));
         let seldom = rows(|row| row.hint.is_empty() && !moves(row.action));
         let elsewhere = || {
-            let rows = KEYS.iter().filter(|row| !places.contains(&row.place));
+            let rows = KEYS.iter().filter(|row| !contexts.contains(&row.context));
             rows.filter(|row| !repeats(row))
         };
-        let near = |row: &&Binding| self.nearest(row.place).is_some();
+        let near = |row: &&Binding| self.nearest(row.context).is_some();
         let line = |row: &Binding| self.line_of(row, None);
         let (mut items, refused): (Vec<Item>, Vec<Item>) =
             often.map(line).partition(|item| item.unavailable.is_none());
@@ -60,22 +61,22 @@ impl App {
         items.extend(moving);
         items.extend(refused);
         let far = elsewhere().filter(|row| !near(row));
-        items.extend(far.map(|row| self.line_of(row, Some(where_active(row.place)))));
+        items.extend(far.map(|row| self.line_of(row, Some(where_active(row.context)))));
         self.overlay =
             Some(Overlay::Menu(Menu::new("What do you want to do?", Choosing::Action, items)));
         Vec::new()
     }
 
-    /// The line of an action that is carried out in the nearest pane of its place.
+    /// The line of an action that is carried out in the nearest pane of its context.
     fn line_nearby(&self, row: &Binding) -> Item {
         let item = self.line_of(row, None);
-        let name = match (self.nearest(row.place), &self.lab) {
+        let name = match (self.nearest(row.context), &self.lab) {
             (Some(pane), Some(lab)) => lab.titled(pane),
             _ => return item,
         };
         Item {
             about: format!("{}: acts on {name}, which gets the focus", item.about),
-            choice: Choice::ActionAt(row.place, row.action),
+            choice: Choice::ActionAt(row.context, row.action),
             ..item
         }
     }
@@ -84,7 +85,7 @@ impl App {
         let unavailable = elsewhere.or_else(|| self.lack(row.action));
         Item {
             label: row.help.to_owned(),
-            about: row.place.title().to_owned(),
+            about: row.context.title().to_owned(),
             keys: row.key_names().join(" "),
             unavailable: unavailable.map(str::to_owned),
             choice: Choice::Action(row.action),
@@ -159,7 +160,7 @@ impl App {
         if let Some(lab) = &mut self.lab {
             lab.choose(target);
         }
-        self.perform(Action::TypeValue)
+        self.handle_action(Action::TypeValue)
     }
 
     /// Shows a pane of the lab.
@@ -183,7 +184,7 @@ impl App {
 }
 
 /// Places whose keys are active everywhere; their lines follow those of the page.
-const OUTER: [Place; 2] = [Place::Anywhere, Place::Always];
+const OUTER: [KeyContext; 2] = [KeyContext::Anywhere, KeyContext::Always];
 
 /// Whether an action only moves a selection or a window; nobody searches for such an action by name.
 fn moves(action: Action) -> bool {
@@ -193,32 +194,32 @@ fn moves(action: Action) -> bool {
 
 /// Whether a row does what that of plots does, to the nearest of them.
 fn repeats(row: &Binding) -> bool {
-    row.action == Action::Cursor && row.place != Place::Plot
+    row.action == Action::Cursor && row.context != KeyContext::Plot
 }
 
-/// Returns where the keys of a place are active, as a hint to a user who is elsewhere.
-fn where_active(place: Place) -> &'static str {
-    match place {
-        Place::Always | Place::Anywhere => "it works while no text is being typed",
-        Place::Picker => "it is for the list of systems, which Esc opens",
-        Place::Search => "it is for a search among the systems",
-        Place::Experiment => "it is for a system that is open",
-        Place::Lab => "it is for page 1, the lab",
-        Place::Space => "it is for a picture of the motion in space; Tab focuses one",
-        Place::Plot => "it is for a plot; Tab focuses one",
-        Place::Values => "it is for parameters or initial values; Tab focuses them",
-        Place::Gauges => "it is for the gauges; Tab focuses them",
-        Place::Law => "it is for the law of motion, if it is longer than its pane",
-        Place::Equations => "it is for page 2, the equations",
-        Place::Text => "it is for pages of text",
-        Place::Message => "it is for a file that cannot be opened",
-        Place::Help => "it is for the help, which ? opens",
-        Place::HelpSearch => "it is for a search in the help or a text, which / begins there",
-        Place::Plain => "it is for page 9, the plain reading",
-        Place::Menu => "it is for pop-up lists, as this one",
-        Place::Workbench => "it is for the editor of the system's file, which E opens",
-        Place::Field => "it is for a field in which a value is typed",
-        Place::Typing => "it is for fields in which text is typed",
+/// Returns where the keys of a context are active, as a hint to a user who is elsewhere.
+fn where_active(context: KeyContext) -> &'static str {
+    match context {
+        KeyContext::Always | KeyContext::Anywhere => "it works while no text is being typed",
+        KeyContext::Picker => "it is for the list of systems, which Esc opens",
+        KeyContext::Search => "it is for a search among the systems",
+        KeyContext::Experiment => "it is for a system that is open",
+        KeyContext::Lab => "it is for page 1, the lab",
+        KeyContext::Space => "it is for a picture of the motion in space; Tab focuses one",
+        KeyContext::Plot => "it is for a plot; Tab focuses one",
+        KeyContext::Values => "it is for parameters or initial values; Tab focuses them",
+        KeyContext::Gauges => "it is for the gauges; Tab focuses them",
+        KeyContext::Law => "it is for the law of motion, if it is longer than its pane",
+        KeyContext::Equations => "it is for page 2, the equations",
+        KeyContext::Text => "it is for pages of text",
+        KeyContext::Message => "it is for a file that cannot be opened",
+        KeyContext::Help => "it is for the help, which ? opens",
+        KeyContext::HelpSearch => "it is for a search in the help or a text, which / begins there",
+        KeyContext::Plain => "it is for page 9, the plain reading",
+        KeyContext::Menu => "it is for pop-up lists, as this one",
+        KeyContext::Workbench => "it is for the editor of the system's file, which E opens",
+        KeyContext::Field => "it is for a field in which a value is typed",
+        KeyContext::Typing => "it is for fields in which text is typed",
     }
 }
 

@@ -68,25 +68,25 @@ impl App {
             self.overlay = None;
         }
         match (&mut self.overlay, hit) {
-            (_, HitTarget::Hint(action)) => return self.perform(action),
+            (_, HitTarget::Hint(action)) => return self.handle_action(action),
             (Some(Overlay::Menu(menu)), HitTarget::Line(line)) => {
                 menu.selected = line;
-                return self.perform(Action::Accept);
+                return self.handle_action(Action::Accept);
             }
             // A click beside a list closes it; an accidental click does not discard text being typed.
             (Some(Overlay::Menu(_)), HitTarget::Menu)
             | (Some(Overlay::Field(_) | Overlay::Prompt(_)), _) => {}
-            (Some(Overlay::Menu(_)), _) => return self.perform(Action::Back),
+            (Some(Overlay::Menu(_)), _) => return self.handle_action(Action::Back),
             (_, HitTarget::Page(page)) if self.lab.is_some() => self.go(page),
             (None, HitTarget::System(place)) => {
                 if self.picker.is_selected(place) {
-                    return self.perform(Action::Open);
+                    return self.handle_action(Action::Open);
                 }
                 self.picker.point(place);
             }
             (None, HitTarget::Above(row)) => {
                 if self.picker.selected_above() == Some(row) {
-                    return self.perform(Action::Open);
+                    return self.handle_action(Action::Open);
                 }
                 self.picker.point_above(row);
             }
@@ -100,7 +100,7 @@ impl App {
             }
             HitTarget::Value(target) => {
                 if lab.selected() == Some(target) {
-                    return self.perform(Action::TypeValue);
+                    return self.handle_action(Action::TypeValue);
                 }
                 lab.choose(target);
             }

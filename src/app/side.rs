@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use super::answers::{Answers, PlotJob};
 use super::computation::Jobs;
-use super::{App, Asker, Computation, Effect, Event, Lab, Overlay, Page, Pane, UnderWay};
+use super::{App, AppEvent, Asker, Computation, Effect, Lab, Overlay, Page, Pane, UnderWay};
 use crate::experiment::Command;
 use crate::instrument::{Answer, Need, Plot, PlotContext, PlotTable, Present};
 use crate::job::{Job, Outcome, Progress, Share};
@@ -162,7 +162,7 @@ impl App {
         for effect in jobs {
             if let Effect::Compute(Computation { ticket, job, .. }) = effect {
                 let outcome = job.run(&Progress::new());
-                effects.extend(self.handle(Event::Computed { ticket, outcome }));
+                effects.extend(self.handle(AppEvent::Computed { ticket, outcome }));
             }
         }
     }

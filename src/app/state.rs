@@ -10,7 +10,7 @@ use super::drawn::Drawn;
 use super::event::Effect;
 use super::field::InputField;
 use super::hit_target::Grab;
-use super::keymap::{CHAINS, Place};
+use super::keymap::{CHAINS, KeyContext};
 use super::lab::Lab;
 use super::loaded::LoadError;
 use super::menu::{Choice, Menu};
@@ -203,64 +203,72 @@ impl App {
 
     /// Whether text is being typed, so that a paste is meaningful.
     pub fn is_typing(&self) -> bool {
-        self.places().contains(&Place::Typing)
+        self.key_contexts().contains(&KeyContext::Typing)
     }
 
-    /// Returns the active places, innermost first.
-    pub fn places(&self) -> &'static [Place] {
-        self.places_over(self.overlay.as_ref())
+    /// Returns the active key contexts, innermost first.
+    pub fn key_contexts(&self) -> &'static [KeyContext] {
+        self.key_contexts_over(self.overlay.as_ref())
     }
 
-    /// Returns the active places while this lies over the page.
-    fn places_over(&self, overlay: Option<&Overlay>) -> &'static [Place] {
+    /// Returns the active key contexts while this lies over the page.
+    fn key_contexts_over(&self, overlay: Option<&Overlay>) -> &'static [KeyContext] {
         match overlay {
-            Some(Overlay::Help { typing: true, .. }) => chain([Place::HelpSearch, Place::Typing]),
-            Some(Overlay::Help { .. }) => chain([Place::Help, Place::Text]),
-            Some(Overlay::Message(_)) => chain([Place::Message, Place::Text]),
-            Some(Overlay::Menu(Menu { filter: None, .. })) => chain([Place::Menu, Place::Anywhere]),
-            Some(Overlay::Menu(_)) => chain([Place::Menu, Place::Typing]),
-            Some(Overlay::Field(_) | Overlay::Prompt(_)) => chain([Place::Field, Place::Typing]),
+            Some(Overlay::Help { typing: true, .. }) => {
+                chain([KeyContext::HelpSearch, KeyContext::Typing])
+            }
+            Some(Overlay::Help { .. }) => chain([KeyContext::Help, KeyContext::Text]),
+            Some(Overlay::Message(_)) => chain([KeyContext::Message, KeyContext::Text]),
+            Some(Overlay::Menu(Menu { filter: None, .. })) => {
+                chain([KeyContext::Menu, KeyContext::Anywhere])
+            }
+            Some(Overlay::Menu(_)) => chain([KeyContext::Menu, KeyContext::Typing]),
+            Some(Overlay::Field(_) | Overlay::Prompt(_)) => {
+                chain([KeyContext::Field, KeyContext::Typing])
+            }
             Some(Overlay::Workbench) => {
                 let asks = self.workbench.top().is_some_and(|buffer| buffer.asking.is_some());
-                let inner = if asks { Place::Field } else { Place::Workbench };
-                chain([inner, Place::Typing])
+                let inner = if asks { KeyContext::Field } else { KeyContext::Workbench };
+                chain([inner, KeyContext::Typing])
             }
             None if self.search_of_page().is_some_and(|search| search.typing) => {
-                chain([Place::HelpSearch, Place::Typing])
+                chain([KeyContext::HelpSearch, KeyContext::Typing])
             }
-            None => chain(self.places_of_page()),
+            None => chain(self.key_contexts_of_page()),
         }
     }
 
-    /// Returns the active places of what is under the help: a prompt, the editor, or else the page.
-    pub fn places_below(&self) -> &'static [Place] {
+    /// Returns the active key contexts of what is under the help: a prompt, the editor, or else the page.
+    pub fn key_contexts_below(&self) -> &'static [KeyContext] {
         match &self.overlay {
-            Some(Overlay::Help { below, .. }) => self.places_over(below.as_deref()),
-            _ => self.places_over(None),
+            Some(Overlay::Help { below, .. }) => self.key_contexts_over(below.as_deref()),
+            _ => self.key_contexts_over(None),
         }
     }
 
-    fn places_of_page(&self) -> [Place; 2] {
+    fn key_contexts_of_page(&self) -> [KeyContext; 2] {
         match (self.page, &self.lab) {
             (Page::Picker, _) | (_, None) if self.picker.search.is_some() => {
-                [Place::Search, Place::Typing]
+                [KeyContext::Search, KeyContext::Typing]
             }
-            (Page::Picker, _) | (_, None) => [Place::Picker, Place::Anywhere],
+            (Page::Picker, _) | (_, None) => [KeyContext::Picker, KeyContext::Anywhere],
             (Page::Lab, Some(lab)) => match (lab.focus.pane, lab.focused_plot()) {
-                (_, Some((_, plot))) if plot.kind.is_scene() => [Place::Space, Place::Lab],
-                (Pane::Plot(_), _) => [Place::Plot, Place::Lab],
-                (Pane::Parameters | Pane::Initial, _) => [Place::Values, Place::Lab],
-                (Pane::Gauges, _) => [Place::Gauges, Place::Lab],
-                (Pane::Law, _) => [Place::Law, Place::Lab],
+                (_, Some((_, plot))) if plot.kind.is_scene() => {
+                    [KeyContext::Space, KeyContext::Lab]
+                }
+                (Pane::Plot(_), _) => [KeyContext::Plot, KeyContext::Lab],
+                (Pane::Parameters | Pane::Initial, _) => [KeyContext::Values, KeyContext::Lab],
+                (Pane::Gauges, _) => [KeyContext::Gauges, KeyContext::Lab],
+                (Pane::Law, _) => [KeyContext::Law, KeyContext::Lab],
             },
-            (Page::Equations, Some(_)) => [Place::Equations, Place::Text],
-            (Page::Notes | Page::Numbers, Some(_)) => [Place::Text, Place::Experiment],
-            (Page::Plain, Some(_)) => [Place::Plain, Place::Experiment],
+            (Page::Equations, Some(_)) => [KeyContext::Equations, KeyContext::Text],
+            (Page::Notes | Page::Numbers, Some(_)) => [KeyContext::Text, KeyContext::Experiment],
+            (Page::Plain, Some(_)) => [KeyContext::Plain, KeyContext::Experiment],
         }
     }
 }
 
-/// Returns the chain of places that starts with these two.
-fn chain(innermost: [Place; 2]) -> &'static [Place] {
+/// Returns the chain of contexts that starts with these two.
+fn chain(innermost: [KeyContext; 2]) -> &'static [KeyContext] {
     CHAINS.into_iter().find(|chain| chain.starts_with(&innermost)).unwrap_or_default()
 }

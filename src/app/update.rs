@@ -1,4 +1,4 @@
-//! Event handling, one event at a time.
+//! AppEvent handling, one event at a time.
 //!
 //! In: an event. Out: the changed state and the effects. Never here: what the individual actions do.
 
@@ -10,9 +10,9 @@ use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use super::editor::beginning;
 use super::field::{edit, paste};
 use super::key::{self, pressed};
-use super::keymap::{self, Place};
+use super::keymap::{self, KeyContext};
 use super::pending::{AwaitedPlots, LoadRequest};
-use super::{App, Effect, Event, Lab, LoadError, Loaded, Notification, Overlay, Page, Pane};
+use super::{App, AppEvent, Effect, Lab, LoadError, Loaded, Notification, Overlay, Page, Pane};
 use crate::experiment::Snapshot;
 
 /// The maximum size of one paste, in bytes.
@@ -24,7 +24,7 @@ const LONG_TEXT: &str =
 
 impl App {
     /// Handles an event, and returns the effects to perform.
-    pub fn update(&mut self, event: Event) -> Vec<Effect> {
+    pub fn update(&mut self, event: AppEvent) -> Vec<Effect> {
         let shown = self.notifications.shown.clone();
         let mut effects = self.handle(event);
         self.forget_past_motion(shown.as_ref(), &effects);
@@ -59,22 +59,22 @@ impl App {
         self.notifications.tick(elapsed)
     }
 
-    pub(super) fn handle(&mut self, event: Event) -> Vec<Effect> {
+    pub(super) fn handle(&mut self, event: AppEvent) -> Vec<Effect> {
         match event {
-            Event::Key(key) => pressed(key).map_or_else(Vec::new, |key| self.press(key)),
-            Event::Paste(text) => self.paste(&text),
-            Event::Mouse(kind, hit) => self.point(kind, hit),
-            Event::Resize(..) | Event::Focus(_) => Vec::new(),
-            Event::Snapshot(snapshot) => self.see(&snapshot),
-            Event::Loaded(Ok(loaded)) => self.loaded(loaded),
-            Event::Loaded(Err(failure)) => self.failed(failure),
-            Event::Rebuilt(loaded) => self.rebuilt(loaded),
-            Event::Written(Ok(sentence)) => {
+            AppEvent::Key(key) => pressed(key).map_or_else(Vec::new, |key| self.press(key)),
+            AppEvent::Paste(text) => self.paste(&text),
+            AppEvent::Mouse(kind, hit) => self.point(kind, hit),
+            AppEvent::Resize(..) | AppEvent::Focus(_) => Vec::new(),
+            AppEvent::Snapshot(snapshot) => self.see(&snapshot),
+            AppEvent::Loaded(Ok(loaded)) => self.loaded(loaded),
+            AppEvent::Loaded(Err(failure)) => self.failed(failure),
+            AppEvent::Rebuilt(loaded) => self.rebuilt(loaded),
+            AppEvent::Written(Ok(sentence)) => {
                 self.notifications.show(Notification::info(sentence));
                 Vec::new()
             }
-            Event::Written(Err(sentence)) => self.fail(sentence),
-            Event::Tick(elapsed) => {
+            AppEvent::Written(Err(sentence)) => self.fail(sentence),
+            AppEvent::Tick(elapsed) => {
                 self.meter.tick(elapsed);
                 self.reading.tick(elapsed);
                 self.tick_notifications(elapsed);
@@ -87,12 +87,12 @@ impl App {
                 let preview = self.picker.tick(elapsed).map(|name| self.ask(name, false));
                 preview.into_iter().chain(self.tick_buffer(elapsed)).collect()
             }
-            Event::Checked(checked) => self.checked(*checked),
-            Event::FileSaved(outcome) => {
+            AppEvent::Checked(checked) => self.checked(*checked),
+            AppEvent::FileSaved(outcome) => {
                 self.saved_file(outcome);
                 Vec::new()
             }
-            Event::FileRead { text, asked } => {
+            AppEvent::FileRead { text, asked } => {
                 match self
                     .awaited
                     .wrong_file
@@ -104,17 +104,17 @@ impl App {
                 }
                 Vec::new()
             }
-            Event::Computed { ticket, outcome } => self.computed(ticket, outcome),
-            Event::Progress { ticket, share } => {
+            AppEvent::Computed { ticket, outcome } => self.computed(ticket, outcome),
+            AppEvent::Progress { ticket, share } => {
                 self.progressed(ticket, share);
                 Vec::new()
             }
-            Event::GuideLeft { guides, wrong } => self.guide_left(guides, wrong),
-            Event::FileThere(there) => {
+            AppEvent::GuideLeft { guides, wrong } => self.guide_left(guides, wrong),
+            AppEvent::FileThere(there) => {
                 self.found_on_disk(there);
                 Vec::new()
             }
-            Event::Drawn(drawn) => {
+            AppEvent::Drawn(drawn) => {
                 self.drawn = drawn;
                 self.hold_cursor();
                 if let (Some(panes), Some(lab)) = (self.drawn.panes.clone(), &mut self.lab) {
@@ -139,9 +139,9 @@ impl App {
         if let Some(lab) = self.lab.as_mut().filter(|_| self.page != Page::Picker) {
             lab.focus.untouched = false;
         }
-        let places = self.places();
+        let places = self.key_contexts();
         if let Some(action) = keymap::action(key, places) {
-            let effects = self.perform(action);
+            let effects = self.handle_action(action);
             self.expect(&effects);
             return effects;
         }
@@ -152,8 +152,8 @@ impl App {
             effects.extend(self.press(KeyEvent { modifiers, ..key }));
             return effects;
         }
-        let searching = places.contains(&Place::Search)
-            || (places.contains(&Place::Picker) && begins_search(key));
+        let searching = places.contains(&KeyContext::Search)
+            || (places.contains(&KeyContext::Picker) && begins_search(key));
         if let Some(search) = self.typed_search() {
             if edit(&mut search.input, key) {
                 search.begin();

@@ -9,7 +9,7 @@ use super::exit::EXITS;
 use super::failure::CommandError;
 use super::output::{Output, OutputForm};
 use crate::app::gestures::{GESTURES, MOUSE};
-use crate::app::keymap::{KEYS, Place};
+use crate::app::keymap::{KEYS, KeyContext};
 use crate::shell::options::rows;
 
 /// Print the manual page of phaselab, or of one of its commands.
@@ -140,12 +140,12 @@ fn of_command(
 /// The keys, by context, and the mouse.
 fn keys(roff: &mut Roff) {
     roff.control("SH", ["KEYS"]);
-    for place in Place::ALL {
-        let rows: Vec<_> = KEYS.iter().filter(|row| row.place == place).collect();
+    for context in KeyContext::ALL {
+        let rows: Vec<_> = KEYS.iter().filter(|row| row.context == context).collect();
         if rows.is_empty() {
             continue;
         }
-        roff.control("SS", [place.title()]);
+        roff.control("SS", [context.title()]);
         for row in rows {
             entry(roff, &row.key_names().join("  "), row.help);
         }

@@ -25,11 +25,11 @@ const MOST_STEPS_BACK: u64 = 100_000;
 const GROWTH: f64 = 8.0;
 
 /// What a companion has yet to meet on its way, at a time of the main motion.
-enum Ahead {
+enum Upcoming {
     /// A row of the main motion.
     Row(Due),
     /// Another law or method.
-    CompanionChange(f64, CompanionChange),
+    Change(f64, CompanionChange),
 }
 
 /// What of the main motion a companion takes over, if it follows it.
@@ -49,7 +49,7 @@ pub(super) struct CompanionMotion {
     observer: Observer,
     active_set_changes: u64,
     record: CompanionRecord,
-    due: VecDeque<Ahead>,
+    due: VecDeque<Upcoming>,
     /// Where it was at the rows of the main motion, so that it can be carried back.
     log: StepLog,
     message: Option<String>,
@@ -84,8 +84,8 @@ impl CompanionMotion {
 
     /// Begins at a state. Nothing of what was recorded remains.
     pub(super) fn begin(&mut self, state: Result<State, MotionError>) {
-        for ahead in std::mem::take(&mut self.due) {
-            if let Ahead::CompanionChange(_, CompanionChange::Method(method, settings)) = ahead {
+        for upcoming in std::mem::take(&mut self.due) {
+            if let Upcoming::Change(_, CompanionChange::Method(method, settings)) = upcoming {
                 let suits = self.motion.change_method(method, settings).is_ok();
                 debug_assert!(suits, "the main motion has it");
             }
@@ -150,7 +150,7 @@ impl CompanionMotion {
         if is_there || self.message.is_some() {
             self.take(change);
         } else {
-            self.due.push_back(Ahead::CompanionChange(time, change));
+            self.due.push_back(Upcoming::Change(time, change));
         }
     }
 
@@ -178,9 +178,9 @@ impl CompanionMotion {
 
     /// The main motion was carried back to a time: rows after it are yet to come.
     pub(super) fn forget_rows_after(&mut self, time: f64) {
-        self.due.retain(|ahead| match ahead {
-            Ahead::Row((row, _)) => *row <= time,
-            Ahead::CompanionChange(..) => true,
+        self.due.retain(|upcoming| match upcoming {
+            Upcoming::Row((row, _)) => *row <= time,
+            Upcoming::Change(..) => true,
         });
     }
 
@@ -239,12 +239,12 @@ impl CompanionMotion {
         }
         if self.due.len() >= MOST_DUE {
             let mut index = 0;
-            self.due.retain(|ahead| {
+            self.due.retain(|upcoming| {
                 index += 1;
-                index % 2 == 0 || matches!(ahead, Ahead::CompanionChange(..))
+                index % 2 == 0 || matches!(upcoming, Upcoming::Change(..))
             });
         }
-        self.due.push_back(Ahead::Row(due));
+        self.due.push_back(Upcoming::Row(due));
     }
 
     /// Whether it has not yet reached a time.
@@ -263,7 +263,7 @@ impl CompanionMotion {
     ) {
         while *budget > 0 && self.is_behind(time) {
             let next = match self.due.front() {
-                Some(Ahead::Row((time, _)) | Ahead::CompanionChange(time, _)) => *time,
+                Some(Upcoming::Row((time, _)) | Upcoming::Change(time, _)) => *time,
                 None => time,
             };
             let outcome = if next <= self.motion.state().time {
@@ -275,11 +275,11 @@ impl CompanionMotion {
                 Ok(true) => {
                     *budget = budget.saturating_sub(1);
                     match self.due.pop_front() {
-                        Some(Ahead::Row(main)) => {
+                        Some(Upcoming::Row(main)) => {
                             self.record.add_row(&main, variables, periods);
                             self.log_state();
                         }
-                        Some(Ahead::CompanionChange(_, change)) => self.take(change),
+                        Some(Upcoming::Change(_, change)) => self.take(change),
                         None => {}
                     }
                 }

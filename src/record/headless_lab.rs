@@ -7,7 +7,7 @@ use std::mem;
 use std::sync::Arc;
 
 use super::clock::{Clock, Micros};
-use crate::app::{App, CheckedText, Effect, Event, LoadError, Loaded, ValueId};
+use crate::app::{App, AppEvent, CheckedText, Effect, LoadError, Loaded, ValueId};
 use crate::diagnostic::Document;
 use crate::experiment::{AdvanceOutcome, Command, Experiment, Prepared, Status};
 use crate::preset::Catalog;
@@ -76,7 +76,7 @@ impl HeadlessLab {
             behind: 0,
             repaint: false,
         };
-        laboratory.perform(effects);
+        laboratory.run_effects(effects);
         laboratory
     }
 
@@ -94,7 +94,7 @@ impl HeadlessLab {
     pub(super) fn tick(&mut self) -> bool {
         let Some(elapsed) = self.clock.tick() else { return false };
         self.advance();
-        self.happen(Event::Tick(elapsed));
+        self.update(AppEvent::Tick(elapsed));
         self.observe_motion();
         true
     }
@@ -113,15 +113,15 @@ impl HeadlessLab {
     }
 
     /// Sends an event to the application.
-    pub(super) fn happen(&mut self, event: Event) {
+    pub(super) fn update(&mut self, event: AppEvent) {
         let effects = self.app.update(event);
-        self.perform(effects);
+        self.run_effects(effects);
     }
 
     /// Sets a parameter or an initial value.
     pub(super) fn set(&mut self, target: ValueId, value: f64) {
         let effects = self.app.give(target, value);
-        self.perform(effects);
+        self.run_effects(effects);
     }
 
     /// Sends a command to the experiment.
@@ -167,18 +167,18 @@ impl HeadlessLab {
     fn observe_motion(&mut self) {
         if let Some(experiment) = &self.experiment {
             let snapshot = Arc::new(experiment.snapshot());
-            self.happen(Event::Snapshot(snapshot));
+            self.update(AppEvent::Snapshot(snapshot));
         }
     }
 
-    /// Performs the effects that the application requests.
-    fn perform(&mut self, effects: Vec<Effect>) {
+    /// Runs the effects that the application requests.
+    fn run_effects(&mut self, effects: Vec<Effect>) {
         for effect in effects {
             match effect {
                 Effect::Execute(command) => self.execute(command),
                 Effect::Load(name) => {
                     let loaded = self.load(name);
-                    self.happen(Event::Loaded(loaded));
+                    self.update(AppEvent::Loaded(loaded));
                     self.observe_motion();
                 }
                 Effect::Check { ticket, title, text } => self.check(ticket, title, text),
@@ -222,7 +222,7 @@ impl HeadlessLab {
             Ok(ready) => Ok(self.begin(name, ready)),
             Err(unready) => Err(unready.diagnostics),
         };
-        self.happen(Event::Checked(Box::new(CheckedText { ticket, outcome, took: None })));
+        self.update(AppEvent::Checked(Box::new(CheckedText { ticket, outcome, took: None })));
         self.observe_motion();
     }
 }

@@ -6,7 +6,7 @@ use super::headless_lab::Budget;
 use super::lesson::{Lesson, LessonStage};
 use super::lesson_question::{AnswerVerdict, GivenAnswer, Question, QuestionKind, Truth};
 use super::script::{LessonStep, Script, ScriptStep};
-use crate::app::Event;
+use crate::app::AppEvent;
 use crate::diagnostic::{Diagnostic, Document};
 
 /// What was found in a lesson without errors.
@@ -112,7 +112,7 @@ fn solve(lesson: &mut Lesson) -> Result<(), Diagnostic> {
     let below = lesson.runner.script.steps.get(lesson.runner.next).map(|(_, step)| step.clone());
     let Some(ScriptStep::Lesson(LessonStep::Solution(keys))) = below else { return Ok(()) };
     for key in keys {
-        lesson.runner.lab.happen(Event::Key(key));
+        lesson.runner.lab.update(AppEvent::Key(key));
         lesson.advance(100_000)?;
     }
     let mut passed = 0;

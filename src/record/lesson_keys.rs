@@ -7,7 +7,7 @@ use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use super::lesson::{Lesson, LessonStage, paragraph};
 use super::lesson_look::LessonView;
 use super::lesson_question::{GivenAnswer, QuestionKind};
-use crate::app::{Event, key as keys};
+use crate::app::{AppEvent, key as keys};
 use crate::view::lesson::ParagraphKind;
 
 /// What a key did.
@@ -110,7 +110,7 @@ impl Lesson {
                 }
             }
             LessonStage::Task { .. } | LessonStage::Free => {
-                self.runner.lab.happen(Event::Key(key));
+                self.runner.lab.update(AppEvent::Key(key));
                 if self.is_left() {
                     return Pressed::Leave;
                 }

@@ -6,7 +6,7 @@
 use crossterm::event::{KeyCode, KeyEvent};
 
 use super::headless_lab::HeadlessLab;
-use crate::app::{Event, Focus, Page};
+use crate::app::{AppEvent, Focus, Page};
 
 /// What was seen before somebody looked around.
 #[derive(Clone)]
@@ -37,7 +37,7 @@ impl LessonView {
             (KeyCode::Tab | KeyCode::BackTab, Some(lab)) => {
                 lab.show_hidden(key.code == KeyCode::Tab);
             }
-            _ => host.happen(Event::Key(key)),
+            _ => host.update(AppEvent::Key(key)),
         }
         true
     }

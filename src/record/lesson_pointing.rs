@@ -9,7 +9,7 @@ use ratatui::layout::Rect;
 use super::lesson::{Lesson, LessonStage};
 use super::lesson_question::GivenAnswer;
 use super::script_runner::ScriptRunner;
-use crate::app::{Event, HitTarget, Prediction};
+use crate::app::{AppEvent, HitTarget, Prediction};
 use crate::view::{Painter, RenderStyle, hit_test};
 
 /// The most points of a curve.
@@ -25,7 +25,7 @@ impl Lesson {
             | KeyCode::Up
             | KeyCode::Down
             | KeyCode::Char('h' | 'j' | 'k' | 'l' | '+' | '=' | '-') => {
-                self.runner.lab.happen(Event::Key(key));
+                self.runner.lab.update(AppEvent::Key(key));
             }
             KeyCode::Char(' ') if is_curve => {
                 let at = self.runner.reading();
@@ -77,7 +77,7 @@ impl Lesson {
                     self.runner.lab.app.end_group();
                 }
                 if let Some(hit) = self.runner.hit(style, column, row) {
-                    self.runner.lab.happen(Event::Mouse(kind, hit));
+                    self.runner.lab.update(AppEvent::Mouse(kind, hit));
                     self.look_at_task();
                 }
             }
@@ -117,7 +117,7 @@ impl ScriptRunner {
         let mut buffer = Buffer::empty(area);
         let drawn = self.paint(&mut Painter::default(), &style, area, &mut buffer);
         let reading = drawn.reading;
-        self.lab.happen(Event::Drawn(drawn));
+        self.lab.update(AppEvent::Drawn(drawn));
         reading
     }
 

@@ -17,7 +17,7 @@ use super::headless_lab::{Budget, HeadlessLab};
 use super::plain::plain;
 use super::script::{Assert, LessonStep, LineText, PACE, Script, ScriptStep, SweepPath};
 use super::shown_keys::ShownKeys;
-use crate::app::{Drawn, Event, ValueId, key};
+use crate::app::{AppEvent, Drawn, ValueId, key};
 use crate::diagnostic::{Diagnostic, Document};
 use crate::experiment::Command;
 use crate::view::caption::{self, Caption};
@@ -333,7 +333,7 @@ impl ScriptRunner {
         }
         let typing = self.lab.app.is_typing() && matches!(key.code, KeyCode::Char(c) if c != ' ');
         self.keys.press(&key, typing, self.lab.now());
-        self.lab.happen(Event::Key(key));
+        self.lab.update(AppEvent::Key(key));
         self.pass(self.pace);
     }
 
@@ -357,7 +357,7 @@ impl ScriptRunner {
         let mut painter = std::mem::take(&mut self.painter);
         let drawn = self.paint(&mut painter, style, area, buffer);
         self.painter = painter;
-        self.lab.happen(Event::Drawn(drawn.clone()));
+        self.lab.update(AppEvent::Drawn(drawn.clone()));
         drawn
     }
 

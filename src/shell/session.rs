@@ -34,7 +34,7 @@ use super::request::Request;
 use super::screen_style::ScreenStyle;
 use super::store::Store;
 use super::writer::Writer;
-use crate::app::{App, Asker, Computation, Effect, Event, Loaded, Notification, Overlay, Saved};
+use crate::app::{App, AppEvent, Asker, Computation, Effect, Loaded, Notification, Overlay, Saved};
 use crate::diagnostic::Document;
 use crate::experiment::{Prepared, Status};
 use crate::instrument::Answer;
@@ -184,7 +184,7 @@ impl Session {
         self.app.offer_session(saved);
     }
 
-    fn update(&mut self, event: Event) -> ScreenRequest {
+    fn update(&mut self, event: AppEvent) -> ScreenRequest {
         let effects = self.app.update(event);
         self.execute(effects)
     }
@@ -220,15 +220,15 @@ impl Session {
                 }
                 Effect::Save { place, text, known } => {
                     let saved = files::save(&place, &text, known.as_deref());
-                    self.update(Event::FileSaved(saved.map(|()| (place, text))));
+                    self.update(AppEvent::FileSaved(saved.map(|()| (place, text))));
                 }
                 Effect::SaveCopy { name, text } => {
                     let saved = files::save_copy(&name, &text);
-                    self.update(Event::FileSaved(saved.map(|place| (place, text))));
+                    self.update(AppEvent::FileSaved(saved.map(|place| (place, text))));
                 }
                 Effect::Reread(place) => match files::read(&place) {
                     Ok(text) => {
-                        self.update(Event::FileRead { text, asked: true });
+                        self.update(AppEvent::FileRead { text, asked: true });
                     }
                     Err(why) => self.app.notifications.show(Notification::error(why.to_string())),
                 },
@@ -285,8 +285,8 @@ impl Screen for Session {
             return self.asked_by_guide(request);
         }
         let event = match event {
-            TerminalEvent::Key(key) => Event::Key(key),
-            TerminalEvent::Paste(text) => Event::Paste(text),
+            TerminalEvent::Key(key) => AppEvent::Key(key),
+            TerminalEvent::Paste(text) => AppEvent::Paste(text),
             TerminalEvent::Mouse(mouse) => {
                 if mouse.kind == MouseEventKind::Down(MouseButton::Left) {
                     // Not every terminal reports the release of a button.
@@ -294,13 +294,13 @@ impl Screen for Session {
                 }
                 let area = Rect::from((Position::ORIGIN, self.size));
                 match view::hit_test(&self.app, self.style.full(), area, mouse.column, mouse.row) {
-                    Some(hit) => Event::Mouse(with_shift(mouse), hit),
+                    Some(hit) => AppEvent::Mouse(with_shift(mouse), hit),
                     None => return ScreenRequest::Nothing,
                 }
             }
-            TerminalEvent::FocusGained => Event::Focus(true),
-            TerminalEvent::FocusLost => Event::Focus(false),
-            TerminalEvent::Resize(columns, rows) => Event::Resize(columns, rows),
+            TerminalEvent::FocusGained => AppEvent::Focus(true),
+            TerminalEvent::FocusLost => AppEvent::Focus(false),
+            TerminalEvent::Resize(columns, rows) => AppEvent::Resize(columns, rows),
         };
         self.still = Duration::ZERO;
         self.update(event)
@@ -329,7 +329,7 @@ impl Screen for Session {
         self.report_faults();
         self.save_periodically(elapsed);
         let noticed = self.app.notifications.shown.is_some();
-        self.update(Event::Tick(elapsed));
+        self.update(AppEvent::Tick(elapsed));
         let mut changed = self.app.notifications.shown.is_some() != noticed;
         if let Some(outcome) = self.loader.take() {
             match &outcome {
@@ -341,7 +341,7 @@ impl Screen for Session {
             let loaded = outcome
                 .map(|(name, ready)| self.begin(name, *ready))
                 .map_err(|failure| self.with_text_kept(failure));
-            self.update(Event::Loaded(loaded));
+            self.update(AppEvent::Loaded(loaded));
             if let Some(warning) = self.warning.take() {
                 self.app.notifications.show(Notification::error(warning));
             }
@@ -355,7 +355,7 @@ impl Screen for Session {
             changed = true;
         }
         if let Some(snapshot) = self.worker.newest() {
-            self.update(Event::Snapshot(snapshot));
+            self.update(AppEvent::Snapshot(snapshot));
             changed = true;
         }
         self.still = if changed { Duration::ZERO } else { self.still.saturating_add(elapsed) };
@@ -374,7 +374,7 @@ impl Screen for Session {
             self.give_up_recording(&why);
         }
         let cursor = drawn.cursor;
-        self.update(Event::Drawn(drawn));
+        self.update(AppEvent::Drawn(drawn));
         cursor.map(Position::from)
     }
 

@@ -14,7 +14,7 @@ use super::number::{brief, with_minus_signs};
 use super::theme::Role;
 use super::values::{meaning as value_meaning, typing};
 use super::wrap::words_in;
-use crate::app::keymap::{Binding, KEYS, Place};
+use crate::app::keymap::{Binding, KEYS, KeyContext};
 use crate::app::{
     Action, App, HitTarget, InputField, KeyHints, Lab, Notification, NotificationKind, Overlay,
     Page, Pane, Purpose, ValueId,
@@ -219,14 +219,16 @@ fn hints(canvas: &Canvas<'_>, (app, body): (&App, Rect)) -> Vec<Hint> {
         return Vec::new();
     }
     // A text that is edited is kept, and a list is closed, when it is left.
-    let closes_with_esc =
-        app.places().iter().any(|place| matches!(place, Place::Workbench | Place::Menu));
-    let rows = app.places().iter().flat_map(|place| {
+    let closes_with_esc = app
+        .key_contexts()
+        .iter()
+        .any(|context| matches!(context, KeyContext::Workbench | KeyContext::Menu));
+    let rows = app.key_contexts().iter().flat_map(|context| {
         KEYS.iter().filter(move |row| {
-            let back = (row.place, row.action) == (Place::Space, Action::Home)
+            let back = (row.context, row.action) == (KeyContext::Space, Action::Home)
                 && app.lab.as_ref().is_some_and(Lab::is_seen_otherwise);
             let named = !row.hint.is_empty() || back;
-            row.place == *place && named && app.offers(row.action)
+            row.context == *context && named && app.offers(row.action)
         })
     });
     let hint = |row: &Binding| {

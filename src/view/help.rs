@@ -11,14 +11,14 @@ use super::layout::split_rows;
 use super::text_page::TextPage;
 use super::theme::Role;
 use crate::app::gestures::{GESTURES, MOUSE};
-use crate::app::keymap::{Binding, KEYS, Place};
+use crate::app::keymap::{Binding, KEYS, KeyContext};
 use crate::app::{Drawn, HitTarget, synonyms};
 
 /// Draws the page from `scroll` on, and above it the search, if there is one.
 pub(super) fn draw(
     canvas: &mut Canvas<'_>,
     area: Rect,
-    active: &[Place],
+    active: &[KeyContext],
     (search, typing): (Option<&Input>, bool),
     scroll: u16,
 ) -> Drawn {
@@ -47,7 +47,7 @@ pub(super) fn draw(
 
 /// Builds the page: the keys of what has the focus come first, then those of the page around it, the mouse, then all
 /// others. Of a search only what was found is left, by the words of the page or by other words for the same action.
-fn document(style: &RenderStyle, active: &[Place], sought: &str) -> TextPage {
+fn document(style: &RenderStyle, active: &[KeyContext], sought: &str) -> TextPage {
     let mut page = TextPage::default();
     let words: Vec<String> = sought.split_whitespace().map(str::to_lowercase).collect();
     let has = |text: String| {
@@ -64,23 +64,23 @@ fn document(style: &RenderStyle, active: &[Place], sought: &str) -> TextPage {
             }
         }
     };
-    let rows_of = |place: Place| -> Vec<(String, &'static str)> {
+    let rows_of = |context: KeyContext| -> Vec<(String, &'static str)> {
         let fits = |row: &&Binding| {
             let others = synonyms(row.action).join(" ");
-            has(format!("{} {} {} {others}", keys(row, style), row.help, place.title()))
+            has(format!("{} {} {} {others}", keys(row, style), row.help, context.title()))
         };
-        let rows = KEYS.iter().filter(|row| row.place == place).filter(fits);
+        let rows = KEYS.iter().filter(|row| row.context == context).filter(fits);
         rows.map(|row| (keys(row, style), row.help)).collect()
     };
-    for (index, place) in active.iter().enumerate() {
-        let title = place.title();
+    for (index, context) in active.iter().enumerate() {
+        let title = context.title();
         let title = if index == 0 { format!("Here: {title}") } else { title.to_owned() };
-        section(&title, rows_of(*place));
+        section(&title, rows_of(*context));
     }
     let gestures = GESTURES.iter().filter(|(what, does)| has(format!("{what} {does} {MOUSE}")));
     section(MOUSE, gestures.map(|(what, does)| ((*what).to_owned(), *does)).collect());
-    for place in Place::ALL.into_iter().filter(|place| !active.contains(place)) {
-        section(place.title(), rows_of(place));
+    for context in KeyContext::ALL.into_iter().filter(|context| !active.contains(context)) {
+        section(context.title(), rows_of(context));
     }
     if none {
         page.words(Role::Dim, "No match; Esc shows all keys.");

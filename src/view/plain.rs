@@ -9,12 +9,12 @@ use super::number::{brief, drift, readable};
 use super::quantity::Quantities;
 use super::text_page::TextPage;
 use super::verdict::in_full;
-use crate::app::keymap::{KEYS, Place};
+use crate::app::keymap::{KEYS, KeyContext};
 use crate::app::{Lab, Pane, ValueId, ValueInfo};
 use crate::experiment::Snapshot;
 
 /// The contexts whose keys are listed.
-const PLACES: [Place; 3] = [Place::Plain, Place::Experiment, Place::Anywhere];
+const CONTEXTS: [KeyContext; 3] = [KeyContext::Plain, KeyContext::Experiment, KeyContext::Anywhere];
 
 /// Builds the page.
 pub(super) fn document(q: &Quantities<'_>) -> TextPage {
@@ -84,7 +84,8 @@ pub(super) fn document(q: &Quantities<'_>) -> TextPage {
         write(lab.name_of(pane));
     }
     write("Keys:".to_owned());
-    for row in PLACES.iter().flat_map(|place| KEYS.iter().filter(|row| row.place == *place)) {
+    for row in CONTEXTS.iter().flat_map(|context| KEYS.iter().filter(|row| row.context == *context))
+    {
         let keys: Vec<String> = row.key_names().into_iter().map(spoken).collect();
         write(format!("{}: {}", keys.join(" or "), row.help));
     }

@@ -113,7 +113,7 @@ fn body(canvas: &mut Canvas<'_>, area: Rect, app: &App) -> Drawn {
         return help::draw(
             canvas,
             area,
-            app.places_below(),
+            app.key_contexts_below(),
             (search.as_ref(), *typing),
             app.scroll,
         );

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use phaselab::app::{App, Event};
+use phaselab::app::{App, AppEvent};
 use phaselab::diagnostic::Document;
 use phaselab::experiment::{Command, Experiment, Prepared};
 use phaselab::instrument::{Ink, Layer, Picture, Plot};
@@ -30,7 +30,7 @@ impl Course {
 
     pub(crate) fn go(&mut self, time: f64) {
         self.experiment.advance(time, 1_000_000);
-        self.app.update(Event::Snapshot(Arc::new(self.experiment.snapshot())));
+        self.app.update(AppEvent::Snapshot(Arc::new(self.experiment.snapshot())));
         press(&mut self.app, "Wait");
     }
 

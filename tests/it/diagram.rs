@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use phaselab::app::{App, Drawn, Effect, Event, Pane, Saved};
+use phaselab::app::{App, AppEvent, Drawn, Effect, Pane, Saved};
 use phaselab::experiment::Command;
 use phaselab::instrument::{Across, Layer, Need, Picture, Plot, SavedVariations, Upwards};
 use phaselab::job::{Progress, Share};
@@ -354,7 +354,7 @@ fn a_point_of_it_is_a_value_of_the_parameter() {
     let mut app = begun(DRIVEN);
     press(&mut app, "v");
     press(&mut app, "c");
-    app.update(Event::Drawn(Drawn { reading: Some([2.25, 0.5]), ..Drawn::default() }));
+    app.update(AppEvent::Drawn(Drawn { reading: Some([2.25, 0.5]), ..Drawn::default() }));
     let effects = press(&mut app, "Enter");
     let [Effect::Execute(Command::Parameter { index: 0, value })] = effects[..] else {
         panic!("{effects:?}")

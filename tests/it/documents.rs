@@ -5,7 +5,7 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use phaselab::app::keymap::{KEYS, Place};
+use phaselab::app::keymap::{KEYS, KeyContext};
 use phaselab::cli::EXITS;
 use phaselab::integrate::{METHODS, Preserves, Stepping};
 use phaselab::record::script::{CLAIMS, COMMANDS};
@@ -13,9 +13,9 @@ use phaselab::shell::options::rows;
 
 fn keys() -> String {
     let mut table = "| where | key | what it does |\n|---|---|---|\n".to_owned();
-    for place in Place::ALL {
-        let mut title = place.title();
-        for row in KEYS.iter().filter(|row| row.place == place) {
+    for context in KeyContext::ALL {
+        let mut title = context.title();
+        for row in KEYS.iter().filter(|row| row.context == context) {
             let keys: Vec<String> = row.key_names().iter().map(|key| format!("`{key}`")).collect();
             writeln!(table, "| {title} | {} | {} |", keys.join(" "), row.help).unwrap();
             title = "";

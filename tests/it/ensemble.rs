@@ -4,7 +4,7 @@
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
-use phaselab::app::{App, Effect, Event, Saved};
+use phaselab::app::{App, AppEvent, Effect, Saved};
 use phaselab::dynamics::{PhaseSpace, conformal_rate};
 use phaselab::ensemble::{ClosedCurve, SystemFlow};
 use phaselab::experiment::{Command, Experiment, Prepared};
@@ -500,7 +500,7 @@ fn two_pictures_of_a_cloud_show_the_same_moment() {
     let mut waiting = Vec::new();
     for k in 1..60 {
         experiment.advance(0.011 + 0.05 * f64::from(k), u64::MAX);
-        let mut effects = app.update(Event::Snapshot(Arc::new(experiment.snapshot())));
+        let mut effects = app.update(AppEvent::Snapshot(Arc::new(experiment.snapshot())));
         while let Some(effect) = effects.pop() {
             let Effect::Compute(computation) = effect else { continue };
             if computation.asker == phaselab::app::Asker::Plot(1) {
@@ -508,7 +508,7 @@ fn two_pictures_of_a_cloud_show_the_same_moment() {
                 continue;
             }
             let outcome = computation.job.run(&Progress::new());
-            effects.extend(app.update(Event::Computed { ticket: computation.ticket, outcome }));
+            effects.extend(app.update(AppEvent::Computed { ticket: computation.ticket, outcome }));
         }
         let [first, second] = &seen(&app)[..] else { panic!("two") };
         // the law is linear, so the middle of a disc about the motion is the motion

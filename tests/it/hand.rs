@@ -5,7 +5,7 @@ use std::sync::{Arc, LazyLock, Mutex, OnceLock, PoisonError};
 use std::time::Duration;
 
 use crossterm::event::KeyEvent;
-use phaselab::app::{App, CheckedText, Effect, Event, Loaded, key};
+use phaselab::app::{App, AppEvent, CheckedText, Effect, Loaded, key};
 use phaselab::diagnostic::Document;
 use phaselab::experiment::{Gauge, MethodFact, Prepared, Snapshot, Status, Trail, Verdict};
 use phaselab::mechanics::derive;
@@ -133,8 +133,8 @@ pub(crate) fn lab(name: &str, time: f64) -> App {
     let seen = snapshot(&loaded, time);
     let (mut app, _) = App::new(catalog(), Some(name));
     app.themes.available = PALETTES.iter().map(|palette| (palette.name, palette.about)).collect();
-    app.update(Event::Loaded(Ok(loaded)));
-    app.update(Event::Snapshot(Arc::new(seen)));
+    app.update(AppEvent::Loaded(Ok(loaded)));
+    app.update(AppEvent::Snapshot(Arc::new(seen)));
     app
 }
 
@@ -146,8 +146,8 @@ pub(crate) fn at_picker() -> App {
             press(&mut app, "Down");
         }
         press(&mut app, "Wait");
-        app.update(Event::Loaded(Ok(pendulum())));
-        app.update(Event::Snapshot(Arc::new(snapshot(&pendulum(), 2.0))));
+        app.update(AppEvent::Loaded(Ok(pendulum())));
+        app.update(AppEvent::Snapshot(Arc::new(snapshot(&pendulum(), 2.0))));
         app
     });
     PICKER.clone()
@@ -158,8 +158,8 @@ pub(crate) fn press(app: &mut App, keys: &str) -> Vec<Effect> {
     let mut effects = Vec::new();
     for word in keys.split_whitespace() {
         effects.extend(match word {
-            "Wait" => app.update(Event::Tick(Duration::from_secs(1))),
-            word => app.update(Event::Key(key(word))),
+            "Wait" => app.update(AppEvent::Tick(Duration::from_secs(1))),
+            word => app.update(AppEvent::Key(key(word))),
         });
     }
     effects
@@ -178,8 +178,8 @@ pub(crate) fn begun(text: &str) -> App {
     experiment.set_epoch(1);
     let (mut app, _) = App::new(catalog(), Some("test"));
     let name = "test".to_owned();
-    app.update(Event::Loaded(Ok(Loaded { name, epoch: 1, document, model, equations, system })));
-    app.update(Event::Snapshot(Arc::new(experiment.snapshot())));
+    app.update(AppEvent::Loaded(Ok(Loaded { name, epoch: 1, document, model, equations, system })));
+    app.update(AppEvent::Snapshot(Arc::new(experiment.snapshot())));
     app
 }
 
@@ -200,7 +200,7 @@ pub(crate) fn checked(app: &mut App) -> String {
 
 /// Checks the text that waits, as the shell does. Returns it, and whether it has no error.
 pub(crate) fn judged(app: &mut App) -> (String, bool) {
-    let effects = app.update(Event::Tick(Duration::from_millis(20)));
+    let effects = app.update(AppEvent::Tick(Duration::from_millis(20)));
     let found = effects.into_iter().find_map(|effect| match effect {
         Effect::Check { ticket, title, text } => Some((ticket, title, text)),
         _ => None,
@@ -213,6 +213,6 @@ pub(crate) fn judged(app: &mut App) -> (String, bool) {
         Loaded { name, epoch: 2, document, model, equations, system }
     });
     let (took, is_right) = (Some(Duration::from_millis(3)), outcome.is_ok());
-    app.update(Event::Checked(Box::new(CheckedText { ticket, outcome, took })));
+    app.update(AppEvent::Checked(Box::new(CheckedText { ticket, outcome, took })));
     (text, is_right)
 }

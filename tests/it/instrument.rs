@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 use std::time::Duration;
 
-use phaselab::app::{App, Asker, Computation, Effect, Event, Saved};
+use phaselab::app::{App, AppEvent, Asker, Computation, Effect, Saved};
 use phaselab::experiment::{Command, Snapshot};
 use phaselab::instrument::{Answer, INSTRUMENTS, Instrument, Plot, SavedPlot, named, offers};
 use phaselab::job::{Outcome, Progress, Share};
@@ -242,8 +242,8 @@ fn a_misspelt_kind_gets_the_nearest_of_the_table() {
 fn aside() -> (App, Vec<Computation>) {
     let (mut app, _) = App::new(catalog(), Some("pendulum"));
     app.jobs.in_background = true;
-    app.update(Event::Loaded(Ok(pendulum())));
-    let effects = app.update(Event::Snapshot(Arc::new(snapshot(&pendulum(), 2.0))));
+    app.update(AppEvent::Loaded(Ok(pendulum())));
+    let effects = app.update(AppEvent::Snapshot(Arc::new(snapshot(&pendulum(), 2.0))));
     (app, computations(effects))
 }
 
@@ -257,14 +257,14 @@ fn the_motion_is_shown_before_its_equations_are_solved() {
         loaded
     };
     let system = unsolved("double-pendulum", 1);
-    let asked = computations(app.update(Event::Loaded(Ok(system.clone()))));
+    let asked = computations(app.update(AppEvent::Loaded(Ok(system.clone()))));
     let shown = |app: &App| app.lab.as_ref().unwrap().loaded.equations.hamiltonian.clone();
     assert_eq!(shown(&app).unwrap_err().to_string(), "it has not been derived yet");
     // it is asked once, and another system does not take the answer for its own
-    let seen = Event::Snapshot(Arc::new(snapshot(&system, 1.0)));
+    let seen = AppEvent::Snapshot(Arc::new(snapshot(&system, 1.0)));
     assert!(computations(app.update(seen)).iter().all(|c| c.asker != Asker::Equations));
     let late = ran(&asked[0]);
-    let again = computations(app.update(Event::Loaded(Ok(unsolved("pendulum", 2)))));
+    let again = computations(app.update(AppEvent::Loaded(Ok(unsolved("pendulum", 2)))));
     app.update(late);
     assert!(shown(&app).is_err());
     app.update(ran(&again[0]));
@@ -283,9 +283,9 @@ fn computations(effects: Vec<Effect>) -> Vec<Computation> {
     asked.collect()
 }
 
-fn ran(computation: &Computation) -> Event {
+fn ran(computation: &Computation) -> AppEvent {
     let outcome = computation.job.run(&Progress::new());
-    Event::Computed { ticket: computation.ticket, outcome }
+    AppEvent::Computed { ticket: computation.ticket, outcome }
 }
 
 fn answer(app: &App) -> Option<Answer> {
@@ -310,9 +310,9 @@ fn no_frame_waits_for_level_curves_and_the_old_ones_stay() {
     let mut parameters = seen.parameters.to_vec();
     parameters[0] *= 1.5;
     seen.parameters = parameters.into();
-    let asked = computations(app.update(Event::Snapshot(Arc::new(seen.clone()))));
+    let asked = computations(app.update(AppEvent::Snapshot(Arc::new(seen.clone()))));
     assert_eq!((asked.len(), answer(&app)), (1, Some(first.clone())));
-    assert_eq!(computations(app.update(Event::Snapshot(Arc::new(seen)))), []);
+    assert_eq!(computations(app.update(AppEvent::Snapshot(Arc::new(seen)))), []);
     app.update(ran(&asked[0]));
     assert!(answer(&app).is_some_and(|answer| answer != first));
 }
@@ -323,11 +323,11 @@ fn an_answer_that_nobody_waits_for_is_dropped() {
     let late = ran(&asked[0]);
     // meanwhile another system is loaded, with its own phase plane
     let other = loaded("pendulum", 2);
-    app.update(Event::Loaded(Ok(other.clone())));
+    app.update(AppEvent::Loaded(Ok(other.clone())));
     app.update(late.clone());
     assert_eq!(answer(&app), None);
     let seen = Snapshot { epoch: 2, ..snapshot(&other, 1.0) };
-    let asked = computations(app.update(Event::Snapshot(Arc::new(seen))));
+    let asked = computations(app.update(AppEvent::Snapshot(Arc::new(seen))));
     app.update(late);
     assert_eq!((asked.len(), answer(&app)), (1, None));
     app.update(ran(&asked[0]));
@@ -340,8 +340,8 @@ fn a_motion_that_leaves_its_level_curves_is_still_seen() {
     let (mut app, _) = App::new(catalog(), Some("harmonic-oscillator"));
     app.jobs.in_background = true;
     let system = loaded("harmonic-oscillator", 1);
-    app.update(Event::Loaded(Ok(system.clone())));
-    let seen = |time: f64| Event::Snapshot(Arc::new(snapshot(&system, time)));
+    app.update(AppEvent::Loaded(Ok(system.clone())));
+    let seen = |time: f64| AppEvent::Snapshot(Arc::new(snapshot(&system, time)));
     let asked = computations(app.update(seen(0.1)));
     app.update(ran(&asked[0]));
     assert!(answer(&app).is_some());
@@ -356,12 +356,12 @@ fn a_motion_that_leaves_its_level_curves_is_still_seen() {
 fn a_job_that_takes_long_is_shown_with_its_progress() {
     let (mut app, asked) = aside();
     let told = |app: &App| screen(app, 160, 50).concat().contains("level curves of the energy");
-    app.update(Event::Tick(Duration::from_millis(290)));
+    app.update(AppEvent::Tick(Duration::from_millis(290)));
     assert!(!told(&app), "what is there at once is not worth a word");
-    app.update(Event::Tick(Duration::from_millis(20)));
+    app.update(AppEvent::Tick(Duration::from_millis(20)));
     assert!(told(&app));
     let share = Share { done: 1, total: Some(4) };
-    app.update(Event::Progress { ticket: asked[0].ticket, share });
+    app.update(AppEvent::Progress { ticket: asked[0].ticket, share });
     assert!(screen(&app, 160, 50).concat().contains("energy 25 %"));
     app.update(ran(&asked[0]));
     assert!(!told(&app));
@@ -371,7 +371,7 @@ fn a_job_that_takes_long_is_shown_with_its_progress() {
 fn a_job_that_panics_is_reported_and_the_lab_goes_on() {
     let (mut app, asked) = aside();
     let outcome = Outcome::Failed("level curves stopped by a defect".to_owned());
-    app.update(Event::Computed { ticket: asked[0].ticket, outcome });
+    app.update(AppEvent::Computed { ticket: asked[0].ticket, outcome });
     assert!(
         app.notifications.shown.take().is_some_and(|notice| notice.text.contains("by a defect"))
     );
@@ -392,7 +392,7 @@ fn the_prompt_is_answered_on_the_side_and_its_question_given_up_with_it() {
     assert_ne!(screen(&app, 80, 24).concat(), waiting, "the answer is there");
     // a question that takes long, and Esc
     let asked = computations(press(&mut app, "Enter"));
-    app.update(Event::Tick(Duration::from_millis(400)));
+    app.update(AppEvent::Tick(Duration::from_millis(400)));
     assert!(screen(&app, 80, 24).concat().contains("deriving"));
     assert_eq!(press(&mut app, "Esc"), [Effect::StopComputing(Asker::Prompt)]);
     app.update(ran(&asked[0]));

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use phaselab::app::{App, Computation, Effect, Event, Loaded};
+use phaselab::app::{App, AppEvent, Computation, Effect, Loaded};
 use phaselab::diagnostic::Document;
 use phaselab::experiment::{Experiment, Prepared};
 use phaselab::instrument::{Layer, Picture, Plot};
@@ -22,7 +22,7 @@ pub(crate) fn open(ready: Prepared) -> (App, Experiment) {
     app.jobs.in_background = true;
     let name = "test".to_owned();
     let loaded = Loaded { name, epoch: 1, document, model, equations, system };
-    let effects = app.update(Event::Loaded(Ok(loaded)));
+    let effects = app.update(AppEvent::Loaded(Ok(loaded)));
     finish(&mut app, effects);
     (app, experiment)
 }
@@ -34,7 +34,7 @@ pub(crate) fn finish(app: &mut App, mut effects: Vec<Effect>) -> Vec<Effect> {
         match effect {
             Effect::Compute(Computation { ticket, job, .. }) => {
                 let outcome = job.run(&Progress::new());
-                effects.extend(app.update(Event::Computed { ticket, outcome }));
+                effects.extend(app.update(AppEvent::Computed { ticket, outcome }));
             }
             other => others.push(other),
         }
@@ -51,7 +51,7 @@ pub(crate) fn typed(app: &mut App, keys: &str) -> Vec<Effect> {
 /// Takes the motion to a time, and shows it.
 pub(crate) fn see(app: &mut App, experiment: &mut Experiment, time: f64) {
     experiment.advance(time, u64::MAX);
-    let effects = app.update(Event::Snapshot(Arc::new(experiment.snapshot())));
+    let effects = app.update(AppEvent::Snapshot(Arc::new(experiment.snapshot())));
     finish(app, effects);
 }
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use phaselab::app::{App, Drawn, Effect, Event, Saved};
+use phaselab::app::{App, AppEvent, Drawn, Effect, Saved};
 use phaselab::experiment::{Command, Experiment, Setup};
 use phaselab::instrument::{Field, Layer, Plot, SavedVariations};
 use phaselab::model::Variation;
@@ -123,7 +123,7 @@ fn a_point_of_it_begins_a_motion_and_changes_nothing_of_it() {
         press(&mut app, "Tab");
     }
     press(&mut app, "c");
-    app.update(Event::Drawn(Drawn { reading: Some([2.0, -0.25]), ..Drawn::default() }));
+    app.update(AppEvent::Drawn(Drawn { reading: Some([2.0, -0.25]), ..Drawn::default() }));
     let effects = press(&mut app, "Enter");
     let [Effect::Execute(Command::Start(given))] = &effects[..] else { panic!("{effects:?}") };
     assert_eq!(given[..], [InitialOverride::Position(0, 2.0), InitialOverride::Velocity(0, -0.25)]);
@@ -132,7 +132,7 @@ fn a_point_of_it_begins_a_motion_and_changes_nothing_of_it() {
     let mut experiment =
         Experiment::new(&loaded.model, &loaded.equations, &loaded.system, setup).unwrap();
     experiment.set_epoch(loaded.epoch);
-    app.update(Event::Snapshot(Arc::new(experiment.snapshot())));
+    app.update(AppEvent::Snapshot(Arc::new(experiment.snapshot())));
     assert!(Arc::ptr_eq(&before, &field(&app).expect("a field")));
     assert!((measure(&app, &map(&app), "value") - 1.295).abs() < 0.4);
 }
@@ -166,7 +166,7 @@ fn a_point_sets_parameters_and_initial_values() {
         press(&mut app, "Tab");
     }
     press(&mut app, "c");
-    app.update(Event::Drawn(Drawn { reading: Some([1.5, 2.5]), ..Drawn::default() }));
+    app.update(AppEvent::Drawn(Drawn { reading: Some([1.5, 2.5]), ..Drawn::default() }));
     let effects = press(&mut app, "Enter");
     let [
         Effect::Execute(Command::Parameter { index: 0, value }),

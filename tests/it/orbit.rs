@@ -3,7 +3,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use phaselab::app::{App, Computation, Effect, Event};
+use phaselab::app::{App, AppEvent, Computation, Effect};
 use phaselab::experiment::Experiment;
 use phaselab::instrument::{Layer, Plot};
 use phaselab::job::Progress;
@@ -249,7 +249,7 @@ fn a_refusal_comes_in_stages() {
         let outcome = job.run(&progress);
         names.push(job.name.clone());
         assert!(progress.share().total.is_some() && progress.share().done > 0, "{}", job.name);
-        effects.extend(app.update(Event::Computed { ticket, outcome }));
+        effects.extend(app.update(AppEvent::Computed { ticket, outcome }));
         assert!(legend(&app).contains(words), "{}", legend(&app));
     }
     assert_eq!(names, ["periodic orbit", "what the motion is"]);

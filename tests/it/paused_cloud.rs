@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use phaselab::app::{App, Computation, Effect, Event};
+use phaselab::app::{App, AppEvent, Computation, Effect};
 use phaselab::experiment::{Command, Experiment};
 use phaselab::instrument::{Layer, MarkerShape, Picture};
 use phaselab::job::Progress;
@@ -93,7 +93,7 @@ fn a_paused_curve_has_its_area() {
     let now = measure(&app, "action").unwrap();
     assert!((now / action - 1.0).abs() < 1e-6, "{now} {action}");
     // once it is there nothing more is asked for
-    let effects = app.update(Event::Snapshot(Arc::new(experiment.snapshot())));
+    let effects = app.update(AppEvent::Snapshot(Arc::new(experiment.snapshot())));
     assert!(!effects.iter().any(|effect| matches!(effect, Effect::Compute(_))));
 }
 
@@ -102,7 +102,7 @@ fn ends_with_all_done(text: &str, times: [f64; 2]) -> [bool; 2] {
     let (mut app, mut experiment) = begin(text);
     see(&mut app, &mut experiment, times[0]);
     experiment.advance(times[1], u64::MAX);
-    let mut effects = app.update(Event::Snapshot(Arc::new(experiment.snapshot())));
+    let mut effects = app.update(AppEvent::Snapshot(Arc::new(experiment.snapshot())));
     let mut seen = [false; 2];
     while let Some(effect) = effects.pop() {
         let Effect::Compute(Computation { ticket, job, .. }) = effect else { continue };
@@ -111,7 +111,7 @@ fn ends_with_all_done(text: &str, times: [f64; 2]) -> [bool; 2] {
         let share = progress.share();
         seen[0] |= share.total == Some(share.done);
         seen[1] |= share.total.is_none();
-        effects.extend(app.update(Event::Computed { ticket, outcome }));
+        effects.extend(app.update(AppEvent::Computed { ticket, outcome }));
     }
     seen
 }

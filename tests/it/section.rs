@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use phaselab::app::{App, Drawn, Effect, Event, Saved};
+use phaselab::app::{App, AppEvent, Drawn, Effect, Saved};
 use phaselab::cancel::Cancel;
 use phaselab::ensemble::{NotInPlane, NotOnShell, Region, SectionPlane};
 use phaselab::experiment::{Command, Experiment, Prepared, Snapshot};
@@ -359,7 +359,7 @@ fn keys_add_orbits_and_clear_them_and_sessions_have_them() {
     assert_eq!(measure(&app, &plot(&app), "orbits"), 48.0);
     // with a cursor, the orbit through it
     typed(&mut app, "c");
-    app.update(Event::Drawn(Drawn { reading: Some([0.5, 0.25]), ..Drawn::default() }));
+    app.update(AppEvent::Drawn(Drawn { reading: Some([0.5, 0.25]), ..Drawn::default() }));
     typed(&mut app, "n");
     assert_eq!(plot(&app).seeds[2..], [Seed::Through([0.5, 0.25])]);
     assert_eq!(measure(&app, &plot(&app), "orbits"), 49.0);
@@ -422,7 +422,7 @@ fn one_key_fills_a_section() {
 fn enter_begins_at_the_cursor_or_says_why_not() {
     let (mut app, _) = opened(shipped("henon-heiles"), 0.01);
     let at = |app: &mut App, point: [f64; 2]| {
-        app.update(Event::Drawn(Drawn { reading: Some(point), ..Drawn::default() }));
+        app.update(AppEvent::Drawn(Drawn { reading: Some(point), ..Drawn::default() }));
         press(app, "Enter")
     };
     press(&mut app, "Tab Tab Tab");
@@ -449,7 +449,7 @@ fn the_picture_is_computed_anew_only_where_it_would_be_another() {
     ready.experiment.set_epoch(1);
     ready.experiment.advance(20.0, u64::MAX);
     let asked = |app: &mut App, seen: Snapshot| {
-        let effects = app.update(Event::Snapshot(Arc::new(seen)));
+        let effects = app.update(AppEvent::Snapshot(Arc::new(seen)));
         let jobs = effects.iter().filter_map(|effect| match effect {
             Effect::Compute(computation) => Some(computation.job.name.clone()),
             _ => None,
@@ -469,8 +469,8 @@ fn without_a_background_orbits_are_computed_where_the_values_rest() {
     let (mut app, mut experiment) = open(prepared(OSCILLATORS));
     app.jobs.in_background = false;
     let frame = |app: &mut App, experiment: &Experiment| {
-        app.update(Event::Snapshot(Arc::new(experiment.snapshot())));
-        app.update(Event::Tick(Duration::from_millis(33)));
+        app.update(AppEvent::Snapshot(Arc::new(experiment.snapshot())));
+        app.update(AppEvent::Tick(Duration::from_millis(33)));
         let lab = app.lab.as_ref().unwrap();
         lab.answer(&lab.plots[0]).cloned()
     };
@@ -498,7 +498,7 @@ fn without_a_background_further_orbits_are_computed_once_they_are_asked_for() {
     ready.experiment.set_epoch(1);
     ready.experiment.execute(Command::Initial { index: 3, value: 0.3 });
     ready.experiment.advance(10.0, u64::MAX);
-    app.update(Event::Snapshot(Arc::new(ready.experiment.snapshot())));
+    app.update(AppEvent::Snapshot(Arc::new(ready.experiment.snapshot())));
     let plot = |app: &App| app.lab.as_ref().unwrap().plots[index].clone();
     press(&mut app, "Tab Tab Tab n");
     assert_eq!(measure(&app, &plot(&app), "orbits"), 32.0);

@@ -1,6 +1,6 @@
 //! Points of a stroboscope as starts, also where the initial values lie at another phase of the drive.
 
-use phaselab::app::{Drawn, Event};
+use phaselab::app::{AppEvent, Drawn};
 use phaselab::experiment::{Command, Prepared};
 use phaselab::instrument::{Layer, NoStart, Seed};
 
@@ -48,7 +48,7 @@ fn a_point_at_another_phase_of_a_drive_is_carried_back_to_the_start() {
         }
         // an orbit added at the cursor passes the point, too
         typed(&mut app, "Tab Tab Tab c");
-        app.update(Event::Drawn(Drawn { reading: Some(at), ..Drawn::default() }));
+        app.update(AppEvent::Drawn(Drawn { reading: Some(at), ..Drawn::default() }));
         typed(&mut app, "n");
         let plot = app.lab.as_ref().unwrap().plots[index].clone();
         assert_eq!(plot.seeds, [Seed::Through(at)], "{title}");

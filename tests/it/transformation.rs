@@ -4,7 +4,7 @@ mod branches;
 mod caustics;
 mod listed;
 
-use phaselab::app::{App, Event, Pane};
+use phaselab::app::{App, AppEvent, Pane};
 use phaselab::diagnostic::Document;
 use phaselab::experiment::Prepared;
 use phaselab::instrument::{Ink, Layer, MarkerShape, Picture, Plot};
@@ -281,7 +281,7 @@ impl Course {
 
     fn go(&mut self, time: f64) {
         self.experiment.advance(time, 1_000_000);
-        self.app.update(Event::Snapshot(std::sync::Arc::new(self.experiment.snapshot())));
+        self.app.update(AppEvent::Snapshot(std::sync::Arc::new(self.experiment.snapshot())));
         press(&mut self.app, "Wait");
     }
 
@@ -326,7 +326,7 @@ fn the_trail_in_new_variables_is_that_of_the_present_map() {
     let whole = course.app.lab.as_ref().unwrap().snapshot.clone().expect("a snapshot");
     let drawn = |seen: phaselab::experiment::Snapshot| {
         let mut app = course.app.clone();
-        app.update(phaselab::app::Event::Snapshot(std::sync::Arc::new(seen)));
+        app.update(phaselab::app::AppEvent::Snapshot(std::sync::Arc::new(seen)));
         let all =
             crate::screen::rows(&crate::screen::screen(&app, &crate::screen::rich(), (120, 40)));
         // the pane at the top left

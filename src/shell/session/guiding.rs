@@ -7,7 +7,7 @@ use tracing::info;
 use super::super::frame_loop::ScreenRequest;
 use super::super::guided::{Guided, guides};
 use super::Session;
-use crate::app::{Event, Guide};
+use crate::app::{AppEvent, Guide};
 use crate::experiment::{Command, Status};
 
 impl Session {
@@ -44,7 +44,7 @@ impl Session {
 
     fn guide_left(&mut self, wrong: Option<String>) {
         let guides = guides(&self.app.picker.entries);
-        self.update(Event::GuideLeft { guides, wrong });
+        self.update(AppEvent::GuideLeft { guides, wrong });
     }
 
     /// Hands what the lesson or demo asks of the terminal on; where it ends, the lab continues.

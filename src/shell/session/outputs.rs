@@ -16,7 +16,7 @@ use super::super::new_file;
 use super::super::recorder::CastRecorder;
 use super::super::writer::WriteReport;
 use super::Session;
-use crate::app::{Event, Lab, Loaded, Notification};
+use crate::app::{AppEvent, Lab, Loaded, Notification};
 use crate::experiment::{Export, Snapshot};
 use crate::printable;
 use crate::record::{data, plain, screenshot};
@@ -57,7 +57,7 @@ impl Session {
     /// Reports the outcome of writing a file.
     pub(super) fn report(&mut self, report: WriteReport) {
         info!("{report:?}");
-        self.app.update(Event::Written(report));
+        self.app.update(AppEvent::Written(report));
     }
 
     /// Returns the stem for files about the current state.

@@ -9,7 +9,7 @@ use tracing::{error, info};
 
 use super::super::files::FileChange;
 use super::Session;
-use crate::app::{CheckedText, Event};
+use crate::app::{AppEvent, CheckedText};
 use crate::experiment::Status;
 use crate::preset::is_path;
 
@@ -45,13 +45,13 @@ impl Session {
             None => return false,
             Some(FileChange::Gone) => {
                 info!("{} is gone", place.display());
-                self.update(Event::FileThere(false));
+                self.update(AppEvent::FileThere(false));
             }
             Some(FileChange::Text { text, back }) => {
                 if back {
-                    self.update(Event::FileThere(true));
+                    self.update(AppEvent::FileThere(true));
                 }
-                self.update(Event::FileRead { text, asked: false });
+                self.update(AppEvent::FileRead { text, asked: false });
             }
         }
         true
@@ -65,7 +65,7 @@ impl Session {
         let Some(name) = name.filter(|_| self.app.awaits(answer.ticket)) else { return false };
         let outcome = answer.outcome.map(|ready| self.begin(name, *ready));
         let (ticket, took) = (answer.ticket, Some(answer.took));
-        self.update(Event::Checked(Box::new(CheckedText { ticket, outcome, took })));
+        self.update(AppEvent::Checked(Box::new(CheckedText { ticket, outcome, took })));
         true
     }
 
@@ -76,9 +76,9 @@ impl Session {
         for side in self.sides.values_mut() {
             busy |= side.is_busy();
             if let Some((ticket, outcome)) = side.take() {
-                events.push(Event::Computed { ticket, outcome });
+                events.push(AppEvent::Computed { ticket, outcome });
             } else if let Some((ticket, share)) = side.share() {
-                events.push(Event::Progress { ticket, share });
+                events.push(AppEvent::Progress { ticket, share });
             }
         }
         for event in events {

@@ -12,7 +12,7 @@ use tracing::{error, info};
 use super::super::atomic_file;
 use super::super::store::{Store, StoreError};
 use super::{Session, Since, UNHURRIED};
-use crate::app::{Event, LoadError, Notification, Unsaved};
+use crate::app::{AppEvent, LoadError, Notification, Unsaved};
 use crate::preset::{PresetOrigin, is_path};
 
 /// The interval at which the session is saved while the laboratory is open, the delay before typed text is stored,
@@ -72,7 +72,7 @@ impl Session {
     pub(super) fn keep(&mut self, last: bool) -> io::Result<()> {
         self.saving.since = Since::default();
         if let Some(snapshot) = self.worker.newest() {
-            self.update(Event::Snapshot(snapshot));
+            self.update(AppEvent::Snapshot(snapshot));
         }
         self.keep_texts(last);
         let Some(store) = &mut self.saving.store else { return Ok(()) };

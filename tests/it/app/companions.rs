@@ -1,7 +1,7 @@
 //! Motions beside the main one, by keys, the mouse and scripts.
 
 use crossterm::event::{MouseButton, MouseEventKind};
-use phaselab::app::{Event, HitTarget, Pane};
+use phaselab::app::{AppEvent, HitTarget, Pane};
 use phaselab::experiment::CompanionOrigin;
 use phaselab::view::colour::ColourDepth;
 use phaselab::view::glyphs::Glyphs;
@@ -28,7 +28,7 @@ fn picture(real: &Real, kind: &str) -> usize {
 
 fn click(real: &mut Real, button: MouseButton, hit: HitTarget) {
     for kind in [MouseEventKind::Down(button), MouseEventKind::Up(button)] {
-        let effects = real.app.update(Event::Mouse(kind, hit));
+        let effects = real.app.update(AppEvent::Mouse(kind, hit));
         real.execute(effects);
     }
     real.look();

@@ -1,6 +1,6 @@
 //! Equilibria in the lab: found by a job, listed, marked on portraits, and begun at.
 
-use phaselab::app::{Asker, Choice, Computation, Effect, Event, Overlay};
+use phaselab::app::{AppEvent, Asker, Choice, Computation, Effect, Overlay};
 use phaselab::dynamics::{Equilibrium, PhaseSpace, equilibria, name_equilibria};
 use phaselab::job::{Progress, Share};
 use phaselab::model::Model;
@@ -23,7 +23,7 @@ fn named(text: &str) -> Vec<Equilibrium> {
 /// Presses F, and computes what it asks for.
 fn found(real: &mut Real) -> Vec<(String, Choice)> {
     real.app.jobs.in_background = true;
-    let effects = real.app.update(Event::Key(key("F")));
+    let effects = real.app.update(AppEvent::Key(key("F")));
     let Some(Effect::Compute(Computation { ticket, job, asker })) = effects
         .into_iter()
         .find(|e| matches!(e, Effect::Compute(c) if c.asker == Asker::Equilibria))
@@ -34,7 +34,7 @@ fn found(real: &mut Real) -> Vec<(String, Choice)> {
     let progress = Progress::new();
     let outcome = job.run(&progress);
     assert!(progress.share().done > 100, "it says how far it is");
-    real.app.update(Event::Computed { ticket, outcome });
+    real.app.update(AppEvent::Computed { ticket, outcome });
     match &real.app.overlay {
         Some(Overlay::Menu(menu)) => {
             menu.items.iter().map(|item| (item.label.clone(), item.choice)).collect()
@@ -66,13 +66,13 @@ fn the_pendulum_rests_below_stably_and_above_unstably() {
     real.press("F");
     assert!(matches!(real.app.overlay, Some(Overlay::Menu(_))));
     real.press("Esc Right");
-    let effects = real.app.update(Event::Key(key("F")));
+    let effects = real.app.update(AppEvent::Key(key("F")));
     assert!(effects.iter().any(|e| matches!(e, Effect::Compute(_))));
     // F again stops it
-    let effects = real.app.update(Event::Key(key("F")));
+    let effects = real.app.update(AppEvent::Key(key("F")));
     assert_eq!(effects, [Effect::StopComputing(Asker::Equilibria)]);
     let share = Share { done: 3, total: Some(600) };
-    real.app.update(Event::Progress { ticket: 1, share });
+    real.app.update(AppEvent::Progress { ticket: 1, share });
     assert!(real.app.notifications.shown.as_ref().unwrap().text.contains("stopped"));
 }
 

@@ -1,6 +1,6 @@
 //! Lessons and demos among the systems: a row, a list, and back to it.
 
-use phaselab::app::{Above, App, Choice, Effect, Event, Guide, GuideKind, LessonTaken, Overlay};
+use phaselab::app::{Above, App, AppEvent, Choice, Effect, Guide, GuideKind, LessonTaken, Overlay};
 
 use crate::hand::{catalog, in_lab, press};
 
@@ -39,7 +39,7 @@ fn the_row_of_lessons_lists_them_and_each_leads_back_to_the_list() {
     assert_eq!(effects, [Effect::TakeGuide(guides(LessonTaken::NotYet)[0].clone())]);
     assert!(app.overlay.is_none());
     // a lesson that was finished leads to the next one
-    app.update(Event::GuideLeft { guides: guides(LessonTaken::Whole), wrong: None });
+    app.update(AppEvent::GuideLeft { guides: guides(LessonTaken::Whole), wrong: None });
     assert_eq!(app.lessons_finished(), (1, 2));
     assert_eq!(listed(&app).0, Choice::Guide(1));
     assert_eq!(listed(&app).1[0], "lesson, finished: Simple pendulum");
@@ -53,13 +53,13 @@ fn a_lesson_that_was_left_and_a_demo_are_selected_again() {
     app.picker.guides = guides(LessonTaken::NotYet);
     press(&mut app, "Up Up Enter Enter");
     let wrong = Some("the progress is not kept".to_owned());
-    app.update(Event::GuideLeft { guides: guides(LessonTaken::Partly), wrong });
+    app.update(AppEvent::GuideLeft { guides: guides(LessonTaken::Partly), wrong });
     assert_eq!(listed(&app).0, Choice::Guide(0));
     assert!(
         app.notifications.shown.as_ref().is_some_and(|notice| notice.text.contains("not kept"))
     );
     press(&mut app, "Down Down Enter");
-    app.update(Event::GuideLeft { guides: guides(LessonTaken::Partly), wrong: None });
+    app.update(AppEvent::GuideLeft { guides: guides(LessonTaken::Partly), wrong: None });
     assert_eq!(listed(&app).0, Choice::Guide(2));
 }
 

@@ -3,7 +3,7 @@
 
 use std::time::Duration;
 
-use phaselab::app::{App, Asker, Computation, Effect, Event, Page};
+use phaselab::app::{App, AppEvent, Asker, Computation, Effect, Page};
 use phaselab::experiment::{Command, Gauge};
 use phaselab::job::Progress;
 
@@ -130,7 +130,7 @@ fn another_value_of_a_parameter_is_another_question() {
     assert!(here.iter().any(|g| g.reason.ends_with("proved at these parameters")));
     real.experiment.execute(Command::Parameter { index: 0, value: 1.7 });
     let snapshot = std::sync::Arc::new(real.experiment.snapshot());
-    let effects = real.app.update(Event::Snapshot(snapshot));
+    let effects = real.app.update(AppEvent::Snapshot(snapshot));
     real.execute(effects);
     real.press("1");
     // what held at the other value is gone; what holds for all values stays
@@ -166,7 +166,7 @@ fn the_search_is_a_job_with_a_budget_that_can_be_stopped() {
     let progress = Progress::new();
     progress.spend();
     let (ticket, outcome) = (computation.ticket, computation.job.run(&progress));
-    app.update(Event::Computed { ticket, outcome });
+    app.update(AppEvent::Computed { ticket, outcome });
     let findings = app.lab.as_ref().unwrap().findings().unwrap().unwrap();
     assert_eq!(findings.invariants.none_up_to, None);
     assert!(findings.invariants.ended.is_some() && !findings.summary.contains("proved"));

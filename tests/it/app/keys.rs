@@ -5,9 +5,9 @@ use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
 use crossterm::event::KeyEvent;
-use phaselab::app::keymap::{Binding, CHAINS, KEYS, Place};
+use phaselab::app::keymap::{Binding, CHAINS, KEYS, KeyContext};
 use phaselab::app::{
-    Action, App, Choice, Drawn, DrawnPanes, Effect, Event, LawInView, LoadError, Menu, Overlay,
+    Action, App, AppEvent, Choice, Drawn, DrawnPanes, Effect, LawInView, LoadError, Menu, Overlay,
     Page, Pane, PanesInView, ValueId,
 };
 use phaselab::experiment::{Command, Status};
@@ -20,7 +20,7 @@ use crate::hand::{at_picker, in_lab, loaded, pendulum, press, snapshot};
 fn no_key_means_two_things_at_once() {
     let mut told = Vec::new();
     for chain in CHAINS {
-        let rows: Vec<_> = KEYS.iter().filter(|row| chain.contains(&row.place)).collect();
+        let rows: Vec<_> = KEYS.iter().filter(|row| chain.contains(&row.context)).collect();
         for (index, first) in rows.iter().enumerate() {
             for second in &rows[index + 1..] {
                 let shared = first.keys.iter().filter(|key| second.keys.contains(key));
@@ -35,23 +35,23 @@ fn no_key_means_two_things_at_once() {
 }
 
 #[test]
-fn every_place_is_in_a_chain_and_in_the_help() {
+fn every_context_is_in_a_chain_and_in_the_help() {
     for row in KEYS {
-        assert!(CHAINS.iter().any(|chain| chain.contains(&row.place)), "{:?}", row.place);
-        assert!(Place::ALL.contains(&row.place), "{:?}", row.place);
+        assert!(CHAINS.iter().any(|chain| chain.contains(&row.context)), "{:?}", row.context);
+        assert!(KeyContext::ALL.contains(&row.context), "{:?}", row.context);
         assert!(!row.keys.is_empty() && !row.help.is_empty(), "{row:?}");
     }
 }
 
 /// States in which a context's keys are active; each key has an effect in at least one of them.
-fn states(place: Place) -> &'static [App] {
+fn states(context: KeyContext) -> &'static [App] {
     static STATES: OnceLock<Vec<Vec<App>>> = OnceLock::new();
-    let states = STATES.get_or_init(|| Place::ALL.into_iter().map(states_made).collect());
-    let at = Place::ALL.iter().position(|other| *other == place);
+    let states = STATES.get_or_init(|| KeyContext::ALL.into_iter().map(states_made).collect());
+    let at = KeyContext::ALL.iter().position(|other| *other == context);
     &states[at.expect("it is one of all")]
 }
 
-fn states_made(place: Place) -> Vec<App> {
+fn states_made(context: KeyContext) -> Vec<App> {
     let lab = |keys: &str| {
         let mut app = in_lab();
         press(&mut app, keys);
@@ -59,7 +59,7 @@ fn states_made(place: Place) -> Vec<App> {
     };
     let scrolled = |keys: &str| {
         let mut app = lab(keys);
-        app.update(Event::Drawn(Drawn { beyond: 90, rows: 20, ..Drawn::default() }));
+        app.update(AppEvent::Drawn(Drawn { beyond: 90, rows: 20, ..Drawn::default() }));
         app.scroll = 40;
         app
     };
@@ -68,61 +68,63 @@ fn states_made(place: Place) -> Vec<App> {
         press(&mut app, keys);
         app
     };
-    match place {
-        Place::Always | Place::Anywhere => vec![lab("")],
-        Place::Lab => {
+    match context {
+        KeyContext::Always | KeyContext::Anywhere => vec![lab("")],
+        KeyContext::Lab => {
             let mut shared = lab("");
             let in_view = PanesInView::of([Pane::Plot(0), Pane::Plot(1), Pane::Parameters]);
             let panes = DrawnPanes { in_view, ..DrawnPanes::default() };
-            shared.update(Event::Drawn(Drawn { panes: Some(panes), ..Drawn::default() }));
+            shared.update(AppEvent::Drawn(Drawn { panes: Some(panes), ..Drawn::default() }));
             vec![with_impulses(&["push"]), with_frame(), lab(""), shared]
         }
-        Place::Picker => vec![picker("Up Up")],
-        Place::Search => vec![picker("/ p e n d Down")],
-        Place::Experiment => {
+        KeyContext::Picker => vec![picker("Up Up")],
+        KeyContext::Search => vec![picker("/ p e n d Down")],
+        KeyContext::Experiment => {
             vec![lab("Right Wait Right u"), lab("4"), lab(": m e t h o d Space r k 4 Enter")]
         }
-        Place::Space => vec![lab("Tab Tab Tab"), lab("Tab Tab Tab + Down Down")],
-        Place::Plot => vec![lab("Tab Tab Tab Tab + Right")],
-        Place::Values => vec![lab("Down Right")],
-        Place::Gauges => {
+        KeyContext::Space => vec![lab("Tab Tab Tab"), lab("Tab Tab Tab + Down Down")],
+        KeyContext::Plot => vec![lab("Tab Tab Tab Tab + Right")],
+        KeyContext::Values => vec![lab("Down Right")],
+        KeyContext::Gauges => {
             let mut app = lab("Tab Tab");
             let mut two = snapshot(&pendulum(), 2.0);
             two.gauges =
                 [two.gauges[0].clone(), two.gauges[0].clone(), two.gauges[0].clone()].into();
-            app.update(Event::Snapshot(Arc::new(two)));
+            app.update(AppEvent::Snapshot(Arc::new(two)));
             press(&mut app, "Down");
             vec![app]
         }
-        Place::Text => {
+        KeyContext::Text => {
             let mut searched = lab("3 / m Enter");
             let drawn = Drawn { beyond: 90, rows: 20, matches: 3, ..Drawn::default() };
-            searched.update(Event::Drawn(drawn));
+            searched.update(AppEvent::Drawn(drawn));
             vec![scrolled("3"), searched]
         }
-        Place::Help => vec![lab("?")],
-        Place::Message => vec![wrong_file()],
-        Place::Law => {
+        KeyContext::Help => vec![lab("?")],
+        KeyContext::Message => vec![wrong_file()],
+        KeyContext::Law => {
             let mut app = in_lab();
             let panes =
                 DrawnPanes { single: false, law: LawInView::Clipped(90), ..DrawnPanes::default() };
-            app.update(Event::Drawn(Drawn { panes: Some(panes), ..Drawn::default() }));
+            app.update(AppEvent::Drawn(Drawn { panes: Some(panes), ..Drawn::default() }));
             press(&mut app, "Shift-Tab PgDn PgDn");
             vec![app]
         }
-        Place::Equations => vec![lab("2")],
-        Place::HelpSearch => vec![scrolled("? / z o o m")],
-        Place::Plain => {
+        KeyContext::Equations => vec![lab("2")],
+        KeyContext::HelpSearch => vec![scrolled("? / z o o m")],
+        KeyContext::Plain => {
             let mut app = scrolled("9");
             app.reading.line = 40;
-            app.update(Event::Snapshot(Arc::new(snapshot(&pendulum(), 3.0))));
+            app.update(AppEvent::Snapshot(Arc::new(snapshot(&pendulum(), 3.0))));
             vec![app]
         }
-        Place::Menu => vec![lab("m"), lab(": Down"), lab("Tab Tab Tab v Down Down Enter Down")],
-        Place::Workbench => {
+        KeyContext::Menu => {
+            vec![lab("m"), lab(": Down"), lab("Tab Tab Tab v Down Down Enter Down")]
+        }
+        KeyContext::Workbench => {
             vec![lab("E Ctrl-Home x"), lab("E Ctrl-Home x Ctrl-u"), lab("E Ctrl-Home x Ctrl-x")]
         }
-        Place::Field | Place::Typing => vec![lab("Enter")],
+        KeyContext::Field | KeyContext::Typing => vec![lab("Enter")],
     }
 }
 
@@ -130,7 +132,7 @@ fn states_made(place: Place) -> Vec<App> {
 fn wrong_file() -> App {
     let (mut app, _) = App::new(crate::hand::catalog(), Some("./wrong.toml"));
     let (name, message) = ("./wrong.toml".to_owned(), "error: a wrong line".to_owned());
-    app.update(Event::Loaded(Err(LoadError { name, message })));
+    app.update(AppEvent::Loaded(Err(LoadError { name, message })));
     app
 }
 
@@ -139,8 +141,8 @@ fn with_frame() -> App {
     let loaded = loaded("merry-go-round", 1);
     let mut app = in_lab();
     let seen = snapshot(&loaded, 1.0);
-    app.update(Event::Loaded(Ok(loaded)));
-    app.update(Event::Snapshot(Arc::new(seen)));
+    app.update(AppEvent::Loaded(Ok(loaded)));
+    app.update(AppEvent::Snapshot(Arc::new(seen)));
     press(&mut app, "Tab Tab Tab");
     app
 }
@@ -240,10 +242,10 @@ fn every_key_in_the_table_does_what_is_written() {
     let mut table = String::new();
     for row in KEYS {
         let does = |key: KeyEvent| {
-            let outcomes = states(row.place).iter().cloned().map(|mut app| {
-                let active = app.places().contains(&row.place);
-                assert!(active, "{:?} is not active in its own state", row.place);
-                outcome(&mut app, |app| app.update(Event::Key(key)))
+            let outcomes = states(row.context).iter().cloned().map(|mut app| {
+                let active = app.key_contexts().contains(&row.context);
+                assert!(active, "{:?} is not active in its own state", row.context);
+                outcome(&mut app, |app| app.update(AppEvent::Key(key)))
             });
             let found: Vec<String> = outcomes.filter(|outcome| !outcome.is_empty()).collect();
             // An outcome with an effect is preferred to a message that there is none.
@@ -256,8 +258,8 @@ fn every_key_in_the_table_does_what_is_written() {
         for (key, name) in row.keys.iter().zip(&keys) {
             assert_eq!(does(*key), first, "{name} and {}: {}", keys[0], row.help);
         }
-        let (place, help) = (row.place.title(), row.help);
-        table.push_str(&format!("{place} | {} | {help}\n    {first}\n", keys.join(" ")));
+        let (context, help) = (row.context.title(), row.help);
+        table.push_str(&format!("{context} | {} | {help}\n    {first}\n", keys.join(" ")));
     }
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/screens/keys.txt");
     if std::env::var_os("PHASELAB_BLESS").is_some() {
@@ -279,30 +281,36 @@ fn palette(app: &App) -> (App, Menu) {
 
 #[test]
 fn the_palette_lists_every_row_and_does_what_its_key_does() {
-    for place in Place::ALL.into_iter().filter(|p| !matches!(p, Place::Field | Place::Typing)) {
-        for app in states(place) {
-            if app.overlay.is_some() || place == Place::Search {
+    for context in
+        KeyContext::ALL.into_iter().filter(|p| !matches!(p, KeyContext::Field | KeyContext::Typing))
+    {
+        for app in states(context) {
+            if app.overlay.is_some() || context == KeyContext::Search {
                 continue;
             }
             // a job that is requested is not run: what it finds is shown elsewhere, and takes most of the time
             let mut app = app.clone();
             app.jobs.in_background = true;
             let (open, menu) = palette(&app);
-            let places = app.places();
+            let contexts = app.key_contexts();
             // the cursor of the nearest plot is listed once, as that of plots
-            let repeats = |row: &&Binding| row.action == Action::Cursor && row.place != Place::Plot;
+            let repeats =
+                |row: &&Binding| row.action == Action::Cursor && row.context != KeyContext::Plot;
             for row in KEYS.iter().filter(|row| !repeats(row)) {
                 let line = menu.items.iter().position(|item| {
-                    let near = Choice::ActionAt(row.place, row.action);
+                    let near = Choice::ActionAt(row.context, row.action);
                     (item.choice == Choice::Action(row.action) || item.choice == near)
                         && item.label.ends_with(row.help)
-                        && item.about.starts_with(row.place.title())
+                        && item.about.starts_with(row.context.title())
                 });
                 let line = line.unwrap_or_else(|| panic!("{} is not listed", row.help));
                 let item = &menu.items[line];
                 let near = matches!(item.choice, Choice::ActionAt(..));
-                let here = places.contains(&row.place) || near;
-                assert_eq!(near, !places.contains(&row.place) && app.nearest(row.place).is_some());
+                let here = contexts.contains(&row.context) || near;
+                assert_eq!(
+                    near,
+                    !contexts.contains(&row.context) && app.nearest(row.context).is_some()
+                );
                 assert!(item.unavailable.is_none() == (here && app.offers(row.action)), "{item:?}");
                 let mut open = open.clone();
                 if let Some(Overlay::Menu(menu)) = &mut open.overlay {
@@ -322,11 +330,11 @@ fn the_palette_lists_every_row_and_does_what_its_key_does() {
                 let mut taken = app.clone();
                 let taken = outcome(&mut taken, |app| {
                     *app = open;
-                    app.update(Event::Key(crate::hand::key("Enter")))
+                    app.update(AppEvent::Key(crate::hand::key("Enter")))
                 });
                 let mut pressed = app.clone();
-                let pressed = outcome(&mut pressed, |app| app.update(Event::Key(row.keys[0])));
-                assert_eq!(taken, pressed, "{:?}: {}", row.place, row.help);
+                let pressed = outcome(&mut pressed, |app| app.update(AppEvent::Key(row.keys[0])));
+                assert_eq!(taken, pressed, "{:?}: {}", row.context, row.help);
             }
         }
     }
@@ -337,23 +345,23 @@ fn the_palette_lists_every_row_and_does_what_its_key_does() {
 fn the_help_is_reached_from_everywhere_and_leads_back() {
     let over = |app: &App| facts(app).into_iter().find(|(name, _)| name == "over it").unwrap().1;
     let cases = [
-        ("Enter", Place::Field),
-        ("{ H", Place::Field),
-        (": z o", Place::Menu),
-        ("m", Place::Menu),
-        ("E", Place::Workbench),
-        ("", Place::Values),
-        ("Tab Tab Tab Tab", Place::Plot),
-        ("2", Place::Equations),
-        ("3", Place::Text),
+        ("Enter", KeyContext::Field),
+        ("{ H", KeyContext::Field),
+        (": z o", KeyContext::Menu),
+        ("m", KeyContext::Menu),
+        ("E", KeyContext::Workbench),
+        ("", KeyContext::Values),
+        ("Tab Tab Tab Tab", KeyContext::Plot),
+        ("2", KeyContext::Equations),
+        ("3", KeyContext::Text),
     ];
-    for (keys, place) in cases {
+    for (keys, context) in cases {
         let mut app = in_lab();
         press(&mut app, keys);
         let before = over(&app);
         press(&mut app, "F1");
         assert!(over(&app).starts_with("the keys"), "{keys}");
-        assert_eq!(app.places_below()[0], place, "{keys}: what holds here comes first");
+        assert_eq!(app.key_contexts_below()[0], context, "{keys}: what holds here comes first");
         press(&mut app, "Esc");
         assert_eq!(over(&app), before, "{keys}");
         // A search takes letters, q among them; the first Esc ends it, the second leads back.
@@ -448,7 +456,7 @@ fn the_palette_acts_on_the_nearest_pane() {
         let mut app = in_lab();
         press(&mut app, begin);
         press(&mut app, ":");
-        app.update(Event::Paste("show or hide a cursor".to_owned()));
+        app.update(AppEvent::Paste("show or hide a cursor".to_owned()));
         press(&mut app, "Enter");
         let lab = app.lab.as_ref().unwrap();
         assert_eq!((app.page, lab.focus.pane), (Page::Lab, Pane::Plot(1)), "{begin}");
@@ -461,12 +469,12 @@ fn the_palette_acts_on_the_nearest_pane() {
     // The motion in space is another pane; a plot that was focused is the nearest.
     let mut app = in_lab();
     press(&mut app, ":");
-    app.update(Event::Paste("look from higher".to_owned()));
+    app.update(AppEvent::Paste("look from higher".to_owned()));
     press(&mut app, "Enter");
     assert_eq!(app.lab.as_ref().unwrap().focus.pane, Pane::Plot(0));
     let mut app = in_lab();
     press(&mut app, "Tab Tab Tab Tab Tab Tab Tab :");
-    app.update(Event::Paste("show or hide a cursor".to_owned()));
+    app.update(AppEvent::Paste("show or hide a cursor".to_owned()));
     press(&mut app, "Enter");
     assert_eq!(app.lab.as_ref().unwrap().focus.pane, Pane::Plot(3), "the one focused last");
     // Among the systems there is no pane.
@@ -478,7 +486,7 @@ fn the_palette_acts_on_the_nearest_pane() {
 fn the_palette_opens_types_and_chooses() {
     let first = |query: &str| {
         let (mut app, _) = palette(&in_lab());
-        app.update(Event::Paste(query.to_owned()));
+        app.update(AppEvent::Paste(query.to_owned()));
         let Some(Overlay::Menu(menu)) = &app.overlay else { panic!() };
         let label = menu.current().unwrap().1.label.clone();
         let effects = press(&mut app, "Enter");
@@ -526,7 +534,7 @@ fn a_notice_goes_by_itself() {
     let mut app = in_lab();
     press(&mut app, "u");
     assert!(app.notifications.shown.is_some());
-    app.update(Event::Tick(Duration::from_secs(20)));
+    app.update(AppEvent::Tick(Duration::from_secs(20)));
     assert_eq!(app.notifications.shown, None);
 }
 
@@ -540,7 +548,7 @@ fn a_fault_is_answered_by_a_reset_and_not_by_play() {
         ends_motion: true,
     };
     faulted.status = Status::Failed(fault);
-    app.update(Event::Snapshot(Arc::new(faulted)));
+    app.update(AppEvent::Snapshot(Arc::new(faulted)));
     assert!(press(&mut app, "Space").is_empty());
     assert!(app.notifications.shown.is_some_and(|notice| notice.text.contains("reset")));
 }

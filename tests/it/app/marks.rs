@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use phaselab::app::{Effect, Event};
+use phaselab::app::{AppEvent, Effect};
 use phaselab::experiment::{Command, Recorded};
 
 use crate::hand::{in_lab, pendulum, press, snapshot};
@@ -12,7 +12,7 @@ fn looked_at(seen: f64, key: &str) -> Option<f64> {
     let mut app = in_lab();
     let mut at = snapshot(&pendulum(), seen);
     at.recorded = Recorded { from: 0.0, to: 2.0, ..at.recorded };
-    app.update(Event::Snapshot(Arc::new(at)));
+    app.update(AppEvent::Snapshot(Arc::new(at)));
     app.lab.as_mut().expect("a lab").marks = vec![0.5, 1.0, 1.5, 7.0];
     match press(&mut app, key)[..] {
         [Effect::Execute(Command::LookAt(time))] => Some(time),

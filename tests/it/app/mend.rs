@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use phaselab::app::{
-    Above, App, BufferState, CheckedText, Effect, Event, LoadError, Overlay, Page, Pane,
+    Above, App, AppEvent, BufferState, CheckedText, Effect, LoadError, Overlay, Page, Pane,
 };
 use phaselab::diagnostic::Document;
 use phaselab::preset::template;
@@ -19,7 +19,7 @@ fn wrong() -> String {
 
 /// Carries out the checks that are asked for.
 fn rest(app: &mut App) {
-    let effects = app.update(Event::Tick(Duration::from_secs(1)));
+    let effects = app.update(AppEvent::Tick(Duration::from_secs(1)));
     let check = effects.into_iter().find_map(|effect| match effect {
         Effect::Check { ticket, title, text } => Some((ticket, title, text)),
         _ => None,
@@ -35,7 +35,7 @@ fn rest(app: &mut App) {
         loaded.name = app.checked_system().expect("a name");
         loaded
     });
-    app.update(Event::Checked(Box::new(CheckedText {
+    app.update(AppEvent::Checked(Box::new(CheckedText {
         ticket,
         outcome,
         took: Some(Duration::ZERO),
@@ -54,11 +54,11 @@ fn a_wrong_file_is_edited_at_its_first_error_and_then_runs() {
     let name = "./wrong.toml";
     let (mut app, _) = App::new(catalog(), Some(name));
     let message = "error: a wrong line".to_owned();
-    app.update(Event::Loaded(Err(LoadError { name: name.to_owned(), message })));
+    app.update(AppEvent::Loaded(Err(LoadError { name: name.to_owned(), message })));
     assert!(matches!(app.overlay, Some(Overlay::Message(_))));
     assert!(text_of(&app).contains("E edit"), "the key is among the hints");
     assert_eq!(press(&mut app, "E"), [Effect::Reread(PathBuf::from(name))]);
-    app.update(Event::FileRead { text: wrong(), asked: true });
+    app.update(AppEvent::FileRead { text: wrong(), asked: true });
     rest(&mut app);
     let buffer = app.open_buffer().expect("the editor is open");
     assert_eq!(buffer.state, BufferState::Wrong);
@@ -88,12 +88,12 @@ fn a_wrong_file_that_is_left_leads_back_to_its_errors_and_then_to_the_systems() 
     let (mut app, _) = App::new(catalog(), Some(name));
     let message = "error: a wrong line".to_owned();
     let failure = LoadError { name: name.to_owned(), message };
-    app.update(Event::Loaded(Err(failure.clone())));
+    app.update(AppEvent::Loaded(Err(failure.clone())));
     press(&mut app, "E");
-    app.update(Event::FileRead { text: wrong(), asked: true });
+    app.update(AppEvent::FileRead { text: wrong(), asked: true });
     rest(&mut app);
     assert_eq!(press(&mut app, "Esc"), [Effect::Load(name.to_owned())]);
-    app.update(Event::Loaded(Err(failure)));
+    app.update(AppEvent::Loaded(Err(failure)));
     assert!(matches!(app.overlay, Some(Overlay::Message(_))), "the page from which it was opened");
     press(&mut app, "Esc");
     assert!(app.page == Page::Picker && app.overlay.is_none());
@@ -107,9 +107,9 @@ fn an_unsaved_text_of_a_wrong_file_is_listed_among_the_systems() {
     let name = "./wrong.toml";
     let (mut app, _) = App::new(catalog(), Some(name));
     let message = "error: a wrong line".to_owned();
-    app.update(Event::Loaded(Err(LoadError { name: name.to_owned(), message })));
+    app.update(AppEvent::Loaded(Err(LoadError { name: name.to_owned(), message })));
     press(&mut app, "E");
-    app.update(Event::FileRead { text: wrong(), asked: true });
+    app.update(AppEvent::FileRead { text: wrong(), asked: true });
     rest(&mut app);
     press(&mut app, "x Esc");
     assert_eq!(app.page, Page::Picker);
@@ -120,11 +120,11 @@ fn an_unsaved_text_of_a_wrong_file_is_listed_among_the_systems() {
     assert!(text_of(&app).contains("Unsaved: ./wrong.toml"), "{}", text_of(&app));
     let (mut again, _) = App::new(catalog(), None);
     again.workbench.put(app.unsaved());
-    again.update(Event::Tick(Duration::ZERO));
+    again.update(AppEvent::Tick(Duration::ZERO));
     assert_eq!(again.picker.unsaved(), Some(name));
     assert_eq!(again.picker.selected_above(), Some(Above::Unsaved), "as a session would be");
     for mut app in [app, again] {
-        app.update(Event::Loaded(Ok(crate::hand::pendulum())));
+        app.update(AppEvent::Loaded(Ok(crate::hand::pendulum())));
         app.picker.step(-9);
         while app.picker.selected_above() != Some(Above::Unsaved) {
             app.picker.step(1);
@@ -181,14 +181,14 @@ fn a_name_that_is_typed_replaces_the_suggestion_and_titles_the_system() {
     assert_eq!(name_after(&mut app, "End 2"), "my-system2");
     press(&mut app, "Ctrl-s");
     press(&mut app, "Backspace");
-    app.update(Event::Paste("pasted".to_owned()));
+    app.update(AppEvent::Paste("pasted".to_owned()));
     assert!(text_of(&app).contains("save a copy as: pasted"));
     press(&mut app, "Esc");
     assert_eq!(name_after(&mut app, "m i n e"), "mine");
     // A file without a title has its name for one, so it is read again under the new name.
     let place = PathBuf::from("/home/me/presets/mine.toml");
-    app.update(Event::FileSaved(Ok((place.clone(), template().to_owned()))));
-    let effects = app.update(Event::Tick(Duration::ZERO));
+    app.update(AppEvent::FileSaved(Ok((place.clone(), template().to_owned()))));
+    let effects = app.update(AppEvent::Tick(Duration::ZERO));
     let title = effects.iter().find_map(|effect| match effect {
         Effect::Check { title, .. } => Some(title.clone()),
         _ => None,
@@ -203,7 +203,7 @@ fn a_long_help_is_wrapped_and_not_cut() {
     for width in 80..=120 {
         let (mut app, _) = App::new(catalog(), Some("./wrong.toml"));
         let message = message.clone();
-        app.update(Event::Loaded(Err(LoadError { name: "./wrong.toml".to_owned(), message })));
+        app.update(AppEvent::Loaded(Err(LoadError { name: "./wrong.toml".to_owned(), message })));
         let area = ratatui::layout::Rect::new(0, 0, width, 24);
         let mut buffer = ratatui::buffer::Buffer::empty(area);
         phaselab::view::draw(&app, &rich(), area, &mut buffer);

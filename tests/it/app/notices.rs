@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use crossterm::event::{MouseButton, MouseEventKind};
-use phaselab::app::{Event, HitTarget};
+use phaselab::app::{AppEvent, HitTarget};
 
 use super::real::Real;
 
@@ -29,7 +29,7 @@ fn what_was_said_of_a_motion_ends_where_another_begins() {
         let hit = HitTarget::Plot { index, place: [0.5, 0.5], at: [0.5, 0.25] };
         for kind in [MouseEventKind::Down(MouseButton::Left), MouseEventKind::Up(MouseButton::Left)]
         {
-            let effects = real.app.update(Event::Mouse(kind, hit));
+            let effects = real.app.update(AppEvent::Mouse(kind, hit));
             real.execute(effects);
             real.look();
         }
@@ -62,12 +62,12 @@ fn a_jump_that_replaces_another_repeats_nothing_before_it() {
         real.run(10);
     }
     real.press("Right");
-    real.app.update(Event::Tick(Duration::from_secs(3)));
+    real.app.update(AppEvent::Tick(Duration::from_secs(3)));
     assert!(said(&real).contains("energy jumped"), "{}", said(&real));
     real.press("Right Right Right");
     assert!(said(&real).contains("energy jumped"), "{}", said(&real));
     for _ in 0..8 {
-        real.app.update(Event::Tick(Duration::from_secs(3)));
+        real.app.update(AppEvent::Tick(Duration::from_secs(3)));
         assert!(!said(&real).starts_with("impulse"), "it was said before: {}", said(&real));
     }
     assert_eq!(said(&real), "");

@@ -1,6 +1,6 @@
 //! A parameter changed in the course of time by a key: the ramp is written into the text, and the pane of the action opens.
 
-use phaselab::app::{CheckedText, Effect, Event, Loaded, Overlay, Pane, ValueId};
+use phaselab::app::{AppEvent, CheckedText, Effect, Loaded, Overlay, Pane, ValueId};
 use phaselab::diagnostic::Document;
 use phaselab::experiment::{Command, Experiment, Setup};
 use phaselab::num::significant;
@@ -28,7 +28,7 @@ fn ask(real: &mut Real, typed: &str) {
 
 /// The text that is to be checked next.
 fn text(real: &mut Real) -> Option<String> {
-    let effects = real.app.update(Event::Tick(std::time::Duration::from_millis(20)));
+    let effects = real.app.update(AppEvent::Tick(std::time::Duration::from_millis(20)));
     effects.into_iter().find_map(|effect| match effect {
         Effect::Check { text, .. } => Some(text),
         _ => None,
@@ -43,7 +43,7 @@ fn rebuild(real: &mut Real, written: &str) {
     real.experiment.set_epoch(2);
     let took = Some(std::time::Duration::from_millis(800));
     let checked = CheckedText { ticket: 1, outcome: Ok(loaded), took };
-    let effects = real.app.update(Event::Checked(Box::new(checked)));
+    let effects = real.app.update(AppEvent::Checked(Box::new(checked)));
     real.execute(effects);
     real.look();
 }

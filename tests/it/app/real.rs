@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crossterm::event::KeyEvent;
-use phaselab::app::{App, Effect, Event, Lab, Loaded, ValueId};
+use phaselab::app::{App, AppEvent, Effect, Lab, Loaded, ValueId};
 use phaselab::experiment::{Command, Experiment, Setup, Snapshot, Status};
 use phaselab::view::draw;
 use proptest::prelude::*;
@@ -34,14 +34,14 @@ impl Real {
         let mut experiment = Experiment::new(model, equations, system, setup).unwrap();
         experiment.set_epoch(loaded.epoch);
         let (mut app, _) = App::new(catalog(), Some(&loaded.name));
-        app.update(Event::Loaded(Ok(loaded)));
+        app.update(AppEvent::Loaded(Ok(loaded)));
         let mut real = Self { app, experiment };
         real.look();
         real
     }
 
     pub(crate) fn look(&mut self) {
-        self.app.update(Event::Snapshot(Arc::new(self.experiment.snapshot())));
+        self.app.update(AppEvent::Snapshot(Arc::new(self.experiment.snapshot())));
     }
 
     /// Carries out the requested effects.
@@ -60,7 +60,7 @@ impl Real {
     }
 
     pub(crate) fn strike(&mut self, key: KeyEvent) {
-        let effects = self.app.update(Event::Key(key));
+        let effects = self.app.update(AppEvent::Key(key));
         self.execute(effects);
         self.look();
     }
@@ -302,7 +302,7 @@ proptest! {
                 real.press("Esc");
             }
             if wait {
-                real.app.update(Event::Tick(std::time::Duration::from_secs(1)));
+                real.app.update(AppEvent::Tick(std::time::Duration::from_secs(1)));
             }
         }
         let end = real.state();

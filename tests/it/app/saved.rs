@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use phaselab::app::{Above, App, Effect, Event, Page, Pane, Saved};
+use phaselab::app::{Above, App, AppEvent, Effect, Page, Pane, Saved};
 use phaselab::experiment::Command;
 
 use crate::hand::{catalog, in_lab, lowered, pendulum, press, snapshot};
@@ -19,8 +19,8 @@ fn kept(app: &App) -> Saved {
 fn resumed(saved: Saved) -> (App, Vec<Effect>) {
     let (mut app, _) = App::new(catalog(), Some(&saved.open));
     app.resume(saved);
-    let effects = app.update(Event::Loaded(Ok(pendulum())));
-    app.update(Event::Snapshot(Arc::new(snapshot(&pendulum(), 2.0))));
+    let effects = app.update(AppEvent::Loaded(Ok(pendulum())));
+    app.update(AppEvent::Snapshot(Arc::new(snapshot(&pendulum(), 2.0))));
     (app, effects)
 }
 
@@ -58,7 +58,7 @@ fn the_list_of_systems_keeps_what_was_left() {
     assert_eq!(kept(&app), left);
     // a system that is only previewed is not part of it
     press(&mut app, "Down");
-    app.update(Event::Snapshot(Arc::new(snapshot(&pendulum(), 3.0))));
+    app.update(AppEvent::Snapshot(Arc::new(snapshot(&pendulum(), 3.0))));
     assert_eq!(kept(&app), left);
     let (app, _) = App::new(catalog(), None);
     assert_eq!(app.saved(), None);
@@ -86,8 +86,8 @@ L = "1/2*(x'^2 + y'^2) - 1/2*k*(x^2 + y^2)"
 fn opened(text: &str) -> App {
     let (mut app, _) = App::new(catalog(), Some("test"));
     let loaded = lowered(text);
-    app.update(Event::Loaded(Ok(loaded.clone())));
-    app.update(Event::Snapshot(Arc::new(snapshot(&loaded, 1.0))));
+    app.update(AppEvent::Loaded(Ok(loaded.clone())));
+    app.update(AppEvent::Snapshot(Arc::new(snapshot(&loaded, 1.0))));
     app
 }
 
@@ -98,7 +98,7 @@ fn a_rebuilt_system_is_looked_at_as_before() {
     let before = app.lab.as_ref().unwrap().clone();
     // with two more observables the channels have other indices
     let text = format!("{FILE}[[observables]]\nname = \"r\"\nexpression = \"sqrt(x^2 + y^2)\"\n");
-    let effects = app.update(Event::Rebuilt(lowered(&text)));
+    let effects = app.update(AppEvent::Rebuilt(lowered(&text)));
     let lab = app.lab.as_ref().unwrap();
     assert_eq!((lab.focus.pane, lab.plots.len()), (before.focus.pane, before.plots.len()));
     let names = |lab: &phaselab::app::Lab| {
@@ -117,7 +117,7 @@ fn a_rebuilt_system_is_looked_at_as_before() {
 fn a_system_that_lost_what_was_shown_opens_its_own_views() {
     let mut app = opened(FILE);
     let text = FILE.replace("y = { initial = 2.0 }\n", "").replace("y'^2", "x'^2");
-    app.update(Event::Rebuilt(lowered(&text.replace("y^2", "x^2"))));
+    app.update(AppEvent::Rebuilt(lowered(&text.replace("y^2", "x^2"))));
     let lab = app.lab.as_ref().unwrap();
     assert!(!lab.plots.is_empty());
     for plot in &lab.plots {
@@ -155,8 +155,8 @@ fn a_motion_of_another_law_is_not_brought_back() {
         let mut app = opened(FILE);
         press(&mut app, "Right");
         let loaded = lowered(&text);
-        app.update(Event::Rebuilt(loaded.clone()));
-        app.update(Event::Snapshot(Arc::new(snapshot(&loaded, 2.0))));
+        app.update(AppEvent::Rebuilt(loaded.clone()));
+        app.update(AppEvent::Snapshot(Arc::new(snapshot(&loaded, 2.0))));
         let effects = press(&mut app, "u");
         let restores = |effect: &Effect| matches!(effect, Effect::Execute(Command::Restore(_)));
         assert_eq!(effects.iter().any(restores), comes_back, "{effects:?}");
@@ -173,13 +173,13 @@ fn only_a_change_of_the_law_is_one() {
     let cases = [(&same, None), (&other_law, Some("the text")), (&other_value, Some("the text"))];
     for (text, what) in cases {
         let mut app = opened(FILE);
-        let effects = app.update(Event::Rebuilt(lowered(text)));
+        let effects = app.update(AppEvent::Rebuilt(lowered(text)));
         assert_eq!(changed(&effects).as_deref(), what, "rebuilt from {text}");
         // the same file changed by another program between two sessions
         let saved = kept(&opened(FILE));
         let (mut app, _) = App::new(catalog(), Some(&saved.open));
         app.resume(saved);
-        let effects = app.update(Event::Loaded(Ok(lowered(text))));
+        let effects = app.update(AppEvent::Loaded(Ok(lowered(text))));
         assert_eq!(changed(&effects).as_deref(), what, "resumed with {text}");
         let said =
             app.notifications.shown.as_ref().map(|notice| notice.text.clone()).unwrap_or_default();
@@ -200,7 +200,7 @@ fn the_first_row_of_the_list_goes_on_with_the_session() {
     let saved = kept(&app);
     let mut app = offered(saved.clone());
     assert_eq!(press(&mut app, "Enter"), [Effect::Load(saved.open.clone())]);
-    let effects = app.update(Event::Loaded(Ok(pendulum())));
+    let effects = app.update(AppEvent::Loaded(Ok(pendulum())));
     let (by_option, effects_of_option) = resumed(saved.clone());
     assert_eq!(effects, effects_of_option);
     assert_eq!(effects, [Effect::Execute(Command::Restore(Box::new(saved.moment)))]);
@@ -250,7 +250,7 @@ fn only_the_row_of_the_session_goes_on_with_it() {
     press(&mut app, "Esc Esc");
     assert!(app.picker.session().is_some() && app.picker.selected_session().is_none());
     press(&mut app, "Enter");
-    let effects = app.update(Event::Loaded(Ok(pendulum())));
+    let effects = app.update(AppEvent::Loaded(Ok(pendulum())));
     assert!(effects.contains(&Effect::Execute(Command::Play)), "{effects:?}");
     // a load that was stopped leaves nothing to be taken up by the next one
     let mut app = offered(saved.clone());
@@ -259,6 +259,6 @@ fn only_the_row_of_the_session_goes_on_with_it() {
     press(&mut app, "Down");
     app.picker.select(&saved.open);
     press(&mut app, "Enter");
-    let effects = app.update(Event::Loaded(Ok(pendulum())));
+    let effects = app.update(AppEvent::Loaded(Ok(pendulum())));
     assert!(effects.contains(&Effect::Execute(Command::Play)), "{effects:?}");
 }

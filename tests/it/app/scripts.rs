@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use phaselab::app::{App, Effect, Event, LoadError, Overlay, Page, Pane};
+use phaselab::app::{App, AppEvent, Effect, LoadError, Overlay, Page, Pane};
 use phaselab::experiment::{Checkpoint, Command};
 
 use crate::hand::{at_picker, catalog, in_lab, loaded, lowered, pendulum, press, snapshot};
@@ -189,14 +189,18 @@ fn a_preview_waits_until_the_selection_rests() {
     let mut app = at_picker();
     press(&mut app, "Home Down Down");
     let name = app.picker.current().unwrap().name.clone();
-    assert_eq!(app.update(Event::Tick(Duration::from_millis(50))), []);
+    assert_eq!(app.update(AppEvent::Tick(Duration::from_millis(50))), []);
     press(&mut app, "Up");
-    assert_eq!(app.update(Event::Tick(Duration::from_millis(100))), [], "{name} was left before");
     assert_eq!(
-        app.update(Event::Tick(Duration::from_millis(100))),
+        app.update(AppEvent::Tick(Duration::from_millis(100))),
+        [],
+        "{name} was left before"
+    );
+    assert_eq!(
+        app.update(AppEvent::Tick(Duration::from_millis(100))),
         [Effect::Load("planet".into())]
     );
-    assert_eq!(app.update(Event::Tick(Duration::from_millis(100))), []);
+    assert_eq!(app.update(AppEvent::Tick(Duration::from_millis(100))), []);
 }
 
 #[test]
@@ -207,7 +211,7 @@ fn a_system_opened_before_it_is_there_opens_when_it_comes() {
     assert_eq!(press(&mut app, "Enter"), [], "it is on its way");
     assert_eq!(app.page, Page::Picker);
     assert_eq!(
-        app.update(Event::Loaded(Ok(loaded("kapitza", 2)))),
+        app.update(AppEvent::Loaded(Ok(loaded("kapitza", 2)))),
         [Effect::Execute(Command::Play)]
     );
     assert_eq!(app.page, Page::Lab);
@@ -218,7 +222,7 @@ fn what_cannot_be_loaded_is_reported_and_the_rest_goes_on() {
     let (mut app, effects) = App::new(catalog(), Some("own.toml"));
     assert_eq!(effects, [Effect::Load("own.toml".into())]);
     let failure = LoadError { name: "own.toml".into(), message: "line 1\nline 2".into() };
-    app.update(Event::Loaded(Err(failure.clone())));
+    app.update(AppEvent::Loaded(Err(failure.clone())));
     assert!(matches!(&app.overlay, Some(Overlay::Message(f)) if *f == failure));
     press(&mut app, "Esc");
     assert!(app.overlay.is_none());
@@ -231,7 +235,7 @@ fn snapshots_of_another_system_are_dropped() {
     let mut app = in_lab();
     let mut other = snapshot(&pendulum(), 7.0);
     other.epoch = 9;
-    app.update(Event::Snapshot(Arc::new(other)));
+    app.update(AppEvent::Snapshot(Arc::new(other)));
     assert_eq!(app.snapshot().unwrap().time, 2.0);
 }
 
@@ -240,11 +244,11 @@ fn news_of_the_experiment_is_reported_once() {
     let mut app = in_lab();
     let mut told = snapshot(&pendulum(), 2.5);
     told.notices = ["the energy jumped".to_owned()].into();
-    app.update(Event::Snapshot(Arc::new(told.clone())));
+    app.update(AppEvent::Snapshot(Arc::new(told.clone())));
     assert!(
         app.notifications.shown.take().is_some_and(|notice| notice.text == "the energy jumped")
     );
-    app.update(Event::Snapshot(Arc::new(told)));
+    app.update(AppEvent::Snapshot(Arc::new(told)));
     assert_eq!(app.notifications.shown, None);
 }
 
@@ -252,7 +256,7 @@ fn news_of_the_experiment_is_reported_once() {
 fn a_page_of_text_does_not_scroll_beyond_its_end() {
     let mut app = in_lab();
     press(&mut app, "2");
-    app.update(Event::Drawn(phaselab::app::Drawn { beyond: 3, rows: 20, ..Default::default() }));
+    app.update(AppEvent::Drawn(phaselab::app::Drawn { beyond: 3, rows: 20, ..Default::default() }));
     press(&mut app, "Down Down Down Down Down Down");
     assert_eq!(app.scroll, 3);
     press(&mut app, "Up");
@@ -273,10 +277,10 @@ pub(super) fn with_impulses(names: &[&str]) -> App {
     );
     let loaded = lowered(&text);
     let mut app = in_lab();
-    app.update(Event::Snapshot(Arc::new(snapshot(&pendulum(), 2.0))));
+    app.update(AppEvent::Snapshot(Arc::new(snapshot(&pendulum(), 2.0))));
     let seen = snapshot(&loaded, 1.0);
-    app.update(Event::Loaded(Ok(loaded)));
-    app.update(Event::Snapshot(Arc::new(seen)));
+    app.update(AppEvent::Loaded(Ok(loaded)));
+    app.update(AppEvent::Snapshot(Arc::new(seen)));
     app
 }
 

@@ -1,7 +1,7 @@
 //! Searching: the systems and actions found, and their order.
 
 use phaselab::app::keymap::{Binding, KEYS};
-use phaselab::app::{Action, App, Event, Overlay};
+use phaselab::app::{Action, App, AppEvent, Overlay};
 
 use crate::hand::{at_picker, in_lab, press};
 
@@ -9,7 +9,7 @@ use crate::hand::{at_picker, in_lab, press};
 fn systems(query: &str) -> Vec<String> {
     let mut app = at_picker();
     press(&mut app, "/");
-    app.update(Event::Paste(query.to_owned()));
+    app.update(AppEvent::Paste(query.to_owned()));
     let shown = app.picker.shown();
     shown.into_iter().map(|index| app.picker.entries[index].name.clone()).collect()
 }
@@ -18,7 +18,7 @@ fn systems(query: &str) -> Vec<String> {
 fn lines(app: &App, query: &str) -> Vec<String> {
     let mut app = app.clone();
     press(&mut app, ":");
-    app.update(Event::Paste(query.to_owned()));
+    app.update(AppEvent::Paste(query.to_owned()));
     let Some(Overlay::Menu(menu)) = &app.overlay else { panic!("there is no palette") };
     menu.shown().into_iter().map(|index| menu.items[index].label.clone()).collect()
 }
@@ -146,7 +146,7 @@ fn every_kind_of_plot_is_found_by_its_name() {
         let mut app = in_lab();
         press(&mut app, begin);
         press(&mut app, ":");
-        app.update(Event::Paste("Legendre".to_owned()));
+        app.update(AppEvent::Paste("Legendre".to_owned()));
         press(&mut app, "Enter");
         let lab = app.lab.as_ref().unwrap();
         let (_, plot) = lab.focused_plot().expect("a plot has the focus");

@@ -102,8 +102,8 @@ fn an_angle_passes_a_value_once_in_a_turn() {
         let loaded = crate::hand::lowered(text);
         let seen = crate::hand::snapshot(&loaded, 1.0);
         let (mut app, _) = App::new(crate::hand::catalog(), Some("test"));
-        app.update(phaselab::app::Event::Loaded(Ok(loaded)));
-        app.update(phaselab::app::Event::Snapshot(std::sync::Arc::new(seen)));
+        app.update(phaselab::app::AppEvent::Loaded(Ok(loaded)));
+        app.update(phaselab::app::AppEvent::Snapshot(std::sync::Arc::new(seen)));
         focus(&mut app, "section");
         press(&mut app, "L");
         if typed.is_empty() {

@@ -3,7 +3,7 @@
 
 use std::time::Duration;
 
-use phaselab::app::{App, Effect, Event, Overlay};
+use phaselab::app::{App, AppEvent, Effect, Overlay};
 
 use crate::hand::{catalog, checked, judged, lab, loaded, press, write};
 use crate::screen::{rich, rows, screen};
@@ -47,7 +47,7 @@ fn an_expression_can_be_typed_for_either_axis() {
     assert!(app.workbench.unsaved().is_empty());
     // an edit of the text keeps the axes, and is checked together with them
     press(&mut app, "End # x");
-    app.update(Event::Tick(Duration::from_millis(140)));
+    app.update(AppEvent::Tick(Duration::from_millis(140)));
     let text = checked(&mut app);
     assert!(text.contains("\"theta1'^2\"") && text.contains("#x"), "{text}");
     press(&mut app, "Esc");
@@ -66,7 +66,7 @@ fn a_typed_axis_is_resumed_with_the_session() {
     assert!(!saved.edited);
     let (mut again, _) = App::new(catalog(), Some("double-pendulum"));
     again.resume(saved);
-    again.update(Event::Loaded(Ok(loaded("double-pendulum", 1))));
+    again.update(AppEvent::Loaded(Ok(loaded("double-pendulum", 1))));
     let text = checked(&mut again);
     assert!(text.contains("\"theta1'^2\""), "{text}");
     assert_eq!(axes(&again), ["θ₁ − 2 θ₂", "theta1'^2"]);
@@ -86,7 +86,7 @@ fn an_axis_that_no_longer_fits_the_text_is_given_up() {
     checked(&mut app);
     assert_eq!(app.lab.as_ref().unwrap().typed.len(), 2);
     let own = app.lab.as_ref().unwrap().loaded.document.text.clone();
-    app.update(Event::FileRead { text: own.replace("m2", "mass2"), asked: false });
+    app.update(AppEvent::FileRead { text: own.replace("m2", "mass2"), asked: false });
     let (text, is_right) = judged(&mut app);
     assert!(text.contains("m2*theta1") && !is_right, "{text}");
     let text = checked(&mut app);
@@ -99,7 +99,7 @@ fn an_axis_that_no_longer_fits_the_text_is_given_up() {
 fn a_quantity_that_is_there_is_taken_as_it_is() {
     let mut app = lab("double-pendulum", 1.0);
     ask(&mut app, "0 + theta2");
-    let effects = app.update(Event::Tick(Duration::from_millis(20)));
+    let effects = app.update(AppEvent::Tick(Duration::from_millis(20)));
     assert!(!effects.iter().any(|effect| matches!(effect, Effect::Check { .. })));
     write(&mut app, "1*theta1");
     assert_eq!(axes(&app), ["theta2", "theta1"]);
@@ -119,7 +119,7 @@ fn what_is_no_expression_is_refused_and_the_list_stays() {
 fn a_new_variable_that_is_typed_is_taken_as_it_is() {
     let mut app = lab("angle-of-the-oscillator", 1.0);
     ask(&mut app, "1*X");
-    let effects = app.update(Event::Tick(Duration::from_millis(20)));
+    let effects = app.update(AppEvent::Tick(Duration::from_millis(20)));
     assert!(!effects.iter().any(|effect| matches!(effect, Effect::Check { .. })));
     assert!(matches!(app.overlay, Some(Overlay::Menu(_))));
     write(&mut app, "0 + Y");

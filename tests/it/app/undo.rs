@@ -147,7 +147,7 @@ fn changes_undone_at_once_lead_back_one_by_one() {
     let effects: Vec<_> = keys
         .flat_map(|word| {
             let key = crate::hand::key(word);
-            real.app.update(phaselab::app::Event::Key(key))
+            real.app.update(phaselab::app::AppEvent::Key(key))
         })
         .collect();
     real.execute(effects);

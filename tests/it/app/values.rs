@@ -1,6 +1,6 @@
 //! Values: steps, typed numbers, undo.
 
-use phaselab::app::{Effect, Event, Overlay, ValueId};
+use phaselab::app::{AppEvent, Effect, Overlay, ValueId};
 use phaselab::experiment::Command;
 
 use crate::hand::{in_lab, press};
@@ -10,7 +10,7 @@ fn typed(text: &str) -> (Vec<Effect>, Option<String>, String) {
     let mut app = in_lab();
     press(&mut app, "Enter Ctrl-u");
     for letter in text.chars() {
-        app.update(Event::Key(phaselab::app::key::character(letter)));
+        app.update(AppEvent::Key(phaselab::app::key::character(letter)));
     }
     let effects = press(&mut app, "Enter");
     match app.overlay {
@@ -98,12 +98,12 @@ fn a_value_beyond_its_range_is_taken_and_said() {
 fn a_long_paste_is_cut_and_said() {
     let mut app = in_lab();
     press(&mut app, "Enter");
-    app.update(Event::Paste("7".repeat(1 << 20)));
+    app.update(AppEvent::Paste("7".repeat(1 << 20)));
     let Some(Overlay::Field(field)) = &app.overlay else { panic!("the field is gone") };
     assert!(field.input.value().len() <= 4096);
     assert!(app.notifications.shown.is_some());
     press(&mut app, "Esc");
-    app.update(Event::Paste("q r R".to_owned()));
+    app.update(AppEvent::Paste("q r R".to_owned()));
     assert!(app.overlay.is_none(), "a paste is no keys");
 }
 

@@ -4,9 +4,9 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
-use phaselab::app::keymap::Place;
+use phaselab::app::keymap::KeyContext;
 use phaselab::app::{
-    App, BufferState, Caret, CheckedText, Effect, Event, Loaded, Overlay, Page, SaveError,
+    App, AppEvent, BufferState, Caret, CheckedText, Effect, Loaded, Overlay, Page, SaveError,
     SourceBuffer,
 };
 use phaselab::diagnostic::Document;
@@ -20,7 +20,7 @@ fn sheet(app: &App) -> &SourceBuffer {
 }
 
 /// The shell's answer to a check.
-fn checked(app: &App, effect: &Effect) -> Event {
+fn checked(app: &App, effect: &Effect) -> AppEvent {
     let Effect::Check { ticket, title, text } = effect else { panic!("{effect:?}") };
     assert!(app.awaits(*ticket));
     let name = app.lab.as_ref().unwrap().loaded.name.clone();
@@ -31,12 +31,12 @@ fn checked(app: &App, effect: &Effect) -> Event {
         Err(unready) => Err(unready.diagnostics),
     };
     let took = Some(Duration::from_millis(7));
-    Event::Checked(Box::new(CheckedText { ticket: *ticket, outcome, took }))
+    AppEvent::Checked(Box::new(CheckedText { ticket: *ticket, outcome, took }))
 }
 
 /// Waits until typing pauses, answers the resulting check, and returns the effects that follow.
 fn rest(app: &mut App) -> Vec<Effect> {
-    let effects = app.update(Event::Tick(Duration::from_millis(200)));
+    let effects = app.update(AppEvent::Tick(Duration::from_millis(200)));
     let [effect @ Effect::Check { .. }] = effects.as_slice() else { panic!("{effects:?}") };
     let answer = checked(app, effect);
     app.update(answer)
@@ -51,9 +51,9 @@ fn edited() -> App {
 /// Replaces the first occurrence of these words by typing.
 fn replace(app: &mut App, words: &str, with: &str) {
     press(app, "Ctrl-Home Ctrl-f Ctrl-u");
-    app.update(Event::Paste(words.to_owned()));
+    app.update(AppEvent::Paste(words.to_owned()));
     press(app, "Enter");
-    app.update(Event::Paste(with.to_owned()));
+    app.update(AppEvent::Paste(with.to_owned()));
 }
 
 #[test]
@@ -72,9 +72,9 @@ fn a_change_is_checked_when_typing_rests_and_the_motion_goes_on() {
     assert_eq!(sheet(&app).state, BufferState::Runs);
     press(&mut app, "Ctrl-End x");
     assert_eq!(sheet(&app).state, BufferState::Changed);
-    assert_eq!(app.update(Event::Tick(Duration::from_millis(100))), [], "typing goes on");
+    assert_eq!(app.update(AppEvent::Tick(Duration::from_millis(100))), [], "typing goes on");
     press(&mut app, "Backspace");
-    assert_eq!(app.update(Event::Tick(Duration::from_millis(100))), [], "typing goes on");
+    assert_eq!(app.update(AppEvent::Tick(Duration::from_millis(100))), [], "typing goes on");
     let effects = rest(&mut app);
     let [Effect::Execute(Command::Restore(moment))] = effects.as_slice() else {
         panic!("{effects:?}")
@@ -82,7 +82,7 @@ fn a_change_is_checked_when_typing_rests_and_the_motion_goes_on() {
     assert!(moment.running);
     assert_eq!(sheet(&app).state, BufferState::Rebuilt(Some(Duration::from_millis(7))));
     assert_eq!(app.lab.as_ref().unwrap().loaded.epoch, 2);
-    assert_eq!(app.update(Event::Tick(Duration::from_secs(1))), [], "it is checked once");
+    assert_eq!(app.update(AppEvent::Tick(Duration::from_secs(1))), [], "it is checked once");
 }
 
 /// Whoever left the editor and asks to undo is told where changes of the text are undone.
@@ -155,7 +155,7 @@ fn errors_stand_in_their_places_until_the_text_is_right_again() {
 #[test]
 fn next_and_previous_go_round_all_errors() {
     let mut app = edited();
-    app.update(Event::Paste("oops = 1\n".to_owned()));
+    app.update(AppEvent::Paste("oops = 1\n".to_owned()));
     replace(&mut app, "cos(theta)", "cos(thet)");
     rest(&mut app);
     let rows: Vec<usize> =
@@ -173,7 +173,7 @@ fn next_and_previous_go_round_all_errors() {
 fn an_answer_to_an_older_text_shows_no_errors() {
     let mut app = edited();
     press(&mut app, "Ctrl-Home x");
-    let effects = app.update(Event::Tick(Duration::from_millis(200)));
+    let effects = app.update(AppEvent::Tick(Duration::from_millis(200)));
     let answer = checked(&app, &effects[0]);
     press(&mut app, "Backspace");
     app.update(answer);
@@ -185,10 +185,10 @@ fn an_answer_to_an_older_text_shows_no_errors() {
 fn a_newer_text_is_checked_in_place_of_an_older_one() {
     let mut app = edited();
     press(&mut app, "Ctrl-Home x");
-    let older = app.update(Event::Tick(Duration::from_millis(200)));
+    let older = app.update(AppEvent::Tick(Duration::from_millis(200)));
     let [Effect::Check { ticket, .. }] = older.as_slice() else { panic!("{older:?}") };
     press(&mut app, "Backspace");
-    let newer = app.update(Event::Tick(Duration::from_millis(200)));
+    let newer = app.update(AppEvent::Tick(Duration::from_millis(200)));
     let [Effect::Check { text, .. }] = newer.as_slice() else { panic!("{newer:?}") };
     assert_eq!(*text, sheet(&app).editor.text());
     assert!(!app.awaits(*ticket), "nobody waits for the older one");
@@ -200,26 +200,26 @@ fn a_check_that_takes_long_is_stopped_by_leaving_and_goes_on_when_one_comes_back
         let mut app = edited();
         press(&mut app, "Ctrl-Home #");
         assert!(matches!(
-            app.update(Event::Tick(Duration::from_millis(200))).as_slice(),
+            app.update(AppEvent::Tick(Duration::from_millis(200))).as_slice(),
             [Effect::Check { .. }]
         ));
-        app.update(Event::Tick(Duration::from_millis(after)));
+        app.update(AppEvent::Tick(Duration::from_millis(after)));
         (press(&mut app, "Esc") == [Effect::StopCheck], app)
     };
     assert!(!stopped(999).0, "what is soon there is not stopped");
     let (is_stopped, mut app) = stopped(1000);
     assert!(is_stopped);
-    assert_eq!(app.update(Event::Tick(Duration::from_secs(9))), [], "nothing goes on");
+    assert_eq!(app.update(AppEvent::Tick(Duration::from_secs(9))), [], "nothing goes on");
     press(&mut app, "E Ctrl-Home");
-    let again = app.update(Event::Tick(Duration::from_millis(1)));
+    let again = app.update(AppEvent::Tick(Duration::from_millis(1)));
     assert!(matches!(again.as_slice(), [Effect::Check { .. }]), "{again:?}");
     // in the list of systems nothing is checked; in the lab, checks continue
     assert_eq!(press(&mut app, "Esc Esc Esc"), []);
     assert_eq!(app.page, Page::Picker);
-    assert_eq!(app.update(Event::Tick(Duration::from_millis(1))), [Effect::StopCheck]);
-    assert_eq!(app.update(Event::Tick(Duration::from_secs(9))), []);
+    assert_eq!(app.update(AppEvent::Tick(Duration::from_millis(1))), [Effect::StopCheck]);
+    assert_eq!(app.update(AppEvent::Tick(Duration::from_secs(9))), []);
     press(&mut app, "Enter");
-    let again = app.update(Event::Tick(Duration::from_millis(1)));
+    let again = app.update(AppEvent::Tick(Duration::from_millis(1)));
     assert!(matches!(again.as_slice(), [Effect::Check { .. }]), "{again:?}");
 }
 
@@ -227,17 +227,17 @@ fn a_check_that_takes_long_is_stopped_by_leaving_and_goes_on_when_one_comes_back
 fn an_answer_that_comes_late_never_reaches_another_system() {
     let mut app = edited();
     replace(&mut app, "cos(theta)", "cos(thet)");
-    let slow = app.update(Event::Tick(Duration::from_millis(200)));
+    let slow = app.update(AppEvent::Tick(Duration::from_millis(200)));
     let late = checked(&app, &slow[0]);
-    app.update(Event::Loaded(Ok(loaded("planet", 3))));
-    app.update(Event::Snapshot(Arc::new(snapshot(&loaded("planet", 3), 1.0))));
+    app.update(AppEvent::Loaded(Ok(loaded("planet", 3))));
+    app.update(AppEvent::Snapshot(Arc::new(snapshot(&loaded("planet", 3), 1.0))));
     press(&mut app, "E Ctrl-Home x");
-    let asked = app.update(Event::Tick(Duration::from_millis(200)));
+    let asked = app.update(AppEvent::Tick(Duration::from_millis(200)));
     assert!(
         matches!(&asked[..], [Effect::Check { .. }]),
         "nobody waits for the old one: {asked:?}"
     );
-    let Event::Checked(old) = &late else { panic!("{late:?}") };
+    let AppEvent::Checked(old) = &late else { panic!("{late:?}") };
     assert!(!app.awaits(old.ticket));
     app.update(late);
     assert_eq!((sheet(&app).diagnostics.len(), sheet(&app).state), (0, BufferState::Changed));
@@ -246,7 +246,7 @@ fn an_answer_that_comes_late_never_reaches_another_system() {
     app.update(own);
     assert_eq!(sheet(&app).state, BufferState::Wrong);
     // back at the first system, whose text is unchanged and is checked again
-    app.update(Event::Loaded(Ok(pendulum())));
+    app.update(AppEvent::Loaded(Ok(pendulum())));
     press(&mut app, "E Ctrl-Home");
     assert!(sheet(&app).is_modified());
     rest(&mut app);
@@ -264,7 +264,7 @@ fn a_shipped_system_is_saved_as_a_copy_and_then_in_its_place() {
     assert_eq!(press(&mut app, "Enter"), [copy]);
     assert!(sheet(&app).is_modified());
     let place = PathBuf::from("/home/me/.config/phaselab/presets/mine.toml");
-    app.update(Event::FileSaved(Ok((place.clone(), text.clone()))));
+    app.update(AppEvent::FileSaved(Ok((place.clone(), text.clone()))));
     assert!(!sheet(&app).is_modified());
     assert_eq!(app.file(), Some(place.clone()), "the copy is what is open now");
     press(&mut app, "y");
@@ -276,7 +276,7 @@ fn a_shipped_system_is_saved_as_a_copy_and_then_in_its_place() {
 fn a_name_that_is_taken_is_asked_for_again() {
     let mut app = edited();
     press(&mut app, "Ctrl-s Enter");
-    app.update(Event::FileSaved(Err(SaveError::Exists(PathBuf::from("mine.toml")))));
+    app.update(AppEvent::FileSaved(Err(SaveError::Exists(PathBuf::from("mine.toml")))));
     assert!(app.notifications.shown.as_ref().unwrap().text.contains("already exists"));
     assert!(sheet(&app).asking.is_some());
     press(&mut app, "Esc");
@@ -294,13 +294,13 @@ fn own_file() -> App {
     let name = "./my.toml".to_owned();
     let loaded = Loaded { name, epoch: 1, document, model, equations, system };
     let seen = snapshot(&loaded, 2.0);
-    app.update(Event::Loaded(Ok(loaded)));
-    app.update(Event::Snapshot(Arc::new(seen)));
+    app.update(AppEvent::Loaded(Ok(loaded)));
+    app.update(AppEvent::Snapshot(Arc::new(seen)));
     app
 }
 
-fn file(text: &str) -> Event {
-    Event::FileRead { text: text.to_owned(), asked: false }
+fn file(text: &str) -> AppEvent {
+    AppEvent::FileRead { text: text.to_owned(), asked: false }
 }
 
 #[test]
@@ -309,12 +309,12 @@ fn a_file_changed_by_another_program_is_written_over_only_on_demand() {
     press(&mut app, "E Ctrl-Home #");
     let save = press(&mut app, "Ctrl-s");
     assert!(matches!(&save[..], [Effect::Save { known: Some(_), .. }]), "{save:?}");
-    app.update(Event::FileSaved(Err(SaveError::Changed)));
+    app.update(AppEvent::FileSaved(Err(SaveError::Changed)));
     assert!(app.notifications.shown.as_ref().unwrap().text.contains("changed by another program"));
     let again = press(&mut app, "Ctrl-s");
     assert!(matches!(&again[..], [Effect::Save { known: None, .. }]), "{again:?}");
     assert_eq!(press(&mut app, "Ctrl-o"), [Effect::Reread(PathBuf::from("./my.toml"))]);
-    app.update(Event::FileRead { text: "title = \"Other\"\n".to_owned(), asked: true });
+    app.update(AppEvent::FileRead { text: "title = \"Other\"\n".to_owned(), asked: true });
     assert_eq!(sheet(&app).editor.text(), "title = \"Other\"\n");
     press(&mut app, "Ctrl-u");
     assert!(sheet(&app).editor.text().starts_with('#'), "what stood there can be had back");
@@ -325,7 +325,7 @@ fn a_watched_file_is_taken_up_while_its_editor_is_closed() {
     let mut app = own_file();
     let text = app.lab.as_ref().unwrap().loaded.document.text.clone();
     app.update(file(&text));
-    assert_eq!(app.update(Event::Tick(Duration::from_secs(1))), [], "nothing has changed");
+    assert_eq!(app.update(AppEvent::Tick(Duration::from_secs(1))), [], "nothing has changed");
     app.update(file(&text.replace("9.81", "1.62")));
     let effects = rest(&mut app);
     assert!(matches!(effects.as_slice(), [Effect::Execute(Command::Restore(_))]), "{effects:?}");
@@ -341,7 +341,7 @@ fn a_file_caught_half_written_is_looked_at_once_more_before_it_is_called_wrong()
     app.update(file(&text[..text.len() / 2]));
     rest(&mut app);
     assert_eq!(app.banner(), None, "it may still be written");
-    app.update(Event::Tick(Duration::from_millis(600)));
+    app.update(AppEvent::Tick(Duration::from_millis(600)));
     rest(&mut app);
     assert!(app.banner().is_some(), "nobody has completed it");
     app.update(file(&text));
@@ -364,14 +364,14 @@ fn what_is_not_saved_of_another_system_is_kept() {
     let mut app = edited();
     press(&mut app, "x y Esc");
     let planet = loaded("planet", 3);
-    app.update(Event::Loaded(Ok(planet.clone())));
+    app.update(AppEvent::Loaded(Ok(planet.clone())));
     press(&mut app, "E Ctrl-Home");
     assert_eq!(sheet(&app).editor.text(), planet.document.text);
     press(&mut app, "z Esc");
     let mut names: Vec<String> = app.unsaved().into_iter().map(|text| text.name).collect();
     names.sort();
     assert_eq!(names, ["pendulum", "planet"]);
-    app.update(Event::Loaded(Ok(pendulum())));
+    app.update(AppEvent::Loaded(Ok(pendulum())));
     press(&mut app, "E Ctrl-Home");
     assert!(sheet(&app).editor.text().starts_with("xy"));
     assert_eq!(sheet(&app).state, BufferState::Changed, "the system was loaded anew meanwhile");
@@ -384,7 +384,7 @@ fn started_again(app: &App, resumed: bool) -> (App, Vec<Effect>) {
     if resumed {
         again.resume(app.saved().unwrap());
     }
-    let effects = again.update(Event::Loaded(Ok(pendulum())));
+    let effects = again.update(AppEvent::Loaded(Ok(pendulum())));
     (again, effects)
 }
 
@@ -394,7 +394,7 @@ fn a_text_that_is_not_saved_outlives_the_session() {
     assert_eq!(app.unsaved(), []);
     replace(&mut app, "cos(theta)", "cos(2*theta)");
     rest(&mut app);
-    app.update(Event::Snapshot(Arc::new(Snapshot { epoch: 2, ..snapshot(&pendulum(), 2.0) })));
+    app.update(AppEvent::Snapshot(Arc::new(Snapshot { epoch: 2, ..snapshot(&pendulum(), 2.0) })));
     let left = app.saved().unwrap();
     assert!(left.edited);
     let (mut again, effects) = started_again(&app, true);
@@ -427,12 +427,12 @@ fn without_resuming_the_file_runs_and_the_text_waits_for_its_editor() {
     let (mut again, effects) = started_again(&app, false);
     assert_eq!(effects, [Effect::Execute(Command::Play)]);
     assert!(again.notifications.shown.as_ref().unwrap().text.contains("E shows them"));
-    assert_eq!(again.update(Event::Tick(Duration::from_secs(1))), []);
+    assert_eq!(again.update(AppEvent::Tick(Duration::from_secs(1))), []);
     assert_eq!(again.unsaved(), app.unsaved(), "it is kept on");
     // the file is watched, not the text
     let text = again.lab.as_ref().unwrap().loaded.document.text.clone();
-    again.update(Event::FileRead { text, asked: false });
-    assert_eq!(again.update(Event::Tick(Duration::from_secs(1))), []);
+    again.update(AppEvent::FileRead { text, asked: false });
+    assert_eq!(again.update(AppEvent::Tick(Duration::from_secs(1))), []);
     press(&mut again, "E Ctrl-Home");
     assert_eq!(sheet(&again).editor.text(), sheet(&app).editor.text());
     assert_eq!(rest(&mut again).len(), 1);
@@ -472,7 +472,7 @@ fn another_system_s_start_leaves_kept_texts_alone() {
     press(&mut app, "# Enter");
     let (mut again, _) = App::new(catalog(), Some("planet"));
     again.workbench.put(app.unsaved());
-    again.update(Event::Loaded(Ok(loaded("planet", 1))));
+    again.update(AppEvent::Loaded(Ok(loaded("planet", 1))));
     assert_eq!(again.notifications.shown, None);
     press(&mut again, "E Esc");
     assert_eq!(again.unsaved(), app.unsaved());
@@ -485,12 +485,12 @@ fn a_second_rebuild_before_the_first_was_seen_goes_on_with_the_same_motion() {
     let first = rest(&mut app);
     // a snapshot of the new system from before the motion was restored
     let early = Snapshot { epoch: 2, restored: false, ..snapshot(&pendulum(), 0.0) };
-    app.update(Event::Snapshot(Arc::new(early)));
+    app.update(AppEvent::Snapshot(Arc::new(early)));
     assert!(app.snapshot().is_none(), "it is not shown");
     press(&mut app, "x Backspace");
     assert_eq!(rest(&mut app), first);
     let taken = Snapshot { epoch: 2, status: Status::Paused, ..snapshot(&pendulum(), 2.5) };
-    app.update(Event::Snapshot(Arc::new(taken)));
+    app.update(AppEvent::Snapshot(Arc::new(taken)));
     press(&mut app, "x Backspace");
     assert_ne!(rest(&mut app), first, "now the motion is seen, and goes on from there");
 }
@@ -544,7 +544,7 @@ fn saving_what_has_an_error_says_so() {
         |app: &App| app.notifications.shown.clone().map(|notice| notice.text).unwrap_or_default();
     let saved = |app: &mut App| {
         let [Effect::Save { place, text, .. }] = &press(app, "Ctrl-s")[..] else { panic!("no") };
-        app.update(Event::FileSaved(Ok((place.clone(), text.clone()))));
+        app.update(AppEvent::FileSaved(Ok((place.clone(), text.clone()))));
     };
     let mut app = own_file();
     press(&mut app, "E Ctrl-Home");
@@ -571,7 +571,7 @@ fn the_keys_are_shown_over_the_editor_which_is_there_again_afterwards() {
     let mut app = edited();
     press(&mut app, "x y F1");
     assert!(matches!(app.overlay, Some(Overlay::Help { below: Some(_), .. })));
-    assert_eq!(app.places_below()[0], Place::Workbench);
+    assert_eq!(app.key_contexts_below()[0], KeyContext::Workbench);
     for back in ["Esc", "F1", "?"] {
         press(&mut app, back);
         assert!(sheet(&app).editor.text().starts_with("xy"), "{back}");
@@ -585,7 +585,7 @@ fn the_keys_are_shown_over_the_editor_which_is_there_again_afterwards() {
 fn of_a_paste_that_is_too_long_the_beginning_is_taken() {
     let mut app = edited();
     let long = "0123456789\n".repeat(100_000);
-    app.update(Event::Paste(long.clone()));
+    app.update(AppEvent::Paste(long.clone()));
     assert!(app.notifications.shown.as_ref().unwrap().text.contains("too long"));
     let text = sheet(&app).editor.text();
     let taken = text.bytes().zip(long.bytes()).take_while(|(a, b)| a == b).count();
@@ -598,9 +598,9 @@ fn what_becomes_of_a_watched_file_is_reported() {
     let told =
         |app: &App| app.notifications.shown.clone().map(|notice| notice.text).unwrap_or_default();
     let text = app.lab.as_ref().unwrap().loaded.document.text.clone();
-    app.update(Event::FileThere(false));
+    app.update(AppEvent::FileThere(false));
     assert_eq!(told(&app), "./my.toml no longer exists; its last valid version keeps running.");
-    app.update(Event::FileThere(true));
+    app.update(AppEvent::FileThere(true));
     app.update(file(&text));
     assert_eq!(told(&app), "./my.toml exists again.");
     app.update(file(&text.replace("9.81", "1.62")));

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-use phaselab::app::{App, Event};
+use phaselab::app::{App, AppEvent};
 use phaselab::cancel::Cancel;
 use phaselab::dynamics::{
     DynamicsError, Lagrangian, VARIATIONS, VariedAction, nearest_stationary_path, stationary_path,
@@ -147,8 +147,8 @@ fn picture_of(text: &str, time: f64, kind: &'static str) -> (String, impl Fn(&st
     let loaded = lowered(text);
     let seen = snapshot(&loaded, time);
     let (mut app, _) = App::new(catalog(), Some("test"));
-    app.update(Event::Loaded(Ok(loaded)));
-    app.update(Event::Snapshot(Arc::new(seen)));
+    app.update(AppEvent::Loaded(Ok(loaded)));
+    app.update(AppEvent::Snapshot(Arc::new(seen)));
     let area = ratatui::layout::Rect::new(0, 0, 120, 40);
     let mut buffer = ratatui::buffer::Buffer::empty(area);
     phaselab::view::draw(&app, &rich(), area, &mut buffer);

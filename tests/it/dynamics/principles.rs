@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-use phaselab::app::{App, Event, Pane};
+use phaselab::app::{App, AppEvent, Pane};
 use phaselab::dynamics::{
     Hamiltonian, Lagrangian, PhaseSpace, VariedAction, conjugate_points,
     conjugate_points_at_energy, varied_abbreviated_action, varied_phase_action,
@@ -198,10 +198,10 @@ fn a_key_shows_the_next_principle() {
     let loaded = lowered(&text);
     let seen = Arc::new(snapshot(&loaded, 3.0));
     let (mut app, _) = App::new(catalog(), Some("test"));
-    app.update(Event::Loaded(Ok(loaded)));
-    app.update(Event::Snapshot(Arc::clone(&seen)));
+    app.update(AppEvent::Loaded(Ok(loaded)));
+    app.update(AppEvent::Snapshot(Arc::clone(&seen)));
     let shown = |app: &mut App| {
-        app.update(Event::Snapshot(Arc::clone(&seen)));
+        app.update(AppEvent::Snapshot(Arc::clone(&seen)));
         let area = ratatui::layout::Rect::new(0, 0, 160, 40);
         let mut buffer = ratatui::buffer::Buffer::empty(area);
         phaselab::view::draw(app, &rich(), area, &mut buffer);
@@ -246,8 +246,8 @@ fn one_coordinate_has_no_other_way() {
         let loaded = lowered(&text);
         let seen = Arc::new(snapshot(&loaded, 9.0));
         let (mut app, _) = App::new(catalog(), Some("test"));
-        app.update(Event::Loaded(Ok(loaded)));
-        app.update(Event::Snapshot(seen));
+        app.update(AppEvent::Loaded(Ok(loaded)));
+        app.update(AppEvent::Snapshot(seen));
         let area = ratatui::layout::Rect::new(0, 0, 160, 40);
         let mut buffer = ratatui::buffer::Buffer::empty(area);
         phaselab::view::draw(&app, &rich(), area, &mut buffer);

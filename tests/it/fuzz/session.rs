@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, OnceLock};
 
-use phaselab::app::{App, Effect, Event, Saved};
+use phaselab::app::{App, AppEvent, Effect, Saved};
 use phaselab::experiment::{Experiment, Setup};
 use phaselab::view::draw;
 use ratatui::buffer::Buffer;
@@ -77,14 +77,14 @@ pub(crate) fn check(bytes: &[u8]) {
     experiment.set_epoch(loaded.epoch);
     let mut app = opened();
     app.resume(saved);
-    for effect in app.update(Event::Loaded(Ok(loaded))) {
+    for effect in app.update(AppEvent::Loaded(Ok(loaded))) {
         if let Effect::Execute(command) = effect {
             experiment.execute(command);
         }
     }
-    app.update(Event::Snapshot(Arc::new(experiment.snapshot())));
+    app.update(AppEvent::Snapshot(Arc::new(experiment.snapshot())));
     experiment.advance(experiment.time() + 0.1, 20);
-    app.update(Event::Snapshot(Arc::new(experiment.snapshot())));
+    app.update(AppEvent::Snapshot(Arc::new(experiment.snapshot())));
     let area = Rect::new(0, 0, 80, 24);
     draw(&app, &rich(), area, &mut Buffer::empty(area));
     assert!(app.saved().is_some(), "a lab is open");

@@ -3,7 +3,7 @@
 use std::sync::OnceLock;
 
 use crossterm::event::Event as Input;
-use phaselab::app::{App, Event};
+use phaselab::app::{App, AppEvent};
 use phaselab::shell::decode;
 use phaselab::view::{draw, hit_targets};
 use ratatui::buffer::Buffer;
@@ -67,12 +67,12 @@ pub(crate) fn check(bytes: &[u8]) {
     let mut app = lab();
     for input in inputs.into_iter().take(200) {
         let event = match input {
-            Input::Key(key) => Event::Key(key),
-            Input::Paste(text) => Event::Paste(text),
+            Input::Key(key) => AppEvent::Key(key),
+            Input::Paste(text) => AppEvent::Paste(text),
             Input::Mouse(mouse) => {
                 let targets = hit_targets(&app, &rich(), AREA);
                 let Some(target) = targets.at(mouse.column, mouse.row) else { continue };
-                Event::Mouse(mouse.kind, target)
+                AppEvent::Mouse(mouse.kind, target)
             }
             Input::FocusGained | Input::FocusLost | Input::Resize(..) => continue,
         };

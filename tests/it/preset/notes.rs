@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-use phaselab::app::keymap::{KEYS, Place};
+use phaselab::app::keymap::{KEYS, KeyContext};
 use phaselab::integrate::method_named;
 use phaselab::model::Model;
 use phaselab::preset::Catalog;
@@ -16,9 +16,15 @@ fn marked(notes: &str) -> impl Iterator<Item = &str> {
 
 /// Where in the lab a key of the notes may be pressed.
 fn is_key(name: &str) -> bool {
-    let places = [Place::Anywhere, Place::Experiment, Place::Lab, Place::Plot, Place::Values];
+    let contexts = [
+        KeyContext::Anywhere,
+        KeyContext::Experiment,
+        KeyContext::Lab,
+        KeyContext::Plot,
+        KeyContext::Values,
+    ];
     let is_named = |names: Vec<String>| names.iter().any(|key| key == name);
-    KEYS.iter().any(|binding| places.contains(&binding.place) && is_named(binding.key_names()))
+    KEYS.iter().any(|binding| contexts.contains(&binding.context) && is_named(binding.key_names()))
 }
 
 /// The names that a file declares or shows.

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use phaselab::app::Event;
+use phaselab::app::AppEvent;
 use phaselab::view::colour::ColourDepth;
 use phaselab::view::frame::Frames;
 use phaselab::view::glyphs::Glyphs;
@@ -25,7 +25,7 @@ fn bytes(name: &str) -> (usize, usize) {
     for _ in 0..FIRST + COUNT {
         // two frames of a sixtieth of a second
         real.run(2);
-        real.app.update(Event::Tick(Duration::from_secs(1) / 30));
+        real.app.update(AppEvent::Tick(Duration::from_secs(1) / 30));
         let frame = frames.next(Size::new(80, 24), |area, buffer| {
             painter.draw(&real.app, &look, area, buffer);
         });

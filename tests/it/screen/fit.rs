@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use phaselab::app::{App, Event, Guide, GuideKind, LessonTaken, Pane};
+use phaselab::app::{App, AppEvent, Guide, GuideKind, LessonTaken, Pane};
 use phaselab::experiment::{Growth, Snapshot, Verdict};
 use phaselab::instrument::Sight;
 use phaselab::num::rounded;
@@ -18,8 +18,8 @@ fn opened(name: &str) -> App {
     let loaded = loaded(name, 1);
     let seen = snapshot(&loaded, 1.0);
     let (mut app, _) = App::new(catalog(), Some(name));
-    app.update(Event::Loaded(Ok(loaded)));
-    app.update(Event::Snapshot(Arc::new(seen)));
+    app.update(AppEvent::Loaded(Ok(loaded)));
+    app.update(AppEvent::Snapshot(Arc::new(seen)));
     app
 }
 
@@ -59,7 +59,7 @@ fn meanings_of_parameters_are_whole() {
     let mut read = 0;
     for entry in nonempty(catalog().entries()) {
         let (mut app, _) = App::new(catalog(), Some(&entry.name));
-        app.update(Event::Loaded(Ok(loaded(&entry.name, 1))));
+        app.update(AppEvent::Loaded(Ok(loaded(&entry.name, 1))));
         let count = app.lab.as_ref().map_or(0, |lab| lab.loaded.model.parameters.len());
         for _ in 0..count {
             let rows = rows(&screen(&app, &rich(), (80, 24)));
@@ -86,7 +86,7 @@ fn reasons_of_gauges_are_whole() {
         seen.gauges = shipped(name).snapshot().gauges;
         let gauges = seen.gauges.len();
         assert!(gauges >= least, "{name}: {gauges}");
-        app.update(Event::Snapshot(Arc::new(seen)));
+        app.update(AppEvent::Snapshot(Arc::new(seen)));
         for _ in 0..gauges {
             let rows = rows(&screen(&app, &rich(), (80, 24)));
             let last = rows.last().expect("a row");
@@ -115,7 +115,7 @@ fn names_of_gauges_end_with_a_word() {
     ];
     let named = |name: &&str| gauge(name, name, 1.0, Verdict::Exact(Growth::Level));
     seen.gauges = names.iter().map(named).collect::<Vec<_>>().into();
-    app.update(Event::Snapshot(Arc::new(seen)));
+    app.update(AppEvent::Snapshot(Arc::new(seen)));
     let text = rows(&screen(&app, &rich(), (120, 40))).join("\n");
     for shown in ["least spin that sleeps", "A Aᵀ = 1, det A = 1", "areal velocity seen…"] {
         assert!(text.contains(&format!("  {shown} ")), "{shown}: {text}");
@@ -186,7 +186,7 @@ fn the_motion_is_seen_wherever_there_is_a_view_of_it() {
     let mut unseen = Vec::new();
     for entry in catalog().entries() {
         let (mut app, _) = App::new(catalog(), Some(&entry.name));
-        app.update(Event::Loaded(Ok(loaded(&entry.name, 1))));
+        app.update(AppEvent::Loaded(Ok(loaded(&entry.name, 1))));
         let shown = |app: &App, size: (u16, u16)| {
             let (_, drawn) = super::drawn(app, &rich(), size);
             drawn.panes.expect("the lab").in_view
@@ -268,7 +268,7 @@ fn no_step_is_not_a_step_of_zero() {
     let mut seen = snapshot(&loaded, 1.0);
     seen.method.step = 0.0;
     let mut app = opened("pendulum");
-    app.update(Event::Snapshot(Arc::new(seen)));
+    app.update(AppEvent::Snapshot(Arc::new(seen)));
     let rows = rows(&screen(&app, &rich(), (120, 40)));
     assert!(rows[38].contains(" step – "), "{}", rows[38]);
 }
@@ -400,7 +400,7 @@ fn reasons_are_in_full_where_there_is_room() {
         let gauges = shipped(name).snapshot().gauges;
         let lab = app.lab.as_ref().expect("a lab");
         let taken = (**lab.snapshot.as_ref().expect("a snapshot")).clone();
-        app.update(Event::Snapshot(Arc::new(Snapshot { gauges: gauges.clone(), ..taken })));
+        app.update(AppEvent::Snapshot(Arc::new(Snapshot { gauges: gauges.clone(), ..taken })));
         for size in [(120, 40), (200, 60)] {
             // five gauges, six parameters and six initial values leave no rows for reasons
             if (name, size.0) == ("heavy-top", 120) {

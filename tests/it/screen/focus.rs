@@ -1,6 +1,6 @@
 //! The focus: Tab goes once to each pane in view, a key turns the tabs of a frame, and one pane looks focused wherever one is.
 
-use phaselab::app::{Event, Pane};
+use phaselab::app::{AppEvent, Pane};
 use phaselab::view::colour::ColourDepth;
 use phaselab::view::glyphs::Glyphs;
 use phaselab::view::theme::{Role, Theme};
@@ -27,7 +27,7 @@ fn focused(buffer: &Buffer, style: &RenderStyle) -> Vec<(u16, u16)> {
 /// Draws, and lets the lab know what is in view.
 fn look(real: &mut Real, style: &RenderStyle, size: (u16, u16)) -> Buffer {
     let (buffer, seen) = drawn(&real.app, style, size);
-    real.app.update(Event::Drawn(seen));
+    real.app.update(AppEvent::Drawn(seen));
     buffer
 }
 

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crossterm::event::MouseButton::Left;
 use crossterm::event::MouseEventKind;
 use crossterm::event::MouseEventKind::{Down, Drag, ScrollDown, ScrollUp, Up};
-use phaselab::app::{App, Event, Grab, HitTarget, Overlay, Page, Pane, ValueId};
+use phaselab::app::{App, AppEvent, Grab, HitTarget, Overlay, Page, Pane, ValueId};
 use phaselab::experiment::Command;
 use phaselab::instrument::Sight;
 use phaselab::view::glyphs::Glyphs;
@@ -36,7 +36,7 @@ fn places(app: &App, size: (u16, u16), is: impl Fn(&HitTarget) -> bool) -> Vec<(
 
 fn act(real: &mut Real, size: (u16, u16), act: MouseEventKind, place: (u16, u16)) {
     let Some(target) = at(&real.app, size, place) else { return };
-    let effects = real.app.update(Event::Mouse(act, target));
+    let effects = real.app.update(AppEvent::Mouse(act, target));
     real.execute(effects);
     real.look();
 }
@@ -52,7 +52,7 @@ fn with_gauges() -> App {
     let mut seen = snapshot(&pendulum(), 2.0);
     let exact = phaselab::experiment::Verdict::Bounded;
     seen.gauges = ["energy", "second", "third"].map(|n| gauge(n, n, 1.0, exact.clone())).into();
-    app.update(Event::Snapshot(Arc::new(seen)));
+    app.update(AppEvent::Snapshot(Arc::new(seen)));
     app
 }
 
@@ -206,7 +206,7 @@ fn the_cursor_stays_at_its_coordinates_while_the_axes_change() {
     assert!(real.lab().has_cursor());
     let seen = |real: &mut Real| {
         let (buffer, shown) = drawn(&real.app, &rich(), size);
-        real.app.update(Event::Drawn(shown.clone()));
+        real.app.update(AppEvent::Drawn(shown.clone()));
         let mark = find(&buffer, "┼").expect("the cursor is drawn");
         (mark, shown.reading.expect("it is read"))
     };
@@ -251,7 +251,7 @@ fn a_bar_is_dragged_and_taken_back_in_one_step() {
     assert_eq!(real.app.drag, Some(Grab::Bar(ValueId::Parameter(1))));
     for place in &bar {
         act(&mut real, size, Drag(Left), *place);
-        real.app.update(Event::Tick(std::time::Duration::from_secs(2)));
+        real.app.update(AppEvent::Tick(std::time::Duration::from_secs(2)));
         let buffer = screen(&real.app, &rich(), size);
         assert_eq!(buffer[*place].symbol(), "●", "the knob is under the mouse");
     }
@@ -412,7 +412,7 @@ fn keys_zoom_a_plot_about_the_moving_point_or_the_cursor() {
     assert_eq!(now.len(), 1);
     let draw = |real: &mut Real| {
         let drawn = super::drawn(&real.app, &rich(), (120, 40)).1;
-        real.app.update(Event::Drawn(drawn.clone()));
+        real.app.update(AppEvent::Drawn(drawn.clone()));
         drawn
     };
     for _ in 0..5 {
@@ -554,18 +554,18 @@ fn the_wheel_scrolls_text_and_lists() {
     let mut app = in_lab();
     press(&mut app, "2");
     let (_, drawn) = super::drawn(&app, &rich(), (80, 16));
-    app.update(Event::Drawn(drawn));
+    app.update(AppEvent::Drawn(drawn));
     let target = at(&app, (80, 16), (20, 8)).unwrap();
     assert_eq!(target, HitTarget::Text);
-    app.update(Event::Mouse(ScrollDown, target));
+    app.update(AppEvent::Mouse(ScrollDown, target));
     assert!(app.scroll > 0 && app.scroll <= 3, "{}", app.scroll);
-    app.update(Event::Mouse(ScrollUp, target));
+    app.update(AppEvent::Mouse(ScrollUp, target));
     assert_eq!(app.scroll, 0);
 
     let mut app = at_picker();
     let before = app.picker.selected;
     let target = at(&app, (80, 24), (6, 12)).unwrap();
-    app.update(Event::Mouse(ScrollUp, target));
+    app.update(AppEvent::Mouse(ScrollUp, target));
     assert_eq!(app.picker.selected, before - 1);
     let systems: Vec<usize> = all(&app, (80, 24))
         .into_iter()
@@ -574,14 +574,14 @@ fn the_wheel_scrolls_text_and_lists() {
         )
         .collect();
     let other = systems.into_iter().find(|place| *place != app.picker.selected).unwrap();
-    app.update(Event::Mouse(Down(Left), HitTarget::System(other)));
+    app.update(AppEvent::Mouse(Down(Left), HitTarget::System(other)));
     assert_eq!(app.picker.selected, other);
 
     let mut app = in_lab();
     press(&mut app, ":");
     let target = at(&app, (80, 24), (20, 8)).unwrap();
     assert!(matches!(target, HitTarget::Line(_)), "{target:?}");
-    app.update(Event::Mouse(ScrollDown, target));
+    app.update(AppEvent::Mouse(ScrollDown, target));
     let Some(Overlay::Menu(menu)) = &app.overlay else { panic!("the palette is gone") };
     assert_eq!(menu.selected, 1);
 }
@@ -598,11 +598,11 @@ fn nothing_is_under_a_place_that_shows_nothing() {
     // A dragged knob that is no longer shown, and a value that does not exist.
     app.drag = Some(Grab::Bar(ValueId::Parameter(99)));
     assert_eq!(at(&app, (80, 24), (5, 5)), None);
-    let effects = app.update(Event::Mouse(Drag(Left), HitTarget::Text));
+    let effects = app.update(AppEvent::Mouse(Drag(Left), HitTarget::Text));
     assert!(effects.is_empty());
     let target = HitTarget::Bar { target: ValueId::Parameter(99), value: f64::NAN };
     for act in [Down(Left), Drag(Left), Up(Left), ScrollDown] {
-        let effects = app.update(Event::Mouse(act, target));
+        let effects = app.update(AppEvent::Mouse(act, target));
         let harmless = |e: &phaselab::app::Effect| {
             let phaselab::app::Effect::Execute(command) = e else { return true };
             !matches!(command, Command::Parameter { .. } | Command::MoveParameter { .. })

@@ -1,6 +1,6 @@
 //! What is kept between frames, and how the picture of a moving system fills its pane.
 
-use phaselab::app::Event;
+use phaselab::app::AppEvent;
 use phaselab::view::colour::ColourDepth;
 use phaselab::view::glyphs::Glyphs;
 use phaselab::view::theme::Theme;
@@ -34,7 +34,7 @@ fn what_is_kept_is_what_would_be_drawn_anew() {
             let (mut real, mut painter) = (Real::of(name), Painter::default());
             for frame in 0..4 {
                 real.run(8);
-                real.app.update(Event::Tick(std::time::Duration::from_secs(1) / 3));
+                real.app.update(AppEvent::Tick(std::time::Duration::from_secs(1) / 3));
                 if frame == 2 {
                     // A change of the first parameter changes potentials, maps and bodies.
                     real.press("Right");

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use phaselab::app::{App, Event, Notification, Pane};
+use phaselab::app::{App, AppEvent, Notification, Pane};
 use phaselab::experiment::{Gauge, Growth, Verdict};
 use phaselab::model::{Model, Shape};
 use phaselab::view::RenderStyle;
@@ -93,7 +93,7 @@ fn a_residual_is_called_a_residual() {
         ..gauge(&name, &name, 3.25e-16, exact)
     };
     seen.gauges = [energy, residual].into();
-    app.update(Event::Snapshot(Arc::new(seen)));
+    app.update(AppEvent::Snapshot(Arc::new(seen)));
     let text = rows(&screen(&app, &rich(), (120, 40)));
     let at = text.iter().position(|row| row.contains(&format!("  {name} "))).unwrap();
     assert!(text[at].contains("residual") && text[at].contains(" exact "), "{text:#?}");
@@ -371,7 +371,7 @@ fn a_large_drift_is_given_in_per_cent() {
     let mut seen = snapshot(&app.lab.as_ref().unwrap().loaded, 1.0);
     for (drift, shown) in [(1.0, " 100 % "), (0.512, " 51 % "), (0.0099, " 9.9×10⁻³ ")] {
         seen.gauges = [Gauge { drift, ..gauge("energy", "E", 4.0, Verdict::Lost) }].into();
-        app.update(Event::Snapshot(Arc::new(seen.clone())));
+        app.update(AppEvent::Snapshot(Arc::new(seen.clone())));
         let text = rows(&screen(&app, &rich(), (120, 40)));
         assert!(text.iter().any(|row| row.contains(shown)), "{text:#?}");
     }
@@ -395,7 +395,7 @@ fn what_is_not_conserved_has_the_change_since_the_start() {
     ] {
         let of = gauge("energy", "E", value, broken.clone());
         seen.gauges = [Gauge { initial, reference: initial, drift: 0.43, ..of }].into();
-        app.update(Event::Snapshot(Arc::new(seen.clone())));
+        app.update(AppEvent::Snapshot(Arc::new(seen.clone())));
         let text = rows(&screen(&app, &rich(), (120, 40)));
         assert!(text.iter().any(|row| row.contains(shown)), "{shown} in {text:#?}");
     }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use phaselab::app::Event;
+use phaselab::app::AppEvent;
 use phaselab::experiment::{Gauge, Growth, Verdict};
 use phaselab::view::RenderStyle;
 use phaselab::view::colour::ColourDepth;
@@ -53,7 +53,7 @@ fn with_gauges(gauges: Vec<Gauge>, size: (u16, u16)) -> Vec<String> {
     let mut app = in_lab();
     let mut seen = snapshot(&app.lab.as_ref().unwrap().loaded, 2.0);
     seen.gauges = gauges.into();
-    app.update(Event::Snapshot(Arc::new(seen)));
+    app.update(AppEvent::Snapshot(Arc::new(seen)));
     rows(&screen(&app, &rich(), size))
 }
 
@@ -91,7 +91,7 @@ fn a_value_below_the_digits_of_its_terms_is_zero() {
     let mut app = in_lab();
     let mut seen = snapshot(&app.lab.as_ref().unwrap().loaded, 2.0);
     seen.gauges = gauges.into();
-    app.update(Event::Snapshot(Arc::new(seen)));
+    app.update(AppEvent::Snapshot(Arc::new(seen)));
     press(&mut app, "4");
     let text = rows(&screen(&app, &rich(), (120, 60))).join("\n");
     assert!(!text.contains("10⁻³¹") && text.contains("10⁻¹²"), "{text}");

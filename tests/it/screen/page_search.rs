@@ -1,6 +1,6 @@
 //! The search in a page of text: its matches are marked, counted, and brought into view one after the other.
 
-use phaselab::app::Event;
+use phaselab::app::AppEvent;
 use ratatui::style::Modifier;
 
 use super::{find, rich, rows};
@@ -10,7 +10,7 @@ use crate::hand::press;
 /// Draws, and lets the application know what was drawn.
 fn look(real: &mut Real, size: (u16, u16)) -> ratatui::buffer::Buffer {
     let (buffer, drawn) = super::drawn(&real.app, &rich(), size);
-    real.app.update(Event::Drawn(drawn));
+    real.app.update(AppEvent::Drawn(drawn));
     buffer
 }
 
@@ -21,7 +21,7 @@ fn a_page_of_text_is_searched() {
     real.press("3");
     look(&mut real, size);
     real.press("/");
-    real.app.update(Event::Paste("separatrix".to_owned()));
+    real.app.update(AppEvent::Paste("separatrix".to_owned()));
     let buffer = look(&mut real, size);
     let (x, y) = find(&buffer, "1 of ").unwrap_or_else(|| panic!("{:#?}", rows(&buffer)));
     assert!(x > 60 && y == 2, "{x} {y}");
@@ -58,7 +58,7 @@ fn the_next_match_is_brought_into_view_and_scrolling_leaves_it() {
     let told = real.app.notifications.shown.take().map(|n| n.text).unwrap_or_default();
     assert!(told.contains("/ searches"), "{told}");
     real.press("/");
-    real.app.update(Event::Paste("Hamiltonian".to_owned()));
+    real.app.update(AppEvent::Paste("Hamiltonian".to_owned()));
     real.press("Enter");
     let mut seen = Vec::new();
     for _ in 0..12 {
@@ -74,7 +74,7 @@ fn the_next_match_is_brought_into_view_and_scrolling_leaves_it() {
     assert_eq!(real.app.scroll, 0);
     // a capital letter matches itself only
     real.press("/");
-    real.app.update(Event::Paste("HAMILTONIAN".to_owned()));
+    real.app.update(AppEvent::Paste("HAMILTONIAN".to_owned()));
     let text = rows(&look(&mut real, size)).join("\n");
     assert!(text.contains("no match"), "{text}");
 }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use phaselab::app::{App, Drawn, DrawnPanes, Event, LawInView, Notification, Pane, ValueId};
+use phaselab::app::{App, AppEvent, Drawn, DrawnPanes, LawInView, Notification, Pane, ValueId};
 use phaselab::experiment::{Gauge, Growth, Status, Verdict};
 use phaselab::instrument::{Plot, PotentialView};
 use phaselab::integrate::{Occurrence, OccurrenceKind};
@@ -81,7 +81,7 @@ fn the_help_tells_of_the_mouse_and_knows_other_words() {
     ] {
         let mut app = in_lab();
         press(&mut app, "? /");
-        app.update(Event::Paste(word.to_owned()));
+        app.update(AppEvent::Paste(word.to_owned()));
         let buffer = screen(&app, &rich(), (120, 40));
         assert!(find(&buffer, line).is_some(), "{word}: {:#?}", rows(&buffer));
     }
@@ -93,11 +93,11 @@ fn the_law_of_motion_scrolls_where_it_is_clipped() {
     for (size, keys) in [((120, 40), "Tab Tab Tab"), ((80, 24), "\\ \\"), ((40, 20), "\\ \\ \\")] {
         let mut app = lab("heavy-top", 1.0);
         let (_, drawn) = super::drawn(&app, &rich(), size);
-        app.update(Event::Drawn(drawn));
+        app.update(AppEvent::Drawn(drawn));
         press(&mut app, keys);
         assert_eq!(app.lab.as_ref().unwrap().focus.pane, Pane::Law, "{size:?}");
         let (buffer, drawn) = super::drawn(&app, &rich(), size);
-        app.update(Event::Drawn(drawn.clone()));
+        app.update(AppEvent::Drawn(drawn.clone()));
         let Some(LawInView::Clipped(beyond)) = drawn.panes.as_ref().map(|panes| panes.law) else {
             panic!("{size:?}: {drawn:?}")
         };
@@ -117,7 +117,7 @@ fn the_law_of_motion_scrolls_where_it_is_clipped() {
     // Where all of it is in view there is nothing to scroll, and Tab passes it by.
     let mut app = in_lab();
     let panes = DrawnPanes { single: false, ..DrawnPanes::default() };
-    app.update(Event::Drawn(Drawn { panes: Some(panes), ..Drawn::default() }));
+    app.update(AppEvent::Drawn(Drawn { panes: Some(panes), ..Drawn::default() }));
     press(&mut app, "Shift-Tab");
     assert!(matches!(app.lab.as_ref().unwrap().focus.pane, Pane::Plot(_)));
 }
@@ -135,7 +135,7 @@ fn on_the_smallest_screen_the_motion_comes_first() {
             .filter(|cell| cell.symbol().chars().any(|c| ('\u{2801}'..='\u{28ff}').contains(&c)));
         assert!(dots.count() > 5, "{name}: a picture");
         assert!(rows(&buffer)[8].contains("t 2"), "{name}: the status");
-        app.update(Event::Drawn(drawn));
+        app.update(AppEvent::Drawn(drawn));
         assert_eq!(
             app.lab.as_ref().unwrap().focus.pane,
             app.lab.as_ref().unwrap().motion().unwrap()
@@ -147,7 +147,7 @@ fn on_the_smallest_screen_the_motion_comes_first() {
     // Where there is room for more, the parameters have the focus.
     let mut app = in_lab();
     let (_, drawn) = super::drawn(&app, &rich(), (80, 24));
-    app.update(Event::Drawn(drawn));
+    app.update(AppEvent::Drawn(drawn));
     assert_eq!(app.lab.as_ref().unwrap().focus.pane, Pane::Parameters);
 }
 
@@ -207,7 +207,7 @@ fn a_standard_screen_is_whole() {
         let mut seen = snapshot(&pendulum(), 2.0);
         seen.gauges = [exact].into();
         let mut app = in_lab();
-        app.update(Event::Snapshot(Arc::new(seen)));
+        app.update(AppEvent::Snapshot(Arc::new(seen)));
         let buffer = if text == "exact" { screen(&app, &rich(), (80, 24)) } else { buffer.clone() };
         assert!(find(&buffer, text).is_some(), "{text} in {:#?}", rows(&buffer));
     }
@@ -252,7 +252,7 @@ fn verdicts_have_their_colours() {
         let mut app = in_lab();
         let mut seen = snapshot(&pendulum(), 2.0);
         seen.gauges = [gauge("energy", "E", 4.0, verdict)].into();
-        app.update(Event::Snapshot(Arc::new(seen)));
+        app.update(AppEvent::Snapshot(Arc::new(seen)));
         for size in [(80, 24), (120, 40)] {
             let buffer = screen(&app, &look, size);
             let at = find(&buffer, word).unwrap_or_else(|| panic!("{word} at {size:?}"));
@@ -275,7 +275,7 @@ fn a_departed_invariant_marks_the_picture() {
         let of =
             |left| Gauge { left, max_drift: drift, ..gauge("energy", "E", 4.0, verdict.clone()) };
         seen.gauges = [of(Some(1.5))].into();
-        app.update(Event::Snapshot(Arc::new(seen.clone())));
+        app.update(AppEvent::Snapshot(Arc::new(seen.clone())));
         for (look, size) in [(rich(), (80, 24)), (rich(), (120, 40)), (plain.clone(), (80, 24))] {
             let rows = rows(&screen(&app, &look, size));
             let name = if look.glyphs.is_ascii() { "energy" } else { "E" };
@@ -293,7 +293,7 @@ fn a_departed_invariant_marks_the_picture() {
             );
         }
         seen.gauges = [of(None)].into();
-        app.update(Event::Snapshot(Arc::new(seen)));
+        app.update(AppEvent::Snapshot(Arc::new(seen)));
         let rows = rows(&screen(&app, &rich(), (80, 24)));
         assert!(!rows.iter().any(|row| row.contains("! ")), "{}", rows.join("\n"));
     }
@@ -314,7 +314,7 @@ fn nothing_jumps_while_numbers_change() {
         seen.time = time;
         seen.recorded.to = time;
         seen.method.step = time / 1e4;
-        app.update(Event::Snapshot(Arc::new(seen)));
+        app.update(AppEvent::Snapshot(Arc::new(seen)));
         find(&screen(&app, &rich(), (120, 40)), text).map(|(x, _)| x)
     };
     for text in ["speed", "taylor", "steps/s", "fps"] {
@@ -342,12 +342,12 @@ fn status_and_fault_are_reported() {
     let mut app = in_lab();
     let mut seen = snapshot(&pendulum(), 2.0);
     seen.status = Status::Paused;
-    app.update(Event::Snapshot(Arc::new(seen.clone())));
+    app.update(AppEvent::Snapshot(Arc::new(seen.clone())));
     assert!(find(&screen(&app, &rich(), (120, 40)), "paused").is_some());
     let message = "the bob left the world".to_owned();
     seen.status =
         Status::Failed(phaselab::experiment::Failure { time: 2.0, message, ends_motion: true });
-    app.update(Event::Snapshot(Arc::new(seen)));
+    app.update(AppEvent::Snapshot(Arc::new(seen)));
     let buffer = screen(&app, &rich(), (120, 40));
     for text in
         ["stopped", "The motion cannot continue", "The bob left the world", "r back to the start"]
@@ -484,7 +484,7 @@ fn what_happened_is_marked_where_it_was_and_named() {
         buffer.content.iter().filter(|c| c.symbol() == "◆" && c.fg == warn).count()
     };
     assert_eq!(signs(&screen(&app, &look, (120, 40))), 0);
-    app.update(Event::Snapshot(Arc::new(seen)));
+    app.update(AppEvent::Snapshot(Arc::new(seen)));
     let buffer = screen(&app, &look, (120, 40));
     // on the phase portrait and on the time series, and in the heading that has room; two that coincide are one
     assert_eq!(signs(&buffer), 2 + 2 + 1, "{:#?}", rows(&buffer));
@@ -506,7 +506,7 @@ fn an_ended_motion_says_by_what_and_how_to_go_on() {
     let mut seen = snapshot(&pendulum(), 2.0);
     seen.status = Status::Ended("ground".to_owned());
     let mut app = in_lab();
-    app.update(Event::Snapshot(Arc::new(seen)));
+    app.update(AppEvent::Snapshot(Arc::new(seen)));
     for size in [(80, 24), (120, 40), (200, 60)] {
         let buffer = screen(&app, &rich(), size);
         assert!(find(&buffer, "ended at: ground; r restarts").is_some(), "{size:?}");
@@ -518,7 +518,7 @@ fn the_prompt_answers_in_mathematics_and_places_errors() {
     let ask = |text: &str| {
         let mut app = in_lab();
         press(&mut app, "{");
-        app.update(Event::Paste(text.to_owned()));
+        app.update(AppEvent::Paste(text.to_owned()));
         press(&mut app, "Enter");
         app
     };
@@ -544,8 +544,8 @@ fn a_picture_may_be_seen_from_a_frame() {
     let seen = loaded("merry-go-round", 1);
     let (mut app, _) = phaselab::app::App::new(crate::hand::catalog(), Some("merry-go-round"));
     let now = snapshot(&seen, 2.0);
-    app.update(Event::Loaded(Ok(seen)));
-    app.update(Event::Snapshot(Arc::new(now)));
+    app.update(AppEvent::Loaded(Ok(seen)));
+    app.update(AppEvent::Snapshot(Arc::new(now)));
     let buffer = screen(&app, &rich(), (120, 40));
     assert!(find(&buffer, "From the ground").is_some());
     assert!(find(&buffer, "From the merry-go-round").is_some());
@@ -575,8 +575,8 @@ fn t_handle(matrix: [f64; 9], keys: &str) -> Vec<String> {
     }
     now.values = values.into();
     let (mut app, _) = phaselab::app::App::new(crate::hand::catalog(), Some("t-handle"));
-    app.update(Event::Loaded(Ok(handle.clone())));
-    app.update(Event::Snapshot(Arc::new(now)));
+    app.update(AppEvent::Loaded(Ok(handle.clone())));
+    app.update(AppEvent::Snapshot(Arc::new(now)));
     let lab = app.lab.as_ref().unwrap();
     let drawn = |plot: &Plot| {
         let Some(eye) = plot.eye() else { return false };
@@ -645,8 +645,8 @@ fn a_potential_is_drawn_with_the_energy_and_where_the_motion_is_allowed() {
             &[r],
         )[0]
     };
-    app.update(Event::Loaded(Ok(planet.clone())));
-    app.update(Event::Snapshot(Arc::new(now.clone())));
+    app.update(AppEvent::Loaded(Ok(planet.clone())));
+    app.update(AppEvent::Snapshot(Arc::new(now.clone())));
     // V_eff = V + p²/(2 m r²): p is constant, so doubling r divides the wall by four
     let lab = app.lab.as_ref().unwrap();
     let symbol = |name: &str| lab.valuation().at(planet.model.pool.find_symbol(name).unwrap());
@@ -660,7 +660,7 @@ fn a_potential_is_drawn_with_the_energy_and_where_the_motion_is_allowed() {
     let mut values = now.values.to_vec();
     values[energy] = 0.5 * potential(&app, 1.0);
     now.values = values.into();
-    app.update(Event::Snapshot(Arc::new(now)));
+    app.update(AppEvent::Snapshot(Arc::new(now)));
     let look = rich();
     for size in [(80, 24), (120, 40), (200, 60)] {
         let buffer = screen(&app, &look, size);
@@ -751,16 +751,16 @@ fn news_are_reported_one_after_the_other_and_leave_the_hints_room() {
     seen.notices = ["old news", "the bob passed", "the bob came back"].map(str::to_owned).into();
     let mut before = seen.clone();
     before.notices = ["old news".to_owned()].into();
-    app.update(Event::Snapshot(Arc::new(before)));
-    app.update(Event::Tick(Duration::from_secs(6)));
-    app.update(Event::Snapshot(Arc::new(seen)));
+    app.update(AppEvent::Snapshot(Arc::new(before)));
+    app.update(AppEvent::Tick(Duration::from_secs(6)));
+    app.update(AppEvent::Snapshot(Arc::new(seen)));
     for notifications in ["the bob passed", "the bob came back"] {
         let rows = rows(&screen(&app, &rich(), (80, 24)));
         assert!(rows[21].contains(notifications), "{rows:#?}");
         assert!(rows[23].contains("? help") && rows[23].contains("q quit"), "{rows:#?}");
-        app.update(Event::Tick(Duration::from_millis(2100)));
+        app.update(AppEvent::Tick(Duration::from_millis(2100)));
     }
-    app.update(Event::Tick(Duration::from_secs(6)));
+    app.update(AppEvent::Tick(Duration::from_secs(6)));
     assert_eq!(app.notifications.shown, None);
 }
 
@@ -769,8 +769,8 @@ fn a_frame_is_chosen_from_any_pane() {
     let seen = loaded("merry-go-round", 1);
     let (mut app, _) = App::new(crate::hand::catalog(), Some("merry-go-round"));
     let now = snapshot(&seen, 2.0);
-    app.update(Event::Loaded(Ok(seen)));
-    app.update(Event::Snapshot(Arc::new(now)));
+    app.update(AppEvent::Loaded(Ok(seen)));
+    app.update(AppEvent::Snapshot(Arc::new(now)));
     let buffer = screen(&app, &rich(), (120, 40));
     assert!(find(&buffer, "f frame").is_some(), "the hint stands where parameters are focused");
     press(&mut app, "f");
@@ -785,7 +785,7 @@ fn the_reason_of_a_gauge_is_read_in_full_where_it_is_narrow() {
     let mut long = gauge("energy", "E", 4.0, Verdict::Bounded);
     long.reason = "∂L/∂t = 0, and no force does work that would not be in the potential".to_owned();
     seen.gauges = [long].into();
-    app.update(Event::Snapshot(Arc::new(seen)));
+    app.update(AppEvent::Snapshot(Arc::new(seen)));
     press(&mut app, "Tab Tab");
     for size in [(80, 24), (120, 40)] {
         let buffer = screen(&app, &rich(), size);
@@ -806,8 +806,8 @@ fn a_view_of_any_kind_is_called_what_the_file_calls_it() {
     let loaded = lowered(text);
     let mut app = in_lab();
     let seen = snapshot(&loaded, 1.0);
-    app.update(Event::Loaded(Ok(loaded)));
-    app.update(Event::Snapshot(Arc::new(seen)));
+    app.update(AppEvent::Loaded(Ok(loaded)));
+    app.update(AppEvent::Snapshot(Arc::new(seen)));
     let buffer = screen(&app, &rich(), (200, 60));
     for title in ["The plane", "The swing", "The track", "The well"] {
         let (x, y) = find(&buffer, title).unwrap_or_else(|| panic!("{:#?}", rows(&buffer)));
@@ -1039,8 +1039,8 @@ fn two_mechanics_side_by_side_are_called_right_and_wrong() {
         let loaded = loaded(name, 1);
         let seen = snapshot(&loaded, 1.0);
         let (mut app, _) = App::new(crate::hand::catalog(), Some(name));
-        app.update(Event::Loaded(Ok(loaded)));
-        app.update(Event::Snapshot(Arc::new(seen)));
+        app.update(AppEvent::Loaded(Ok(loaded)));
+        app.update(AppEvent::Snapshot(Arc::new(seen)));
         screen(&app, &rich(), (120, 40))
     };
     for name in ["rolling-disc", "knife-edge"] {
@@ -1060,7 +1060,7 @@ fn all_verdicts_are_short_where_the_name_of_one_gauge_is_long() {
     let mut seen = snapshot(&pendulum(), 2.0);
     let named = |name: &str| gauge(name, name, 1.0, Verdict::Exact(Growth::Level));
     seen.gauges = vec![named("area"), named("longest of all names")].into();
-    app.update(Event::Snapshot(Arc::new(seen)));
+    app.update(AppEvent::Snapshot(Arc::new(seen)));
     let text = rows(&screen(&app, &rich(), (120, 40)));
     let row = |name: &str| text.iter().find(|row| row.contains(name)).unwrap();
     for name in [" area ", "longest of all names "] {
@@ -1076,7 +1076,7 @@ fn a_gauge_says_in_full_why_it_is_watched() {
     watched.reason = why.to_owned();
     let mut seen = snapshot(&pendulum(), 2.0);
     seen.gauges = vec![watched; 9].into();
-    app.update(Event::Snapshot(Arc::new(seen)));
+    app.update(AppEvent::Snapshot(Arc::new(seen)));
     press(&mut app, "Tab Tab");
     for size in [(80, 24), (120, 40), (200, 60)] {
         let text = rows(&screen(&app, &rich(), size));
@@ -1106,8 +1106,8 @@ fn where_a_heading_has_no_room_for_values_all_curves_are_named() {
     let loaded = loaded("rolling-race", 1);
     let seen = snapshot(&loaded, 1.0);
     let (mut app, _) = App::new(crate::hand::catalog(), Some("rolling-race"));
-    app.update(Event::Loaded(Ok(loaded)));
-    app.update(Event::Snapshot(Arc::new(seen)));
+    app.update(AppEvent::Loaded(Ok(loaded)));
+    app.update(AppEvent::Snapshot(Arc::new(seen)));
     let plain = RenderStyle { theme: Theme::dark(ColourDepth::None), glyphs: Glyphs::Ascii };
     let text = rows(&screen(&app, &plain, (80, 24))).join("\n");
     // those for which the title has no room stand above the axes
@@ -1127,8 +1127,8 @@ fn names_are_whole_or_not_there_and_cuts_are_marked() {
     let loaded = loaded("heavy-top", 1);
     let seen = snapshot(&loaded, 1.0);
     let (mut app, _) = App::new(crate::hand::catalog(), Some("heavy-top"));
-    app.update(Event::Loaded(Ok(loaded)));
-    app.update(Event::Snapshot(Arc::new(seen)));
+    app.update(AppEvent::Loaded(Ok(loaded)));
+    app.update(AppEvent::Snapshot(Arc::new(seen)));
     for size in [(60, 20), (80, 24), (120, 40)] {
         let rows = rows(&screen(&app, &rich(), size));
         let row = rows.iter().position(|row| row.contains("  moment of inertia about"));
@@ -1148,7 +1148,7 @@ fn what_impulses_have_changed_is_marked() {
     for (gauge, marked) in [(gauge, false), (after_impulse, true)] {
         seen.gauges = [gauge].into();
         let mut app = in_lab();
-        app.update(Event::Snapshot(Arc::new(seen.clone())));
+        app.update(AppEvent::Snapshot(Arc::new(seen.clone())));
         for (look, sign) in [(&rich(), "conserved between ◆"), (&ascii, "conserved between *")] {
             for size in [(80, 24), (120, 40)] {
                 let text = rows(&screen(&app, look, size)).join("\n");

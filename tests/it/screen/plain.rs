@@ -3,8 +3,8 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use phaselab::app::keymap::{KEYS, Place};
-use phaselab::app::{App, Event, ValueId};
+use phaselab::app::keymap::{KEYS, KeyContext};
+use phaselab::app::{App, AppEvent, ValueId};
 use phaselab::experiment::Verdict;
 use phaselab::view::RenderStyle;
 use phaselab::view::colour::ColourDepth;
@@ -25,7 +25,7 @@ fn text(app: &App) -> String {
 }
 
 fn sees(app: &mut App, time: f64) {
-    app.update(Event::Snapshot(Arc::new(snapshot(&pendulum(), time))));
+    app.update(AppEvent::Snapshot(Arc::new(snapshot(&pendulum(), time))));
 }
 
 #[test]
@@ -37,8 +37,8 @@ fn everything_on_the_screen_can_be_read() {
         let broken = Verdict::Broken("−2F along the whole way that it went".to_owned());
         seen.gauges = [gauge("energy", "E", 0.25, broken)].into();
         let (mut app, _) = App::new(catalog(), Some(name));
-        app.update(Event::Loaded(Ok(system.clone())));
-        app.update(Event::Snapshot(Arc::new(seen)));
+        app.update(AppEvent::Loaded(Ok(system.clone())));
+        app.update(AppEvent::Snapshot(Arc::new(seen)));
         press(&mut app, "1 9");
         let text = text(&app);
         let told = |what: &str| {
@@ -69,7 +69,7 @@ fn everything_on_the_screen_can_be_read() {
         told("E (energy) is 0.25000000; changed by 0 since t = 0; not conserved: by the physics");
         told("−2F along the whole way that it went. Reason: ∂L/∂t = 0.");
         told("latest news first news");
-        for row in KEYS.iter().filter(|row| row.place == Place::Experiment) {
+        for row in KEYS.iter().filter(|row| row.context == KeyContext::Experiment) {
             told(row.help);
         }
         assert!(!text.contains(['⣿', '●', '━']), "no pictures");
@@ -83,7 +83,7 @@ fn it_keeps_still_until_it_is_asked() {
     let read = |app: &App| drawn(app, &rich(), (80, 24)).0;
     let first = read(&app);
     for frame in 0..90 {
-        app.update(Event::Tick(Duration::from_millis(33)));
+        app.update(AppEvent::Tick(Duration::from_millis(33)));
         sees(&mut app, 2.0 + f64::from(frame) / 30.0);
         assert!(read(&app) == first, "it moved by itself");
     }
@@ -94,7 +94,7 @@ fn it_keeps_still_until_it_is_asked() {
     app.notifications.dismiss();
     let mut pictures = vec![read(&app)];
     for frame in 0..150 {
-        app.update(Event::Tick(Duration::from_millis(100)));
+        app.update(AppEvent::Tick(Duration::from_millis(100)));
         sees(&mut app, 10.0 + f64::from(frame));
         let now = read(&app);
         if pictures.last() != Some(&now) {
@@ -105,7 +105,7 @@ fn it_keeps_still_until_it_is_asked() {
     press(&mut app, "A");
     app.notifications.dismiss();
     let still = read(&app);
-    app.update(Event::Tick(Duration::from_secs(5)));
+    app.update(AppEvent::Tick(Duration::from_secs(5)));
     sees(&mut app, 99.0);
     assert!(read(&app) == still);
     // The result of a command given here is read at once.
@@ -122,7 +122,7 @@ fn the_cursor_stands_at_the_line_that_is_read() {
         let mut lines = Vec::new();
         for _ in 0..400 {
             let (buffer, seen) = drawn(&app, &rich(), size);
-            app.update(Event::Drawn(seen.clone()));
+            app.update(AppEvent::Drawn(seen.clone()));
             let (x, y) = seen.cursor.expect("a cursor");
             let line: String = (x..size.0).map(|x| buffer[(x, y)].symbol()).collect();
             lines.push((app.reading.line, line.trim_matches(['│', ' ']).to_owned()));

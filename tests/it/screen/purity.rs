@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, OnceLock};
 
-use phaselab::app::{App, Event, LoadError};
+use phaselab::app::{App, AppEvent, LoadError};
 use phaselab::experiment::{Failure, Snapshot, Status, Trail, Verdict};
 use phaselab::view::RenderStyle;
 use phaselab::view::colour::ColourDepth;
@@ -61,7 +61,7 @@ fn all_states() -> Vec<App> {
     let empty = App::new(catalog(), None).0;
     let mut failed = App::new(catalog(), Some("own.toml")).0;
     let message = "own.toml:1:1: a title is missing → add one\n".repeat(30);
-    failed.update(Event::Loaded(Err(LoadError { name: "own.toml".into(), message })));
+    failed.update(AppEvent::Loaded(Err(LoadError { name: "own.toml".into(), message })));
     lab.chain(picker).chain(vec![empty, failed, stopped(), unseen(), crowded()]).collect()
 }
 
@@ -79,14 +79,14 @@ fn stopped() -> App {
     odd.bounds = odd.bounds.iter().map(|_| (f64::NEG_INFINITY, f64::INFINITY)).collect();
     let verdicts = [Verdict::Open, Verdict::Secular(f64::INFINITY), Verdict::Broken("−2F".into())];
     odd.gauges = verdicts.map(|v| gauge("θ̇ of the bob", "θ̇", f64::MAX, v)).into();
-    app.update(Event::Snapshot(Arc::new(odd)));
+    app.update(AppEvent::Snapshot(Arc::new(odd)));
     app
 }
 
 /// A system without a snapshot yet.
 fn unseen() -> App {
     let (mut app, _) = App::new(catalog(), Some("pendulum"));
-    app.update(Event::Loaded(Ok(pendulum())));
+    app.update(AppEvent::Loaded(Ok(pendulum())));
     app
 }
 
@@ -94,7 +94,7 @@ fn unseen() -> App {
 fn crowded() -> App {
     let mut app = in_lab();
     let empty = Snapshot { trail: Trail::from_rows(1, &[vec![0.0]]), ..Snapshot::empty(1) };
-    app.update(Event::Snapshot(Arc::new(empty)));
+    app.update(AppEvent::Snapshot(Arc::new(empty)));
     app
 }
 
@@ -204,7 +204,7 @@ proptest! {
         for app in everything().iter().skip(first).step_by(4) {
             let mut app = app.clone();
             let (_, drawn) = super::drawn(&app, &look, (width, height));
-            app.update(Event::Drawn(drawn));
+            app.update(AppEvent::Drawn(drawn));
             press(&mut app, "End PageUp");
             screen(&app, &look, (width, height));
         }
@@ -244,7 +244,7 @@ proptest! {
         odd.method.step = number();
         odd.method.tolerance = Some(number());
         let mut app = in_lab();
-        app.update(Event::Snapshot(Arc::new(odd)));
+        app.update(AppEvent::Snapshot(Arc::new(odd)));
         for keys in ["", "Tab Tab Tab Tab z", "g", "4", "2"] {
             press(&mut app, keys);
             screen(&app, &super::rich(), (120, 40));

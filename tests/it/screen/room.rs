@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use phaselab::app::Event;
+use phaselab::app::AppEvent;
 use phaselab::experiment::{Command, Gauge, Growth, Verdict};
 use phaselab::system::InitialOverride::Position;
 
@@ -44,13 +44,13 @@ fn long_names_of_gauges_have_the_room_that_verdicts_leave() {
     let mut gauges: Vec<Gauge> = others.collect();
     gauges.push(gauge(name, name, -2.452, exact));
     seen.gauges = gauges.into();
-    app.update(Event::Snapshot(Arc::new(seen.clone())));
+    app.update(AppEvent::Snapshot(Arc::new(seen.clone())));
     let text = rows(&screen(&app, &rich(), (80, 24)));
     assert!(text.iter().any(|row| row.contains(&format!("{name}  "))), "{text:#?}");
 
     let other = Gauge { drift: f64::NAN, ..gauge("b", "β", 2.0, Verdict::OtherBranch) };
     seen.gauges = vec![other].into();
-    app.update(Event::Snapshot(Arc::new(seen)));
+    app.update(AppEvent::Snapshot(Arc::new(seen)));
     for size in [(80, 24), (120, 40)] {
         let text = rows(&screen(&app, &rich(), size));
         assert!(text.iter().any(|row| row.contains("other branch")), "{text:#?}");

@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use phaselab::app::{Event, HitTarget, Pane};
+use phaselab::app::{AppEvent, HitTarget, Pane};
 use phaselab::experiment::Verdict;
 use phaselab::view::glyphs::Glyphs;
 use phaselab::view::{RenderStyle, hit_test};
@@ -68,7 +68,7 @@ fn a_tab_stays_while_another_picture_has_the_focus() {
             (place("potential"), if size.0 == 80 { 0 } else { place("phase") });
         for index in [potential, other] {
             real.app.lab.as_mut().unwrap().focus.pane = Pane::Plot(index);
-            real.app.update(Event::Tick(std::time::Duration::ZERO));
+            real.app.update(AppEvent::Tick(std::time::Duration::ZERO));
         }
         let buffer = screen(&real.app, &rich(), size);
         let (x, y) = find(&buffer, "Potential").expect("a title or a tab");
@@ -103,7 +103,7 @@ fn pictures_that_share_a_frame_are_named_as_far_as_there_is_room() {
     let next = hit_test(&real.app, &rich(), area, x, y);
     let Some(HitTarget::Pane(Pane::Plot(index))) = next else { panic!("{next:?}") };
     real.app.lab.as_mut().unwrap().focus.pane = Pane::Plot(index);
-    real.app.update(Event::Tick(std::time::Duration::ZERO));
+    real.app.update(AppEvent::Tick(std::time::Duration::ZERO));
     let middle = hit_test(&real.app, &rich(), area, 60, 8);
     let is_shown = matches!(middle, Some(HitTarget::Plot { index: shown, .. }) if shown == index);
     assert!(is_shown, "{middle:?}");
@@ -120,7 +120,7 @@ fn one_verdict_has_the_same_words_throughout_a_list() {
         let mut seen = snapshot(&pendulum(), 2.0);
         let broken = || Verdict::Broken("−2F".to_owned());
         seen.gauges = names.map(|name| gauge(name, name, 1.0, broken())).into();
-        app.update(Event::Snapshot(Arc::new(seen)));
+        app.update(AppEvent::Snapshot(Arc::new(seen)));
         let text = rows(&screen(&app, &rich(), (120, 40))).join("\n");
         assert_eq!(text.contains("not conserved"), in_full, "{text}");
         assert_eq!(text.contains("varies"), !in_full, "{text}");

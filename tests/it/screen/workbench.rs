@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use phaselab::app::{App, BufferDiagnostic, BufferState, Caret, Event, Notification};
+use phaselab::app::{App, AppEvent, BufferDiagnostic, BufferState, Caret, Notification};
 use phaselab::view::RenderStyle;
 use phaselab::view::colour::ColourDepth;
 use phaselab::view::glyphs::Glyphs;
@@ -54,7 +54,7 @@ proptest! {
         let mut app = edited();
         for word in keys {
             let (_, shown) = drawn(&app, &rich(), (width, height));
-            app.update(Event::Drawn(shown));
+            app.update(AppEvent::Drawn(shown));
             press(&mut app, word);
         }
         let sheet = app.open_buffer().unwrap();
@@ -98,7 +98,7 @@ fn plain() -> RenderStyle {
 #[test]
 fn a_terminal_of_ascii_gets_ascii() {
     let mut app = edited();
-    app.update(Event::Paste("θ ẍ ½ 漢".to_owned()));
+    app.update(AppEvent::Paste("θ ẍ ½ 漢".to_owned()));
     for keys in ["", "Ctrl-s", "Ctrl-f"] {
         press(&mut app, keys);
         for size in [(40, 10), (80, 24), (200, 60)] {
@@ -133,7 +133,7 @@ fn on_a_small_screen_the_motion_is_seen_while_the_law_is_edited() {
     let text = rows(&screen(&app, &rich(), (80, 24)));
     assert!(text.iter().any(|row| row.contains("L = \"T - V\"")), "{text:#?}");
     let seen = snapshot(&app.lab.as_ref().unwrap().loaded, 0.4);
-    app.update(Event::Snapshot(Arc::new(seen)));
+    app.update(AppEvent::Snapshot(Arc::new(seen)));
     assert_ne!(bob(&app), before);
 }
 
@@ -159,11 +159,11 @@ proptest! {
         (width, height) in (40_u16..111, 10_u16..50),
     ) {
         let mut app = edited();
-        app.update(Event::Paste("θx½漢".repeat(12) + "\n" + &"θ漢".repeat(40) + "\n"));
+        app.update(AppEvent::Paste("θx½漢".repeat(12) + "\n" + &"θ漢".repeat(40) + "\n"));
         press(&mut app, "Ctrl-Home");
         for word in keys {
             let (_, shown) = drawn(&app, &plain(), (width, height));
-            app.update(Event::Drawn(shown));
+            app.update(AppEvent::Drawn(shown));
             press(&mut app, word);
         }
         let sheet = app.open_buffer().unwrap();
@@ -198,7 +198,7 @@ fn what_is_reported_leaves_the_keys_in_sight() {
 fn one_line_scrolls_and_one_pane_is_focused() {
     let mut app = edited();
     press(&mut app, "Ctrl-Home");
-    app.update(Event::Paste(format!("# {}end\n", "long ".repeat(60))));
+    app.update(AppEvent::Paste(format!("# {}end\n", "long ".repeat(60))));
     press(&mut app, "Up End");
     let look = RenderStyle { theme: Theme::dark(ColourDepth::None), ..rich() };
     let seen = screen(&app, &look, (120, 40));

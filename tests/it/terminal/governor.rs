@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use phaselab::app::{App, Event};
+use phaselab::app::{App, AppEvent};
 use phaselab::experiment::{Experiment, Prepared};
 use phaselab::shell::Governor;
 use phaselab::view::colour::ColourDepth;
@@ -157,7 +157,7 @@ impl OpenSystem {
             Prepared::of(&loaded.document).expect("a preset without errors");
         experiment.set_epoch(1);
         let (mut app, _) = App::new(catalog(), Some(name));
-        app.update(Event::Loaded(Ok(loaded)));
+        app.update(AppEvent::Loaded(Ok(loaded)));
         let look = RenderStyle { theme: Theme::dark(depth), glyphs: Glyphs::Braille };
         Self {
             app,
@@ -171,8 +171,8 @@ impl OpenSystem {
     /// Returns the size in bytes of a frame at this time of the clock, in seconds.
     fn frame(&mut self, time: f64, most: usize, detail: Detail) -> usize {
         self.experiment.advance(time * self.experiment.speed(), u64::MAX);
-        self.app.update(Event::Tick(Duration::from_secs(1) / 30));
-        self.app.update(Event::Snapshot(Arc::new(self.experiment.snapshot())));
+        self.app.update(AppEvent::Tick(Duration::from_secs(1) / 30));
+        self.app.update(AppEvent::Snapshot(Arc::new(self.experiment.snapshot())));
         let look = self.look.reduced(detail);
         let draw = |area, buffer: &mut Buffer| {
             view::draw(&self.app, &look, area, buffer);
