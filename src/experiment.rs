@@ -44,6 +44,7 @@ mod reverse;
 mod rewind;
 mod row_spacing;
 mod run_log;
+mod run_state;
 mod run_token;
 mod saved_companion;
 mod scrub;

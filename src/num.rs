@@ -5,8 +5,8 @@
 //! orbits. A [`Number`] is a constant in an
 //! expression. A [`PrimeField`] has the residues in which ranks are computed. [`math`] has the
 //! elementary functions, with the same bits on every machine. [`eigenvalues`] are those of a small
-//! matrix of `f64`, [`gauss`] the nodes of a quadrature. [`bisect`] and [`newton`] find a root of one number, [`significant`]
-//! and its kin write one. Never here: expressions, units, files.
+//! matrix of `f64`, [`gauss`] the nodes of a quadrature. [`bisect`], [`false_position`] and [`newton`] find a root of one
+//! number, [`golden_section`] a least value, [`significant`] and its kin write one. Never here: expressions, units, files.
 
 mod batch;
 mod batch_double;
@@ -51,4 +51,4 @@ pub use power_series::{cosine_of_arctangent, cosine_of_half, square_root};
 pub use prime_field::{PRIMES, PrimeField, Residue, Unreduced, rational};
 pub use quadrature::{gauss, legendre};
 pub use real::{Analytic, Real};
-pub use root::{ALL_HALVINGS, bisect, newton};
+pub use root::{ALL_HALVINGS, bisect, false_position, golden_section, newton};

@@ -8,6 +8,8 @@
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
+use super::smart_case;
+
 /// A position in the text; row and column are counted from 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Caret {
@@ -200,21 +202,18 @@ impl Editor {
     /// Selects the next match after the cursor, wrapping around at the end; a capital letter matches itself only, and makes small
     /// ones do so too. Returns whether there is one.
     pub fn find(&mut self, wanted: &str) -> bool {
-        let is_exact = wanted.chars().any(char::is_uppercase);
-        let folded = |c: char| if is_exact { c } else { c.to_lowercase().next().unwrap_or(c) };
-        let fold = |text: &str| -> Vec<char> { text.chars().map(folded).collect() };
-        let wanted = fold(wanted);
         if wanted.is_empty() {
             return false;
         }
+        let sought = smart_case(wanted, wanted);
         let rows = self.lines.len();
         for step in 0..=rows {
             let row = (self.cursor.row + step) % rows;
-            let line = fold(&self.lines[row]);
+            let line = smart_case(&self.lines[row], wanted);
             let from = if step == 0 { self.cursor.column } else { 0 };
-            let found = (from..line.len()).find(|&at| line[at..].starts_with(&wanted));
+            let found = (from..line.len()).find(|&at| line[at..].starts_with(&sought));
             if let Some(column) = found {
-                self.go(Caret { row, column: column + wanted.len() });
+                self.go(Caret { row, column: column + sought.len() });
                 self.anchor = Some(Caret { row, column });
                 return true;
             }

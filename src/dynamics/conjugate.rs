@@ -11,10 +11,15 @@ use super::carrier::Carrier;
 use super::error::DynamicsError;
 use super::phase_space::PhaseSpace;
 use crate::integrate::{Method, Settings};
+use crate::num::{false_position, golden_section};
 use crate::system::State;
 
 /// The parts of a step at which the determinant is evaluated.
 const PARTS: u32 = 16;
+
+/// Enough secants and halves for a zero to the last digit, and golden sections for a least value to half the digits.
+const ROUNDS: u32 = 200;
+const SECTIONS: u32 = 60;
 
 /// A matrix has lost rank where a singular value is this small beside the largest that it has had.
 const LOST: f64 = 1e-5;
@@ -100,7 +105,9 @@ fn singular(
             let earlier = if seen.len() > 2 { Some(seen[seen.len() - 3]) } else { None };
             let inside = |time: f64| time >= begin;
             if a.1 != 0.0 && a.1.signum() != b.1.signum() && inside(a.0) {
-                let time = root(&mut carrier, largest, a, b)?;
+                let [time, _] = false_position([a, b], (ROUNDS, 0.0), |time| {
+                    determinant(&mut carrier, largest, time)
+                })?;
                 add(&mut carrier, largest, time, start.time, &mut found)?;
             } else if let Some(c) = earlier
                 && c.1.signum() == a.1.signum()
@@ -110,7 +117,10 @@ fn singular(
                 && inside(c.0)
             {
                 // a double zero has no change of sign
-                let time = least(&mut carrier, largest, c.0, b.0)?;
+                let [from, to] = golden_section([c.0, b.0], SECTIONS, |time| {
+                    Ok::<_, DynamicsError>(determinant(&mut carrier, largest, time)?.abs())
+                })?;
+                let time = f64::midpoint(from, to);
                 let smallest = singular_values(&mut carrier, time)?;
                 if rank_lost(&smallest, largest) > 1 {
                     add(&mut carrier, largest, time, start.time, &mut found)?;
@@ -154,49 +164,9 @@ fn rank_lost(values: &[f64], largest: f64) -> usize {
     values.iter().filter(|&&value| value <= LOST * largest).count()
 }
 
-/// The zero of the determinant between two times.
-fn root(
-    carrier: &mut Carrier,
-    largest: f64,
-    (mut a, mut at_a): (f64, f64),
-    (mut b, mut at_b): (f64, f64),
-) -> Result<f64, DynamicsError> {
-    for k in 0..200 {
-        // a secant, and every other time the middle
-        let secant = b - at_b * (b - a) / (at_b - at_a);
-        let time = if k % 2 == 0 && secant > a && secant < b { secant } else { 0.5 * (a + b) };
-        if time <= a || time >= b {
-            break;
-        }
-        let value = (block(carrier, time)? / largest).determinant();
-        if value == 0.0 {
-            return Ok(time);
-        }
-        if value.signum() == at_a.signum() {
-            (a, at_a) = (time, value);
-        } else {
-            (b, at_b) = (time, value);
-        }
-    }
-    Ok(if at_a.abs() < at_b.abs() { a } else { b })
-}
-
-/// Where the determinant is least between two times, by golden sections.
-fn least(
-    carrier: &mut Carrier,
-    largest: f64,
-    mut a: f64,
-    mut b: f64,
-) -> Result<f64, DynamicsError> {
-    const GOLDEN: f64 = 0.618_033_988_749_894_9;
-    for _ in 0..60 {
-        let (left, right) = (b - GOLDEN * (b - a), a + GOLDEN * (b - a));
-        let value = |carrier: &mut Carrier, time| -> Result<f64, DynamicsError> {
-            Ok((block(carrier, time)? / largest).determinant().abs())
-        };
-        if value(carrier, left)? < value(carrier, right)? { b = right } else { a = left }
-    }
-    Ok(0.5 * (a + b))
+/// The determinant at a time, over the `largest` entry that the matrix has had.
+fn determinant(carrier: &mut Carrier, largest: f64, time: f64) -> Result<f64, DynamicsError> {
+    Ok((block(carrier, time)? / largest).determinant())
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@
 //!
 //! In: numbers at equal intervals of time. Out: waves with the errors of their frequencies. Never here: when to stop.
 
+use std::convert::Infallible;
 use std::f64::consts::{PI, TAU};
 
 use nalgebra::{Complex, DMatrix, DVector};
@@ -13,7 +14,10 @@ use rustfft::FftPlanner;
 use super::linear::least_squares;
 use super::module_basis::halved;
 use super::spectral_line::{SpectralLine, combination};
-use crate::num::math;
+use crate::num::{golden_section, math};
+
+/// Golden sections for the frequency of the largest amplitude between two points of the transform.
+const SECTIONS: u32 = 24;
 
 /// A combination fits within this part of a turn in the whole time.
 const FITS: f64 = 1e-4;
@@ -156,22 +160,9 @@ impl<'a> SpectralFit<'a> {
         // next to zero there is the mean and its drift
         let inner = transform.iter().enumerate().skip(3);
         let (place, _) = inner.max_by(|a, b| a.1[1].total_cmp(&b.1[1]))?;
-        let golden = (5.0_f64.sqrt() - 1.0) / 2.0;
-        let [mut from, mut to] = [place - 1, place + 1].map(|k| k as f64 * PI / self.length());
-        let value = |x: f64| self.amplitude(left, x);
-        let (mut a, mut b) = (to - golden * (to - from), from + golden * (to - from));
-        let (mut high, mut low) = (value(a), value(b));
-        for _ in 0..24 {
-            if high > low {
-                (to, b, low) = (b, a, high);
-                a = to - golden * (to - from);
-                high = value(a);
-            } else {
-                (from, a, high) = (a, b, low);
-                b = from + golden * (to - from);
-                low = value(b);
-            }
-        }
+        let ends = [place - 1, place + 1].map(|k| k as f64 * PI / self.length());
+        let value = |x| Ok::<_, Infallible>(-self.amplitude(left, x));
+        let Ok([from, to]) = golden_section(ends, SECTIONS, value);
         Some(f64::midpoint(from, to))
     }
 

@@ -9,7 +9,7 @@
 //! is extremal outwards and bisected.
 
 use super::Start;
-use crate::num::short;
+use crate::num::{false_position, short};
 use crate::system::{ChannelKind, InitialOverride, MotionError, MotionErrorKind, Observer, System};
 
 /// Which of the two roots completes a start.
@@ -75,9 +75,9 @@ const CORRECTIONS: u32 = 4;
 /// The energies at the two places of the test agree with those of a quadratic to this part of their terms.
 const QUADRATIC: f64 = 1e-11;
 
-/// Doublings outwards and halvings inwards of a root that is not that of a quadratic.
+/// Doublings outwards and secants inwards of a root that is not that of a quadratic.
 const DOUBLINGS: u32 = 200;
-const HALVINGS: u32 = 200;
+const ROUNDS: u32 = 200;
 
 /// Sections by the golden ratio in the search for the least distance from an energy.
 const SECTIONS: u32 = 60;
@@ -206,16 +206,16 @@ impl EnergyShell {
             };
             let lowest = known[1] < known[0] && known[1] < found;
             let within = if found <= 0.0 {
-                Some(((before[1], known[1]), (next, found)))
+                Some([(before[1], known[1]), (next, found)])
             } else if lowest {
                 let behind = passed([before[0], before[1], next], &mut left)?;
-                behind.map(|outer| ((before[0], known[0]), outer))
+                behind.map(|outer| [(before[0], known[0]), outer])
             } else {
                 None
             };
             if let Some(within) = within {
-                let root = located(within, |v| Ok(left(v)?));
-                return root.map(|v| self.about + sign * v);
+                let [_, v] = false_position(within, (ROUNDS, CLOSE), &mut left)?;
+                return Ok(self.about + sign * v);
             }
             // next to the extremum nothing happens
             let is_flat = (found - known[1]).abs() < FLAT * missing.abs();
@@ -286,43 +286,6 @@ fn passed(
         }
     }
     Ok(None)
-}
-
-/// The zero of a function between two places, with its values there of opposite signs: by secants whose value at an end that stays is
-/// halved (the Illinois algorithm: M. Dowell, P. Jarratt, BIT 11 (1971) 168), and halves where these are slow.
-fn located(
-    (mut inner, mut outer): ((f64, f64), (f64, f64)),
-    mut value: impl FnMut(f64) -> Result<f64, NotOnShell>,
-) -> Result<f64, NotOnShell> {
-    let mut last = 0;
-    for round in 0..HALVINGS {
-        let middle = f64::midpoint(inner.0, outer.0);
-        if middle <= inner.0 || middle >= outer.0 {
-            break;
-        }
-        let secant = inner.0 - inner.1 * (outer.0 - inner.0) / (outer.1 - inner.1);
-        let is_inside = secant > inner.0 && secant < outer.0;
-        let place = if is_inside && round % 4 != 3 { secant } else { middle };
-        let found = value(place)?;
-        if found == 0.0 {
-            return Ok(place);
-        }
-        if (found > 0.0) == (inner.1 > 0.0) {
-            if last == 1 {
-                outer.1 *= 0.5;
-            }
-            (inner, last) = ((place, found), 1);
-        } else {
-            if last == -1 {
-                inner.1 *= 0.5;
-            }
-            (outer, last) = ((place, found), -1);
-        }
-        if outer.0 - inner.0 <= CLOSE * outer.0 {
-            break;
-        }
-    }
-    Ok(outer.0)
 }
 
 /// The energy as a function of one number of a start.

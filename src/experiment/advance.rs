@@ -48,10 +48,10 @@ impl Experiment {
 
     /// The same for this motion alone.
     pub(super) fn advance_main(&mut self, time: f64, mut budget: u64) -> AdvanceOutcome {
-        if self.fault.is_some() {
+        if self.run.fault.is_some() {
             return AdvanceOutcome::Stuck;
         }
-        if self.ended.is_some() {
+        if self.run.ended.is_some() {
             return AdvanceOutcome::Ended;
         }
         while self.recorder.due() <= time {
@@ -129,7 +129,7 @@ impl Experiment {
             Err(fault) => {
                 // show what was computed before the fault, as far as possible
                 let _ = self.motion.reach_end();
-                self.fault = Some(self.motion.dated(fault).into());
+                self.run.fault = Some(self.motion.dated(fault).into());
                 AdvanceOutcome::Stuck
             }
         }

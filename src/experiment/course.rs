@@ -6,7 +6,6 @@
 use std::sync::Arc;
 
 use super::companions::Companions;
-use super::echo::Echo;
 use super::event_log::EventLog;
 use super::gauges::{GaugeInputs, Gauges};
 use super::hull::Hulls;
@@ -14,11 +13,13 @@ use super::law_changes::LawChanges;
 use super::notices::Notices;
 use super::observed_motion::ObservedMotion;
 use super::recorder::Recorder;
+use super::reverse::Reversal;
 use super::row_spacing::RowSpacing;
 use super::run_log::RunLog;
+use super::run_state::RunState;
 use super::scrubbed::Scrubbed;
 use super::setup::{MethodNotFound, Setup, choose_method};
-use super::snapshot::{Failure, Gauge, MethodFact, Recorded, Snapshot, Status};
+use super::snapshot::{Gauge, MethodFact, Recorded, Snapshot, Status};
 use crate::analysis::CrossingLog;
 use crate::cancel::Cancel;
 use crate::mechanics::{Equations, Valuation};
@@ -36,30 +37,20 @@ pub struct Experiment {
     /// The initial values as numbers: coordinates, then velocities or momenta.
     initial: Arc<[f64]>,
     pub(super) motion: ObservedMotion,
-    /// The system run the other way, once it was needed.
-    pub(super) other_way: Option<System>,
-    /// The reading of the clock at which time was reversed last, or the motion began.
-    pub(super) began: f64,
+    pub(super) reversal: Reversal,
     /// Where the law was changed since the restart.
     pub(super) changes: LawChanges,
-    /// The run before time was reversed.
-    pub(super) echo: Option<Box<Echo>>,
     /// The time in the past that is shown.
     pub(super) scrubbed: Option<Box<Scrubbed>>,
     pub(super) recorder: Recorder,
     pub(super) gauges: Gauges,
-    pub(super) running: bool,
-    pub(super) fault: Option<Failure>,
+    pub(super) run: RunState,
     epoch: u64,
     pub(super) notices: Notices,
     /// What has happened since the last restart.
     pub(super) log: RunLog,
     /// The motions beside this one.
     pub(super) companions: Companions,
-    /// The event that ended the motion.
-    pub(super) ended: Option<String>,
-    /// Whether the motion was resumed from a checkpoint.
-    pub(super) restored: bool,
     pub(super) row_spacing: RowSpacing,
     /// Whether the gauges are evaluated at the ends of steps only.
     pub(super) only_ends: bool,
@@ -82,24 +73,19 @@ impl Experiment {
         let mut experiment = Experiment {
             model: Arc::clone(model),
             equations: Arc::clone(equations),
-            other_way: None,
-            began: setup.start,
+            reversal: Reversal::none(setup.start),
             changes: LawChanges::default(),
-            echo: None,
             scrubbed: None,
             initial: Arc::default(),
             motion,
             recorder: Recorder::new(system.channels().len(), setup.spacing)
                 .with_hulls(Hulls::of(model, system)),
             gauges: Gauges::new(model, equations, system),
-            running: true,
-            fault: None,
+            run: RunState { running: true, fault: None, ended: None, restored: false },
             epoch: 0,
             notices: Notices::default(),
             log: RunLog::new(model.sections.len()),
             companions: Companions::default(),
-            ended: None,
-            restored: false,
             row_spacing: RowSpacing::default(),
             only_ends: false,
             setup,
@@ -155,12 +141,7 @@ impl Experiment {
 
     /// Whether time is running, paused or unable to continue.
     pub fn status(&self) -> Status {
-        match (&self.fault, self.running) {
-            (Some(fault), _) => Status::Failed(fault.clone()),
-            _ if self.ended.is_some() => Status::Ended(self.ended.clone().unwrap_or_default()),
-            (None, true) => Status::Running,
-            (None, false) => Status::Paused,
-        }
+        self.run.status()
     }
 
     /// The current value of every channel, in the order of the system's channels.
@@ -278,7 +259,7 @@ impl Experiment {
             epoch: self.epoch,
             time: seen.time(),
             backwards: self.is_backwards(),
-            returned: self.echo.as_ref().map(|echo| echo.returned()),
+            returned: self.reversal.echo.as_ref().map(|echo| echo.returned()),
             recorded: self.recorded(),
             status: self.status(),
             speed: self.setup.speed,
@@ -300,7 +281,7 @@ impl Experiment {
             released: (0..self.system().constraints())
                 .filter(|&k| self.system().is_released(k))
                 .collect(),
-            restored: self.restored,
+            restored: self.run.restored,
         }
     }
 }
@@ -325,7 +306,7 @@ impl Experiment {
     /// The part of the motion that can be shown again.
     pub(super) fn recorded(&self) -> Recorded {
         let from = self.motion.known_from().unwrap_or(self.clock());
-        let from = self.motion.sign() * from.max(self.began);
+        let from = self.motion.sign() * from.max(self.reversal.began);
         let (scrubbed, changed) = (self.scrubbed.is_some(), self.changes.last.clone());
         Recorded { from, to: self.time(), scrubbed, changed, run: self.motion.log.run() }
     }
@@ -334,10 +315,10 @@ impl Experiment {
     pub(super) fn restart(&mut self) {
         self.face_forwards();
         self.scrubbed = None;
-        self.began = self.setup.start;
+        self.reversal.began = self.setup.start;
         self.changes = LawChanges::default();
-        self.fault = None;
-        self.ended = None;
+        self.run.fault = None;
+        self.run.ended = None;
         self.log.clear();
         self.notices = Notices::default();
         self.motion.forget(self.setup.start);
@@ -350,7 +331,7 @@ impl Experiment {
                 self.gauge(Gauges::refer);
                 self.record();
             }
-            Err(fault) => self.fault = Some(fault.into()),
+            Err(fault) => self.run.fault = Some(fault.into()),
         }
         self.restart_companions();
     }

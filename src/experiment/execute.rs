@@ -28,8 +28,8 @@ impl Experiment {
         match command {
             Command::LookAt(time) => self.scrub_to(time),
             Command::Reverse => self.reverse(),
-            Command::Play => self.running = true,
-            Command::Pause => self.running = false,
+            Command::Play => self.run.running = true,
+            Command::Pause => self.run.running = false,
             Command::Step(count) => self.step(count),
             Command::StepBack(count) => self.step_back(count),
             Command::Speed(speed) if speed > 0.0 => self.setup.speed = speed,
@@ -67,7 +67,7 @@ impl Experiment {
             Command::Pin => self.pin(),
             Command::ClearCompanions => {
                 self.companions.clear();
-                self.echo = None;
+                self.reversal.echo = None;
             }
             Command::Settings(settings) => self.change_method(self.motion.method(), settings),
             Command::Reference => {
@@ -91,7 +91,11 @@ impl Experiment {
 
     fn apply_impulse(&mut self, index: usize) {
         let known = index < self.system().discontinuities().impulses.len();
-        if !known || !self.motion.has_begun() || self.fault.is_some() || self.ended.is_some() {
+        if !known
+            || !self.motion.has_begun()
+            || self.run.fault.is_some()
+            || self.run.ended.is_some()
+        {
             return;
         }
         match self.motion.apply_impulse(index).and_then(|occurrence| self.note(occurrence)) {
@@ -99,12 +103,12 @@ impl Experiment {
                 self.changed_here("the momentum".to_owned());
                 self.notify(sentence);
             }
-            Err(fault) => self.fault = Some(self.motion.dated(fault).into()),
+            Err(fault) => self.run.fault = Some(self.motion.dated(fault).into()),
         }
     }
 
     fn step(&mut self, count: u32) {
-        self.running = false;
+        self.run.running = false;
         let speed =
             if self.setup.speed.is_finite() { self.setup.speed } else { self.model.run.speed };
         let time = self.clock() + f64::from(count) * FRAME * speed;
@@ -121,7 +125,7 @@ impl Experiment {
         self.setup.parameters[index] = value;
         // what crossed before belongs to another system, and so does the run before time was reversed
         self.log.crossings.clear();
-        self.echo = None;
+        self.reversal.echo = None;
         if !self.motion.has_begun() {
             return self.restart();
         }
@@ -267,6 +271,6 @@ impl Experiment {
     fn continue_from(&mut self, state: Result<State, system::MotionError>) {
         let begun =
             state.and_then(|state| self.motion.continue_from(&state, &self.setup.parameters));
-        self.fault = begun.err().map(|fault| self.motion.dated(fault).into());
+        self.run.fault = begun.err().map(|fault| self.motion.dated(fault).into());
     }
 }

@@ -23,7 +23,7 @@ impl Experiment {
         let sentence = match &occurrence.kind {
             OccurrenceKind::Mark | OccurrenceKind::Crossing(_) => lead,
             OccurrenceKind::Stop => {
-                self.ended = Some(occurrence.name.clone());
+                self.run.ended = Some(occurrence.name.clone());
                 format!("{lead}: the motion ends")
             }
             OccurrenceKind::Release(constraint) => {

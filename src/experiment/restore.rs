@@ -21,9 +21,9 @@ impl Experiment {
     /// Resumes from a checkpoint of this system or of one with similar names. Whatever does not apply here is
     /// reported in a notice.
     pub fn restore(&mut self, checkpoint: &Checkpoint) {
-        self.restored = true;
+        self.run.restored = true;
         let mut lost = self.restore_setup(checkpoint);
-        self.running = checkpoint.running;
+        self.run.running = checkpoint.running;
         let notices = std::mem::take(&mut self.notices.sentences);
         self.companions.clear();
         self.restart();
@@ -148,7 +148,7 @@ impl Experiment {
             let state = self.state_of(present)?;
             self.motion.begin(&state, &self.setup.parameters)?;
         }
-        self.fault = None;
+        self.run.fault = None;
         self.motion.set_steps(present.steps);
         self.recorder.restart(present.time);
         self.gauge(Gauges::refer);
@@ -156,7 +156,7 @@ impl Experiment {
             self.gauge(|gauges, now| gauges.restore(&present.references, now));
             let model = std::sync::Arc::clone(&self.model);
             let same = |name: &&String| model.events.iter().any(|e| e.name == **name);
-            self.ended = present.ended.as_ref().filter(same).cloned();
+            self.run.ended = present.ended.as_ref().filter(same).cloned();
         }
         self.record();
         Ok(())

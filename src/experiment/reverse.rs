@@ -21,6 +21,24 @@ use crate::expr::Expr;
 use crate::integrate::Stepping;
 use crate::model::EventAction;
 use crate::num::short;
+use crate::system::System;
+
+/// What reversing time has to know.
+pub(super) struct Reversal {
+    /// The system run the other way, once it was needed.
+    other_way: Option<System>,
+    /// The reading of the clock at which time was reversed last, or the motion began.
+    pub(super) began: f64,
+    /// The run before time was reversed.
+    pub(super) echo: Option<Box<Echo>>,
+}
+
+impl Reversal {
+    /// No reversal of a motion that begins at a time.
+    pub(super) fn none(began: f64) -> Reversal {
+        Reversal { other_way: None, began, echo: None }
+    }
+}
 
 impl Experiment {
     /// Reverses time.
@@ -39,10 +57,10 @@ impl Experiment {
             let periods = self.periods(&variables);
             echo.measure_step(back, HORIZON * self.setup.spacing, (&variables, &periods));
         }
-        self.echo = echo.map(Box::new);
-        self.ended = None;
+        self.reversal.echo = echo.map(Box::new);
+        self.run.ended = None;
         self.log.clear();
-        self.began = self.clock();
+        self.reversal.began = self.clock();
         self.recorder.turn(self.clock(), self.is_backwards());
         self.gauge(Gauges::refer);
         self.record();
@@ -52,7 +70,7 @@ impl Experiment {
 
     /// Why time cannot be reversed, in a sentence.
     fn no_way_back(&self) -> Option<String> {
-        if !self.motion.has_begun() || self.fault.is_some() {
+        if !self.motion.has_begun() || self.run.fault.is_some() {
             return Some("there is no motion to reverse".to_owned());
         }
         let happens = self.system().discontinuities();
@@ -86,7 +104,7 @@ impl Experiment {
         if self.motion.method().stepping == Stepping::Fixed {
             self.motion.reach_end().map_err(|fault| self.motion.dated(fault).to_string())?;
         }
-        let system = match self.other_way.take() {
+        let system = match self.reversal.other_way.take() {
             Some(system) => system,
             None => {
                 let whole = self.motion.whole();
@@ -105,11 +123,11 @@ impl Experiment {
         let begun = motion.begin_turned(&state, step, &self.motion.released());
         if let Err(fault) = begun {
             let fault = motion.dated(fault);
-            self.other_way = Some(system);
+            self.reversal.other_way = Some(system);
             return Err(fault.to_string());
         }
         motion.set_steps(self.motion.steps());
-        self.other_way = Some(self.motion.whole().clone());
+        self.reversal.other_way = Some(self.motion.whole().clone());
         Ok(std::mem::replace(&mut self.motion, motion))
     }
 
@@ -117,7 +135,7 @@ impl Experiment {
     pub(super) fn continue_backwards(&mut self) {
         match self.turn() {
             Ok(_) => {
-                self.began = self.clock();
+                self.reversal.began = self.clock();
                 self.recorder.turn(self.clock(), true);
                 self.record();
             }
@@ -127,15 +145,15 @@ impl Experiment {
 
     /// Lets time run forwards again, for a motion that is about to begin.
     pub(super) fn face_forwards(&mut self) {
-        self.echo = None;
+        self.reversal.echo = None;
         if !self.is_backwards() {
             return;
         }
-        let Some(system) = self.other_way.take() else { return };
+        let Some(system) = self.reversal.other_way.take() else { return };
         let (method, settings) = (self.motion.method(), self.motion.settings());
         match ObservedMotion::new(&system, method, settings, &self.setup.parameters) {
             Ok(motion) => {
-                self.other_way = Some(self.motion.whole().clone());
+                self.reversal.other_way = Some(self.motion.whole().clone());
                 self.motion = motion;
                 self.recorder.turn(self.setup.start, false);
             }
@@ -146,7 +164,7 @@ impl Experiment {
 
     /// The time from which impulses at intervals are counted.
     pub(super) fn schedule_start(&self) -> f64 {
-        if self.is_backwards() { self.began } else { self.setup.start }
+        if self.is_backwards() { self.reversal.began } else { self.setup.start }
     }
 
     /// The channels of the canonical variables.
@@ -161,29 +179,29 @@ impl Experiment {
 
     /// Compares the motion with the run before, where that has been.
     pub(super) fn compare_with_echo(&mut self) {
-        if self.echo.is_none() {
+        if self.reversal.echo.is_none() {
             return;
         }
         let variables = self.variables();
         let periods = self.periods(&variables);
-        let Some(echo) = &mut self.echo else { return };
+        let Some(echo) = &mut self.reversal.echo else { return };
         let now = (self.motion.time(), self.motion.values());
         echo.compare(now, HORIZON * self.setup.spacing, (&variables, &periods));
     }
 
     /// Where on the clock the run before began, if the motion has not yet been there.
     pub(super) fn return_clock(&self) -> Option<f64> {
-        let home = self.motion.sign() * self.echo.as_ref()?.start;
+        let home = self.motion.sign() * self.reversal.echo.as_ref()?.start;
         (home > self.clock()).then_some(home)
     }
 
     /// The motion is back where the run before began, and pauses.
     pub(super) fn finish_return(&mut self) -> AdvanceOutcome {
-        self.running = false;
+        self.run.running = false;
         if self.recorder.due() > self.clock() {
             self.compare_with_echo();
         }
-        let Some(echo) = &self.echo else { return AdvanceOutcome::Arrived };
+        let Some(echo) = &self.reversal.echo else { return AdvanceOutcome::Arrived };
         let returned = echo.returned();
         let start = short(returned.start);
         match returned.error {
@@ -208,7 +226,9 @@ impl Experiment {
         time: f64,
     ) -> (Arc<[Companion]>, Arc<[(usize, Arc<DistanceHistory>)]>) {
         let companions = self.companions.shown(time);
-        let Some(echo) = &self.echo else { return (companions, self.companions.separations()) };
+        let Some(echo) = &self.reversal.echo else {
+            return (companions, self.companions.separations());
+        };
         let number = self.companions.number().unwrap_or(MOST_COMPANIONS + 1);
         let surfaces = self.model.sections.len();
         let before = echo.shown(number, &self.setup.parameters, surfaces);

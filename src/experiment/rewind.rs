@@ -12,12 +12,12 @@ use crate::num::short;
 impl Experiment {
     /// Takes a paused motion back by so many frames. What was recorded after that time is gone.
     pub(super) fn step_back(&mut self, count: u32) {
-        self.running = false;
+        self.run.running = false;
         if !self.motion.has_begun() {
             return;
         }
         let now = self.clock();
-        let time = (now - f64::from(count) * self.frame()).max(self.began);
+        let time = (now - f64::from(count) * self.frame()).max(self.reversal.began);
         if time >= now {
             return self.notify("this is the beginning of the motion".to_owned());
         }
@@ -39,7 +39,7 @@ impl Experiment {
         let limit = time + HORIZON * self.setup.spacing;
         match self.motion.back_to((time, limit), self.setup.start) {
             Err(fault) => {
-                self.fault = Some(self.motion.dated(fault).into());
+                self.run.fault = Some(self.motion.dated(fault).into());
                 return;
             }
             Ok(Some(first)) if first.is_finite() => {
@@ -53,8 +53,8 @@ impl Experiment {
             }
             Ok(None) => {}
         }
-        self.fault = None;
-        self.ended = None;
+        self.run.fault = None;
+        self.run.ended = None;
         self.recorder.rewind(time);
         if sign > 0.0 {
             self.companions.forget_rows_after(time);

@@ -13,13 +13,13 @@ impl Experiment {
     pub(super) fn scrub_to(&mut self, time: f64) {
         self.look_at_this(time);
         let now = self.seen().time();
-        if let Some(echo) = &mut self.echo {
+        if let Some(echo) = &mut self.reversal.echo {
             echo.scrub_to(now, HORIZON * self.setup.spacing);
         }
     }
 
     fn look_at_this(&mut self, time: f64) {
-        self.running = false;
+        self.run.running = false;
         if !self.motion.has_begun() || time.is_nan() {
             return;
         }

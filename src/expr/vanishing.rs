@@ -3,12 +3,14 @@
 //! In: an expression. Out: whether it passes or touches zero on a surface. A root of what touches zero has a kink there,
 //! as √(x²) = |x| has; √(x² + y²) has none, but for a point. Never here: kinks of functions, which have names.
 
+use std::convert::Infallible;
+
 use super::evaluate::Repeated;
 use super::node::Expr;
 use super::pool::Pool;
 use super::sample::sample;
 use super::symbol::Symbol;
-use crate::num::math;
+use crate::num::{golden_section, math};
 
 /// The lines along which a function is followed.
 const LINES: u64 = 4;
@@ -21,7 +23,8 @@ const PLACES: u32 = 300;
 /// the digits, which leaves 1e-13 of a square; a line that passes a point at a tenth of `SPACING` leaves 1e-2.
 const ZERO: f64 = 1e-10;
 
-const GOLDEN: f64 = 0.618_033_988_749_894_9;
+/// Golden sections between three places for the least value.
+const SECTIONS: u32 = 60;
 
 impl Pool {
     /// Whether a function of the `moving` symbols is zero on a surface on both sides of which it is positive.
@@ -102,12 +105,10 @@ fn touches(at: &dyn Fn(f64) -> f64) -> bool {
     })
 }
 
-/// The least value of a function between two places, by golden sections.
-fn least(at: &dyn Fn(f64) -> f64, mut left: f64, mut right: f64) -> f64 {
-    for _ in 0..60 {
-        let (a, b) = (right - GOLDEN * (right - left), left + GOLDEN * (right - left));
-        if at(a) <= at(b) { right = b } else { left = a }
-    }
+/// The least value of a function between two places.
+fn least(at: &dyn Fn(f64) -> f64, left: f64, right: f64) -> f64 {
+    let value = |x| Ok::<_, Infallible>(at(x));
+    let Ok([left, right]) = golden_section([left, right], SECTIONS, value);
     at(f64::midpoint(left, right))
 }
 

@@ -7,14 +7,7 @@ use unicode_width::UnicodeWidthStr;
 
 use super::canvas::{Canvas, Span, columns, row};
 use super::theme::Role;
-use crate::app::PageSearch;
-
-/// The text of a row in the letters that count: a capital letter in the words makes all letters count as they are.
-fn folded(text: &str, words: &str) -> Vec<char> {
-    let is_exact = words.chars().any(char::is_uppercase);
-    let letter = |c: char| if is_exact { c } else { c.to_lowercase().next().unwrap_or(c) };
-    text.chars().map(letter).collect()
-}
+use crate::app::{PageSearch, smart_case};
 
 /// Where some words stand in a row: the places of their first letters, counted in letters.
 fn places(line: &[Span], words: &str) -> Vec<usize> {
@@ -22,7 +15,7 @@ fn places(line: &[Span], words: &str) -> Vec<usize> {
         return Vec::new();
     }
     let text: String = line.iter().map(|(text, _)| text.as_str()).collect();
-    let (text, sought) = (folded(&text, words), folded(words, words));
+    let (text, sought) = (smart_case(&text, words), smart_case(words, words));
     text.windows(sought.len()).enumerate().filter(|(_, w)| *w == sought).map(|(at, _)| at).collect()
 }
 

@@ -2,9 +2,11 @@
 //!
 //! In: where the coordinate begins, its period. Out: the profile of the potential. Never here: what an energy allows.
 
+use std::convert::Infallible;
+
 use super::EffectivePotential;
 use crate::action_angle::extremum::{resolved, turns};
-use crate::num::math;
+use crate::num::{golden_section, math};
 
 /// The number of places evaluated first.
 const PLACES: usize = 4001;
@@ -15,8 +17,8 @@ const REACH: f64 = 12.0;
 /// A top or a bottom that is greater by this factor than what is around it is a pole.
 const POLE: f64 = 1e12;
 
-/// Sections by the golden ratio.
-const SECTIONS: usize = 90;
+/// Golden sections for the place of an extremum.
+const SECTIONS: u32 = 90;
 
 impl EffectivePotential<'_> {
     /// Evaluates the potential around the start.
@@ -92,22 +94,10 @@ impl EffectivePotential<'_> {
         self.profile.nodes = nodes;
     }
 
-    /// The place of the least value of `sign` times the potential, by the golden ratio.
-    fn extremum(&mut self, mut low: f64, mut high: f64, sign: f64) -> f64 {
-        const GOLDEN: f64 = 0.618_033_988_749_894_9;
-        let (mut a, mut b) = (high - GOLDEN * (high - low), low + GOLDEN * (high - low));
-        let (mut at_a, mut at_b) = (sign * self.at(a), sign * self.at(b));
-        for _ in 0..SECTIONS {
-            if at_a < at_b {
-                (high, b, at_b) = (b, a, at_a);
-                a = high - GOLDEN * (high - low);
-                at_a = sign * self.at(a);
-            } else {
-                (low, a, at_a) = (a, b, at_b);
-                b = low + GOLDEN * (high - low);
-                at_b = sign * self.at(b);
-            }
-        }
+    /// The place of the least value of `sign` times the potential.
+    fn extremum(&mut self, low: f64, high: f64, sign: f64) -> f64 {
+        let value = |q| Ok::<_, Infallible>(sign * self.at(q));
+        let Ok([low, high]) = golden_section([low, high], SECTIONS, value);
         f64::midpoint(low, high)
     }
 }

@@ -7,7 +7,7 @@
 //! motion had come to rest, or what is carried on while it rests.
 
 use super::onset::{self, Onset};
-use crate::num::{Analytic, DoubleDouble};
+use crate::num::{Analytic, DoubleDouble, golden_section};
 use crate::system::{ExactRates, Form, MotionError, MotionErrorKind, State, System};
 
 /// The number of directions between any two velocities.
@@ -211,7 +211,7 @@ impl TrialVelocities<'_> {
             let mut moves = (last.1 >= 0.0).then_some(last);
             if moves.is_none() && k > 1 && middle.1 > first.1 && middle.1 > last.1 {
                 // it may end between two checks
-                let top = self.top((first.0, last.0))?;
+                let top = self.top([first.0, last.0])?;
                 moves = (top.1 >= 0.0).then_some(top);
                 rests = first;
             }
@@ -231,18 +231,16 @@ impl TrialVelocities<'_> {
         Ok(None)
     }
 
-    /// The greatest margin between two times, by golden-section search.
-    fn top(&mut self, (mut a, mut b): (f64, f64)) -> Result<(f64, f64), MotionError> {
-        let mut best = (a, f64::NEG_INFINITY);
-        for _ in 0..SECTIONS {
-            let (c, d) = (b - GOLDEN * (b - a), a + GOLDEN * (b - a));
-            let (at_c, at_d) = (self.margin_at(c)?, self.margin_at(d)?);
-            let (time, margin) = if at_c > at_d { (c, at_c) } else { (d, at_d) };
+    /// The greatest margin between two times, and its time.
+    fn top(&mut self, ends: [f64; 2]) -> Result<(f64, f64), MotionError> {
+        let mut best = (ends[0], f64::NEG_INFINITY);
+        golden_section(ends, SECTIONS, |time| {
+            let margin = self.margin_at(time)?;
             if margin > best.1 {
                 best = (time, margin);
             }
-            (a, b) = if at_c > at_d { (a, d) } else { (c, b) };
-        }
+            Ok::<_, MotionError>(-margin)
+        })?;
         Ok(best)
     }
 
