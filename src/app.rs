@@ -103,7 +103,7 @@ pub use rate::RateMeter;
 pub use reading::Reading;
 pub use saved::Saved;
 pub use smart_case::smart_case;
-pub use state::{App, Footer, KeyHints, Overlay, Themes};
+pub use state::{App, Footer, KeyHints, Mouse, Overlay, TextInView, Themes};
 pub use synonyms::synonyms;
 pub use update::LONGEST_PASTE;
 pub use value::{ValueId, ValueInfo};

@@ -299,12 +299,12 @@ impl App {
     }
 
     fn switch_mouse(&mut self) -> Vec<Effect> {
-        self.mouse = !self.mouse;
-        self.notifications.show(Notification::info(if self.mouse {
+        self.mouse.is_reported = !self.mouse.is_reported;
+        self.notifications.show(Notification::info(if self.mouse.is_reported {
             "Mouse on: click a phase portrait to start there, drag sliders; M to select text."
         } else {
             "Mouse off: the terminal selects text; M switches it on."
         }));
-        vec![Effect::Mouse(self.mouse)]
+        vec![Effect::Mouse(self.mouse.is_reported)]
     }
 }

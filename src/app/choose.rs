@@ -116,7 +116,7 @@ impl App {
                 if let Some(search) = self.typed_search() {
                     search.typing = false;
                     let is_empty = search.input.value().trim().is_empty();
-                    self.page_search.take_if(|_| is_empty);
+                    self.text.search.take_if(|_| is_empty);
                 }
                 Vec::new()
             }

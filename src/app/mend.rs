@@ -69,7 +69,7 @@ impl App {
         self.workbench.clear();
         self.workbench.lay_text(text);
         (self.lab, self.picker.failure) = (None, None);
-        (self.page, self.overlay, self.scroll) = (Page::Lab, Some(Overlay::Workbench), 0);
+        (self.page, self.overlay, self.text.scroll) = (Page::Lab, Some(Overlay::Workbench), 0);
     }
 
     /// Begins the motion of a text edited without a system, as soon as it has no errors.

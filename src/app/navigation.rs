@@ -22,11 +22,11 @@ impl App {
                 // what was said before is not said of the help
                 self.notifications.dismiss();
                 let below = self.overlay.take().map(Box::new);
-                let scroll = self.scroll;
+                let scroll = self.text.scroll;
                 self.overlay = Some(Overlay::Help { scroll, below, search: None, typing: false });
             }
         }
-        self.scroll = 0;
+        self.text.scroll = 0;
         Vec::new()
     }
 
@@ -38,11 +38,11 @@ impl App {
             Some(Overlay::Help { scroll, below, search: Some(_), .. }) => {
                 // The first Esc shows all keys again.
                 self.overlay = Some(Overlay::Help { scroll, below, search: None, typing: false });
-                self.scroll = 0;
+                self.text.scroll = 0;
                 return Vec::new();
             }
             Some(Overlay::Help { scroll, below, .. }) => {
-                self.scroll = scroll;
+                self.text.scroll = scroll;
                 self.overlay = below.map(|below| *below);
                 return Vec::new();
             }
@@ -144,12 +144,12 @@ impl App {
     }
 
     fn roll(&mut self, by: isize) {
-        self.section = None;
-        if let Some(search) = &mut self.page_search {
+        self.text.section = None;
+        if let Some(search) = &mut self.text.search {
             search.seeks = false;
         }
-        let rows = usize::from(self.scroll).saturating_add_signed(by);
-        self.scroll = rows.min(usize::from(self.drawn.beyond)) as u16;
+        let rows = usize::from(self.text.scroll).saturating_add_signed(by);
+        self.text.scroll = rows.min(usize::from(self.drawn.beyond)) as u16;
     }
 
     /// Returns the number of lines that a page up or down moves.

@@ -26,7 +26,7 @@ impl App {
             return self.notify("No system fits this search.");
         };
         if let Some(failure) = self.picker.failure.clone().filter(|f| f.name == name) {
-            self.scroll = 0;
+            self.text.scroll = 0;
             self.overlay = Some(Overlay::Message(failure));
             return Vec::new();
         }

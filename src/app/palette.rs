@@ -14,7 +14,7 @@ impl App {
     pub(super) fn open_palette(&mut self) -> Vec<Effect> {
         // A choice applies to the page, not to the help above it.
         if let Some(Overlay::Help { scroll, .. }) = self.overlay {
-            self.scroll = scroll;
+            self.text.scroll = scroll;
         }
         self.overlay = None;
         let contexts = self.key_contexts_below();

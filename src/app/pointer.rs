@@ -51,7 +51,7 @@ impl App {
 
     /// Ends a drag, even if the terminal did not report the release of the button.
     pub fn end_group(&mut self) {
-        self.drag = None;
+        self.mouse.drag = None;
         if let Some(lab) = &mut self.lab {
             lab.history.end_group();
         }
@@ -107,17 +107,17 @@ impl App {
             HitTarget::Bar { target, value } => {
                 lab.choose(target);
                 lab.history.begin_group();
-                self.drag = Some(Grab::Bar(target));
+                self.mouse.drag = Some(Grab::Bar(target));
                 return self.pull(target, value);
             }
             HitTarget::Time(time) => {
-                self.drag = Some(Grab::Time);
+                self.mouse.drag = Some(Grab::Time);
                 return vec![Effect::Execute(Command::LookAt(time))];
             }
             HitTarget::Plot { index, place, .. } | HitTarget::Space { index, place } => {
                 lab.focus.pane = Pane::Plot(index);
                 lab.history.begin_group();
-                self.drag = Some(Grab::Picture { index, place, moved: false });
+                self.mouse.drag = Some(Grab::Picture { index, place, moved: false });
             }
             _ => {}
         }
@@ -125,7 +125,7 @@ impl App {
     }
 
     fn drag(&mut self, hit: HitTarget) -> Vec<Effect> {
-        match (self.drag, hit) {
+        match (self.mouse.drag, hit) {
             (Some(Grab::Bar(grabbed)), HitTarget::Bar { target, value }) if grabbed == target => {
                 self.pull(target, value)
             }
@@ -136,7 +136,7 @@ impl App {
                 Some(Grab::Picture { index: grabbed, place: from, .. }),
                 HitTarget::Plot { index, place, .. } | HitTarget::Space { index, place },
             ) if grabbed == index && place != from => {
-                self.drag = Some(Grab::Picture { index, place, moved: true });
+                self.mouse.drag = Some(Grab::Picture { index, place, moved: true });
                 let by = [0, 1].map(|k| place[k] - from[k]);
                 let Some(lab) = &mut self.lab else { return Vec::new() };
                 if lab.plots.get(index).is_some_and(|plot| is_face_on(plot, &lab.loaded.model)) {
@@ -155,7 +155,7 @@ impl App {
     }
 
     fn let_go(&mut self, hit: HitTarget) -> Vec<Effect> {
-        let grabbed = self.drag.take();
+        let grabbed = self.mouse.drag.take();
         let Some(lab) = &mut self.lab else { return Vec::new() };
         let effects = match (grabbed, hit) {
             (Some(Grab::Picture { moved: false, .. }), HitTarget::Plot { index, place, at }) => {

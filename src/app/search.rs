@@ -137,7 +137,7 @@ impl App {
         if self.page != Page::Equations {
             self.go(Page::Equations);
         }
-        self.section = Some(EquationsSection::Constants);
+        self.text.section = Some(EquationsSection::Constants);
         Vec::new()
     }
 
@@ -152,7 +152,7 @@ impl App {
             self.go(Page::Equations);
         }
         let is_open = self.lab.as_ref().is_some_and(|lab| lab.searches.constants.brackets);
-        self.section = is_open.then_some(EquationsSection::Brackets);
+        self.text.section = is_open.then_some(EquationsSection::Brackets);
         Vec::new()
     }
 

@@ -8,13 +8,13 @@ use super::{App, Effect, Page};
 impl App {
     /// Returns the search in the page of text that is shown.
     pub fn search_of_page(&self) -> Option<&PageSearch> {
-        self.page_search.as_ref().filter(|_| self.overlay.is_none() && self.is_on_text())
+        self.text.search.as_ref().filter(|_| self.overlay.is_none() && self.is_on_text())
     }
 
     /// The same, while words are typed.
     pub(super) fn typed_search(&mut self) -> Option<&mut PageSearch> {
         let shown = self.overlay.is_none() && self.is_on_text();
-        self.page_search.as_mut().filter(|search| shown && search.typing)
+        self.text.search.as_mut().filter(|search| shown && search.typing)
     }
 
     /// Whether a page is shown that is searched.
@@ -27,8 +27,8 @@ impl App {
         if !self.is_on_text() || self.overlay.is_some() {
             return self.notify("There is nothing to search here.");
         }
-        self.page_search =
-            Some(PageSearch { typing: true, from: self.scroll, ..PageSearch::default() });
+        self.text.search =
+            Some(PageSearch { typing: true, from: self.text.scroll, ..PageSearch::default() });
         Vec::new()
     }
 
@@ -44,7 +44,7 @@ impl App {
             };
             return self.notify(sentence);
         }
-        if let Some(search) = self.page_search.as_mut().filter(|_| count > 0) {
+        if let Some(search) = self.text.search.as_mut().filter(|_| count > 0) {
             let by = if forwards { 1 } else { count - 1 };
             (search.place, search.seeks) = ((search.place.min(count - 1) + by) % count, true);
         }
@@ -54,9 +54,9 @@ impl App {
     /// Ends the search, and returns to where it began if its words are still being typed. Returns whether there was one.
     pub(super) fn end_page_search(&mut self) -> bool {
         let shown = self.search_of_page().is_some();
-        let ended = self.page_search.take_if(|_| shown);
+        let ended = self.text.search.take_if(|_| shown);
         if let Some(search) = ended.as_ref().filter(|search| search.typing) {
-            self.scroll = search.from;
+            self.text.scroll = search.from;
         }
         ended.is_some()
     }

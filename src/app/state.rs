@@ -43,18 +43,14 @@ pub struct App {
     pub notifications: Notifications,
     /// Frame and step rates.
     pub meter: RateMeter,
-    /// Whether the terminal reports the mouse; its own text selection does not work meanwhile.
-    pub mouse: bool,
+    /// The mouse.
+    pub mouse: Mouse,
     /// Whether time is suspended from outside, as by a demo that pauses.
     pub suspended: bool,
     /// Whether the screen is being recorded.
     pub recording: bool,
-    /// The number of rows by which the page of text is scrolled.
-    pub scroll: u16,
-    /// The section of the page of equations that is kept in view until the page is scrolled.
-    pub section: Option<EquationsSection>,
-    /// The search in the page of text.
-    pub page_search: Option<PageSearch>,
+    /// What of a page of text is in view.
+    pub text: TextInView,
     /// The files being edited, also while the editor is closed.
     pub workbench: Workbench,
     /// What is shown below the panes.
@@ -63,14 +59,32 @@ pub struct App {
     pub themes: Themes,
     /// The state of the plain-reading page.
     pub reading: Reading,
-    /// What the mouse drags.
-    pub drag: Option<Grab>,
     /// The background jobs requested.
     pub jobs: Jobs,
     pub(super) drawn: Drawn,
     pub(super) awaited: Awaited,
     /// The session as it was when the user left the lab for the list of systems.
     pub(super) left: Option<Saved>,
+}
+
+/// The mouse: whether it is used here, and what it drags.
+#[derive(Clone, Debug, Default)]
+pub struct Mouse {
+    /// Whether the terminal reports it; the terminal's own text selection does not work meanwhile.
+    pub is_reported: bool,
+    /// What it drags.
+    pub drag: Option<Grab>,
+}
+
+/// What of a page of text is in view.
+#[derive(Clone, Debug, Default)]
+pub struct TextInView {
+    /// The number of rows by which the page is scrolled.
+    pub scroll: u16,
+    /// The section of the page of equations that is kept in view until the page is scrolled.
+    pub section: Option<EquationsSection>,
+    /// The search in the page.
+    pub search: Option<PageSearch>,
 }
 
 /// What is shown below the panes.
@@ -147,17 +161,14 @@ impl App {
             lab: None,
             notifications: Notifications::default(),
             meter: RateMeter::default(),
-            mouse: false,
+            mouse: Mouse::default(),
             suspended: false,
             recording: false,
-            scroll: 0,
-            section: None,
-            page_search: None,
+            text: TextInView::default(),
             workbench: Workbench::default(),
             footer: Footer { shown: true, hints: KeyHints::Lab },
             themes: Themes::default(),
             reading: Reading::default(),
-            drag: None,
             jobs: Jobs::default(),
             drawn: Drawn::default(),
             awaited: Awaited::default(),

@@ -12,7 +12,9 @@ use super::field::{edit, paste};
 use super::key::{self, pressed};
 use super::keymap::{self, KeyContext};
 use super::pending::{AwaitedPlots, LoadRequest};
-use super::{App, AppEvent, Effect, Lab, LoadError, Loaded, Notification, Overlay, Page, Pane};
+use super::{
+    App, AppEvent, Effect, Lab, LoadError, Loaded, Notification, Overlay, Page, Pane, TextInView,
+};
 use crate::experiment::Snapshot;
 
 /// The maximum size of one paste, in bytes.
@@ -121,7 +123,8 @@ impl App {
                     lab.take_drawn(panes);
                 }
                 self.follow_cursor();
-                self.scroll = self.drawn.scroll.unwrap_or(self.scroll).min(self.drawn.beyond);
+                self.text.scroll =
+                    self.drawn.scroll.unwrap_or(self.text.scroll).min(self.drawn.beyond);
                 Vec::new()
             }
         }
@@ -170,7 +173,7 @@ impl App {
             }
             Some(Overlay::Help { search: Some(search), typing: true, .. }) => {
                 if edit(search, key) {
-                    self.scroll = 0;
+                    self.text.scroll = 0;
                 }
             }
             Some(Overlay::Help { .. } | Overlay::Message(_)) => return self.unknown(key),
@@ -207,7 +210,7 @@ impl App {
             Some(Overlay::Field(field)) => field.paste(text),
             Some(Overlay::Prompt(prompt)) => paste(&mut prompt.input, text),
             Some(Overlay::Help { search: Some(search), typing: true, .. }) => {
-                self.scroll = 0;
+                self.text.scroll = 0;
                 paste(search, text)
             }
             Some(Overlay::Menu(menu)) => {
@@ -285,7 +288,7 @@ impl App {
 
     fn failed(&mut self, failure: LoadError) -> Vec<Effect> {
         if self.answered(&failure.name) == Some(true) {
-            self.scroll = 0;
+            self.text.scroll = 0;
             self.overlay = Some(Overlay::Message(failure.clone()));
         }
         self.picker.failure = Some(failure);
@@ -308,8 +311,7 @@ impl App {
             self.notifications.dismiss();
             self.notifications.clear_waiting();
         }
-        (self.page, self.overlay, self.scroll, self.section) = (page, None, 0, None);
-        self.page_search = None;
+        (self.page, self.overlay, self.text) = (page, None, TextInView::default());
         if page == Page::Plain {
             self.read();
         }

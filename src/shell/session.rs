@@ -136,7 +136,7 @@ impl Session {
         pace: FramePace,
     ) -> io::Result<Self> {
         let (mut app, effects) = App::new(&catalog, request.open.as_deref());
-        app.mouse = pace.mouse;
+        app.mouse.is_reported = pace.mouse;
         app.jobs.in_background = true;
         app.meter.asked = pace.frames;
         app.meter.most = request.most_frames();

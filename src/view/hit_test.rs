@@ -26,7 +26,7 @@ pub fn hit_targets(app: &App, style: &RenderStyle, area: Rect) -> HitMap {
     let mut canvas = Canvas::over(&mut buffer, style);
     canvas.regions = Some(Vec::new());
     paint(&mut canvas, app, area);
-    HitMap { regions: canvas.regions.unwrap_or_default(), drag: app.drag }
+    HitMap { regions: canvas.regions.unwrap_or_default(), drag: app.mouse.drag }
 }
 
 /// Returns what lies at one position of the screen.

@@ -115,7 +115,7 @@ fn body(canvas: &mut Canvas<'_>, area: Rect, app: &App) -> Drawn {
             area,
             app.key_contexts_below(),
             (search.as_ref(), *typing),
-            app.scroll,
+            app.text.scroll,
         );
     }
     if let Some(Overlay::Message(failure)) = over {
@@ -128,7 +128,7 @@ fn body(canvas: &mut Canvas<'_>, area: Rect, app: &App) -> Drawn {
             page.row(report::coloured(&line));
         }
         canvas.target(area, HitTarget::Text);
-        return page.draw(canvas, inner, app.scroll);
+        return page.draw(canvas, inner, app.text.scroll);
     }
     if let Some(buffer) = app.open_buffer() {
         return workbench::draw(canvas, area, app, buffer);
@@ -167,7 +167,7 @@ fn text_page(canvas: &mut Canvas<'_>, area: Rect, (app, lab): (&App, &Lab), page
     }
     let (title, document) = match page {
         Page::Equations => {
-            let section = app.section.map(|section| match section {
+            let section = app.text.section.map(|section| match section {
                 EquationsSection::Constants => constants::CONSTANTS,
                 EquationsSection::Brackets => constants::BRACKETS,
             });
@@ -187,12 +187,12 @@ fn text(canvas: &mut Canvas<'_>, area: Rect, title: &str, page: TextPage, app: &
     let inner = canvas.pane(area, &title, true);
     canvas.target(area, HitTarget::Text);
     let Some(search) = app.search_of_page() else {
-        return page.draw_in_columns(canvas, inner, app.scroll);
+        return page.draw_in_columns(canvas, inner, app.text.scroll);
     };
     let (above, below) = split_rows(inner, 1);
     let words = page_search::line(canvas, above, search);
     let place = Some(search.place).filter(|_| search.seeks);
-    let drawn = page.searched(words, place).draw_in_columns(canvas, below, app.scroll);
+    let drawn = page.searched(words, place).draw_in_columns(canvas, below, app.text.scroll);
     page_search::count(canvas, above, (search.place, drawn.matches));
     drawn
 }

@@ -60,7 +60,7 @@ fn states_made(context: KeyContext) -> Vec<App> {
     let scrolled = |keys: &str| {
         let mut app = lab(keys);
         app.update(AppEvent::Drawn(Drawn { beyond: 90, rows: 20, ..Drawn::default() }));
-        app.scroll = 40;
+        app.text.scroll = 40;
         app
     };
     let picker = |keys: &str| {
@@ -171,7 +171,7 @@ fn facts(app: &App) -> Vec<(String, String)> {
     fact("first line", format!("{:?}", bench.map(|bench| &bench.editor.lines()[0])));
     fact("cursor", format!("{:?}", bench.map(|bench| bench.editor.cursor())));
     fact("asked", format!("{:?}", bench.map(|bench| bench.asking.is_some())));
-    fact("scrolled", app.scroll.to_string());
+    fact("scrolled", app.text.scroll.to_string());
     fact("theme", format!("{:?}", app.themes.chosen));
     let read = app.reading.snapshot.as_ref().map(|snapshot| snapshot.time);
     fact("reads t =", format!("{read:?}"));
@@ -191,7 +191,7 @@ fn facts(app: &App) -> Vec<(String, String)> {
     fact("initial value", selection.initial.to_string());
     fact("gauge", selection.gauge.to_string());
     fact("law scrolled", lab.law_scroll.to_string());
-    let search = app.page_search.as_ref();
+    let search = app.text.search.as_ref();
     let search = search.map(|s| format!("{:?}, match {}", s.input.value(), s.place + 1));
     fact("search in the text", search.unwrap_or_else(|| "none".to_owned()));
     for index in 0..lab.count(ValueId::Parameter) {

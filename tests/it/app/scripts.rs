@@ -258,11 +258,11 @@ fn a_page_of_text_does_not_scroll_beyond_its_end() {
     press(&mut app, "2");
     app.update(AppEvent::Drawn(phaselab::app::Drawn { beyond: 3, rows: 20, ..Default::default() }));
     press(&mut app, "Down Down Down Down Down Down");
-    assert_eq!(app.scroll, 3);
+    assert_eq!(app.text.scroll, 3);
     press(&mut app, "Up");
-    assert_eq!(app.scroll, 2);
+    assert_eq!(app.text.scroll, 2);
     press(&mut app, "End g");
-    assert_eq!(app.scroll, 0);
+    assert_eq!(app.text.scroll, 0);
 }
 
 /// The lab with a free particle and one impulse per name applied on command, beside a scheduled one.

@@ -248,7 +248,7 @@ fn a_bar_is_dragged_and_taken_back_in_one_step() {
     });
     assert!(bar.len() > 8, "{bar:?}");
     act(&mut real, size, Down(Left), bar[2]);
-    assert_eq!(real.app.drag, Some(Grab::Bar(ValueId::Parameter(1))));
+    assert_eq!(real.app.mouse.drag, Some(Grab::Bar(ValueId::Parameter(1))));
     for place in &bar {
         act(&mut real, size, Drag(Left), *place);
         real.app.update(AppEvent::Tick(std::time::Duration::from_secs(2)));
@@ -260,7 +260,7 @@ fn a_bar_is_dragged_and_taken_back_in_one_step() {
     let (_, max, _) = real.lab().value_info(ValueId::Parameter(1)).unwrap().range.unwrap();
     assert_eq!(real.seen().parameters[1], max);
     act(&mut real, size, Up(Left), (119, 0));
-    assert_eq!(real.app.drag, None);
+    assert_eq!(real.app.mouse.drag, None);
     real.press("u");
     assert_eq!(real.seen().parameters, before);
     real.press("U");
@@ -558,9 +558,9 @@ fn the_wheel_scrolls_text_and_lists() {
     let target = at(&app, (80, 16), (20, 8)).unwrap();
     assert_eq!(target, HitTarget::Text);
     app.update(AppEvent::Mouse(ScrollDown, target));
-    assert!(app.scroll > 0 && app.scroll <= 3, "{}", app.scroll);
+    assert!(app.text.scroll > 0 && app.text.scroll <= 3, "{}", app.text.scroll);
     app.update(AppEvent::Mouse(ScrollUp, target));
-    assert_eq!(app.scroll, 0);
+    assert_eq!(app.text.scroll, 0);
 
     let mut app = at_picker();
     let before = app.picker.selected;
@@ -596,7 +596,7 @@ fn nothing_is_under_a_place_that_shows_nothing() {
         }
     }
     // A dragged knob that is no longer shown, and a value that does not exist.
-    app.drag = Some(Grab::Bar(ValueId::Parameter(99)));
+    app.mouse.drag = Some(Grab::Bar(ValueId::Parameter(99)));
     assert_eq!(at(&app, (80, 24), (5, 5)), None);
     let effects = app.update(AppEvent::Mouse(Drag(Left), HitTarget::Text));
     assert!(effects.is_empty());
@@ -617,8 +617,8 @@ fn what_is_held_is_let_go_when_the_keys_lead_elsewhere() {
     let mut real = Real::of("pendulum");
     let bar = places(&real.app, size, |target| matches!(target, HitTarget::Bar { .. }));
     act(&mut real, size, Down(Left), bar[0]);
-    assert!(real.app.drag.is_some());
+    assert!(real.app.mouse.drag.is_some());
     real.press("2");
-    assert_eq!(real.app.drag, None);
+    assert_eq!(real.app.mouse.drag, None);
     assert_eq!(at(&real.app, size, (20, 20)), Some(HitTarget::Text));
 }

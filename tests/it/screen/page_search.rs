@@ -37,12 +37,12 @@ fn a_page_of_text_is_searched() {
         .map(|_| {
             real.press("n");
             look(&mut real, size);
-            real.app.page_search.as_ref().expect("a search").place as u16
+            real.app.text.search.as_ref().expect("a search").place as u16
         })
         .collect();
     assert!(places.iter().any(|place| *place > 0), "{places:?}");
     press(&mut real.app, "Esc");
-    assert!(real.app.page_search.is_none());
+    assert!(real.app.text.search.is_none());
     let text = rows(&look(&mut real, size)).join("\n");
     assert!(!text.contains("1 of") && text.contains("Notes"), "{text}");
 }
@@ -53,7 +53,7 @@ fn the_next_match_is_brought_into_view_and_scrolling_leaves_it() {
     let mut real = Real::of("heavy-top");
     real.press("2");
     look(&mut real, size);
-    assert!(real.app.scroll == 0);
+    assert!(real.app.text.scroll == 0);
     real.press("n");
     let told = real.app.notifications.shown.take().map(|n| n.text).unwrap_or_default();
     assert!(told.contains("/ searches"), "{told}");
@@ -65,13 +65,13 @@ fn the_next_match_is_brought_into_view_and_scrolling_leaves_it() {
         let text = rows(&look(&mut real, size));
         let text = rows(&look(&mut real, size)).into_iter().chain(text).collect::<Vec<_>>();
         assert!(text.iter().skip(3).any(|row| row.contains("Hamiltonian")), "{text:#?}");
-        seen.push(real.app.scroll);
+        seen.push(real.app.text.scroll);
         real.press("n");
     }
     assert!(seen.iter().any(|scroll| *scroll > 0), "{seen:?}");
     real.press("N Home");
     look(&mut real, size);
-    assert_eq!(real.app.scroll, 0);
+    assert_eq!(real.app.text.scroll, 0);
     // a capital letter matches itself only
     real.press("/");
     real.app.update(AppEvent::Paste("HAMILTONIAN".to_owned()));

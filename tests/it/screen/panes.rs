@@ -176,7 +176,7 @@ fn wide_pages_have_two_columns() {
     let mut seen = String::new();
     let mut scroll = 0;
     while scroll <= drawn.beyond {
-        app.scroll = scroll;
+        app.text.scroll = scroll;
         let buffer = screen(&app, &rich(), (200, 30));
         let text = rows(&buffer);
         let part = |from: usize, to: usize| -> Vec<String> {
@@ -189,7 +189,7 @@ fn wide_pages_have_two_columns() {
         }
         scroll += drawn.rows;
     }
-    app.scroll = drawn.beyond;
+    app.text.scroll = drawn.beyond;
     seen += &rows(&screen(&app, &rich(), (200, 30))).join("\n");
     for row in phaselab::app::keymap::KEYS {
         let begins: String = row.help.chars().take(40).collect();
