@@ -429,8 +429,7 @@ impl App {
             (Err(_), CheckedRevision::Older) => Vec::new(),
             (Err(diagnostics), CheckedRevision::Newest) => {
                 self.awaited.plots = AwaitedPlots::default();
-                self.awaited.view = None;
-                if self.gives_up_typed(&diagnostics, own.len()) {
+                if self.gives_up_typed(&diagnostics, &own) {
                     return Vec::new();
                 }
                 let Some(buffer) = self.buffer() else { return Vec::new() };

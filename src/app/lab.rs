@@ -50,6 +50,8 @@ pub struct Lab {
     steady: SteadyVerdicts,
     /// What a person predicts on a picture.
     pub prediction: Option<Box<Prediction>>,
+    /// The least ranges of channels in the pictures, as a script sets them.
+    pub extents: Vec<(usize, [f64; 2])>,
     /// The times that are marked, in order.
     pub marks: Vec<f64>,
     /// The quantities that were typed for axes: they belong to the view, and are no part of the text.
@@ -118,6 +120,7 @@ impl Lab {
             history: UndoHistory::default(),
             steady: SteadyVerdicts::default(),
             prediction: None,
+            extents: Vec::new(),
             marks: Vec::new(),
             typed: Vec::new(),
             restoration: Restoration::default(),

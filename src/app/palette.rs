@@ -97,6 +97,9 @@ impl App {
         if let (Action::Mark, Some(Overlay::Menu(menu))) = (action, &self.overlay) {
             return (!menu.takes_several()).then_some("only one line can be selected here");
         }
+        if let (Action::Search, Some(Overlay::Message(_))) = (action, &self.overlay) {
+            return Some("this page is not searched");
+        }
         let lab = self.lab.as_ref()?;
         match action {
             Action::ApplyImpulse if lab.impulses().is_empty() => {

@@ -4,7 +4,7 @@
 
 use super::{Saved, ValueId};
 use crate::experiment::Snapshot;
-use crate::instrument::Plot;
+use crate::instrument::{Plot, SavedPlot};
 use crate::integrate::Settings;
 use crate::system::InitialOverride;
 
@@ -23,11 +23,27 @@ pub(super) struct Awaited {
     pub(super) system: Option<LoadRequest>,
     /// The session to resume once its system is loaded.
     pub(super) session: Option<Saved>,
-    /// The session whose view is restored once its text is checked.
-    pub(super) view: Option<Saved>,
+    /// The view of a session that is restored once its text is right.
+    pub(super) view: Option<AwaitedView>,
     /// The wrong file whose text was asked for, until its first error is shown.
     pub(super) wrong_file: Option<String>,
     pub(super) plots: AwaitedPlots,
+}
+
+/// A view that waits for a text with all that it shows.
+#[derive(Clone, Debug)]
+pub(super) struct AwaitedView {
+    /// The session.
+    pub(super) saved: Saved,
+    /// The pictures until then; where a person has chosen others, these stay.
+    pub(super) until: Vec<SavedPlot>,
+}
+
+impl AwaitedView {
+    /// Returns the session, if nobody has chosen other pictures than these meanwhile.
+    pub(super) fn for_plots(&self, shown: &[SavedPlot]) -> Option<&Saved> {
+        (self.until == shown).then_some(&self.saved)
+    }
 }
 
 /// The plots that wait for the text with what they show.

@@ -6,6 +6,7 @@
 //! A system rebuilt from a changed file is resumed in the same way: everything that has the same name in both is
 //! kept.
 
+use super::pending::AwaitedView;
 use super::{
     App, BufferState, Effect, Lab, Loaded, Notification, Overlay, Page, Saved, SourceBuffer,
 };
@@ -35,7 +36,7 @@ impl Saved {
             selection: lab.selection,
             edited: false,
             law: law.or_else(|| law_digest(&document.text)),
-            plots: lab.plots.iter().map(|plot| SavedPlot::of(plot, lab.loaded.physics())).collect(),
+            plots: lab.saved_plots(),
             time_unit: model.time_unit().to_owned(),
             marks: lab.marks.clone(),
             typed: lab.typed.clone(),
@@ -46,6 +47,11 @@ impl Saved {
 }
 
 impl Lab {
+    /// The pictures as they are stored.
+    fn saved_plots(&self) -> Vec<SavedPlot> {
+        self.plots.iter().map(|plot| SavedPlot::of(plot, self.loaded.physics())).collect()
+    }
+
     /// Restores the view of a session, as far as the systems agree.
     fn restore_view(&mut self, saved: &Saved) {
         let physics = self.loaded.physics();
@@ -77,7 +83,14 @@ impl App {
         let runs =
             |buffer: &SourceBuffer| buffer.is_modified() && buffer.state != BufferState::Left;
         let edited = self.own_buffer().is_some_and(runs);
-        Some(Saved { edited, ..Saved::of(lab, self.page)? })
+        let mut saved = Saved { edited, ..Saved::of(lab, self.page)? };
+        // a view that waits for its text is not lost with the session
+        if let Some(view) = self.awaited.view.as_ref().and_then(|view| view.for_plots(&saved.plots))
+        {
+            saved.plots.clone_from(&view.plots);
+            saved.in_front.clone_from(&view.in_front);
+        }
+        Some(saved)
     }
 
     /// Resumes a session as soon as its system is loaded.
@@ -123,8 +136,9 @@ impl App {
         // the motion belongs to the unsaved text, and waits until that is checked
         let has_typed = !saved.typed.is_empty();
         let waits = saved.edited && self.wake() || has_typed && self.check_again().is_ok();
-        // pictures with axes that were typed wait as well
-        self.awaited.view = Some(saved).filter(|_| waits && has_typed);
+        // pictures of what only that text has, or was typed for an axis, wait as well
+        let until = self.lab.as_ref().filter(|_| waits).map(Lab::saved_plots);
+        self.awaited.view = until.map(|until| AwaitedView { saved, until });
         if waits { Vec::new() } else { self.restore() }
     }
 
@@ -179,8 +193,9 @@ impl App {
             self.lab = Some(lab);
             return vec![Effect::Execute(Command::Play)];
         };
-        lab.restore_view(self.awaited.view.as_ref().unwrap_or(&saved));
-        self.awaited.view = None;
+        let awaited = self.awaited.view.take();
+        let view = awaited.as_ref().and_then(|view| view.for_plots(&saved.plots));
+        lab.restore_view(view.unwrap_or(&saved));
         lab.typed = old.typed;
         if lab.plots.len() == old.plots.len() {
             lab.focus.recent = old.focus.recent;

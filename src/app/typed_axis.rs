@@ -3,10 +3,10 @@
 //! In: what was typed above the list. Out: the observable, with which the text is checked and run once more, unchanged itself;
 //! the plot with it on its axis, as soon as that runs. Never here: the list, or how a text is checked.
 
-use super::pending::TypedAxis;
+use super::pending::{AwaitedView, TypedAxis};
 use super::{App, Choosing, Effect, Lab, Menu, Notification, Overlay};
 use crate::diagnostic::{Diagnostic, Severity};
-use crate::instrument::{Plot, named};
+use crate::instrument::{Plot, SavedPlot, named};
 use crate::model::{Allowed, Scope};
 use crate::preset::NewObservable;
 
@@ -55,19 +55,32 @@ impl App {
         Some(Vec::new())
     }
 
-    /// Gives up the quantities typed for axes, where errors behind a text of this length say that they no longer fit it; the text
-    /// is then checked without them. Returns whether it does.
-    pub(super) fn gives_up_typed(&mut self, diagnostics: &[Diagnostic], length: usize) -> bool {
+    /// Gives up the quantities typed for axes that no longer fit this text, as errors behind it say; the text is then checked
+    /// without them. Returns whether it does.
+    pub(super) fn gives_up_typed(&mut self, diagnostics: &[Diagnostic], own: &str) -> bool {
         let Some(lab) = self.lab.as_mut().filter(|lab| !lab.typed.is_empty()) else { return false };
         let is_error = |one: &&Diagnostic| one.severity == Severity::Error;
-        let errors = || diagnostics.iter().filter(is_error);
-        if !errors().all(|error| error.place.start > length) {
+        let places = || diagnostics.iter().filter(is_error).map(|error| error.place.start);
+        if !places().all(|place| place > own.len()) {
             return false;
         }
-        let names: Vec<String> = lab.typed.drain(..).map(|one| one.name).collect();
+        let mut text = own.to_owned();
+        let (lost, kept): (Vec<_>, Vec<_>) = lab.typed.drain(..).partition(|one| {
+            let from = text.len();
+            text = one.behind(&text);
+            places().any(|place| (from..text.len()).contains(&place))
+        });
+        // where it cannot be said which of them it is, all are given up
+        let (lost, kept) = if lost.is_empty() { (kept, lost) } else { (lost, kept) };
+        let lost: Vec<String> = lost.into_iter().map(|one| one.name).collect();
+        lab.typed = kept;
+        lab.take_off_axes(&lost);
+        if let Some(view) = &mut self.awaited.view {
+            view.take_off_axes(&lost, lab);
+        }
         let sentence = format!(
             "The text no longer has what the axis {} is made of; it was removed.",
-            names.join(", ")
+            lost.join(", ")
         );
         self.notifications.show(Notification::error(sentence));
         self.check_again().is_ok()
@@ -97,6 +110,31 @@ impl App {
                 let Some(kind) = named("phase") else { return Vec::new() };
                 let begun = Plot::new(kind, (vec![vec![channel]], None), physics.model);
                 self.choose_on(plot, begun.opened(physics), label)
+            }
+        }
+    }
+}
+
+impl Lab {
+    /// Shows what the file shows in place of the pictures with a quantity of one of these names.
+    fn take_off_axes(&mut self, names: &[String]) {
+        let physics = self.loaded.physics();
+        let opening = Plot::opening(physics);
+        for (plot, first) in self.plots.iter_mut().zip(opening) {
+            if SavedPlot::of(plot, physics).shows_one_of(names) {
+                *plot = first;
+            }
+        }
+    }
+}
+
+impl AwaitedView {
+    /// The same for pictures that wait.
+    fn take_off_axes(&mut self, names: &[String], lab: &Lab) {
+        let physics = lab.loaded.physics();
+        for (plot, first) in self.saved.plots.iter_mut().zip(Plot::opening(physics)) {
+            if plot.shows_one_of(names) {
+                *plot = SavedPlot::of(&first, physics);
             }
         }
     }

@@ -78,6 +78,23 @@ impl Node {
         }
     }
 
+    /// The same node of other parts, which are not put in order.
+    pub(super) fn with_parts(&self, of: impl Fn(Expr) -> Expr) -> Node {
+        match self {
+            Node::Sum(constant, terms) => {
+                Node::Sum(*constant, terms.iter().map(|&(c, e)| (c, of(e))).collect())
+            }
+            Node::Product(c, factors) => {
+                Node::Product(*c, factors.iter().map(|&(e, n)| (of(e), n)).collect())
+            }
+            Node::Power(base, exponent) => Node::Power(of(*base), of(*exponent)),
+            Node::Call(function, arguments) => {
+                Node::Call(*function, arguments.iter().map(|&e| of(e)).collect())
+            }
+            plain @ (Node::Number(_) | Node::Pi | Node::Symbol(_)) => plain.clone(),
+        }
+    }
+
     /// Calls `f` with every part of this node.
     pub fn for_each_part(&self, mut f: impl FnMut(Expr)) {
         match self {

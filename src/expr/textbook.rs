@@ -43,7 +43,61 @@ impl Pool {
             }
             _ => part,
         });
-        print(&pool, written)
+        let turned = pool.turn_signs(written);
+        print(&pool, turned)
+    }
+
+    /// `−a (e − 1)` as `a (1 − e)`, and `−(cos θ − 1)/l` as `(1 − cos θ)/l`. What is not constant and no function stays before the
+    /// number: `−k (x − 1)`.
+    fn turn_signs(&mut self, e: Expr) -> Expr {
+        let mut turned: FxHashMap<Expr, Expr> = FxHashMap::default();
+        for part in self.reachable(&[e]) {
+            let new = match self.node(part).with_parts(|part| turned[&part]) {
+                Node::Product(c, factors) if c.is_negative() => {
+                    let opposite = self.turned_factors(&factors);
+                    self.intern(match opposite {
+                        Some(opposite) => Node::Product(-c, opposite),
+                        None => Node::Product(c, factors),
+                    })
+                }
+                Node::Sum(constant, mut terms) => {
+                    for (c, term) in &mut terms {
+                        let Node::Product(k, factors) = &*self.shared(*term) else { continue };
+                        if c.is_negative()
+                            && let Some(opposite) = self.turned_factors(factors)
+                        {
+                            let product = Node::Product(*k, opposite);
+                            (*c, *term) = (-*c, self.intern(product));
+                        }
+                    }
+                    self.intern(Node::Sum(constant, terms))
+                }
+                node => self.intern(node),
+            };
+            turned.insert(part, new);
+        }
+        turned[&e]
+    }
+
+    /// The factors of the opposite of a product, where one of them is a sum whose only negative term is its number.
+    fn turned_factors(&mut self, factors: &[Factor]) -> Option<Box<[Factor]>> {
+        let is_odd = |n: Number| n.as_integer().is_some_and(|n| n % 2 != 0);
+        let comes_second = |pool: &Pool, base: Expr| match pool.node(base) {
+            Node::Sum(constant, terms) => {
+                constant.is_negative()
+                    && terms.iter().all(|&(c, term)| {
+                        let is_call = matches!(pool.node(term), Node::Call(..));
+                        !c.is_negative() && (is_call || pool.rank_of(term) == Rank::Constant)
+                    })
+            }
+            _ => false,
+        };
+        let place = factors.iter().position(|&(base, n)| is_odd(n) && comes_second(self, base))?;
+        let Node::Sum(constant, terms) = &*self.shared(factors[place].0) else { return None };
+        let opposite = terms.iter().map(|&(c, term)| (-c, term)).collect();
+        let mut turned = factors.to_vec();
+        turned[place].0 = self.intern(Node::Sum(-*constant, opposite));
+        Some(turned.into())
     }
 
     /// A sum with its products multiplied out where terms combine and it is shorter so: `x (x − y) − ½ (x − y)²` as
@@ -141,20 +195,7 @@ impl Pool {
         let mut copies: FxHashMap<Expr, Expr> = FxHashMap::default();
         // handles ascend in both pools, so what is ordered by handles remains so
         for part in other.reachable(&[e]) {
-            let of = |part: &Expr| copies[part];
-            let node = match other.node(part) {
-                Node::Sum(constant, terms) => {
-                    Node::Sum(*constant, terms.iter().map(|(c, t)| (*c, of(t))).collect())
-                }
-                Node::Product(c, factors) => {
-                    Node::Product(*c, factors.iter().map(|(b, n)| (of(b), *n)).collect())
-                }
-                Node::Power(base, exponent) => Node::Power(of(base), of(exponent)),
-                Node::Call(function, arguments) => {
-                    Node::Call(*function, arguments.iter().map(of).collect())
-                }
-                plain @ (Node::Number(_) | Node::Pi | Node::Symbol(_)) => plain.clone(),
-            };
+            let node = other.node(part).with_parts(|part| copies[&part]);
             let copy = self.intern(node);
             copies.insert(part, copy);
         }

@@ -127,6 +127,15 @@ impl SavedPlot {
         }
     }
 
+    /// Whether a quantity of one of these names is on an axis.
+    pub fn shows_one_of(&self, names: &[String]) -> bool {
+        let chosen = self.axes.values().flat_map(|chosen| match chosen {
+            Chosen::One(quantity) => std::slice::from_ref(quantity),
+            Chosen::Several(all) => &all[..],
+        });
+        chosen.into_iter().any(|quantity| names.contains(&quantity.name))
+    }
+
     /// The plot in a system, or `None` if the system lacks something that it shows.
     pub fn place(&self, physics: Physics<'_>) -> Option<Plot> {
         let (model, channels) = (physics.model, physics.system.channels());

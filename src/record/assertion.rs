@@ -156,8 +156,48 @@ pub(super) fn column(app: &App, of: &LineText) -> Result<usize, Diagnostic> {
     let (lab, _) = seen(app, of)?;
     let channels = lab.loaded.system.channels();
     channels.iter().position(|c| c.name == of.text || c.shown == of.text).ok_or_else(|| {
-        missing("column", of, channels.iter().map(|c| c.name.as_str()), &lab.loaded.name)
+        let named = lab.loaded.physics().named();
+        let names: Vec<&str> = named.map(|(_, channel)| channel.name.as_str()).collect();
+        missing("column", of, names.into_iter(), &lab.loaded.name)
     })
+}
+
+/// The index of the channel of an expression that a picture shows.
+pub(super) fn shown_channel(app: &App, of: &LineText) -> Result<usize, Diagnostic> {
+    let (lab, _) = seen(app, of)?;
+    let system = &lab.loaded.system;
+    if system.channels().iter().any(|c| c.name == of.text || c.shown == of.text) {
+        return column(app, of);
+    }
+    let mut pool = lab.loaded.equations.pool.clone();
+    let mut scope = Scope::new(&lab.loaded.model, Allowed::Observable, "a script");
+    let e = scope.read(&mut pool, &of.text).ok_or_else(|| unreadable(&scope, of))?;
+    system.channel_of(e).ok_or_else(|| {
+        let message = format!("no picture shows `{}`", of.text);
+        let help = "name what is on an axis, or a component of a point in a picture, as it is written there";
+        Diagnostic::error(of.place.clone(), message).with_help(help)
+    })
+}
+
+/// Why an expression of a script cannot be read.
+fn unreadable(scope: &Scope, written: &LineText) -> Diagnostic {
+    let Some(first) = scope.diagnostics.first() else {
+        return Diagnostic::error(written.place.clone(), "this is not an expression");
+    };
+    let start = written.place.start;
+    let place = start + first.span.start..start + first.span.end;
+    Diagnostic { help: first.help.clone(), ..Diagnostic::error(place, first.message.clone()) }
+}
+
+/// The two ends of a range, the less one first.
+pub(super) fn range(app: &App, ends: &[LineText; 2]) -> Result<[f64; 2], Diagnostic> {
+    let [from, to] = ends;
+    let range = [value(app, from)?, value(app, to)?];
+    if range[0] < range[1] {
+        return Ok(range);
+    }
+    let message = format!("this range would go from {} to {}", range[0], range[1]);
+    Err(Diagnostic::error(from.place.start..to.place.end, message))
 }
 
 /// The number that is measured of a name or an expression now.
@@ -213,17 +253,8 @@ pub(super) fn value(app: &App, written: &LineText) -> Result<f64, Diagnostic> {
     }
     let mut pool = lab.loaded.equations.pool.clone();
     let mut scope = Scope::new(&lab.loaded.model, Allowed::Observable, "a script");
-    let Some(e) = scope.read(&mut pool, &written.text) else {
-        let diagnostic = scope.diagnostics.into_iter().next();
-        return Err(diagnostic.map_or_else(
-            || Diagnostic::error(written.place.clone(), "this is not an expression"),
-            |diagnostic| {
-                let start = written.place.start;
-                let place = start + diagnostic.span.start..start + diagnostic.span.end;
-                Diagnostic { help: diagnostic.help, ..Diagnostic::error(place, diagnostic.message) }
-            },
-        ));
-    };
+    let e = scope.read(&mut pool, &written.text);
+    let e = e.ok_or_else(|| unreadable(&scope, written))?;
     let now = lab.valuation();
     let value = pool.evaluate(e, &|symbol| now.at(symbol));
     if value.is_finite() {

@@ -377,6 +377,7 @@ impl Lesson {
     fn begin_anew(&mut self) {
         self.runner.lab = self.runner.lab.anew(self.runner.script.head.fps);
         self.runner.lab.app.footer.shown = self.runner.script.head.footer;
+        self.runner.keep_extents();
         self.runner.keys.clear();
         self.time = 0;
         self.personal = false;

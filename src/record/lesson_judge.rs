@@ -169,18 +169,7 @@ impl Lesson {
             let message = format!("nobody predicts a place exactly; this is within {within}");
             return Err(Diagnostic::error(asked.within.place.clone(), message));
         }
-        let range = match &asked.range {
-            Some([from, to]) => {
-                let range = [assertion::value(app, from)?, assertion::value(app, to)?];
-                if range[0] >= range[1] {
-                    let message = format!("this axis would go from {} to {}", range[0], range[1]);
-                    let place = from.place.start..to.place.end;
-                    return Err(Diagnostic::error(place, message));
-                }
-                Some(range)
-            }
-            None => None,
-        };
+        let range = asked.range.as_ref().map(|ends| assertion::range(app, ends)).transpose()?;
         Ok(PredictedAxis { channel, range, within })
     }
 

@@ -129,6 +129,8 @@ pub enum ScriptStep {
     Look(LineText),
     /// Focuses a pane, and brings it into view.
     Focus(LineText),
+    /// Sets the least ranges of quantities in the pictures.
+    Extent(Vec<(LineText, [LineText; 2])>),
     /// Sets the line below the screen; an empty text clears it.
     Caption(String),
     /// Begins a chapter.

@@ -38,6 +38,8 @@ pub struct ScriptRunner {
     begun: bool,
     pace: Micros,
     caption: String,
+    /// The least ranges of channels in the pictures.
+    extents: Vec<(usize, [f64; 2])>,
     pub(super) keys: ShownKeys,
     /// The size of the screen when it was last drawn.
     pub(super) size: Size,
@@ -100,6 +102,7 @@ impl ScriptRunner {
             begun: false,
             pace: PACE,
             caption: String::new(),
+            extents: Vec::new(),
             keys: ShownKeys::default(),
             size,
             painter: Painter::default(),
@@ -259,6 +262,16 @@ impl ScriptRunner {
                 }
                 done("focus", name.text)
             }
+            ScriptStep::Extent(written) => {
+                let app = &self.lab.app;
+                let range = |(of, ends): &(LineText, [LineText; 2])| {
+                    Ok((assertion::shown_channel(app, of)?, assertion::range(app, ends)?))
+                };
+                self.extents = written.iter().map(range).collect::<Result<_, _>>()?;
+                self.keep_extents();
+                let names: Vec<_> = written.iter().map(|(of, _)| of.text.as_str()).collect();
+                done("extent", names.join(", "))
+            }
             ScriptStep::Caption(text) => {
                 self.caption.clone_from(&text);
                 done("caption", text)
@@ -266,6 +279,13 @@ impl ScriptRunner {
             ScriptStep::Marker(name) => Ok(Some(RunnerEvent::Marker(name))),
             ScriptStep::Assert(claim) => Ok(Some(RunnerEvent::Claim(place, claim))),
             ScriptStep::Lesson(step) => Ok(Some(RunnerEvent::Lesson(place, step))),
+        }
+    }
+
+    /// Gives the least ranges to the pictures of the lab.
+    pub(super) fn keep_extents(&mut self) {
+        if let Some(lab) = &mut self.lab.app.lab {
+            lab.extents.clone_from(&self.extents);
         }
     }
 

@@ -255,7 +255,8 @@ fn hints(canvas: &Canvas<'_>, (app, body): (&App, Rect)) -> Vec<Hint> {
         Hint { spans: vec![canvas.span(Role::Accent, first), word], action: row.action }
     };
     let mut hints: Vec<Hint> = rows.map(hint).collect();
-    let hides = |lab: &Lab| layout::panes(body, lab).len() < lab.panes().count();
+    let hides =
+        |lab: &Lab| layout::panes(body, lab, canvas.style.glyphs).len() < lab.panes().count();
     if app.page == Page::Lab && app.lab.as_ref().is_some_and(hides) {
         hints.sort_by_key(|hint| match hint.action {
             Action::NextPane => 0,

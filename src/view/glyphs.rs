@@ -246,6 +246,25 @@ fn spell(text: &str) -> String {
     out
 }
 
+/// The letters in which each character of a text is spelt in ASCII, or the character itself where it has no spelling.
+pub(super) fn spelt(text: &str) -> Vec<Vec<char>> {
+    let mut raised = false;
+    let each = |character: char| {
+        let exponent = superscript(character);
+        let caret = (exponent.is_some() && !raised).then_some('^');
+        raised = exponent.is_some();
+        match exponent.or_else(|| subscript(character)) {
+            Some(plain) => caret.into_iter().chain([plain]).collect(),
+            None => match spelling(character) {
+                _ if character.is_ascii() => vec![character],
+                "?" => vec![character],
+                letters => letters.chars().collect(),
+            },
+        }
+    };
+    text.chars().map(each).collect()
+}
+
 fn superscript(character: char) -> Option<char> {
     Some(match character {
         '⁰' => '0',

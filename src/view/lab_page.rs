@@ -28,7 +28,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App, lab: &Lab) ->
         Some(Overlay::Field(field)) => Some(field),
         _ => None,
     };
-    let slots = panes(area, lab);
+    let slots = panes(area, lab, canvas.style.glyphs);
     let mut in_view = LawInView::Aside;
     let shown: Vec<usize> = slots.iter().filter_map(|(slot, _)| slot.plot()).collect();
     let in_sight = PanesInView::of(slots.iter().filter_map(|(slot, _)| slot.pane()));

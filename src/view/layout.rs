@@ -1,6 +1,6 @@
 //! The layout: the areas of the screen's parts, as a pure function of the area and the focus.
 //!
-//! In: an area. Out: rectangles. Never here: drawing.
+//! In: an area, the glyphs of the terminal. Out: rectangles. Never here: drawing.
 
 use ratatui::layout::Rect;
 
@@ -74,12 +74,12 @@ impl Slot {
 }
 
 /// The areas of the lab's panes.
-pub(super) fn panes(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
+pub(super) fn panes(area: Rect, lab: &Lab, glyphs: Glyphs) -> Vec<(Slot, Rect)> {
     let Rect { width, height, .. } = area;
     if lab.focus.zoomed {
         vec![(Slot::Pane(lab.focus.pane), area)]
     } else if width >= 110 && height >= 26 {
-        wide(area, lab)
+        wide(area, lab, glyphs)
     } else if width >= 64 && height >= 16 {
         square(area, lab)
     } else if width >= 64 {
@@ -108,11 +108,11 @@ const SHORTEST: u16 = 4;
 const LAW: u16 = 6;
 
 /// Places plots at the left and lists in a column at the right.
-fn wide(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
+fn wide(area: Rect, lab: &Lab, glyphs: Glyphs) -> Vec<(Slot, Rect)> {
     let lists = (area.width * 3 / 10).clamp(LISTS.0, LISTS.1);
     let (left, right) = split_columns(area, area.width - lists);
     let mut slots = plots(left, lab);
-    slots.extend(column(right, lab));
+    slots.extend(column(right, lab, glyphs));
     slots
 }
 
@@ -153,10 +153,10 @@ fn plots(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
 }
 
 /// Places the lists below each other, then the law of motion if rows are left.
-fn column(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
+fn column(area: Rect, lab: &Lab, glyphs: Glyphs) -> Vec<(Slot, Rect)> {
     let gauges = lab.snapshot.as_ref().map_or(0, |s| s.gauges.len()) as u16;
     let parameters = lab.count(ValueId::Parameter) as u16;
-    let reasons = rows_of_reasons(lab, area.width);
+    let reasons = rows_of_reasons(lab, area.width, glyphs);
     // A frame takes two rows, a gauge two and the gauges' headings one; the meaning of the selected parameter takes
     // two, and the reason of the selected gauge some more while there is one. Rows to spare are the law's.
     let focused = if lab.focus.pane == Pane::Gauges { REASON } else { 0 };
@@ -207,10 +207,10 @@ fn column(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
 }
 
 /// Rows for the reasons of gauges that have no room beside their names.
-fn rows_of_reasons(lab: &Lab, width: u16) -> u16 {
+fn rows_of_reasons(lab: &Lab, width: u16, glyphs: Glyphs) -> u16 {
     let gauges = lab.snapshot.as_ref().map_or(&[][..], |snapshot| &snapshot.gauges);
     // a frame, a mark and the columns at its edges
-    let below = reasons_below(lab, gauges, width.saturating_sub(5), Glyphs::Braille);
+    let below = reasons_below(lab, gauges, width.saturating_sub(5), glyphs);
     below.iter().map(Vec::len).sum::<usize>() as u16
 }
 

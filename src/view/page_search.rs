@@ -2,21 +2,44 @@
 //!
 //! In: rows of a page, words. Out: cells, and which rows match. Never here: the page, or which match is meant.
 
+use std::ops::Range;
+
 use ratatui::layout::Rect;
 use unicode_width::UnicodeWidthStr;
 
 use super::canvas::{Canvas, Span, columns, row};
+use super::glyphs::spelt;
 use super::theme::Role;
 use crate::app::{PageSearch, smart_case};
 
-/// Where some words stand in a row: the places of their first letters, counted in letters.
-fn places(line: &[Span], words: &str) -> Vec<usize> {
-    if words.is_empty() {
+/// The characters of a text as they are compared, each in the letters in which it is spelt: `theta` and `θ` are the same, and so
+/// are `x^2` and `x²`.
+fn folded(text: &str, words: &str) -> Vec<Vec<char>> {
+    let text: String = smart_case(text, words).into_iter().collect();
+    spelt(&text)
+}
+
+/// The number of characters at the beginning of a text that make up some letters: no character is matched in part, so that `eta` is
+/// not found in θ.
+fn prefix(text: &[Vec<char>], mut letters: &[char]) -> Option<usize> {
+    for (count, character) in text.iter().enumerate() {
+        if letters.is_empty() {
+            return Some(count);
+        }
+        letters = letters.strip_prefix(character.as_slice())?;
+    }
+    letters.is_empty().then_some(text.len())
+}
+
+/// Where some words stand in a row, counted in characters.
+fn places(line: &[Span], words: &str) -> Vec<Range<usize>> {
+    let text: String = line.iter().map(|(text, _)| text.as_str()).collect();
+    let (text, sought) = (folded(&text, words), folded(words, words).concat());
+    if sought.is_empty() {
         return Vec::new();
     }
-    let text: String = line.iter().map(|(text, _)| text.as_str()).collect();
-    let (text, sought) = (smart_case(&text, words), smart_case(words, words));
-    text.windows(sought.len()).enumerate().filter(|(_, w)| *w == sought).map(|(at, _)| at).collect()
+    let here = |at: usize| Some(at..at + prefix(&text[at..], &sought)?);
+    (0..text.len()).filter_map(here).collect()
 }
 
 /// The rows in which some words stand.
@@ -29,9 +52,8 @@ pub(super) fn matches(lines: &[Vec<Span>], words: &str) -> Vec<usize> {
 pub(super) fn mark(canvas: &mut Canvas<'_>, at: Rect, line: &[Span], words: &str) {
     let text: String = line.iter().map(|(text, _)| text.as_str()).collect();
     let wide = |count: usize| text.chars().take(count).collect::<String>().width() as u16;
-    let length = words.chars().count();
     for place in places(line, words) {
-        let (from, to) = (wide(place), wide(place + length));
+        let (from, to) = (wide(place.start), wide(place.end));
         canvas.tint(columns(at, from, to - from), Role::Selected);
     }
 }
@@ -81,5 +103,23 @@ mod tests {
         assert_eq!(matches(&lines, "Lagr"), [0]);
         assert_eq!(matches(&lines, "h"), [0, 2]);
         assert_eq!(matches(&lines, ""), [0_usize; 0]);
+    }
+
+    #[test]
+    fn letters_that_keyboards_lack_are_found_as_they_are_spelt() {
+        let row = |text: &str| vec![(text.to_owned(), ratatui::style::Style::new())];
+        let found = |words: &str, text: &str| places(&row(text), words);
+        assert_eq!(found("theta", "l² θ″ = −g sin θ"), [3..4, 15..16]);
+        assert_eq!(found("θ", "the angle theta"), [10..15]);
+        assert_eq!(found("p_phi", "p_φ′ = 0"), [0..3]);
+        assert_eq!(found("theta1'", "θ₁′"), [0..3]);
+        assert_eq!(found("l^2 theta''", "l² θ″"), [0..5]);
+        assert_eq!(found("Lambda", "λ and Λ"), [6..7]);
+        assert_eq!(found("lambda", "λ and Λ"), [0..1, 6..7]);
+        let none: [Range<usize>; 0] = [];
+        assert_eq!(found("eta", "θ and β"), none, "a letter is not found in part");
+        assert_eq!(found("the", "θ"), none);
+        assert_eq!(found("?", "✦"), none, "what has no spelling is itself");
+        assert_eq!(found("", "θ"), none);
     }
 }

@@ -130,7 +130,7 @@ impl<'a> Quantities<'a> {
             .map_or((lo, hi), |before| (before.0.min(lo), before.1.max(hi)));
         let range = self
             .lab
-            .predicted_range(Some(channel))
+            .least_range(channel)
             .map(|least| {
                 let [from, to] = range.unwrap_or([lo, hi]);
                 [least[0].min(from), least[1].max(to)]

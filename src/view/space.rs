@@ -28,8 +28,9 @@ use ratatui::style::Style;
 use super::cache::FrameCache;
 use super::canvas::Canvas;
 use super::companions;
+use super::glyphs::Glyphs;
 use super::ink::is_colourless;
-use super::plot::{Camera, DepthBuffer, Marker, Pen, PlotFrame, Raster, Visibility};
+use super::plot::{Camera, DepthBuffer, Letters, Marker, Pen, PlotFrame, Raster, Visibility};
 use super::quantity::Quantities;
 use super::theme::Role;
 use crate::instrument::CameraPose;
@@ -47,6 +48,9 @@ use shading::Shading;
 
 /// The least radius, in cells, of a mass drawn with its size: in a plane, and in space, where tracks run across it.
 const LEAST: [f64; 2] = [1.2, 2.0];
+
+/// The least radius, in columns, of a mass where dots are blocks.
+const BLOCKS: f64 = 1.5;
 
 /// The layers of the picture, from the lowest.
 const SURFACE: u8 = 0;
@@ -86,6 +90,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
         range: scene.depths(&camera),
         outline: outline.as_ref(),
         receding: Vec::new(),
+        letters: None,
         labels: Vec::new(),
         surfaces: Vec::new(),
         depth,
@@ -115,6 +120,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
     painter.take(q, None);
     for (shape, rod) in q.lab.shapes(*eye) {
         match shape {
+            Shape::Line { from, to } if painter.is_crowded_spoke([from, to]) => {}
             Shape::Line { from, to } if rod => painter.rod(from, to),
             _ => painter.shape(shape, &mut cache),
         }
@@ -179,6 +185,8 @@ struct ScenePainter<'a> {
     shading: Shading,
     /// The surfaces, until they are filled.
     surfaces: Vec<Filling>,
+    /// The characters of lines in ASCII, where these are not what their layer gives them.
+    letters: Option<Letters>,
     /// How near to the eye the back and the front of the scene are; `None` in a plane.
     range: Option<[f64; 2]>,
     /// The model's body, if there is one in the picture.
@@ -280,7 +288,11 @@ impl ScenePainter<'_> {
 
     /// The current components of a direction in the reference frame.
     fn direction(&self, direction: &Point) -> [f64; 3] {
-        let v = self.q.point(direction);
+        self.direction_of(self.q.point(direction))
+    }
+
+    /// The components of a direction in the reference frame.
+    fn direction_of(&self, v: [f64; 3]) -> [f64; 3] {
         self.reference_frame
             .as_ref()
             .map_or(v, |reference_frame| reference_frame.direction(&self.q.snapshot.values, v))
@@ -319,6 +331,14 @@ impl ScenePainter<'_> {
     fn cells(&self, radius: f64) -> Option<f64> {
         let least = LEAST[usize::from(self.range.is_some())];
         Some(radius / self.column()).filter(|cells| cells.is_finite() && *cells > least)
+    }
+
+    /// The radius with which a mass is drawn as a disc: its own if it is large enough; where dots are blocks, which a marker among
+    /// them is lost in, at least that of three of them.
+    fn disc_radius(&self, radius: Option<f64>) -> Option<f64> {
+        let own = radius.map(f64::abs).filter(|radius| self.cells(*radius).is_some());
+        let of_blocks = self.q.style.glyphs == Glyphs::HalfBlock;
+        own.or_else(|| of_blocks.then(|| BLOCKS * self.column()))
     }
 
     /// The rim of a solid, with as many corners as its size on the screen needs.
@@ -365,14 +385,17 @@ impl ScenePainter<'_> {
         let style = self.q.style.theme.curve(self.colour(point));
         let pen = Pen::new(style, BODY);
         let centre = self.flat(at);
-        let drawn = radius.map(f64::abs).filter(|radius| self.cells(*radius).is_some());
-        if let Some(radius) = drawn {
+        let own = radius.map(f64::abs).filter(|radius| self.cells(*radius).is_some());
+        if let Some(radius) = own {
             if !self.is_ball(radius) {
                 self.raster.disc(&self.frame, centre, radius, &pen);
             }
         } else if self.sight(at) != Visibility::Hidden {
             // a mass is as bright behind what it is seen through, so that it is never lost
-            self.raster.marker(&self.frame, centre, Marker::Disc, &pen);
+            match self.disc_radius(radius) {
+                Some(radius) => self.raster.disc(&self.frame, centre, radius, &pen),
+                None => self.raster.marker(&self.frame, centre, Marker::Disc, &pen),
+            }
         }
     }
 

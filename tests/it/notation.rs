@@ -378,6 +378,13 @@ L = "1/2*(m + M)*(x1'^2 + x2'^2 + l^2*theta'^2) - m*g*a*cos(theta)"
     check("x2*x1 + x2^2 + x1^2", "x₁² + x₂² + x₁ x₂", "{x_{1}}^{2} + {x_{2}}^{2} + x_{1} x_{2}");
     check("-a - x2 - x1", "−x₁ − x₂ − a", "-x_{1} - x_{2} - a");
     check("a - x1", "a − x₁", "a - x_{1}");
+    // one less a constant or a function; a variable stays before the number
+    check("a*(1 - l)", "a (1 − l)", r"a \left(1 - l\right)");
+    check("x1'^2 - a*(l - 1)", "ẋ₁² + a (1 − l)", r"{\dot{x_{1}}}^{2} + a \left(1 - l\right)");
+    check("g/(1 - l)^3", "g/(1 − l)³", r"\frac{g}{{\left(1 - l\right)}^{3}}");
+    check("a*(1 - cos(theta))", "a (1 − cos θ)", r"a \left(1 - \cos \theta\right)");
+    check("-a*(x1 - 1)", "−a (x₁ − 1)", r"-a \left(x_{1} - 1\right)");
+    check("a*(l - 1)", "a (l − 1)", r"a \left(l - 1\right)");
     check("m*sin(theta)^2 + M", "M + m sin² θ", r"M + m \sin^{2} \theta");
     check("-(-x1 - a)", "x₁ + a", "x_{1} + a");
     assert!(differ.is_empty(), "{}", differ.join("\n"));

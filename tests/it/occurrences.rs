@@ -215,6 +215,8 @@ action = 'release:sphere'
     let lift_off = times(&particle, "lift-off");
     assert_eq!(lift_off.len(), 1);
     assert_eq!(value(&particle, "lambda_sphere"), 0.0);
+    // the reaction is zero from then on, and the event that waited for it is over
+    assert_eq!(particle.vanishing_events(), Vec::<String>::new());
     // it returns at that time, by the parabola
     let back = 3.0 - lift_off[0];
     let z = value(&particle, "z") - value(&particle, "z'") * back - 0.5 * back * back;

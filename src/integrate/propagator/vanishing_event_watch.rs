@@ -4,14 +4,23 @@
 
 use super::Propagator;
 use crate::integrate::event_location::EventLocator;
+use crate::model::EventAction;
 use crate::system::MotionError;
 
 impl Propagator {
     /// The names of the events and sections whose functions are zero all along the current motion but for rounding, and since when.
+    /// An event that has released its constraint is none of them: it cannot happen again, and a multiplier is zero from then on.
     pub fn vanishing_events(&self) -> impl Iterator<Item = (&str, f64)> {
         let events = &self.system.discontinuities().events;
+        let is_over = |action: EventAction| match action {
+            EventAction::Release(constraint) => self.system.is_released(constraint),
+            _ => false,
+        };
         let known = self.search.events.iter().flat_map(EventLocator::vanishing);
-        known.filter_map(|(event, since)| Some((events.get(event)?.name.as_str(), since)))
+        let known = known.filter_map(|(event, since)| Some((events.get(event)?, since)));
+        known
+            .filter(move |(event, _)| !is_over(event.action))
+            .map(|(event, since)| (event.name.as_str(), since))
     }
 
     /// Finds them from the current state on.

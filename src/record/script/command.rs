@@ -53,6 +53,7 @@ pub const COMMANDS: &[CommandRow] = &[
     row("Speed", "Speed EXPR", "simulated seconds in a second", speed),
     row("Look", "Look at EXPR", "pause and look at a time of the recorded past; what acts on the motion continues it from there", look),
     row("Focus", "Focus PANE", "focus a pane and bring it into view: a picture by its kind, as `phase`, or `parameters`, `initial`, `gauges`, `law`", focus),
+    row("Extent", "Extent [NAME from EXPR to EXPR [and NAME …]]", "the least range of quantities in the pictures, so that their scale does not change with the motion; without a name, as the motion has it", extent),
     row("Caption", "Caption \"TEXT\"", "write a line below the screen; without a text, remove it", caption),
     row("Marker", "Marker \"NAME\"", "begin a chapter: players can jump to it, and stills can be taken of it", marker),
     row("Assert", "Assert CLAIM", "claim something about this moment; a false claim is an error", assert),
@@ -236,6 +237,21 @@ fn look(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
 
 fn focus(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
     Ok(Said::Step(ScriptStep::Focus(line.until(&[], "a pane")?)))
+}
+
+fn extent(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
+    let mut ranges = Vec::new();
+    while !line.is_over() {
+        let of = line.until(&["from"], "the name of a quantity")?;
+        expect(line, "from")?;
+        let from = line.until(&["to"], "the end of a range")?;
+        expect(line, "to")?;
+        ranges.push((of, [from, line.until(&["and"], "the other end of the range")?]));
+        if line.take("and") && line.is_over() {
+            return Err(line.missing("the name of a quantity"));
+        }
+    }
+    Ok(Said::Step(ScriptStep::Extent(ranges)))
 }
 
 fn caption(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {

@@ -69,6 +69,8 @@ pub(super) struct Label {
     pub(super) tip: [f64; 2],
     /// Whether the name ends at the point: it stands away from the arrow that it belongs to.
     pub(super) leftwards: bool,
+    /// Whether it names a body about the point, which it is to leave visible.
+    pub(super) apart: bool,
     pub(super) text: String,
     pub(super) style: Style,
 }
@@ -90,7 +92,13 @@ pub(super) fn labels(
             let apart = Rect { x: place.x.saturating_sub(1), width: place.width + 2, ..*place };
             written.iter().all(|other| !other.intersects(apart))
         };
-        let Some(place) = places(at, label, area).into_iter().find(free) else { continue };
+        let blank = |place: &Rect| {
+            place.positions().all(|cell| canvas.buffer[cell].symbol().trim().is_empty())
+        };
+        let apart = if label.apart { places_apart(at, label, area) } else { Vec::new() };
+        let apart = apart.into_iter().find(|place| free(place) && blank(place));
+        let place = apart.or_else(|| places(at, label, area).into_iter().find(free));
+        let Some(place) = place else { continue };
         canvas.write(place.as_position(), place.width, &label.text, label.style);
         written.push(place);
     }
@@ -116,6 +124,27 @@ fn places(at: Position, label: &Label, area: Rect) -> Vec<Rect> {
     })
     .collect()
 }
+
+/// Where the name of a body may stand so that it covers nothing of it, nearest first.
+fn places_apart(at: Position, label: &Label, area: Rect) -> Vec<Rect> {
+    let width = label.text.width() as u16;
+    let beside = |columns: i32| {
+        [i32::from(at.x) + columns, i32::from(at.x) - columns - i32::from(width) + 1]
+    };
+    let near = (1..=FARTHEST).flat_map(|far| {
+        let rows = (0..=far / 2).flat_map(|down| [down, -down]);
+        rows.flat_map(move |down| beside(far).map(|x| (x, i32::from(at.y) + down)))
+    });
+    near.filter(|(x, y)| {
+        (i32::from(area.x)..=i32::from(area.right()) - i32::from(width)).contains(x)
+            && (i32::from(area.y)..i32::from(area.bottom())).contains(y)
+    })
+    .map(|(x, y)| Rect { x: x as u16, y: y as u16, width, height: 1 })
+    .collect()
+}
+
+/// How many columns from its point the name of a body may stand.
+const FARTHEST: i32 = 10;
 
 /// A line of a legend: its sign and name, and the curve whose colour it has.
 pub(super) type LegendLine = (String, usize);

@@ -69,6 +69,7 @@ impl ScenePainter<'_> {
         let within = |v: f64, scale: Scale| v.clamp(scale.lo.min(scale.hi), scale.hi.max(scale.lo));
         self.labels.push(Label {
             tip: [within(tip[0], self.frame.x), within(tip[1], self.frame.y)],
+            apart: false,
             leftwards: tip[0] < foot[0],
             text: self.q.style.glyphs.text(name).into_owned(),
             style: self.q.style.theme[Role::Text],

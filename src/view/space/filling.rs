@@ -31,6 +31,15 @@ impl PieceStyle {
     }
 }
 
+/// The extent, in columns, below which a piece is drawn in ASCII as one mass of characters: with fewer of them, edges and shading
+/// cannot be told apart.
+const SMALL: f64 = 6.0;
+
+/// Whether a piece with these extents is too small for edges in ASCII, where a column of cells has this width.
+pub(super) fn is_small([_, other]: [f64; 2], column: f64) -> bool {
+    other / column < SMALL
+}
+
 /// A surface that is filled.
 pub(super) struct Filling {
     pub(super) pen: Pen,
@@ -38,6 +47,8 @@ pub(super) struct Filling {
     pub(super) shares: [f64; 2],
     pub(super) style: PieceStyle,
     pub(super) solids: Vec<Occluder>,
+    /// Whether all of its dots are drawn, together with those of its edges.
+    pub(super) is_mass: bool,
     /// Whether what is behind is seen through it.
     pub(super) see_through: bool,
 }

@@ -22,7 +22,8 @@ impl ScenePainter<'_> {
             return self.raster.polyline(&self.frame, flat, pen);
         };
         let last = DISTANCES - 1;
-        let letters = if pen.layer <= GROUND { Letters::Dots } else { Letters::Direction };
+        let own = if pen.layer <= GROUND { Letters::Dots } else { Letters::Direction };
+        let letters = self.letters.unwrap_or(own);
         // dots are light enough
         let ascii_scenery = letters == Letters::Dots && self.q.style.glyphs.is_ascii();
         let coverage = if ascii_scenery { 1.0 } else { pen.coverage };

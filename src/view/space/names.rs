@@ -20,6 +20,9 @@ impl ScenePainter<'_> {
         let Some(colour) = colours.colour(&q.lab.loaded.equations.pool, at) else { return };
         let name = if colour == colours.colours[1] { "wrong" } else { "right" };
         self.label(self.point(at), None, name, q.style.theme[Role::Text]);
+        if let Some(label) = self.labels.last_mut() {
+            label.apart = true;
+        }
     }
 
     /// Writes words in a style beside a point, away from another one.
@@ -28,7 +31,7 @@ impl ScenePainter<'_> {
         let [tip, foot] = [at, foot.unwrap_or(at)].map(|point| self.flat(point));
         let style = if veiled { self.q.style.theme[Role::Dim] } else { style };
         let text = self.q.style.glyphs.text(text).into_owned();
-        self.labels.push(Label { tip, leftwards: tip[0] < foot[0], text, style });
+        self.labels.push(Label { tip, leftwards: tip[0] < foot[0], apart: false, text, style });
     }
 
     /// The style of a vector: that of the trace at its foot or, of a vector from the origin, at its tip. Several without such a

@@ -8,6 +8,12 @@ use crate::view::glyphs::Glyphs;
 use crate::view::plot::{Pen, Visibility};
 use crate::view::theme::Role;
 
+/// The half width of a circle, in dots, from which on it has room for spokes.
+const ROOM: f64 = 3.0;
+
+/// How far off a circle, in radii, the end of a spoke may be.
+const ON_IT: f64 = 1e-6;
+
 impl ScenePainter<'_> {
     /// Draws a rod: in a plane a line two dots wide where dots are fine enough, else a line.
     pub(super) fn rod(&mut self, from: &Point, to: &Point) {
@@ -30,6 +36,37 @@ impl ScenePainter<'_> {
         self.raster.polyline(&self.frame, [beside(a), beside(b)], &pen);
     }
 
+    /// Whether a line is a spoke of a circle or disc that is seen from so near its edge that there is no room for spokes between the
+    /// two sides of its rim.
+    pub(super) fn is_crowded_spoke(&self, ends: [&Point; 2]) -> bool {
+        if self.range.is_none() {
+            return false;
+        }
+        let (wide, _) = self.q.style.glyphs.dots();
+        let dots = if self.q.style.glyphs.is_ascii() { 1.0 } else { f64::from(wide) };
+        let room = ROOM * self.column() / dots;
+        let ends = ends.map(|end| self.q.point(end));
+        let towards = self.camera.towards();
+        self.q.lab.shapes(self.eye).any(|(shape, _)| {
+            let (Shape::Circle { centre, radius, normal }
+            | Shape::Disc { centre, radius, normal, .. }) = shape
+            else {
+                return false;
+            };
+            let (centre, radius) = (self.q.point(centre), self.q.number(*radius).abs());
+            let normal = self.q.point(normal);
+            let dot = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| a[k] * b[k]).sum::<f64>();
+            let length = dot(normal, normal).sqrt();
+            let is_on = |end: [f64; 3]| {
+                let off = [0, 1, 2].map(|k| end[k] - centre[k]);
+                dot(off, normal).abs() <= ON_IT * radius * length
+                    && dot(off, off).sqrt() <= (1.0 + ON_IT) * radius
+            };
+            ends.iter().all(|end| is_on(*end))
+                && radius * dot(self.direction_of(normal), towards).abs() < room * length
+        })
+    }
+
     /// How the point of a ball that is nearest to the eye is seen: its centre is hidden by the ball itself.
     fn sight_of_front(&self, centre: [f64; 3], radius: f64) -> Visibility {
         let [x, y, near] = self.camera.project(centre);
@@ -39,10 +76,10 @@ impl ScenePainter<'_> {
     /// Blanks the tracks around the masses that are drawn with their radius.
     pub(super) fn halos(&mut self) {
         for (shape, _) in self.q.lab.shapes(self.eye) {
-            let Shape::Mass { at, radius: Some(radius) } = shape else { continue };
-            let (at, radius) = (self.point(at), self.q.number(*radius).abs());
-            if self.cells(radius).is_some() && self.sight_of_front(at, radius) == Visibility::Clear
-            {
+            let Shape::Mass { at, radius } = shape else { continue };
+            let (at, own) = (self.point(at), radius.map(|radius| self.q.number(radius)));
+            let Some(radius) = self.disc_radius(own) else { continue };
+            if self.sight_of_front(at, radius) == Visibility::Clear {
                 let centre = self.flat(at);
                 self.raster.halo(&self.frame, centre, radius, TRACK);
             }

@@ -326,18 +326,30 @@ fn reach(q: &Quantities<'_>, point: &Point, reached: &[(Point, Span3)]) -> Span3
 fn extent(q: &Quantities<'_>, point: &Point) -> Span3 {
     let ends = point.map(|expression| match q.place(expression) {
         QuantitySource::Number(number) => (number, number),
-        QuantitySource::Channel(channel) => q.bounds(channel),
+        QuantitySource::Channel(channel) => match least(q, channel) {
+            Some([from, to]) => (from.min(q.bounds(channel).0), to.max(q.bounds(channel).1)),
+            None => q.bounds(channel),
+        },
     });
     [ends.map(|end| end.0), ends.map(|end| end.1)]
 }
 
-/// The polytope that contains a point's motion so far, if its hull is recorded or it does not move.
+/// The range of a channel that a script wants to be in the picture.
+fn least(q: &Quantities<'_>, channel: usize) -> Option<[f64; 2]> {
+    q.lab.extents.iter().find(|(of, _)| *of == channel).map(|(_, range)| *range)
+}
+
+/// The polytope that contains a point's motion so far, if its hull is recorded or it does not move, and no script wants more
+/// to be in the picture.
 fn hull(q: &Quantities<'_>, point: &Point) -> Option<OrientationPolytope> {
     let sources = point.map(|expression| q.place(expression));
     let channels = sources.map(|source| match source {
         QuantitySource::Channel(channel) => Some(channel),
         QuantitySource::Number(_) => None,
     });
+    if channels.iter().flatten().any(|channel| least(q, *channel).is_some()) {
+        return None;
+    }
     let constant = sources.map(|source| match source {
         QuantitySource::Number(number) => number,
         QuantitySource::Channel(_) => 0.0,

@@ -3,12 +3,12 @@
 //! In: the shapes of a scene. Out: depths, dots. Never here: lines and masses.
 
 use super::circle;
-use super::filling::{Filling, PieceStyle};
+use super::filling::{Filling, PieceStyle, is_small};
 use super::solid::{self, Occluder, Piece, Surface};
-use super::{BODY, SURFACE, ScenePainter};
+use super::{BODY, SOLID, SURFACE, ScenePainter};
 use crate::model::Shape;
 use crate::view::colour::ColourDepth;
-use crate::view::plot::{DepthBuffer, Pen, Visibility};
+use crate::view::plot::{DepthBuffer, Letters, Pen, Visibility};
 use crate::view::theme::Role;
 
 /// The share of a surface's dots that are drawn in the shade, and in full light: of spheres, on which curves are drawn,
@@ -102,10 +102,11 @@ impl ScenePainter<'_> {
         let (column, projection) = (self.column(), self.camera.projection());
         for piece in pieces {
             let style = PieceStyle::of(piece.extents, column);
+            let is_mass = !see_through && self.is_mass(piece.extents);
             let surfaces = piece.surfaces.into_iter();
             let solids = surfaces.flat_map(|surface| surface.occluders(|r| self.spacing(r)));
             let solids = solids.map(|solid| solid.moved(|point| projection.of(point))).collect();
-            self.surfaces.push(Filling { pen, shares, style, solids, see_through });
+            self.surfaces.push(Filling { pen, shares, style, solids, is_mass, see_through });
         }
     }
 
@@ -141,7 +142,12 @@ impl ScenePainter<'_> {
         let pens: Vec<_> = surfaces.iter().map(|s| [s.pen, self.dim(&s.pen)]).collect();
         for (dot, covered) in self.depth.dots().filter(|(_, covered)| !has_tones(covered.surface)) {
             let pen = pens[covered.surface][usize::from(covered.veiled)];
-            let [shade, light] = surfaces[covered.surface].shares;
+            let surface = &surfaces[covered.surface];
+            if surface.is_mass {
+                self.raster.dot(dot, &Pen { layer: pen.layer.max(SOLID), ..pen });
+                continue;
+            }
+            let [shade, light] = surface.shares;
             let coverage = shade + (light - shade) * covered.light * covered.light;
             self.raster.shade(dot, &pen.covering(coverage));
         }
@@ -172,8 +178,20 @@ impl ScenePainter<'_> {
         depth
     }
 
-    /// Draws edges of a piece with these extents: those of a solid are lines only where they are no blocks.
+    /// Whether a piece with these extents is one mass of characters.
+    fn is_mass(&self, extents: [f64; 2]) -> bool {
+        self.q.style.glyphs.is_ascii() && is_small(extents, self.column())
+    }
+
+    /// Draws edges of a piece with these extents: those of a solid are lines only where they are no blocks, and those of a mass of
+    /// characters are a part of it.
     pub(super) fn edge(&mut self, extents: [f64; 2], draw: impl FnOnce(&mut Self)) {
+        if self.is_mass(extents) {
+            self.letters = Some(Letters::Height);
+            draw(self);
+            self.letters = None;
+            return;
+        }
         if !self.shading.is_on() || PieceStyle::of(extents, self.column()) != PieceStyle::Solid {
             return draw(self);
         }

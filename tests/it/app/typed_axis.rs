@@ -8,11 +8,16 @@ use phaselab::app::{App, AppEvent, Effect, Overlay};
 use crate::hand::{catalog, checked, judged, lab, loaded, press, write};
 use crate::screen::{rich, rows, screen};
 
-/// Focuses the first phase plane and types into its list.
-fn ask(app: &mut App, typed: &str) -> Vec<Effect> {
+/// Focuses the first phase plane.
+fn focus(app: &mut App) {
     while app.lab.as_ref().unwrap().focused_plot().is_none_or(|(_, p)| p.kind.name() != "phase") {
         press(app, "Tab");
     }
+}
+
+/// Focuses the first phase plane and types into its list.
+fn ask(app: &mut App, typed: &str) -> Vec<Effect> {
+    focus(app);
     press(app, "v");
     write(app, typed)
 }
@@ -76,7 +81,36 @@ fn a_typed_axis_is_resumed_with_the_session() {
     );
 }
 
-/// A text that an axis no longer fits runs without it, and that is said.
+/// A session with a wrong text has its axes again once the text is right, also when it was left and resumed in between.
+#[test]
+fn a_typed_axis_waits_until_a_wrong_text_is_right() {
+    let mut app = lab("double-pendulum", 1.0);
+    ask(&mut app, "theta1 - 2 theta2");
+    checked(&mut app);
+    write(&mut app, "theta1'^2");
+    checked(&mut app);
+    press(&mut app, "E Ctrl-End Enter w r o n g");
+    app.update(Event::Tick(Duration::from_millis(140)));
+    assert!(!judged(&mut app).1);
+    for _ in 0..2 {
+        let (mut again, _) = App::new(catalog(), Some("double-pendulum"));
+        again.workbench.put(app.unsaved());
+        let saved = app.saved().expect("a session");
+        assert!(saved.edited);
+        again.resume(saved);
+        again.update(Event::Loaded(Ok(loaded("double-pendulum", 1))));
+        assert!(!judged(&mut again).1);
+        assert_ne!(axes(&again), ["θ₁ − 2 θ₂", "theta1'^2"]);
+        app = again;
+    }
+    press(&mut app, "E Ctrl-End");
+    press(&mut app, "Backspace Backspace Backspace Backspace Backspace Esc");
+    app.update(Event::Tick(Duration::from_millis(140)));
+    checked(&mut app);
+    assert_eq!(axes(&app), ["θ₁ − 2 θ₂", "theta1'^2"]);
+}
+
+/// A text that an axis no longer fits runs without it, and that is said; what still fits stays.
 #[test]
 fn an_axis_that_no_longer_fits_the_text_is_given_up() {
     let mut app = lab("double-pendulum", 1.0);
@@ -91,7 +125,16 @@ fn an_axis_that_no_longer_fits_the_text_is_given_up() {
     assert!(text.contains("m2*theta1") && !is_right, "{text}");
     let text = checked(&mut app);
     assert!(!text.contains("m2*theta1") && text.contains("mass2"), "{text}");
-    assert!(app.lab.as_ref().unwrap().typed.is_empty());
+    assert!(text.contains("theta1'^2"), "{text}");
+    let names = |app: &App| {
+        let typed = app.lab.as_ref().unwrap().typed.iter();
+        typed.map(|one| one.name.clone()).collect::<Vec<_>>()
+    };
+    assert_eq!(names(&app), ["theta1'^2"]);
+    // the picture that had it is that of the file again, the others are what they were
+    let mut fresh = lab("double-pendulum", 1.0);
+    focus(&mut fresh);
+    assert_eq!(axes(&app), axes(&fresh));
 }
 
 /// What the system has already needs no change of the text, however it is written.

@@ -240,6 +240,53 @@ fn a_task_ends_when_the_claim_holds_and_the_system_begins_anew() {
     assert_eq!(lesson.score(), (1, 1));
 }
 
+/// The picture keeps its scale while the orbit grows, and after the lab was the person's; without the line it does not.
+#[test]
+fn an_extent_holds_the_scale_of_the_picture() {
+    let steps = "Say \"a\"\nSet k = 0.9*k\nSay \"b\"\n\
+                 Task \"do\" until e < 0.5\nSolution Down x3 Enter 0 Enter\nSet k = 0.9*k\nSay \"c\"\nWait 1s\n";
+    let extent = "Extent X from -3.4 to 1 and Y from -1.5 to 1.5\n";
+    // the planet is to the right of the sun
+    let sun = |rows: &[String]| rows.iter().find_map(|row| row[..40].find('@'));
+    for (text, holds) in [(format!("{extent}{steps}"), true), (steps.to_owned(), false)] {
+        let mut lesson = taken(&text);
+        let mut suns = Vec::new();
+        for answer in ["\n", "\n", "", ""] {
+            pass(&mut lesson, 0.2);
+            let rows = screen(&mut lesson, (80, 24), &plain());
+            suns.extend(sun(&rows).filter(|_| !answer.is_empty()));
+            keys(&mut lesson, answer);
+        }
+        for _ in 0..3 {
+            lesson.press(KeyEvent::from(KeyCode::Down));
+        }
+        keys(&mut lesson, "\n0\n\n");
+        pass(&mut lesson, 0.2);
+        let rows = screen(&mut lesson, (80, 24), &plain());
+        assert!(rows.iter().any(|row| row.contains("c  ")), "{rows:?}");
+        suns.extend(sun(&rows));
+        assert_eq!(suns.len(), 3, "{suns:?}");
+        assert_eq!(suns.iter().all(|at| *at == suns[0]), holds, "{suns:?}");
+    }
+}
+
+#[test]
+fn an_extent_names_what_a_picture_shows_from_less_to_more() {
+    let check = |line: &str, message: &str| {
+        let found = diagnostics(&format!("Say \"a\"\n{line}\nWait 1s\n"));
+        assert!(found.iter().any(|found| found.contains(message)), "{line}: {found:?}");
+    };
+    check("Extent rr from 0 to 1", "rr");
+    check("Extent r^7 from 0 to 1", "no picture shows `r^7`");
+    check("Extent r from 2 to a", "this range would go from 2 to 1");
+    assert_eq!(
+        diagnostics(
+            "Extent r from 0 to 2 and r*cos(theta) from -2 to 2\nPredict \"?\" r within 1\nWait 1s\nExtent\nOutcome\n"
+        ),
+        Vec::<String>::new()
+    );
+}
+
 #[test]
 fn it_can_be_left_at_any_time_and_goes_on_there() {
     for leave in [KeyCode::Esc, KeyCode::Char('q')] {
