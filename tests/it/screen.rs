@@ -1,5 +1,6 @@
 //! The screen, from constructed snapshots: text and styles, any size, any terminal.
 
+mod bodies;
 mod bytes;
 mod cells;
 mod fit;

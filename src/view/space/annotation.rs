@@ -196,3 +196,42 @@ fn legend_places(area: Rect, lines: &[LegendLine]) -> impl Iterator<Item = Rect>
         Some(place)
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use ratatui::buffer::Buffer;
+
+    use super::*;
+    use crate::view::RenderStyle;
+    use crate::view::colour::ColourDepth;
+    use crate::view::glyphs::Glyphs;
+    use crate::view::theme::Theme;
+
+    /// The name of a body stands beside its cells, and over them only where nothing else is left.
+    #[test]
+    fn the_name_of_a_body_covers_nothing_of_it() {
+        let style = RenderStyle { theme: Theme::dark(ColourDepth::None), glyphs: Glyphs::Ascii };
+        let area = Rect::new(0, 0, 30, 9);
+        let frame = PlotFrame::equal(Scale::linear(-1.0, 1.0), Scale::linear(-1.0, 1.0), area);
+        let at = frame.cell([0.0; 2]).expect("a cell");
+        for (body, covered) in [(Rect::new(at.x - 2, at.y - 1, 6, 3), 0), (area, 5)] {
+            let mut buffer = Buffer::empty(area);
+            for cell in body.positions() {
+                buffer[cell].set_char('#');
+            }
+            let all = body.area() as usize;
+            let mut canvas = Canvas::over(&mut buffer, &style);
+            let label = Label {
+                tip: [0.0; 2],
+                leftwards: false,
+                apart: true,
+                text: "right".to_owned(),
+                style: Style::new(),
+            };
+            let written = labels(&mut canvas, area, &frame, &[label]);
+            assert_eq!(written.len(), 1);
+            let left = area.positions().filter(|cell| buffer[*cell].symbol() == "#").count();
+            assert_eq!(all - left, covered, "{buffer:?}");
+        }
+    }
+}

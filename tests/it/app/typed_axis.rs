@@ -90,7 +90,7 @@ fn a_typed_axis_waits_until_a_wrong_text_is_right() {
     write(&mut app, "theta1'^2");
     checked(&mut app);
     press(&mut app, "E Ctrl-End Enter w r o n g");
-    app.update(Event::Tick(Duration::from_millis(140)));
+    app.update(AppEvent::Tick(Duration::from_millis(140)));
     assert!(!judged(&mut app).1);
     for _ in 0..2 {
         let (mut again, _) = App::new(catalog(), Some("double-pendulum"));
@@ -98,14 +98,14 @@ fn a_typed_axis_waits_until_a_wrong_text_is_right() {
         let saved = app.saved().expect("a session");
         assert!(saved.edited);
         again.resume(saved);
-        again.update(Event::Loaded(Ok(loaded("double-pendulum", 1))));
+        again.update(AppEvent::Loaded(Ok(loaded("double-pendulum", 1))));
         assert!(!judged(&mut again).1);
         assert_ne!(axes(&again), ["θ₁ − 2 θ₂", "theta1'^2"]);
         app = again;
     }
     press(&mut app, "E Ctrl-End");
     press(&mut app, "Backspace Backspace Backspace Backspace Backspace Esc");
-    app.update(Event::Tick(Duration::from_millis(140)));
+    app.update(AppEvent::Tick(Duration::from_millis(140)));
     checked(&mut app);
     assert_eq!(axes(&app), ["θ₁ − 2 θ₂", "theta1'^2"]);
 }

@@ -492,8 +492,8 @@ fn a_camera_holds_both_of_two_mechanics() {
         (
             // at the ends of the handles, which nothing hides
             "knife-edge",
-            ["bx + 0.25*s", "y", "bz + 0.25*c"],
-            ["ox + 0.25*s", "other_y", "oz + 0.25*c"],
+            ["bx + 0.6*s", "y", "bz + 0.6*c"],
+            ["ox + 0.6*s", "other_y", "oz + 0.6*c"],
         ),
     ] {
         let text = std::fs::read_to_string(format!("presets/constraints/{name}.toml")).unwrap();
