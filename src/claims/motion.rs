@@ -353,9 +353,10 @@ impl<'a> ClaimedMotion<'a> {
                     return Err(Short::Long(self.allowed, self.course.undisturbed().1));
                 }
                 Reached::Ended => return Err(Short::Ended(self.course.state().time)),
-                // no claim is made of the crossings of a picture
+                // no claim is made of the crossings of a picture, and of the steps of a law
                 Reached::Occurred(integrate::Occurrence {
-                    kind: integrate::OccurrenceKind::Crossing(_),
+                    kind:
+                        integrate::OccurrenceKind::Crossing(_) | integrate::OccurrenceKind::StepInTime,
                     ..
                 }) => {}
                 Reached::Occurred(occurrence) => {

@@ -394,7 +394,9 @@ impl Jumping {
         match reached {
             Reached::Arrived | Reached::OutOfBudget => self.step = self.motion.step_size(),
             Reached::Occurred(found) => match found.kind {
-                OccurrenceKind::Mark | OccurrenceKind::Crossing(_) => {}
+                // momenta are carried, which no step in time changes
+                OccurrenceKind::Mark | OccurrenceKind::Crossing(_) | OccurrenceKind::StepInTime => {
+                }
                 OccurrenceKind::Impulse { .. } => self.jump(space, system, &found.name)?,
                 OccurrenceKind::Stop | OccurrenceKind::Release(_) => {
                     return ended(found.name, self.motion.state());

@@ -88,7 +88,9 @@ impl PhaseShift {
             match motion.reach(end, end, &mut budget)? {
                 Reached::Arrived => return Ok(reversed(motion.state())),
                 Reached::Occurred(occurrence) => match occurrence.kind {
-                    OccurrenceKind::Mark | OccurrenceKind::Crossing(_) => {}
+                    OccurrenceKind::Mark
+                    | OccurrenceKind::Crossing(_)
+                    | OccurrenceKind::StepInTime => {}
                     _ => return Err(self.impulse_between()),
                 },
                 Reached::OutOfBudget => return Err(NotInPlane::OtherPhase(self.time)),

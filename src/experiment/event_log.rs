@@ -127,6 +127,7 @@ fn size(chunk: &[Occurrence]) -> usize {
         OccurrenceKind::Mark
         | OccurrenceKind::Crossing(_)
         | OccurrenceKind::Stop
+        | OccurrenceKind::StepInTime
         | OccurrenceKind::Release(_) => 0,
     };
     let own = |occurrence: &Occurrence| {

@@ -176,6 +176,7 @@ impl ObservedMotion {
                 self.log.note_impulse();
                 self.log_state();
             }
+            OccurrenceKind::StepInTime => self.log_state(),
             OccurrenceKind::Mark | OccurrenceKind::Crossing(_) | OccurrenceKind::Stop => {}
         }
         self.observe()

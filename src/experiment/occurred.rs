@@ -30,6 +30,13 @@ impl Experiment {
                 let name = &self.model.constraints[*constraint].name;
                 format!("{lead}: the constraint {name} no longer holds")
             }
+            OccurrenceKind::StepInTime => {
+                let before = self.motion.values_before()?;
+                self.recorder.insert(clock, &before);
+                self.recorder.insert(clock, self.motion.values());
+                // no event of the file
+                return Ok(format!("{lead}: the velocities jump, the momenta do not"));
+            }
             OccurrenceKind::Impulse { .. } => {
                 let before = self.motion.values_before()?;
                 self.recorder.insert(clock, &before);

@@ -12,7 +12,7 @@ mod vanishing;
 
 use super::DenseOutput;
 use super::clock::{DIGITS, spacing};
-use super::located_event::{Crossing, LocatedEvent, LocatedEvents, first};
+use super::located_event::{Crossing, EventRole, LocatedEvent, LocatedEvents, first};
 use super::piece_count::PieceCount;
 use super::polynomial::StepPolynomial;
 use super::probe::Probe;
@@ -38,8 +38,8 @@ const SOONEST: f64 = 2e-15;
 pub(super) struct EventLocator {
     probe: Probe,
     directions: Vec<Direction>,
-    /// Whether each event acts on the motion.
-    acts: Vec<bool>,
+    /// What each event does to the motion.
+    roles: Vec<EventRole>,
     /// Whether each function has zeros that are no rounding.
     may_cross: Vec<bool>,
     /// The functions that are zero all along, which therefore never cross, and since when.
@@ -82,7 +82,7 @@ impl EventLocator {
         EventLocator {
             probe: Probe::new(event_functions, count, blank),
             directions: events.iter().map(|event| event.direction).collect(),
-            acts: events.iter().map(|event| event.action.acts()).collect(),
+            roles: events.iter().map(|event| EventRole::of(event.action)).collect(),
             may_cross,
             vanishing: Vec::new(),
             sides: vec![0.0; count],
@@ -423,7 +423,7 @@ impl EventLocator {
 
     /// The first of all crossings that counts; what else happens at its time is kept.
     fn take(&mut self, passed: &[Vec<Crossing>], to: f64) -> Option<LocatedEvent> {
-        let how = (&self.directions[..], &self.acts[..]);
+        let how = (&self.directions[..], &self.roles[..]);
         self.beside = first(passed, how, &mut self.sides, to);
         self.beside.next().map(|(found, _)| found)
     }

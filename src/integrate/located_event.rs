@@ -5,8 +5,31 @@
 
 use super::clock::{DIGITS, spacing};
 use super::probe::earlier;
-use crate::model::Direction;
+use crate::model::{Direction, EventAction};
 use crate::num::DoubleDouble;
+
+/// What an event does to the motion, in the order in which those at the same time happen.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub(super) enum EventRole {
+    /// It only sees it.
+    Sees,
+    /// The law has a step in time.
+    StepInTime,
+    /// It acts on it.
+    Acts,
+}
+
+impl EventRole {
+    pub(super) fn of(action: EventAction) -> EventRole {
+        match action {
+            EventAction::StepInTime => EventRole::StepInTime,
+            EventAction::Mark | EventAction::Section(_) => EventRole::Sees,
+            EventAction::Stop | EventAction::Release(_) | EventAction::Impulse(_) => {
+                EventRole::Acts
+            }
+        }
+    }
+}
 
 /// A crossing of one function.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -72,11 +95,12 @@ pub(super) fn is_same_time(a: f64, b: f64) -> bool {
 }
 
 /// The first crossing that counts of all functions, where each list has the crossings up to its own
-/// first, and the others at its time. What `acts` on the motion comes after what only sees it there. Also updates the side of
+/// first, and the others at its time. What only sees the motion there comes before a step in time of its law, and that before what
+/// acts on the motion, as their `roles` say. Also updates the side of
 /// each function that has crossed by then, with that of the first event; the others at its time have not.
 pub(super) fn first(
     passed: &[Vec<Crossing>],
-    (directions, acts): (&[Direction], &[bool]),
+    (directions, roles): (&[Direction], &[EventRole]),
     sides: &mut [f64],
     to: f64,
 ) -> LocatedEvents {
@@ -95,7 +119,8 @@ pub(super) fn first(
     if let Some(found) = found {
         let time = found.exact.high;
         let is_here = |event: &LocatedEvent| {
-            let is_seen = acts[found.event] && !acts[event.event];
+            let sees = |event: &LocatedEvent| roles[event.event] == EventRole::Sees;
+            let is_seen = !sees(&found) && sees(event);
             event.exact.high == time || is_seen && is_same_time(time, event.exact.high)
         };
         let all = counted.into_iter().filter(|(event, _)| is_here(event));
@@ -104,7 +129,7 @@ pub(super) fn first(
             (LocatedEvent { exact, ..event }, side)
         };
         here.events = all.map(at_time).collect();
-        here.events.sort_by_key(|(event, _)| (acts[event.event], event.event != found.event));
+        here.events.sort_by_key(|(event, _)| (roles[event.event], event.event != found.event));
         let crosses = |crossings: &&Vec<Crossing>| {
             crossings.iter().any(|crossing| is_same_time(time, crossing.exact.high))
         };

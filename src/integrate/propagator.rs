@@ -76,10 +76,8 @@ pub struct Propagator {
     /// The last impulse, and the event that caused it.
     impulse: Option<(usize, Option<usize>)>,
     steps: u64,
-    /// The time at which the last step ended, where velocities may jump.
-    awaited_step: Option<DoubleDouble>,
-    /// The state just after the last instant at which velocities jumped.
-    crossed: Option<State>,
+    /// The time just after the last step in time of the law, or just after the start at one.
+    crossed: Option<DoubleDouble>,
 }
 
 impl Propagator {
@@ -117,7 +115,6 @@ impl Propagator {
             narrow_passage: None,
             impulse: None,
             steps: 0,
-            awaited_step: None,
             crossed: None,
         };
         motion.take_system();
@@ -137,6 +134,7 @@ impl Propagator {
     pub fn begin(&mut self, state: &State, parameters: &[f64]) -> Result<(), MotionError> {
         self.system.check_intervals(parameters, state.time)?;
         self.ended = false;
+        self.crossed = None;
         self.forget_passages();
         self.passed = PassedEvents::default();
         self.narrow_passage = None;
@@ -255,13 +253,13 @@ impl Propagator {
         } else {
             self.state = self.to_native(state)?;
         }
+        self.begin_after_step_in_time()?;
         if let (Some(projector), Form::Velocity) = (&mut self.projector, self.state.form) {
             projector.take_levels(&self.state);
         }
         self.near.copy_from(&self.state);
         self.search.continue_from(state.time);
         self.watch_from_here();
-        (self.awaited_step, self.crossed) = (None, None);
         self.domain = MotionDomain::around(&self.system, &self.state, &self.parameters);
         self.stepper.start(&self.state, &self.parameters)?;
         self.watch_narrow_places();

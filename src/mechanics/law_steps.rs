@@ -41,52 +41,75 @@ impl Equations {
     /// Returns whether a momentum of L, as a function of the velocities, jumps at a time. The momentum itself does not, so that the
     /// velocities do.
     pub fn momenta_jump(&self) -> bool {
+        !self.momentum_steps().is_empty()
+    }
+
+    /// The functions of the time alone at whose zeros a momentum of L jumps, as a function of the velocities.
+    pub fn momentum_steps(&self) -> Vec<Expr> {
+        if !self.is_lagrangian() {
+            return Vec::new();
+        }
         let time = self.symbols.time;
-        let moving: Vec<Symbol> = self.moving().into_iter().filter(|s| *s != time).collect();
-        let any = |symbols: &[Symbol]| self.momenta.iter().any(|&p| self.has_sign_of(p, symbols));
-        self.is_lagrangian() && any(&[time]) && !any(&moving)
+        let others: Vec<Symbol> = self.moving().into_iter().filter(|s| *s != time).collect();
+        let mut steps: Vec<Expr> =
+            self.momenta.iter().flat_map(|&p| self.steps_of(p, &[time])).collect();
+        steps.retain(|&e| !self.pool.depends_on_any(e, &others));
+        steps.sort_unstable();
+        steps.dedup();
+        steps
     }
 
     /// Whether a function jumps with the sign of something that depends on some symbols.
     fn has_sign_of(&self, function: Expr, symbols: &[Symbol]) -> bool {
+        !self.steps_of(function, symbols).is_empty()
+    }
+
+    /// What depends on some symbols and where it is zero, or has a pole, a function jumps.
+    fn steps_of(&self, function: Expr, symbols: &[Symbol]) -> Vec<Expr> {
         let pool = &self.pool;
-        let steps = |e: Expr| match pool.node(e) {
+        let sign = |e: Expr| match pool.node(e) {
             Node::Call(FunctionId::Sign, argument) => {
                 pool.depends_on_any(e, symbols).then_some(argument[0])
             }
             _ => None,
         };
         let moving = self.moving();
-        let jumps = |e: Expr| {
+        let signs = |e: Expr| -> Vec<Expr> {
             let node = pool.node(e);
-            node.parts().into_iter().filter_map(steps).any(|argument| match node {
+            let jumps = |argument: &Expr| match node {
                 // u sign(c u) = ±|u|
-                Node::Product(_, factors) => !has_factors_of(pool, factors, argument, &moving),
+                Node::Product(_, factors) => !has_factors_of(pool, factors, *argument, &moving),
                 _ => true,
-            })
+            };
+            node.parts().into_iter().filter_map(sign).filter(jumps).collect()
         };
         // u/|u|, and odd powers of it
-        let is_quotient = |e: Expr| {
-            let Node::Product(_, factors) = pool.node(e) else { return false };
-            factors.iter().any(|&(size, n)| match (pool.node(size), n.as_integer()) {
+        let quotients = |e: Expr| -> Vec<Expr> {
+            let Node::Product(_, factors) = pool.node(e) else { return Vec::new() };
+            let size = |&(size, n): &(Expr, Number)| match (pool.node(size), n.as_integer()) {
                 (Node::Call(FunctionId::Abs, argument), Some(n)) if n % 2 != 0 => {
                     let is_same = |&(base, m): &(Expr, Number)| {
                         m.as_integer() == Some(-n) && is_multiple(pool, base, argument[0])
                     };
-                    pool.depends_on_any(size, symbols) && factors.iter().any(is_same)
+                    let jumps = pool.depends_on_any(size, symbols) && factors.iter().any(is_same);
+                    jumps.then_some(argument[0])
                 }
-                _ => false,
-            })
+                _ => None,
+            };
+            factors.iter().filter_map(size).collect()
         };
-        let jumps = |e: Expr| jumps(e) || is_quotient(e);
-        steps(function).is_some()
-            || pool.reachable(&[function]).into_iter().any(jumps)
-            || self.has_saturated_pole(function, symbols)
+        let mut steps: Vec<Expr> = sign(function).into_iter().collect();
+        for e in pool.reachable(&[function]) {
+            steps.extend(signs(e));
+            steps.extend(quotients(e));
+        }
+        steps.extend(self.saturated_poles(function, symbols));
+        steps
     }
 
-    /// Whether a function jumps where a pole that depends on some symbols is the argument of what is bounded there, as in
-    /// arctan(1/x), arctan(tan x) or 1/(1 + e^{1/x}).
-    fn has_saturated_pole(&self, function: Expr, symbols: &[Symbol]) -> bool {
+    /// The divisors, and the tangents, that depend on some symbols, and at whose poles a function jumps since they are the arguments
+    /// of what is bounded there, as in arctan(1/x), arctan(tan x) or 1/(1 + e^{1/x}).
+    fn saturated_poles(&self, function: Expr, symbols: &[Symbol]) -> Vec<Expr> {
         let pool = &self.pool;
         let bounded = pool.reachable(&[function]).into_iter().flat_map(|e| match pool.node(e) {
             Node::Call(FunctionId::Atan | FunctionId::Tanh | FunctionId::Exp, argument) => {
@@ -105,9 +128,10 @@ impl Equations {
         poles.sort_unstable();
         poles.dedup();
         let moving = self.moving();
-        poles.into_iter().any(|pole| {
+        poles.retain(|&pole| {
             pool.depends_on_any(pole, symbols) && pool.jumps_at_zeros(function, pole, &moving)
-        })
+        });
+        poles
     }
 
     /// What is u in a divisor √(u²) of a product: u/√(u²) is the sign of u.

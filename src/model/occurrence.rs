@@ -70,11 +70,6 @@ pub enum EventAction {
     Impulse(usize),
     /// The surface of section of this index is crossed, which is recorded for its picture only.
     Section(usize),
-}
-
-impl EventAction {
-    /// Whether it acts on the motion, and does not only see it.
-    pub fn acts(self) -> bool {
-        !matches!(self, EventAction::Mark | EventAction::Section(_))
-    }
+    /// The momenta of L have a step in time there, as functions of the velocities. No file writes it.
+    StepInTime,
 }

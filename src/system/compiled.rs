@@ -67,8 +67,6 @@ pub(super) struct Shared {
     energy: Arc<Program>,
     /// Whether the time of its states is −t.
     backwards: bool,
-    /// Whether momenta, as functions of the velocities, jump at some times.
-    pub(super) momenta_jump: bool,
     /// The channels that were given beside those of the model.
     extra: Vec<model::WrittenExpr>,
     /// The programs with tangent vectors that were asked for.
@@ -241,7 +239,6 @@ impl System {
             terms: quantities.compile(builder)?,
             inertia: None,
             backwards: builder.backwards,
-            momenta_jump: equations.momenta_jump(),
             extra: Vec::new(),
             variations: Variations::default(),
         })

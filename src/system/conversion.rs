@@ -105,7 +105,7 @@ impl System {
                 }
             }
         }
-        let time = DoubleDouble::from_decimal(start);
+        let time = self.after_step_in_time(DoubleDouble::from_decimal(start), parameters)?;
         let small = |x: &DoubleDouble| x.high.is_subnormal();
         let other = if self.form() == Form::Velocity { Form::Momentum } else { Form::Velocity };
         let given = targets.iter().position(|x| x.as_ref().is_some_and(small));

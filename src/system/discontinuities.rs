@@ -1,6 +1,6 @@
 //! Events and impulses compiled: the functions whose zeros are located, and the formulas of the impulses.
 //!
-//! In: a model's impulses and events. Out: programs of `when`, of times and of Q̂. Never here: states.
+//! In: a model's impulses and events, the momenta. Out: programs of `when`, of times and of Q̂. Never here: states.
 
 use std::sync::Arc;
 
@@ -14,7 +14,7 @@ use crate::model::{Direction, EventAction, Model};
 /// The events and impulses of a motion.
 #[derive(Clone, Debug)]
 pub struct Discontinuities {
-    /// Events, in the order of the file.
+    /// Events, in the order of the file, the surfaces of section, and the steps in time of the momenta.
     pub events: Vec<CompiledEvent>,
     /// Impulses, in the order of the file.
     pub impulses: Vec<CompiledImpulse>,
@@ -27,6 +27,8 @@ pub struct Discontinuities {
     /// The times of every impulse, followed by its interval (zero for none), as functions of the
     /// parameters.
     pub(super) schedule: Arc<Program>,
+    /// The functions of the time alone at whose zeros a momentum of L jumps, as a function of the velocities.
+    pub(super) steps: Arc<Program>,
     /// Whether L is quadratic in the velocities.
     quadratic: bool,
 }
@@ -80,6 +82,10 @@ impl Discontinuities {
         model: &Model,
         builder: &mut ProgramBuilder<'_>,
     ) -> Result<Discontinuities, Symbol> {
+        let steps = steps_in_time(builder);
+        let mut lowering = builder.lowering();
+        let instants = lowering.lower_all(&steps);
+        let instants = lowering.finish(instants)?;
         let mut lowering = builder.lowering();
         let mut outputs = Vec::new();
         for impulse in &model.impulses {
@@ -88,7 +94,7 @@ impl Discontinuities {
         }
         let schedule = lowering.finish(outputs)?;
         let located = || model.events.iter().chain(&model.sections);
-        let functions: Vec<_> = functions(model).map(Some).collect();
+        let functions: Vec<_> = functions(model).chain(steps.iter().copied()).map(Some).collect();
         let changes = model.impulses.iter().flat_map(|i| i.change.iter().map(|&e| Some(e)));
         let changes: Vec<_> = changes.collect();
         let equations = builder.equations;
@@ -104,6 +110,13 @@ impl Discontinuities {
                     is_constant: equations.is_plainly_constant(e.when),
                     constraint: constraint(e.when),
                 })
+                .chain(steps.iter().map(|_| CompiledEvent {
+                    name: "step in time".to_owned(),
+                    direction: Direction::Either,
+                    action: EventAction::StepInTime,
+                    is_constant: false,
+                    constraint: None,
+                }))
                 .collect(),
             impulses: model
                 .impulses
@@ -119,9 +132,23 @@ impl Discontinuities {
             variation: variation(builder, &functions)?,
             change: observables::program(builder, &changes)?,
             schedule,
+            steps: instants,
             quadratic: builder.equations.is_quadratic(),
         })
     }
+}
+
+/// The [steps](Discontinuities::steps) of the momenta.
+fn steps_in_time(builder: &mut ProgramBuilder<'_>) -> Vec<Expr> {
+    let zero = |e: Expr| {
+        let (function, argument) = match builder.pool.node(e) {
+            Node::Call(FunctionId::Tan, argument) => (FunctionId::Cos, argument[0]),
+            Node::Call(FunctionId::Cot, argument) => (FunctionId::Sin, argument[0]),
+            _ => return e,
+        };
+        builder.pool.call(function, &[argument])
+    };
+    builder.equations.momentum_steps().into_iter().map(zero).collect()
 }
 
 /// The functions of the events and of the surfaces of section.

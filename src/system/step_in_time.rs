@@ -7,41 +7,101 @@
 //! ∂L/∂q̇ is continuous along an extremal where L jumps in time (the condition of Weierstrass and Erdmann; I. M. Gelfand, S. V. Fomin,
 //! Calculus of Variations, §15).
 
-use super::discontinuities::CompiledEvent;
+use super::value::Evaluator;
 use super::{Form, MotionError, State, System};
-use crate::model::EventAction;
 use crate::num::DoubleDouble;
 
-/// How far beside the instant the law is evaluated, as parts of the time: as close as the instant is known.
-const BESIDE: [f64; 3] = [1e-27, 1e-20, 1e-14];
+/// How far beside an instant a step is searched for, as parts of the time; it is then located to the first of these.
+const BESIDE: [f64; 4] = [1e-30, 1e-27, 1e-20, 1e-14];
 
-/// A momentum that changes by more than so many times that part of it may jump.
-const JUMPS: f64 = 1e4;
-
-/// A momentum jumps that changes by at least half as much in an interval shorter by this factor, in which a steep slope changes it by that much
-/// less.
-const NEARER: f64 = 64.0;
+/// At the time zero, of which parts are nothing: numbers so small that nothing changes in so long a time in any unit.
+const BESIDE_ZERO: [f64; 4] = [1e-200, 1e-150, 1e-100, 1e-60];
 
 impl System {
-    /// Whether a momentum, as a function of the velocities, jumps at some times.
+    /// Whether a momentum, as a function of the velocities, jumps at some times. Motions keep the momenta there.
     pub fn momenta_jump(&self) -> bool {
-        self.shared.momenta_jump
+        self.discontinuities().steps.outputs() > 0
     }
 
-    /// Whether motions keep the momenta at these times. Impulses and releases of constraints, which may happen at the same
-    /// instant, are not told apart from the step.
-    pub fn keeps_momenta_at_steps(&self) -> bool {
-        let discontinuities = self.discontinuities();
-        let acts = |event: &CompiledEvent| {
-            matches!(event.action, EventAction::Release(_) | EventAction::Impulse(_))
-        };
-        self.momenta_jump()
-            && discontinuities.impulses.is_empty()
-            && !discontinuities.events.iter().any(acts)
+    /// The times just before a step in time of the law and just after it, if a time is that of one, to which a step of this size of the
+    /// motion has led.
+    ///
+    /// # Errors
+    /// Returns an error if the functions that have a step there have no value.
+    pub fn beside_step(
+        &self,
+        time: DoubleDouble,
+        step: f64,
+        parameters: &[f64],
+    ) -> Result<Option<[DoubleDouble; 2]>, MotionError> {
+        if !self.momenta_jump() {
+            return Ok(None);
+        }
+        let length = time.high.abs().max(step.abs());
+        let is_zero = length <= BESIDE_ZERO[1];
+        let (parts, scale) = if is_zero { (BESIDE_ZERO, 1.0) } else { (BESIDE, length) };
+        for part in parts {
+            let beside = beside(time, part * scale);
+            let Some((k, sign)) = self.change_between(beside, parameters)? else { continue };
+            if is_zero || part == parts[0] {
+                return Ok(Some(beside));
+            }
+            let mut nearest = parts[0] * scale;
+            let is_before = |time| Ok(self.steps_at(time, parameters)?[k] * sign > 0.0);
+            let located = halved(beside, nearest, is_before)?;
+            // beside rounding
+            while nearest < part * scale {
+                let beside = self::beside(located, nearest);
+                if self.change_between(beside, parameters)?.is_some() {
+                    return Ok(Some(beside));
+                }
+                nearest *= 10.0;
+            }
+            return Ok(Some(beside));
+        }
+        Ok(None)
     }
 
-    /// The states just before an instant and after it, if the momenta jump there at unchanged velocities. `step` is the one that has
-    /// led there.
+    /// A function that has another sign at the second time than at the first, with the sign at the first.
+    fn change_between(
+        &self,
+        [before, after]: [DoubleDouble; 2],
+        parameters: &[f64],
+    ) -> Result<Option<(usize, f64)>, MotionError> {
+        let (before, after) =
+            (self.steps_at(before, parameters)?, self.steps_at(after, parameters)?);
+        let mut pairs = before.iter().zip(&after);
+        let changed = pairs.position(|(before, after)| before * after < 0.0);
+        Ok(changed.map(|k| (k, before[k].signum())))
+    }
+
+    /// A time, or where it is exactly that of a step in time of the law, one so shortly after it that nothing but the law differs.
+    ///
+    /// # Errors
+    /// Returns an error if the functions that have a step there have no value.
+    pub fn after_step_in_time(
+        &self,
+        time: DoubleDouble,
+        parameters: &[f64],
+    ) -> Result<DoubleDouble, MotionError> {
+        if !self.momenta_jump() || !self.steps_at(time, parameters)?.contains(&0.0) {
+            return Ok(time);
+        }
+        Ok(self.beside_step(time, 0.0, parameters)?.map_or(time, |[_, after]| after))
+    }
+
+    /// The values of the functions at whose zeros the law has steps in time.
+    fn steps_at(&self, time: DoubleDouble, parameters: &[f64]) -> Result<Vec<f64>, MotionError> {
+        let program = &self.discontinuities().steps;
+        let mut functions: Evaluator<DoubleDouble> = Evaluator::new(program.clone());
+        functions.set_parameters(&self.inputs(parameters));
+        let found = functions.evaluate(time, &[]);
+        found.map_err(|why| self.singular(program, why, time.high, &[]))?;
+        Ok(functions.outputs().map(|x| x.high).collect())
+    }
+
+    /// The states just before a step in time and after it, with the same momenta, in the native form; `None` if there is none at the
+    /// time of the state, to which a step of this size has led.
     ///
     /// # Errors
     /// Returns an error if no velocities belong to the momenta.
@@ -51,74 +111,19 @@ impl System {
         parameters: &[f64],
         step: f64,
     ) -> Result<Option<(State, State)>, MotionError> {
-        if !self.keeps_momenta_at_steps() || state.form != Form::Velocity {
+        let Some([before_it, after_it]) = self.beside_step(state.exact_time(), step, parameters)?
+        else {
             return Ok(None);
-        }
-        let scale = state.time.abs().max(step.abs());
-        for part in BESIDE {
-            let beside = |part: f64, sign: f64| {
-                let mut beside = state.clone();
-                let apart = (sign * part * scale).copysign(sign * step);
-                beside.set_time(state.exact_time() + DoubleDouble::from(apart));
-                beside
-            };
-            let momenta_at = |state: &State| self.convert(state, Form::Momentum, parameters);
-            let (before, after) = (beside(part, -1.0), beside(part, 1.0));
-            let momenta = momenta_at(&before)?;
-            let changes = self.changes(&momenta, &momenta_at(&after)?);
-            if changes.iter().all(|&[change, size]| change <= JUMPS * part * size) {
-                continue;
-            }
-            let [near, ahead] = [-1.0, 1.0].map(|sign| beside(part / NEARER, sign));
-            let nearer = self.changes(&momenta_at(&near)?, &momenta_at(&ahead)?);
-            let jumps = |([change, size], [nearer, _]): (&[f64; 2], &[f64; 2])| {
-                *change > JUMPS * part * size && *nearer >= 0.5 * change
-            };
-            if changes.iter().zip(&nearer).any(jumps) {
-                let after = self.with_momenta(&after, &momenta, parameters)?;
-                let after = self.with_work((&before, after), parameters)?;
-                return Ok(Some((before, after)));
-            }
-        }
-        Ok(None)
-    }
-
-    /// The state a moment later, so short that its cube is nothing, by the mean of the rates at both ends (K. Heun's method).
-    ///
-    /// # Errors
-    /// Returns an error if it has none.
-    pub fn a_moment_later(
-        &self,
-        state: &State,
-        parameters: &[f64],
-        moment: f64,
-    ) -> Result<State, MotionError> {
-        let mut rates = self.exact_rates();
-        rates.set_parameters(&self.inputs(parameters));
-        let numbers: Vec<DoubleDouble> = (0..state.values.len()).map(|i| state.exact(i)).collect();
-        rates.evaluate(state.exact_time(), &numbers)?;
-        let moment = DoubleDouble::from(moment);
-        let first: Vec<DoubleDouble> = (0..numbers.len()).map(|i| rates.rate(i)).collect();
-        let ahead = |slope: &dyn Fn(usize) -> DoubleDouble| -> Vec<DoubleDouble> {
-            numbers.iter().enumerate().map(|(i, &x)| x + slope(i) * moment).collect()
         };
-        let time = state.exact_time() + moment;
-        rates.evaluate(time, &ahead(&|i| first[i]))?;
-        let mut later = state.clone();
-        let means = ahead(&|i| (first[i] + rates.rate(i)) * 0.5);
-        means.into_iter().enumerate().for_each(|(i, x)| later.set(i, x));
-        later.set_time(time);
-        Ok(later)
-    }
-
-    /// By how much the momenta of two states differ, and how large they are.
-    fn changes(&self, one: &State, other: &State) -> Vec<[f64; 2]> {
-        let n = self.degrees();
-        let change = |i: usize| {
-            let size = one.values[i].abs().max(other.values[i].abs());
-            [(one.exact(i) - other.exact(i)).high.abs(), size]
-        };
-        (n..2 * n).map(change).collect()
+        let mut before = state.clone();
+        before.set_time(before_it);
+        let before = self.convert(&before, self.form(), parameters)?;
+        let mut after = before.clone();
+        after.set_time(after_it);
+        let momenta = self.convert(&before, Form::Momentum, parameters)?;
+        let after = self.with_momenta(&after, &momenta, parameters)?;
+        let after = self.with_work((&before, after), parameters)?;
+        Ok(Some((before, after)))
     }
 
     /// The state with the velocities that belong to these momenta, and to the constraints.
@@ -151,4 +156,27 @@ impl System {
         self.check_finite(&after)?;
         Ok(after)
     }
+}
+
+/// The times so long before another and after it.
+fn beside(time: DoubleDouble, apart: f64) -> [DoubleDouble; 2] {
+    let apart = DoubleDouble::from(apart);
+    [time - apart, time + apart]
+}
+
+/// A time within `nearest` of a change between two.
+fn halved(
+    [mut before, mut after]: [DoubleDouble; 2],
+    nearest: f64,
+    is_before: impl Fn(DoubleDouble) -> Result<bool, MotionError>,
+) -> Result<DoubleDouble, MotionError> {
+    while (after - before).high > nearest {
+        let middle = before + (after - before) * 0.5;
+        if is_before(middle)? {
+            before = middle;
+        } else {
+            after = middle;
+        }
+    }
+    Ok(before + (after - before) * 0.5)
 }

@@ -7,7 +7,7 @@ use crate::integrate::{METHODS, Method, Settings};
 use crate::mechanics::Equations;
 use crate::model::Model;
 use crate::printable;
-use crate::system::{Form, System};
+use crate::system::System;
 
 /// Warns before the run about a law with a step, and about a method that ignores the kinks of the motion.
 pub(super) fn before(model: &Model, system: &System, equations: &Equations, method: &Method) {
@@ -18,16 +18,16 @@ pub(super) fn before(model: &Model, system: &System, equations: &Equations, meth
             "{law} jumps at the cut of {angle}, where the angle goes from pi to -pi and the force is an impulse that no \
              derivative shows: the motion goes over it without one; an angle that is a coordinate has no cut"
         ));
-    } else if equations.momenta_jump() {
-        stderr::report(&format!(
-            "L has a step in time in its momenta, which keep their values there while the velocities jump{}",
-            where_velocities_are_kept(system, method)
-        ));
     } else if equations.has_impulses_at_steps() {
         stderr::report(&format!(
             "{law} has a step, where the force is an impulse that no derivative shows: the motion goes over it without one; \
              make the step a steep slope, as with tanh, or give the impulse as an event"
         ));
+    }
+    if equations.momenta_jump() {
+        stderr::report(
+            "L has a step in time in its momenta, which keep their values there while the velocities jump",
+        );
     }
     let has_kinks = system.has_kinks() && model.has_kinks_beside_smooth_ramps();
     if (has_kinks || model.has_folded_angles()) && !method.locates_kinks {
@@ -39,26 +39,6 @@ pub(super) fn before(model: &Model, system: &System, equations: &Equations, meth
             others.join(", ")
         ));
     }
-}
-
-/// The rest of the sentence for a method that works in velocities and ends no step where they jump.
-fn where_velocities_are_kept(system: &System, method: &Method) -> String {
-    let works_in_velocities = |method: &Method| {
-        let stepper = (method.make)(system, &Settings::default());
-        stepper.is_ok_and(|stepper| stepper.form() == Form::Velocity)
-    };
-    if !works_in_velocities(method) || method.locates_kinks && system.keeps_momenta_at_steps() {
-        return String::new();
-    }
-    if !system.keeps_momenta_at_steps() {
-        return ": beside impulses and releases the motion keeps the velocities; make the step a steep slope, as with tanh, or \
-                write H"
-            .to_owned();
-    }
-    let others = METHODS.iter().filter(|m| m.locates_kinks || m.preserves.is_symplectic());
-    let others: Vec<&str> =
-        others.filter(|m| (m.fits)(system).is_ok()).map(|method| method.name).collect();
-    format!("; {} keeps the velocities, {} the momenta", method.name, others.join(", "))
 }
 
 /// Warns before the run about a start from which more than one motion follows.

@@ -125,7 +125,9 @@ impl ObservedMotion {
         let (begin, end) = self.inner.undisturbed();
         let steps = self.inner.steps();
         self.watch.pending |= new;
-        let whole = self.watch.pending && end == self.inner.computed().time;
+        // exactly at a step in time its law has two values
+        let is_between = self.inner.ends_at_step_in_time();
+        let whole = self.watch.pending && end == self.inner.computed().time && !is_between;
         if !new && !whole {
             return;
         }

@@ -3,8 +3,9 @@
 //! In: the states before and after. Out: sides that are kept, and functions that leave their zeros. Never here: the search.
 
 use super::EventLocator;
-use crate::integrate::located_event::is_same_time;
+use crate::integrate::located_event::{EventRole, is_same_time};
 use crate::integrate::sampling::SIGNLESS;
+use crate::num::DoubleDouble;
 use crate::system::{MotionError, State};
 
 impl EventLocator {
@@ -24,7 +25,8 @@ impl EventLocator {
             let is_seen = is_same_time(before.time, self.last[i])
                 || self.beside.crossing.contains(&i)
                 || self.sides[i] == 0.0 && self.leaving[i].is_some();
-            let leaves = event == Some(i) || event.is_some() && !self.acts[i] && is_seen;
+            let leaves =
+                event == Some(i) || event.is_some() && self.roles[i] == EventRole::Sees && is_seen;
             self.leaving[i] = leaves.then_some([old.abs(), 0.0]);
             self.last[i] = if leaves { before.time } else { f64::NAN };
             if leaves || (old - new).abs() > 1e-12 * (old.abs() + new.abs()) {
@@ -35,6 +37,11 @@ impl EventLocator {
         self.probe.begin(Some(after.exact_time()));
         self.simple = None;
         Ok(())
+    }
+
+    /// The motion must not be evaluated before this time, at which it begins.
+    pub(in crate::integrate) fn begin_at(&mut self, time: DoubleDouble) {
+        self.probe.begin(Some(time));
     }
 
     /// Records the release of a constraint at a state. Functions that did not jump with it keep the

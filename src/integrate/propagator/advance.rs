@@ -43,9 +43,6 @@ impl Propagator {
             if self.ended {
                 return Ok(Reached::Ended);
             }
-            if self.search.clear >= self.stepper.time() {
-                self.cross_step_in_time()?;
-            }
             if self.search.clear <= time {
                 let due = self.search.due();
                 self.search.find_next();
@@ -58,7 +55,10 @@ impl Propagator {
                     self.note_passages(self.search.clear);
                 }
                 if let Some(found) = self.search.waiting.take() {
-                    return self.on_event(found).map(Reached::Occurred);
+                    match self.on_event(found)? {
+                        Some(occurrence) => return Ok(Reached::Occurred(occurrence)),
+                        None => continue,
+                    }
                 }
                 if let Some(impulse) = due {
                     return self.apply_scheduled(impulse).map(Reached::Occurred);
@@ -99,6 +99,7 @@ impl Propagator {
                 return Err(fault);
             }
             self.search.scan(self.stepper.as_mut())?;
+            self.end_before_step_in_time()?;
         }
     }
 
@@ -175,7 +176,6 @@ impl Propagator {
             return Err(no_digits_left(before.high));
         }
         self.steps += 1;
-        self.note_step_in_time();
         self.note_side();
         self.note_narrow_place();
         self.note_departures();
@@ -202,13 +202,14 @@ impl Propagator {
     /// Sets the current state to that at a time within the last step.
     pub(super) fn move_to(&mut self, time: f64) -> Result<(), MotionError> {
         let (begin, end) = self.stepper.interval();
-        if let Some(crossed) = self.crossed.as_ref().filter(|crossed| crossed.time == time) {
-            self.state.copy_from(crossed);
-        } else if time == end || begin == end {
+        if time == end || begin == end {
             self.state.copy_from(self.stepper.state());
         } else {
             self.stepper.at(time, &mut self.state)?;
             self.project_state()?;
+        }
+        if let Some(crossed) = self.crossed.filter(|crossed| crossed.high == time) {
+            self.state.set_time(crossed);
         }
         Ok(())
     }
@@ -219,10 +220,11 @@ impl Propagator {
         let (begin, end) = self.stepper.interval();
         if begin == end {
             self.state.copy_from(self.stepper.state());
-            return Ok(());
+        } else {
+            self.stepper.at_exactly(time, &mut self.state)?;
+            self.project_state()?;
         }
-        self.stepper.at_exactly(time, &mut self.state)?;
-        self.project_state()
+        self.date_beside_step_in_time()
     }
 
     /// Projects the current state onto the constraints.

@@ -30,6 +30,8 @@ pub enum OccurrenceKind {
     Stop,
     /// An event released the constraint of this index.
     Release(usize),
+    /// The velocities have jumped with the law, at unchanged momenta.
+    StepInTime,
     /// An impulse was applied.
     Impulse {
         /// Δp of each coordinate, or the jump of each variable.
@@ -86,8 +88,11 @@ impl Propagator {
         Ok(Occurrence { name, time, kind })
     }
 
-    /// Carries out the action of an event.
-    pub(super) fn on_event(&mut self, found: LocatedEvent) -> Result<Occurrence, MotionError> {
+    /// Carries out the action of an event; `None` if it is a step in time that turns out to be none.
+    pub(super) fn on_event(
+        &mut self,
+        found: LocatedEvent,
+    ) -> Result<Option<Occurrence>, MotionError> {
         self.move_to_exactly(found.exact)?;
         self.check_accumulation(found)?;
         let trigger = self.system.discontinuities().events[found.event].clone();
@@ -104,9 +109,17 @@ impl Propagator {
                 self.release(constraint, &state)?;
                 OccurrenceKind::Release(constraint)
             }
-            EventAction::Impulse(impulse) => return self.impulse_at(impulse, Some(found.event)),
+            EventAction::Impulse(impulse) => {
+                return self.impulse_at(impulse, Some(found.event)).map(Some);
+            }
+            EventAction::StepInTime => {
+                if !self.cross_step_in_time(found)? {
+                    return Ok(None);
+                }
+                OccurrenceKind::StepInTime
+            }
         };
-        Ok(Occurrence { name: trigger.name, time: found.exact.high, kind })
+        Ok(Some(Occurrence { name: trigger.name, time: found.exact.high, kind }))
     }
 
     /// Releases a constraint at the current state, which is `state` in the system's native form.

@@ -1,49 +1,98 @@
 //! Steps in time of the momenta of L, at which velocities jump.
 //!
-//! In: the end of the last step, by a method that ends its steps there. Out: the motion continued with the velocities after it. Never
+//! In: the instant of a step, located as an event of the time alone. Out: the motion continued with the velocities after it. Never
 //! here: what these are (`system`).
+//!
+//! At the same instant events that only see the motion come before it, and scheduled impulses after it: what these give is a change of
+//! the momenta, which the step does not change, and velocities in their formulas are those after it.
 
 use super::Propagator;
-use crate::integrate::clock::spacing;
-use crate::system::{Form, MotionError};
-
-/// The motion goes on so many digits of the time after the instant, where every evaluation of the law is on its new side.
-const DIGITS: f64 = 16.0;
+use crate::integrate::located_event::LocatedEvent;
+use crate::model::EventAction;
+use crate::num::DoubleDouble;
+use crate::system::MotionError;
 
 impl Propagator {
-    /// Notes that the last step may have ended where the momenta have a step in time.
-    pub(super) fn note_step_in_time(&mut self) {
-        let state = self.stepper.state();
-        if self.system.keeps_momenta_at_steps()
-            && self.method.locates_kinks
-            && state.form == Form::Velocity
-        {
-            self.awaited_step = Some(state.exact_time());
-        }
-    }
-
-    /// Gives the motion the velocities after a step in time, once all that happened before it is known.
+    /// Gives the motion, which has come to the instant of a step, the velocities after it. Returns whether there is one.
     ///
     /// # Errors
     /// Returns an error if there are none.
-    pub(super) fn cross_step_in_time(&mut self) -> Result<(), MotionError> {
-        let Some(time) = self.awaited_step.take() else { return Ok(()) };
-        let state = self.stepper.state();
-        if state.exact_time() != time {
+    pub(super) fn cross_step_in_time(&mut self, found: LocatedEvent) -> Result<bool, MotionError> {
+        let step = self.stepper.step_size();
+        let crossed = self.system.across_step_in_time(&self.state, &self.parameters, step)?;
+        let Some((before, after)) = crossed else { return Ok(false) };
+        // found again from behind it
+        if self.crossed.is_some_and(|crossed| (before.exact_time() - crossed).high <= 0.0) {
+            return Ok(false);
+        }
+        if let Some(events) = &mut self.search.events {
+            events.after_impulse(&before, &after, Some(found.event))?;
+        }
+        self.before.copy_from(&before);
+        self.resume(&after)?;
+        self.crossed = Some(after.exact_time());
+        Ok(true)
+    }
+
+    /// Dates the end of the last step just before a step in time that it has come to, since the velocities are those before.
+    pub(super) fn end_before_step_in_time(&mut self) -> Result<(), MotionError> {
+        let Some(waiting) = self.search.waiting.filter(|_| self.ends_before_step_in_time()) else {
+            return Ok(());
+        };
+        let step = self.stepper.step_size();
+        if let Some([before, _]) = self.system.beside_step(waiting.exact, step, &self.parameters)? {
+            let mut end = self.stepper.state().clone();
+            end.set_time(before);
+            self.stepper.replace_state(&end);
+        }
+        Ok(())
+    }
+
+    /// Dates the current state, if it is exactly at a step in time, on that side of it where the motion is.
+    pub(super) fn date_beside_step_in_time(&mut self) -> Result<(), MotionError> {
+        let time = self.state.exact_time();
+        if self.system.after_step_in_time(time, &self.parameters)? == time {
             return Ok(());
         }
-        let (begin, end) = self.stepper.interval();
-        let step = end - begin;
-        let found = self.system.across_step_in_time(state, &self.parameters, step)?;
-        let Some((before, after)) = found else { return Ok(()) };
-        let moment = (DIGITS * spacing(end)).copysign(step);
-        let later = self.system.a_moment_later(&after, &self.parameters, moment)?;
-        if let Some(events) = &mut self.search.events {
-            events.after_impulse(&before, &after, None)?;
+        let step = self.stepper.step_size();
+        let beside = self.system.beside_step(time, step, &self.parameters)?;
+        if let Some(crossed) = self.crossed.filter(|crossed| crossed.high == time.high) {
+            self.state.set_time(crossed);
+        } else if let Some([before, _]) = beside {
+            self.state.set_time(before);
         }
-        self.stepper.replace_state(&later);
-        self.search.clear = later.time;
-        self.crossed = Some(after);
+        Ok(())
+    }
+
+    /// Whether the last step ends at a step in time.
+    pub fn ends_at_step_in_time(&self) -> bool {
+        let end = self.stepper.time();
+        self.ends_before_step_in_time() || self.crossed.is_some_and(|crossed| crossed.high == end)
+    }
+
+    /// Whether the last step ends at a step in time that is not crossed yet.
+    fn ends_before_step_in_time(&self) -> bool {
+        let events = &self.system.discontinuities().events;
+        self.search.waiting.is_some_and(|waiting| {
+            events[waiting.event].action == EventAction::StepInTime
+                && waiting.exact.high == self.stepper.time()
+        })
+    }
+
+    /// Dates a state at which the motion begins, exactly at a step, just after it.
+    pub(super) fn begin_after_step_in_time(&mut self) -> Result<(), MotionError> {
+        let time = self.system.after_step_in_time(self.state.exact_time(), &self.parameters)?;
+        self.state.set_time(time);
+        let beside = self.system.beside_step(time, 0.0, &self.parameters)?;
+        let is_behind = |[before, after]: [DoubleDouble; 2]| {
+            (time - before).high > 0.0 && (time - after).high <= (after - before).high
+        };
+        if beside.is_some_and(is_behind) {
+            self.crossed = Some(time);
+            if let Some(events) = &mut self.search.events {
+                events.begin_at(time);
+            }
+        }
         Ok(())
     }
 }
