@@ -346,6 +346,9 @@ impl Stepper for DormandPrince {
                 self.follow_kink()?;
                 self.step_along_kink(limit)
             }
+            Err(fault) if matches!(fault.kind, MotionErrorKind::StepUnderflow(_)) => {
+                if self.goes_to_kink(limit) { self.step_along_kink(limit) } else { Err(fault) }
+            }
             outcome => outcome,
         }
     }

@@ -6,12 +6,16 @@
 
 use super::kink_course::KinkCourse;
 use super::{DormandPrince, FIRST};
+use crate::integrate::clock::spacing;
 use crate::integrate::dense_output::DenseOutput;
 use crate::integrate::method::Settings;
 use crate::integrate::stepper::Stepper;
 use crate::integrate::taylor::Taylor;
 use crate::num::DoubleDouble;
 use crate::system::{MotionError, State};
+
+/// A kink within so many digits of the clock after the start is followed to.
+const SOON: f64 = 64.0;
 
 impl DormandPrince {
     /// Whether the next step follows a kink. If the motion has left one, steps are its own from here on.
@@ -26,7 +30,7 @@ impl DormandPrince {
         matches!(self.course, KinkCourse::Along(_))
     }
 
-    /// At the start: follows a kink on which the motion begins.
+    /// At the start: follows a kink on which the motion begins, or just before which.
     pub(super) fn begin_beside_kinks(&mut self) -> Result<(), MotionError> {
         self.course = KinkCourse::Away;
         if !self.system.has_kinks() {
@@ -36,7 +40,17 @@ impl DormandPrince {
             (0..self.state.values.len()).map(|i| self.state.exact(i)).collect();
         self.exact.evaluate(self.state.exact_time(), &numbers)?;
         let switches = self.rates.sides().switches();
-        if (0..switches).any(|i| self.exact.switch(i) == 0.0) { self.follow_kink() } else { Ok(()) }
+        let here: Vec<f64> = (0..switches).map(|i| self.exact.switch(i)).collect();
+        // nearer than a step of the clock can be divided
+        let soon = DoubleDouble::from(SOON * spacing(self.state.time));
+        let later: Vec<DoubleDouble> =
+            numbers.iter().enumerate().map(|(i, &x)| x + self.exact.rate(i) * soon).collect();
+        let later = match self.exact.evaluate(self.state.exact_time() + soon, &later) {
+            Ok(()) => (0..switches).map(|i| self.exact.switch(i)).collect(),
+            Err(_) => here.clone(),
+        };
+        let is_near = |(here, later): (&f64, &f64)| *here == 0.0 || here * later < 0.0;
+        if here.iter().zip(&later).any(is_near) { self.follow_kink() } else { Ok(()) }
     }
 
     /// From here on the motion follows a kink.
@@ -47,6 +61,18 @@ impl DormandPrince {
         taylor.start(&self.state, &self.parameters)?;
         self.course = KinkCourse::Along(Box::new(taylor));
         Ok(())
+    }
+
+    /// Whether a motion whose steps have become too small is on its way to a kink, which it then follows: where a number goes to zero
+    /// there, no step is so short that its error relative to that number is small.
+    pub(super) fn goes_to_kink(&mut self, limit: f64) -> bool {
+        if !self.system.has_kinks() || self.follow_kink().is_err() {
+            return false;
+        }
+        let course = std::mem::replace(&mut self.course, KinkCourse::Away);
+        let KinkCourse::Along(mut ahead) = course else { return false };
+        let goes = ahead.step(limit).is_ok() && !ahead.is_beside_kinks();
+        goes && self.follow_kink().is_ok()
     }
 
     /// Takes a step of the method that follows kinks.
