@@ -281,7 +281,7 @@ impl<'a> ClaimedMotion<'a> {
                 let claims = claims.iter().map(|claim| (&claim.name, &claim.place));
                 return diagnostics.extend(claims.map(unchecked));
             }
-            sizes.look(equations, &|symbol| self.value_of(model, equations, symbol, time));
+            sizes.look(equations, time, &|symbol| self.value_of(model, equations, symbol, time));
             match look {
                 Look::Value(i) => {
                     diagnostics.extend(self.compare(&expected[i], sizes.tolerance(i)));

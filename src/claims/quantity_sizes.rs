@@ -1,14 +1,24 @@
 //! How large the quantities with an expected value have been along the motion: the measure of their errors where the file
 //! gives no tolerance. Units of atoms or galaxies make numbers of any size.
 //!
+//! What swings through zero is as large there as just before, and what has decayed is as small as that: sizes are those of the last
+//! part of the way.
+//!
 //! In: the values of all symbols at looks along the motion. Out: a tolerance. Never here: the motion.
 
 use crate::expr::Symbol;
 use crate::mechanics::Equations;
 use crate::model::{ExpectedEvent, ExpectedValue, Model};
 
-/// The tolerated error of an expected number, relative to the largest size of its terms until then.
+/// The tolerated error of an expected number, relative to the largest size of its terms in the last part of the way.
 const TOLERANCE: f64 = 1e-10;
+
+/// The last part of the way until a value is expected, and how often the motion is looked at there.
+const LAST_PART: f64 = 0.125;
+const LAST_LOOKS: u32 = 8;
+
+/// Rounding of what was larger before, relative to that.
+const ROUNDING: f64 = 1e-15;
 
 /// How often the motion is looked at between the start and the last time at which a value is expected.
 const LOOKS: u32 = 64;
@@ -16,16 +26,34 @@ const LOOKS: u32 = 64;
 /// Where in each interval between two looks it is looked at.
 const PLACE: f64 = 0.618;
 
-/// The largest size of the terms of each expected quantity.
+/// The largest sizes of the terms of each expected quantity.
 pub(super) struct QuantitySizes<'a> {
     values: &'a [ExpectedValue],
-    sizes: Vec<f64>,
+    start: f64,
+    sizes: Vec<QuantitySize>,
+}
+
+/// The largest size of the terms of one quantity.
+#[derive(Clone, Copy)]
+struct QuantitySize {
+    /// Since the motion began.
+    ever: f64,
+    /// In the last part of the way until the value is expected.
+    lately: f64,
 }
 
 impl<'a> QuantitySizes<'a> {
     pub(super) fn of(model: &'a Model) -> QuantitySizes<'a> {
         let values = &model.expect.values[..];
-        QuantitySizes { values, sizes: values.iter().map(|value| value.is.abs()).collect() }
+        let expected = |value: &ExpectedValue| {
+            let size = value.is.abs();
+            QuantitySize { ever: size, lately: size }
+        };
+        QuantitySizes {
+            values,
+            start: model.run.start,
+            sizes: values.iter().map(expected).collect(),
+        }
     }
 
     /// The times at which to look: none if each value has a tolerance of its own.
@@ -33,24 +61,42 @@ impl<'a> QuantitySizes<'a> {
         let open = self.values.iter().filter(|value| value.within.is_none());
         let last = open.map(|value| value.at).fold(start, f64::max);
         let count = if last > start { LOOKS } else { 0 };
-        let part = |k: u32| (f64::from(k) + PLACE) / f64::from(LOOKS);
-        (0..count).map(|k| start + (last - start) * part(k)).collect()
+        let part = |k: u32, looks: u32| (f64::from(k) + PLACE) / f64::from(looks);
+        let all = (0..count).map(|k| start + (last - start) * part(k, LOOKS));
+        let lately = |value: &ExpectedValue| {
+            let (from, at) = (last_part_before(value.at, start), value.at);
+            (0..LAST_LOOKS).map(move |k| from + (at - from) * part(k, LAST_LOOKS))
+        };
+        let open = self.values.iter().filter(|value| value.within.is_none() && value.at > start);
+        all.chain(open.flat_map(lately)).collect()
     }
 
-    /// Looks at the quantities.
-    pub(super) fn look(&mut self, equations: &Equations, at: &dyn Fn(Symbol) -> f64) {
+    /// Looks at the quantities at a time.
+    pub(super) fn look(&mut self, equations: &Equations, time: f64, at: &dyn Fn(Symbol) -> f64) {
         for (value, largest) in self.values.iter().zip(&mut self.sizes) {
-            if value.within.is_none() {
-                let (_, size) = equations.pool.evaluate_with_size(value.expression, at);
-                *largest = if size.is_finite() { largest.max(size) } else { *largest };
+            if value.within.is_some() {
+                continue;
+            }
+            let (_, size) = equations.pool.evaluate_with_size(value.expression, at);
+            if size.is_finite() {
+                largest.ever = largest.ever.max(size);
+                if (last_part_before(value.at, self.start)..=value.at).contains(&time) {
+                    largest.lately = largest.lately.max(size);
+                }
             }
         }
     }
 
     /// How far a value may be from what is expected.
     pub(super) fn tolerance(&self, index: usize) -> f64 {
-        self.values[index].within.unwrap_or(TOLERANCE * self.sizes[index])
+        let QuantitySize { ever, lately } = self.sizes[index];
+        self.values[index].within.unwrap_or((TOLERANCE * lately).max(ROUNDING * ever))
     }
+}
+
+/// Where the last part of the way to a time begins.
+fn last_part_before(time: f64, start: f64) -> f64 {
+    time - LAST_PART * (time - start)
 }
 
 /// How far the time of an event may be from what is expected.

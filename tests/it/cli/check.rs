@@ -596,3 +596,32 @@ fn what_is_expected_is_held_against_its_size_in_all_units() {
         check(file(0.5 * a, 0.0, quarter * off)).fails(65, &["`middle` happens at t =", "1 error"]);
     }
 }
+
+/// A velocity that decays as e⁻ᵗ is held against what it has become, and one that swings against its swing, where it is zero as well.
+#[test]
+fn what_has_decayed_is_held_against_what_is_left_of_it() {
+    let check = |law: &str, at: &str, is: &str| {
+        let text = format!(
+            "title = \"T\"\n[coordinates]\nx = {{ initial = 0, velocity = 1 }}\n[lagrangian]\n{law}\n\
+             [expect]\nvalues = [{{ expression = \"x'\", at = {at}, is = {is} }}]\n"
+        );
+        with_file(&text, &["check", "system.toml"])
+    };
+    let decays = "L = \"1/2*x'^2\"\nforces = { x = \"-x'\" }";
+    for (at, is, wrong) in [
+        // e⁻¹⁵, e⁻³⁰
+        ("15", "3.059023205018258e-7", ["3.0590233e-7", "3.06e-7"]),
+        ("30", "9.357622968840175e-14", ["5e-11", "1.2e-13"]),
+    ] {
+        assert_eq!(check(decays, at, is).success(), "");
+        for wrong in wrong {
+            check(decays, at, wrong).fails(65, &["x': this is", "1 error"]);
+        }
+    }
+    let swings = "L = \"1/2*x'^2 - 1/2*x^2\"";
+    // π/2 and 201π/2
+    for at in ["1.5707963267948966", "315.7300616857742"] {
+        assert_eq!(check(swings, at, "0").success(), "");
+        check(swings, at, "1e-9").fails(65, &["x': this is", "1 error"]);
+    }
+}
