@@ -35,9 +35,13 @@ impl PieceStyle {
 /// cannot be told apart.
 const SMALL: f64 = 6.0;
 
+/// The same for one that is thin from one side, where its two rims run into each other, such as a wheel.
+const SMALL_SHEET: f64 = 22.0;
+
 /// Whether a piece with these extents is too small for edges in ASCII, where a column of cells has this width.
-pub(super) fn is_small([_, other]: [f64; 2], column: f64) -> bool {
-    other / column < SMALL
+pub(super) fn is_small([least, other]: [f64; 2], column: f64) -> bool {
+    let most = if least / column < THICK { SMALL_SHEET } else { SMALL };
+    other / column < most
 }
 
 /// A surface that is filled.
@@ -55,7 +59,14 @@ pub(super) struct Filling {
 
 #[cfg(test)]
 mod tests {
-    use super::PieceStyle;
+    use super::{PieceStyle, is_small};
+
+    #[test]
+    fn a_wheel_is_a_mass_of_characters_where_a_thick_piece_of_its_size_has_edges() {
+        let of = |extents: [f64; 2]| is_small(extents.map(|x| x * 0.5), 0.5);
+        assert_eq!([[5.9, 5.9], [6.1, 6.1], [3.1, 6.1]].map(of), [true, false, false]);
+        assert_eq!([[2.9, 21.9], [0.0, 21.9], [0.0, 22.1]].map(of), [true, true, false]);
+    }
 
     #[test]
     fn what_is_thinner_than_three_columns_is_not_filled_from_that_side() {
