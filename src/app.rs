@@ -30,6 +30,7 @@ mod guide;
 mod guide_list;
 mod history;
 mod hit_target;
+mod holding;
 mod impulse;
 mod inquiry;
 pub mod key;

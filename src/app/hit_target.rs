@@ -47,6 +47,17 @@ pub enum HitTarget {
         /// The position in it.
         place: [f64; 2],
     },
+    /// A mass in a picture of a plane that can be held.
+    Body {
+        /// The index of the picture.
+        index: usize,
+        /// The index of the mass among its shapes.
+        shape: usize,
+        /// The position in the picture.
+        place: [f64; 2],
+        /// The coordinates of the centre of the cell.
+        at: [f64; 2],
+    },
     /// The inside of a plot's frame.
     Plot {
         /// The index of the plot.
@@ -65,6 +76,15 @@ pub enum Grab {
     Bar(ValueId),
     /// The time bar.
     Time,
+    /// A mass, which it holds.
+    Body {
+        /// The index of the picture.
+        index: usize,
+        /// The index of the mass among its shapes.
+        shape: usize,
+        /// Whether the mouse has moved since the button was pressed.
+        moved: bool,
+    },
     /// A view of the motion or a plot, which follows the mouse.
     Picture {
         /// Which one of the lab.

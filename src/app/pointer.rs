@@ -27,7 +27,7 @@ const NO_STARTS: &str = "No orbits can be added here: points of this section can
 const NO_MORE: &str = "No more orbits can be added; N removes those added.";
 
 /// Why a picture in a plane does not turn under the mouse.
-const PLANE: &str = "This motion stays in a plane and is seen face on; to start elsewhere, click in a phase portrait.";
+const PLANE: &str = "This motion stays in a plane and is seen face on; to start elsewhere, drag a mass, or click in a phase portrait.";
 
 /// Whether a picture is of a motion in a plane, seen face on.
 fn is_face_on(plot: &Plot, model: &Model) -> bool {
@@ -114,6 +114,11 @@ impl App {
                 self.mouse.drag = Some(Grab::Time);
                 return vec![Effect::Execute(Command::LookAt(time))];
             }
+            HitTarget::Body { index, shape, .. } => {
+                lab.focus.pane = Pane::Plot(index);
+                lab.history.begin_group();
+                self.mouse.drag = Some(Grab::Body { index, shape, moved: false });
+            }
             HitTarget::Plot { index, place, .. } | HitTarget::Space { index, place } => {
                 lab.focus.pane = Pane::Plot(index);
                 lab.history.begin_group();
@@ -131,6 +136,17 @@ impl App {
             }
             (Some(Grab::Time), HitTarget::Time(time)) => {
                 vec![Effect::Execute(Command::LookAt(time))]
+            }
+            (Some(Grab::Body { index, shape, moved }), HitTarget::Body { at, .. }) => {
+                self.mouse.drag = Some(Grab::Body { index, shape, moved: true });
+                let Some(lab) = &mut self.lab else { return Vec::new() };
+                let eye = lab.plots.get(index).and_then(Plot::eye);
+                let held = eye.and_then(|eye| lab.held_at(eye, shape, at));
+                // what is held does not move by itself
+                let mut effects =
+                    Vec::from_iter((!moved).then_some(Effect::Execute(Command::Pause)));
+                effects.extend(held.into_iter().flat_map(|held| lab.start(&held)));
+                effects
             }
             (
                 Some(Grab::Picture { index: grabbed, place: from, .. }),
@@ -158,6 +174,7 @@ impl App {
         let grabbed = self.mouse.drag.take();
         let Some(lab) = &mut self.lab else { return Vec::new() };
         let effects = match (grabbed, hit) {
+            (Some(Grab::Body { moved: true, .. }), _) => vec![Effect::Execute(Command::Play)],
             (Some(Grab::Picture { moved: false, .. }), HitTarget::Plot { index, place, at }) => {
                 match lab.begun_at(index, at) {
                     Ok(effects) => effects,
@@ -199,7 +216,9 @@ impl App {
                 let Some(lab) = &mut self.lab else { return Vec::new() };
                 let factor = if up > 0 { NOTCH } else { 1.0 / NOTCH };
                 match hit {
-                    HitTarget::Plot { index, place, .. } | HitTarget::Space { index, place } => {
+                    HitTarget::Plot { index, place, .. }
+                    | HitTarget::Space { index, place }
+                    | HitTarget::Body { index, place, .. } => {
                         lab.redraw(index, |plot, _| plot.zoom_about(factor, [true; 2], place));
                     }
                     HitTarget::Value(target) | HitTarget::Bar { target, .. } => {

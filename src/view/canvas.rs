@@ -16,6 +16,7 @@ use super::cache::FrameCache;
 use super::colour::ColourDepth;
 use super::cursor_reading::CursorReading;
 use super::glyphs::TextWidth;
+use super::plot::PlotFrame;
 use super::region::ScreenRegion;
 use super::theme::Role;
 use super::wrap::shortened;
@@ -27,6 +28,8 @@ pub(super) struct Canvas<'a> {
     pub(super) style: &'a RenderStyle,
     /// The regions for the mouse, if they are collected; later ones lie over earlier ones.
     pub(super) regions: Option<Vec<(Rect, ScreenRegion)>>,
+    /// The masses of the picture drawn last that can be held: where each is, its index among the shapes, and the frame.
+    pub(super) held: Vec<(Rect, usize, PlotFrame)>,
     /// The position of the terminal's cursor.
     pub(super) cursor: Option<Position>,
     /// Where the cursor of the focused plot is.
@@ -51,6 +54,7 @@ impl<'a> Canvas<'a> {
             buffer,
             style,
             regions: None,
+            held: Vec::new(),
             cursor: None,
             reading: None,
             moving: None,

@@ -32,7 +32,7 @@ pub(super) fn draw(
     );
     let (cell, at) = match viewport.cursor_at {
         Some(at) => (frame.cell(at), at),
-        None => (Some(put), near_zero(frame, frame.at(put), [ROUNDING; 2])),
+        None => (Some(put), frame.at(put)),
     };
     if let Some(cell) = cell {
         draw_mark(canvas, frame, cell);
@@ -41,7 +41,7 @@ pub(super) fn draw(
     let what = cell.and_then(|cell| marks.at(frame, cell));
     let what = what.map_or_else(String::new, |name| format!("{name}: "));
     let (wide, high) = frame.dots(glyphs);
-    let [x, y] = near_zero(frame, at, [wide, high].map(|dots| HALF / f64::from(dots)));
+    let [x, y] = frame.near_zero(at, [wide, high].map(|dots| HALF / f64::from(dots)));
     let reading = format!(" {what}{}, {} ", readable(x, 4, glyphs), readable(y, 4, glyphs));
     // It covers no word above the axes.
     let wide = (canvas.text(&reading).width() as u16).min(area.width);
@@ -55,18 +55,8 @@ pub(super) fn draw(
     Some(CursorReading { at, place })
 }
 
-/// Half a dot, and what rounding leaves of zero in parts of an axis.
+/// Half a dot.
 const HALF: f64 = 0.5;
-const ROUNDING: f64 = 1e-9;
-
-/// A point whose coordinates are zero where they are nearer to it than these parts of the axes.
-fn near_zero(frame: &PlotFrame, at: [f64; 2], parts: [f64; 2]) -> [f64; 2] {
-    let scales = [frame.x, frame.y];
-    [0, 1].map(|k| {
-        let off = (scales[k].fraction(at[k]) - scales[k].fraction(0.0)).abs();
-        if off < parts[k] { 0.0 } else { at[k] }
-    })
-}
 
 /// The place of a point in a frame, or at its edge if it is outside; the one before where the axes do not contain it at all.
 fn place_of(frame: &PlotFrame, [x, y]: [f64; 2], before: [f64; 2]) -> [f64; 2] {

@@ -47,6 +47,9 @@ impl HitMap {
         let is_dragged = |region: &ScreenRegion| match (self.drag, region) {
             (Some(Grab::Bar(dragged)), ScreenRegion::Bar(target, _)) => dragged == *target,
             (Some(Grab::Time), ScreenRegion::Time(_)) => true,
+            (Some(Grab::Body { index, shape, .. }), ScreenRegion::Body(i, k, _)) => {
+                (index, shape) == (*i, *k)
+            }
             (
                 Some(Grab::Picture { index, .. }),
                 ScreenRegion::Plot(i, _) | ScreenRegion::Space(i),
@@ -82,6 +85,12 @@ fn resolved(region: ScreenRegion, area: Rect, at: Position) -> Option<HitTarget>
             HitTarget::Time(if share < 1.0 { from + share * (to - from) } else { to })
         }
         ScreenRegion::Space(index) => HitTarget::Space { index, place },
+        ScreenRegion::Body(index, shape, frame) => {
+            let inside = frame.area;
+            let place =
+                [middle(at.x, inside.x, inside.width), 1.0 - middle(at.y, inside.y, inside.height)];
+            HitTarget::Body { index, shape, place, at: frame.at(at) }
+        }
         ScreenRegion::Plot(index, frame) => HitTarget::Plot { index, place, at: frame.at(at) },
     })
 }

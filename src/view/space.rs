@@ -30,7 +30,9 @@ use super::canvas::Canvas;
 use super::companions;
 use super::glyphs::Glyphs;
 use super::ink::is_colourless;
-use super::plot::{Camera, DepthBuffer, Letters, Marker, Pen, PlotFrame, Raster, Visibility};
+use super::plot::{
+    Camera, DepthBuffer, Letters, Marker, Pen, PlotFrame, Raster, Scale, Visibility,
+};
 use super::quantity::Quantities;
 use super::theme::Role;
 use crate::instrument::CameraPose;
@@ -126,6 +128,9 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
         }
     }
     painter.halos();
+    if canvas.regions.is_some() {
+        canvas.held = painter.held();
+    }
     canvas.cache = cache;
     painter.apparent(apparent(q, *eye));
     painter.raster.draw(canvas.buffer);
@@ -331,6 +336,37 @@ impl ScenePainter<'_> {
     fn cells(&self, radius: f64) -> Option<f64> {
         let least = LEAST[usize::from(self.range.is_some())];
         Some(radius / self.column()).filter(|cells| cells.is_finite() && *cells > least)
+    }
+
+    /// The masses that can be held, in a plane seen face on: where each is on the screen, its index among the shapes, and the frame.
+    fn held(&self) -> Vec<(Rect, usize, PlotFrame)> {
+        let is_face_on =
+            [self.camera.yaw, self.camera.pitch] == [Camera::FACE_ON.yaw, Camera::FACE_ON.pitch];
+        if !is_face_on || self.range.is_some() {
+            return Vec::new();
+        }
+        let Rect { width, height, .. } = self.frame.area;
+        let cells = |length: f64, scale: Scale, count: u16| {
+            let one = (scale.hi - scale.lo).abs() / f64::from(count.max(1));
+            (length / one).clamp(0.0, f64::from(count)) as u16
+        };
+        let shapes = self.q.lab.shapes(self.eye).enumerate();
+        let masses = shapes.filter_map(|(index, (shape, _))| match shape {
+            Shape::Mass { at, radius } if self.q.lab.can_hold(self.eye, index) => {
+                Some((index, at, radius.map_or(0.0, |radius| self.q.number(radius).abs())))
+            }
+            _ => None,
+        });
+        let place = |(index, at, radius): (usize, &Point, f64)| {
+            let centre = self.frame.cell(self.flat(self.point(at)))?;
+            // a cell more at each side: nobody hits a single one
+            let across = cells(radius, self.frame.x, width) + 1;
+            let along = cells(radius, self.frame.y, height);
+            let corner = [centre.x.saturating_sub(across), centre.y.saturating_sub(along)];
+            let around = Rect::new(corner[0], corner[1], 2 * across + 1, 2 * along + 1);
+            Some((around.intersection(self.frame.area), index, self.frame))
+        };
+        masses.filter_map(place).collect()
     }
 
     /// The radius with which a mass is drawn as a disc: its own if it is large enough; where dots are blocks, which a marker among

@@ -7,6 +7,9 @@ use ratatui::layout::{Position, Rect};
 use crate::num::math;
 use crate::view::glyphs::Glyphs;
 
+/// What rounding leaves of zero, in parts of an axis.
+const ROUNDING: f64 = 1e-9;
+
 /// The height of a cell relative to its width, approximately.
 pub const CELL_ASPECT: f64 = 2.0;
 
@@ -203,15 +206,25 @@ impl PlotFrame {
         Some(Position::new(self.area.x.saturating_add(column), self.area.y.saturating_add(row)))
     }
 
-    /// The data coordinates of the centre of a cell, for the cursor's readout.
+    /// A point whose coordinates are zero where they are nearer to it than these parts of the axes.
+    pub fn near_zero(&self, at: [f64; 2], parts: [f64; 2]) -> [f64; 2] {
+        let scales = [self.x, self.y];
+        [0, 1].map(|k| {
+            let off = (scales[k].fraction(at[k]) - scales[k].fraction(0.0)).abs();
+            if off < parts[k] { 0.0 } else { at[k] }
+        })
+    }
+
+    /// The data coordinates of the centre of a cell, for the cursor's readout and the mouse; what rounding leaves of zero is zero.
     pub fn at(&self, cell: Position) -> [f64; 2] {
         let middle = |cell: u16, start: u16, length: u16| {
             (f64::from(cell) - f64::from(start) + 0.5) / f64::from(length.max(1))
         };
-        [
+        let at = [
             self.x.value(middle(cell.x, self.area.x, self.area.width)),
             self.y.value(1.0 - middle(cell.y, self.area.y, self.area.height)),
-        ]
+        ];
+        self.near_zero(at, [ROUNDING; 2])
     }
 
     /// The position of a point among this many dots, with y downwards; NaN if a coordinate is not finite.

@@ -326,10 +326,13 @@ fn reach(q: &Quantities<'_>, point: &Point, reached: &[(Point, Span3)]) -> Span3
 fn extent(q: &Quantities<'_>, point: &Point) -> Span3 {
     let ends = point.map(|expression| match q.place(expression) {
         QuantitySource::Number(number) => (number, number),
-        QuantitySource::Channel(channel) => match least(q, channel) {
-            Some([from, to]) => (from.min(q.bounds(channel).0), to.max(q.bounds(channel).1)),
-            None => q.bounds(channel),
-        },
+        QuantitySource::Channel(channel) => {
+            // a motion that was begun in a picture keeps its window
+            let kept = q.lab.window_before(channel);
+            let set = least(q, channel).map(|[from, to]| (from, to));
+            let more = [kept, set].into_iter().flatten();
+            more.fold(q.bounds(channel), |(lo, hi), (from, to)| (lo.min(from), hi.max(to)))
+        }
     });
     [ends.map(|end| end.0), ends.map(|end| end.1)]
 }

@@ -6,8 +6,9 @@ use crossterm::event::MouseButton::Left;
 use crossterm::event::MouseEventKind;
 use crossterm::event::MouseEventKind::{Down, Drag, ScrollDown, ScrollUp, Up};
 use phaselab::app::{App, AppEvent, Grab, HitTarget, Overlay, Page, Pane, ValueId};
-use phaselab::experiment::Command;
+use phaselab::experiment::{Command, Status};
 use phaselab::instrument::Sight;
+use phaselab::model::Shape;
 use phaselab::view::glyphs::Glyphs;
 use phaselab::view::{hit_targets, hit_test};
 use ratatui::layout::Rect;
@@ -86,8 +87,8 @@ fn every_line_of_a_list_is_where_it_is_drawn() {
             }
         }
         seen.sort();
-        let wanted =
-            ["Bar", "Gauge", "Hint", "Page", "Pane", "Plot", "Space", "Value"].map(str::to_owned);
+        let wanted = ["Bar", "Body", "Gauge", "Hint", "Page", "Pane", "Plot", "Space", "Value"];
+        let wanted = wanted.map(str::to_owned);
         assert_eq!(seen, wanted, "{size:?}");
     }
 }
@@ -345,6 +346,104 @@ fn a_plane_is_zoomed_and_moved_with_the_mouse() {
         let after = coordinates(&real, (place.0 + 6, place.1 + 3));
         let off = [0, 1].map(|k| (after[k] - before[k]).abs() / cell(&real));
         assert!(off[0] < 2.1 && off[1] < 4.1, "{name}: {before:?} {after:?}");
+    }
+}
+
+/// The cells of the masses that can be held.
+fn bodies(app: &App, size: (u16, u16)) -> Vec<(u16, u16)> {
+    places(app, size, |target| matches!(target, HitTarget::Body { .. }))
+}
+
+/// A bob follows the mouse around its pivot, waits there, and swings from rest once it is let go; one undo takes all of it back.
+#[test]
+fn a_bob_is_held_and_let_go_from_rest() {
+    let size = (120, 40);
+    let mut real = Real::of("pendulum");
+    real.run(30);
+    let before = real.seen().initial.clone();
+    let bob = bodies(&real.app, size);
+    act(&mut real, size, Down(Left), bob[bob.len() / 2]);
+    // the pivot is in the middle of the picture: to its right θ is π/2, below it 0, to its left −π/2
+    let angle = |real: &Real| real.seen().values[0];
+    for (place, expected) in [((34, 11), 1.57), ((20, 20), 0.0), ((6, 11), -1.57)] {
+        act(&mut real, size, Drag(Left), place);
+        assert!((angle(&real) - expected).abs() < 0.1, "{place:?} {}", angle(&real));
+        assert_eq!(real.seen().status, Status::Paused, "what is held does not move");
+    }
+    let held = angle(&real);
+    act(&mut real, size, Up(Left), (6, 11));
+    assert_eq!(*real.seen().initial, [held, 0.0]);
+    real.run(30);
+    assert!(real.seen().time > 0.0 && angle(&real) > held, "it swings");
+    real.press("u");
+    assert_eq!(real.seen().initial, before);
+}
+
+/// Both coordinates of a planet follow the mouse, and both angles of a double pendulum; its upper bob stays on its circle, at the
+/// point that is nearest to the mouse.
+#[test]
+fn a_mass_is_brought_where_the_mouse_is_or_as_near_as_it_can_be() {
+    let size = (120, 40);
+    for (name, which, on_circle) in [
+        ("planet", 0, false),
+        ("two-centres", 0, false),
+        ("double-pendulum", 0, true),
+        ("double-pendulum", 1, false),
+    ] {
+        let mut real = Real::of(name);
+        let hit = |real: &Real, place| match at(&real.app, size, place) {
+            Some(HitTarget::Body { at, shape, .. }) => (at, shape),
+            other => panic!("{name}: {other:?}"),
+        };
+        let cells = bodies(&real.app, size);
+        let mut shapes: Vec<usize> = cells.iter().map(|cell| hit(&real, *cell).1).collect();
+        shapes.sort_unstable();
+        shapes.dedup();
+        let shape = shapes[which];
+        let place = *cells.iter().rfind(|cell| hit(&real, **cell).1 == shape).expect("its cell");
+        act(&mut real, size, Down(Left), place);
+        let to = (place.0.saturating_sub(3), place.1 + 1);
+        let (mut wanted, _) = hit(&real, to);
+        if on_circle {
+            let far = wanted[0].hypot(wanted[1]);
+            wanted = wanted.map(|x| x / far);
+        }
+        act(&mut real, size, Drag(Left), to);
+        let lab = real.lab();
+        let eye = lab.plots.iter().find_map(|plot| plot.eye()).expect("a picture");
+        let Shape::Mass { at, .. } = &eye.shapes(&lab.loaded.model)[shape] else {
+            panic!("{name}: no mass")
+        };
+        let found = [0, 1]
+            .map(|k| real.seen().values[lab.loaded.system.channel_of(at[k]).expect("a channel")]);
+        let off = [0, 1].map(|k| (wanted[k] - found[k]).abs());
+        assert!(off.iter().all(|off| *off < 1e-6), "{name}: {wanted:?} {found:?}");
+        let velocities = real.seen().initial.len() / 2;
+        assert!(real.seen().initial[velocities..].iter().all(|v| *v == 0.0), "{name}");
+    }
+}
+
+/// A planet is not pulled through its sun: beside an angle its distance keeps its sign.
+#[test]
+fn a_distance_beside_an_angle_keeps_its_sign() {
+    let size = (120, 40);
+    let mut real = Real::of("planet");
+    let bodies = bodies(&real.app, size);
+    let place = *bodies.last().expect("a planet");
+    act(&mut real, size, Down(Left), place);
+    for x in (2..place.0).rev() {
+        act(&mut real, size, Drag(Left), (x, place.1));
+        assert!(real.seen().values[0] > 0.0, "{x}: {}", real.seen().values[0]);
+    }
+}
+
+/// What constraints tie together, or the time moves, cannot be held.
+#[test]
+fn what_does_not_follow_from_coordinates_alone_is_not_held() {
+    for name in ["pendulum-rod", "kapitza", "heavy-top"] {
+        let mut real = Real::of(name);
+        real.run(10);
+        assert_eq!(bodies(&real.app, (120, 40)), [], "{name}");
     }
 }
 
