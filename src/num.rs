@@ -20,6 +20,7 @@ mod exponent;
 mod extended_range;
 mod finite;
 mod format;
+mod four_lanes;
 mod horner;
 mod instruction_set;
 pub mod math;
@@ -43,7 +44,8 @@ pub use finite::all_finite;
 pub use format::{
     no_longer_than, push_shortest, rounded, short, shortest, significant, to_its_error,
 };
-pub use horner::{Polynomial, padded, polynomial, tail, tails};
+pub use four_lanes::{FourLaneKernel, FourLanes, LANES, Separately, in_four_lanes};
+pub use horner::{Polynomial, four_tails, padded, polynomial, tail, tails};
 pub use instruction_set::{Kernel, vectorized};
 pub use number::Number;
 pub use polytope::OrientationPolytope;

@@ -16,8 +16,14 @@ use crate::system::{MotionError, Observer, State, System, TermWatch};
 #[derive(Clone)]
 pub struct DriftWatch {
     model: Arc<Model>,
-    system: System,
     gauges: Gauges,
+    observed: ObservedState,
+}
+
+/// What the gauges read of a state.
+#[derive(Clone)]
+struct ObservedState {
+    system: System,
     terms: TermWatch,
     observer: Observer,
     constants: Valuation,
@@ -32,12 +38,14 @@ impl DriftWatch {
         DriftWatch {
             model: Arc::clone(model),
             gauges: Gauges::new(model, equations, system),
-            terms: system.term_watch(&parameters),
-            observer: system.observer(&parameters),
-            constants: Valuation::of_parameters(model, &parameters),
-            values: vec![f64::NAN; system.channels().len()],
-            steps: 0,
-            system: system.clone(),
+            observed: ObservedState {
+                terms: system.term_watch(&parameters),
+                observer: system.observer(&parameters),
+                constants: Valuation::of_parameters(model, &parameters),
+                values: vec![f64::NAN; system.channels().len()],
+                steps: 0,
+                system: system.clone(),
+            },
         }
     }
 
@@ -46,32 +54,34 @@ impl DriftWatch {
     /// # Errors
     /// Returns an error if the state cannot be observed.
     pub fn begin(&mut self, state: &State, parameters: &[f64]) -> Result<(), MotionError> {
-        self.terms.set_parameters(parameters);
-        self.observer.set_parameters(parameters);
-        let body = self.system.body_values(parameters);
-        self.constants = Valuation::of_parameters(&self.model, parameters).with(body);
-        self.steps = 0;
-        self.observe(state)?;
-        self.update_gauges(state, |gauges, now| {
-            gauges.refer(now);
-            gauges.sample(now, false);
-        });
+        let DriftWatch { model, gauges, observed } = self;
+        observed.terms.set_parameters(parameters);
+        observed.observer.set_parameters(parameters);
+        let body = observed.system.body_values(parameters);
+        observed.constants = Valuation::of_parameters(model, parameters).with(body);
+        observed.steps = 0;
+        observed.observe(state)?;
+        let now = observed.present(state);
+        gauges.refer(&now);
+        gauges.sample(&now, false);
         Ok(())
     }
 
     /// Observes the end of a step.
     pub fn step(&mut self, state: &State) {
-        self.steps += 1;
-        if self.terms.observe(state) {
-            self.gauges.step(state.time, self.steps, &self.terms, true);
+        let DriftWatch { gauges, observed, .. } = self;
+        observed.steps += 1;
+        if observed.terms.observe(state) {
+            gauges.step(state.time, observed.steps, &observed.terms, true);
         }
     }
 
     /// Observes the end of a step, whose terms and work were evaluated elsewhere.
     pub fn step_with(&mut self, time: f64, terms: impl Iterator<Item = f64>, work: f64) {
-        self.steps += 1;
-        self.terms.take(terms, work);
-        self.gauges.step(time, self.steps, &self.terms, true);
+        let DriftWatch { gauges, observed, .. } = self;
+        observed.steps += 1;
+        observed.terms.take(terms, work);
+        gauges.step(time, observed.steps, &observed.terms, true);
     }
 
     /// Ends at a state, and returns the value of every channel and the gauges there.
@@ -79,24 +89,21 @@ impl DriftWatch {
     /// # Errors
     /// Returns an error if the state cannot be observed.
     pub fn end(&mut self, state: &State) -> Result<(&[f64], Arc<[Gauge]>), MotionError> {
-        self.observe(state)?;
-        self.update_gauges(state, Gauges::observe);
-        let gauges = self.gauges.show(&self.present(state));
-        Ok((&self.values, gauges))
+        let DriftWatch { gauges, observed, .. } = self;
+        observed.observe(state)?;
+        let now = observed.present(state);
+        gauges.observe(&now);
+        Ok((&observed.values, gauges.show(&now)))
     }
+}
 
-    /// Updates the gauges by the state that was observed, as an experiment does at its rows.
-    fn update_gauges(&mut self, state: &State, update: impl FnOnce(&mut Gauges, &GaugeInputs<'_>)) {
-        let mut gauges = self.gauges.clone();
-        update(&mut gauges, &self.present(state));
-        self.gauges = gauges;
-    }
-
+impl ObservedState {
     fn observe(&mut self, state: &State) -> Result<(), MotionError> {
         self.terms.observe(state);
         self.observer.observe(state, &mut self.values)
     }
 
+    /// What gauges are updated by, as an experiment does at its rows.
     fn present<'a>(&'a self, state: &State) -> GaugeInputs<'a> {
         GaugeInputs {
             time: state.time,

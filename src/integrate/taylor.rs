@@ -254,6 +254,9 @@ impl Taylor {
             return Ok(());
         }
         self.course = StepCourse::Series;
+        if self.take_plain_step(step, (left, limit))? {
+            return Ok(());
+        }
         match self.end_of_step(step, left)? {
             Some(end) if end.is_branch_point() && self.cross_touch(step, limit)? => Ok(()),
             Some(end) => self.go_to(end, step, (left.high, limit)),

@@ -7,6 +7,7 @@
 
 use super::batch::Batch;
 use super::double_double::DoubleDouble;
+use super::four_lanes::{FourLanes, LANES, Separately};
 use super::instruction_set::{Kernel, vectorized};
 use super::real::Analytic;
 
@@ -31,28 +32,60 @@ const APART: usize = 4;
 
 /// The sum of the terms after those of low order, over the power of the first of them.
 #[inline(always)]
-pub fn tail(high: &[f64], x: f64) -> f64 {
-    summed_apart(high, x, |_, terms| terms)
+pub fn tail<L: FourLanes>(lanes: L, high: &[f64], x: f64) -> f64 {
+    let square = x * x;
+    let fourth = lanes.splat(square * square);
+    let (chunks, rest) = high.as_chunks::<APART>();
+    let mut sums = lanes.of(padded(rest, 0.0));
+    // by places, since what is given to an iterator is not always inlined
+    for i in (0..chunks.len()).rev() {
+        sums = lanes.add(lanes.mul(sums, fourth), lanes.of(chunks[i]));
+    }
+    let [first, second, third, last] = lanes.give(sums);
+    (third * square + first) + (last * square + second) * x
+}
+
+/// The same of four numbers with as many terms each.
+#[inline(always)]
+pub fn four_tails<L: FourLanes>(lanes: L, high: [&[f64]; LANES], x: f64) -> L::Numbers {
+    let square = x * x;
+    let fourth = lanes.splat(square * square);
+    let [a, b, c, d] = high;
+    let ((a, a_rest), (b, b_rest)) = (a.as_chunks::<APART>(), b.as_chunks::<APART>());
+    let ((c, c_rest), (d, d_rest)) = (c.as_chunks::<APART>(), d.as_chunks::<APART>());
+    let count = a.len();
+    let (b, c, d) = (&b[..count], &c[..count], &d[..count]);
+    let mut a_sums = lanes.of(padded(a_rest, 0.0));
+    let mut b_sums = lanes.of(padded(b_rest, 0.0));
+    let mut c_sums = lanes.of(padded(c_rest, 0.0));
+    let mut d_sums = lanes.of(padded(d_rest, 0.0));
+    for i in (0..count).rev() {
+        a_sums = lanes.add(lanes.mul(a_sums, fourth), lanes.of(a[i]));
+        b_sums = lanes.add(lanes.mul(b_sums, fourth), lanes.of(b[i]));
+        c_sums = lanes.add(lanes.mul(c_sums, fourth), lanes.of(c[i]));
+        d_sums = lanes.add(lanes.mul(d_sums, fourth), lanes.of(d[i]));
+    }
+    let [first, second, third, last] = lanes.transposed([a_sums, b_sums, c_sums, d_sums]);
+    let (x, square) = (lanes.splat(x), lanes.splat(square));
+    let even = lanes.add(lanes.mul(third, square), first);
+    let odd = lanes.add(lanes.mul(last, square), second);
+    lanes.add(even, lanes.mul(odd, x))
 }
 
 /// The same of x times the slope, where the first of `high` has this order.
 #[inline(always)]
-fn slope_tail(high: &[f64], order: usize, x: f64) -> f64 {
-    const ORDERS: Batch<APART> = Batch([0.0, 1.0, 2.0, 3.0]);
-    summed_apart(high, x, |place, terms| terms * (Batch::splat((order + place) as f64) + ORDERS))
-}
-
-/// A sum of terms, of which every four from a place on are changed by `made`.
-#[inline(always)]
-fn summed_apart(high: &[f64], x: f64, made: impl Fn(usize, Batch<APART>) -> Batch<APART>) -> f64 {
+fn slope_tail<L: FourLanes>(lanes: L, high: &[f64], order: usize, x: f64) -> f64 {
     let square = x * x;
-    let fourth = Batch::splat(square * square);
+    let fourth = lanes.splat(square * square);
+    let ahead = lanes.of([0.0, 1.0, 2.0, 3.0]);
     let (chunks, rest) = high.as_chunks::<APART>();
-    let mut sums = made(APART * chunks.len(), Batch(padded(rest, 0.0)));
-    for (i, chunk) in chunks.iter().enumerate().rev() {
-        sums = sums * fourth + made(APART * i, Batch(*chunk));
+    let orders = lanes.add(lanes.splat((order + APART * chunks.len()) as f64), ahead);
+    let mut sums = lanes.mul(lanes.of(padded(rest, 0.0)), orders);
+    for i in (0..chunks.len()).rev() {
+        let orders = lanes.add(lanes.splat((order + APART * i) as f64), ahead);
+        sums = lanes.add(lanes.mul(sums, fourth), lanes.mul(lanes.of(chunks[i]), orders));
     }
-    let [first, second, third, last] = sums.0;
+    let [first, second, third, last] = lanes.give(sums);
     (third * square + first) + (last * square + second) * x
 }
 
@@ -87,7 +120,7 @@ impl Polynomial<'_> {
     /// The polynomial, from the sum of the terms after those of low order over the power of the first of them. `high` is read
     /// only where the argument is no `f64`.
     #[inline(always)]
-    pub fn with_tail<const FUSED: bool>(self, tail: f64) -> DoubleDouble {
+    pub fn with_tail<L: FourLanes, const FUSED: bool>(self, lanes: L, tail: f64) -> DoubleDouble {
         let x = self.x.high;
         let (mut sum, mut errors) = (tail, 0.0);
         for c in self.low.iter().rev() {
@@ -97,7 +130,7 @@ impl Polynomial<'_> {
             errors = errors * x + (product.low + next.low + c.low);
         }
         if self.x.low != 0.0 {
-            let tail = slope_tail(self.high, self.low.len(), x);
+            let tail = slope_tail(lanes, self.high, self.low.len(), x);
             let low = self.low.iter().enumerate().skip(1).rev();
             let slope = low.fold(tail, |sum, (j, c)| sum * x + c.high * j as f64);
             errors += self.x.low * slope;
@@ -112,7 +145,7 @@ impl Kernel for Polynomial<'_> {
     #[inline(always)]
     fn run<const FUSED: bool>(self) -> DoubleDouble {
         let tail = self.high.iter().rev().fold(0.0, |sum, c| sum * self.x.high + c);
-        self.with_tail::<FUSED>(tail)
+        self.with_tail::<_, FUSED>(Separately, tail)
     }
 }
 
@@ -159,7 +192,7 @@ mod tests {
             let all = tails(&high, x);
             for lane in 0..all.0.len() {
                 let alone: Vec<f64> = high.iter().map(|c| c.0[lane]).collect();
-                let own = tail(&alone, x.0[lane]);
+                let own = tail(Separately, &alone, x.0[lane]);
                 assert_eq!(all.0[lane].to_bits(), own.to_bits(), "{length}");
                 let direct = alone.iter().rev().fold(0.0, |sum, c| sum * x.0[lane] + c);
                 let powers = std::iter::successors(Some(1.0), |p| Some(p * x.0[lane].abs()));
@@ -179,7 +212,7 @@ mod tests {
                     .collect();
                 let (sum, size): (f64, f64) =
                     (terms.iter().sum(), terms.iter().map(|term| term.abs()).sum());
-                let off = slope_tail(&high[..length], order, x) - sum;
+                let off = slope_tail(Separately, &high[..length], order, x) - sum;
                 assert!(off.abs() <= 1e-14 * size, "{length} {order} {x}: {off:e}");
             }
         }

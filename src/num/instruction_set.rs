@@ -23,8 +23,7 @@ pub fn vectorized<K: Kernel>(kernel: K) -> K::Output {
     {
         use std::sync::LazyLock;
 
-        use pulp::x86::{V3, V4};
-        static WIDE: LazyLock<Option<V3>> = LazyLock::new(V3::try_new);
+        use pulp::x86::V4;
         static WIDEST: LazyLock<Option<V4>> = LazyLock::new(V4::try_new);
         struct Call<K>(K);
         impl<K: Kernel> pulp::NullaryFnOnce for Call<K> {
@@ -39,15 +38,29 @@ pub fn vectorized<K: Kernel>(kernel: K) -> K::Output {
         {
             return widest.vectorize(Call(kernel));
         }
-        if let Some(wide) = *WIDE {
+        if let Some(wide) = wide() {
             return wide.vectorize(Call(kernel));
         }
     }
     run_plainly(kernel)
 }
 
+/// AVX2 and FMA, where the processor has them.
+#[cfg(target_arch = "x86_64")]
+#[inline]
+pub(super) fn wide() -> Option<pulp::x86::V3> {
+    use std::sync::LazyLock;
+
+    use pulp::x86::V3;
+    static WIDE: LazyLock<Option<V3>> = LazyLock::new(V3::try_new);
+    *WIDE
+}
+
+/// Whether a fused multiply-add is one of the instructions that the program was built for.
+pub(super) const FUSED_PLAINLY: bool = cfg!(any(target_feature = "fma", target_arch = "aarch64"));
+
 /// Runs a kernel with the instructions that the program was built for.
 #[inline]
 pub(super) fn run_plainly<K: Kernel>(kernel: K) -> K::Output {
-    kernel.run::<{ cfg!(any(target_feature = "fma", target_arch = "aarch64")) }>()
+    kernel.run::<FUSED_PLAINLY>()
 }

@@ -120,49 +120,7 @@ impl BatchTerms {
 
     /// The sums over the terms of a quantity whose values at rest were these.
     pub fn sums(&self, quantity: usize, were: &[f64]) -> [TermSums; BATCH] {
-        let negative_zero = Batch::splat(-0.0);
-        let (mut value, mut size, mut moving) = (negative_zero, negative_zero, negative_zero);
-        let place = self.places.get(quantity).and_then(Option::as_ref);
-        let as_a_whole = place.is_some_and(|place| place.exchanges);
-        let mut changed_at_rest = Batch::ZERO;
-        let (first, rests) = place.map_or((0, &[][..]), |place| (place.first, &place.terms));
-        let mut outputs = self.program.outputs.get(first..).unwrap_or_default().iter();
-        let mut next = || outputs.next().map(|&r| self.registers[r as usize]);
-        for (k, rest) in rests.iter().enumerate() {
-            let Some(term) = next() else { break };
-            let mut its_size = term.abs();
-            let rest = match rest {
-                AtRest::Same => term,
-                AtRest::Nothing => Batch::ZERO,
-                AtRest::Other => next().unwrap_or(term),
-                AtRest::Cancels => {
-                    its_size = its_size + next().unwrap_or(Batch::ZERO).abs();
-                    Batch::ZERO
-                }
-            };
-            value = value + term;
-            size = size + its_size;
-            if let Some(&were) = were.get(k) {
-                let (beyond, change) = ((term - rest).abs(), rest - Batch::splat(were));
-                for lane in 0..BATCH {
-                    let (beyond, change) = (beyond.0[lane], change.0[lane]);
-                    if !(beyond + change.abs()).is_finite() {
-                        moving.0[lane] += term.0[lane].abs();
-                    } else if as_a_whole {
-                        moving.0[lane] += beyond;
-                        changed_at_rest.0[lane] += change;
-                    } else {
-                        moving.0[lane] += beyond + change.abs();
-                    }
-                }
-            }
-        }
-        moving = moving + changed_at_rest.abs();
-        std::array::from_fn(|lane| TermSums {
-            value: value.0[lane],
-            size: size.0[lane],
-            moving: moving.0[lane],
-        })
+        vectorized(SumsKernel { terms: self, quantity, were })
     }
 
     /// The terms of a lane; `None` where they have to be evaluated alone.
@@ -197,7 +155,7 @@ impl Kernel for TermsKernel<'_> {
             if let Op::Time = program.ops[at] {
                 registers[at] = self.time;
             } else if let Some((value, companion)) =
-                value_of(program, program.ops[at], |r| registers[r as usize])
+                value_of::<_, FUSED>(program, program.ops[at], |r| registers[r as usize])
             {
                 registers[at] = value;
                 if let Some(companion) = companion {
@@ -205,5 +163,61 @@ impl Kernel for TermsKernel<'_> {
                 }
             }
         }
+    }
+}
+
+/// The kernel of the sums.
+struct SumsKernel<'a> {
+    terms: &'a BatchTerms,
+    quantity: usize,
+    were: &'a [f64],
+}
+
+impl Kernel for SumsKernel<'_> {
+    type Output = [TermSums; BATCH];
+    const OF_SEVERAL: bool = true;
+
+    #[inline(always)]
+    fn run<const FUSED: bool>(self) -> [TermSums; BATCH] {
+        let SumsKernel { terms, quantity, were } = self;
+        let negative_zero = Batch::splat(-0.0);
+        let (mut value, mut size, mut moving) = (negative_zero, negative_zero, negative_zero);
+        let place = terms.places.get(quantity).and_then(Option::as_ref);
+        let as_a_whole = place.is_some_and(|place| place.exchanges);
+        let mut changed_at_rest = Batch::ZERO;
+        let (first, rests) = place.map_or((0, &[][..]), |place| (place.first, &place.terms));
+        let mut outputs = terms.program.outputs.get(first..).unwrap_or_default().iter();
+        let mut next = || outputs.next().map(|&r| terms.registers[r as usize]);
+        for (k, rest) in rests.iter().enumerate() {
+            let Some(term) = next() else { break };
+            let mut its_size = term.abs();
+            let rest = match rest {
+                AtRest::Same => term,
+                AtRest::Nothing => Batch::ZERO,
+                AtRest::Other => next().unwrap_or(term),
+                AtRest::Cancels => {
+                    its_size = its_size + next().unwrap_or(Batch::ZERO).abs();
+                    Batch::ZERO
+                }
+            };
+            value = value + term;
+            size = size + its_size;
+            if let Some(&were) = were.get(k) {
+                let (beyond, change) = ((term - rest).abs(), rest - Batch::splat(were));
+                for lane in 0..BATCH {
+                    let (beyond, change) = (beyond.0[lane], change.0[lane]);
+                    let finite = (beyond + change.abs()).is_finite();
+                    let own = if as_a_whole { beyond } else { beyond + change.abs() };
+                    moving.0[lane] += if finite { own } else { term.0[lane].abs() };
+                    changed_at_rest.0[lane] += if finite && as_a_whole { change } else { 0.0 };
+                }
+            }
+        }
+        moving = moving + changed_at_rest.abs();
+        std::array::from_fn(|lane| TermSums {
+            value: value.0[lane],
+            size: size.0[lane],
+            moving: moving.0[lane],
+        })
     }
 }

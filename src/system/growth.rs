@@ -8,6 +8,7 @@ use super::jet::{Coefficient, Jet, Side};
 use super::parts::Parts;
 use super::program::Singular;
 use super::solve::Factored;
+use super::state_sum::SeriesList;
 use crate::cancel::Cancel;
 use crate::num::{Analytic, DoubleDouble, ExtendedRange, Kernel, Real, vectorized};
 
@@ -77,11 +78,15 @@ impl<R: Coefficient> SeriesBuilder<R> {
         &self.state
     }
 
-    /// The coefficients of a number that are final: a weight that acts two orders later is not known
-    /// at the last order.
-    pub(super) fn known_series(&self, i: usize) -> &[R] {
+    /// The series of the state.
+    pub(super) fn list(&self) -> SeriesList<'_, R> {
+        SeriesList { coefficients: &self.state, stride: self.order + 1 }
+    }
+
+    /// How many coefficients of a number are final: a weight that acts two orders later is not known at the last order.
+    pub(super) fn known_orders(&self) -> usize {
         let unknown = if self.kept.is_empty() { 0 } else { self.depth - 1 };
-        &self.series(i)[..=self.order - unknown]
+        self.order + 1 - unknown
     }
 
     /// The registers, and the series of the state one after another.

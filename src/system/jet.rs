@@ -243,10 +243,7 @@ impl<R: Coefficient> Jet<R> {
 
     /// The series of the arguments of all functions that are not constant.
     pub fn arguments(&self) -> impl Iterator<Item = (FunctionId, &[R])> {
-        self.program.body.iter().filter_map(|&r| match self.program.ops[r as usize] {
-            Op::Call(function, [u, _]) => Some((function, self.series(u))),
-            _ => None,
-        })
+        self.tables.index.arguments.iter().map(|&(function, u)| (function, self.series(u)))
     }
 
     /// The series of the angles atan2(y, x) of points that are not constant.

@@ -13,7 +13,7 @@
 //!                         basic_block: instructions in a straight line      │
 //!                            │                                              │
 //!                         allocation: their registers                       │
-//!                         encoding: their bytes                             ▼
+//!                         encoding: their bytes; product_loops              ▼
 //!                            │                  function in memory ──▶ growth: series of the state and of what is
 //!                         compile ──────────────────▲                          read whole
 //!                            ▲

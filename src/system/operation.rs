@@ -7,9 +7,9 @@ use super::program::{Op, Program, Register};
 use crate::num::Analytic;
 
 /// The value of an operation on registers with these values and, of a function, that of its
-/// companion in the next register. `None` for what is set elsewhere.
+/// companion in the next register. `None` for what is set elsewhere. `FUSED` is that of a [`Kernel`](crate::num::Kernel).
 #[inline(always)]
-pub(super) fn value_of<R: Analytic>(
+pub(super) fn value_of<R: Analytic, const FUSED: bool>(
     program: &Program,
     op: Op,
     get: impl Fn(Register) -> R,
@@ -20,13 +20,13 @@ pub(super) fn value_of<R: Analytic>(
             let terms = &program.terms[first as usize..(first + count) as usize];
             let mut sum = R::of(program.constants[constant as usize]);
             for term in terms {
-                sum = sum + get(term.register) * R::of(term.coefficient);
+                sum = sum + get(term.register).times::<FUSED>(R::of(term.coefficient));
             }
             sum
         }
-        Op::Scale(a, b) | Op::Multiply(a, b) => get(a) * get(b),
-        Op::Square(a) => get(a) * get(a),
-        Op::Divide(a, b) => get(a) / get(b),
+        Op::Scale(a, b) | Op::Multiply(a, b) => get(a).times::<FUSED>(get(b)),
+        Op::Square(a) => get(a).times::<FUSED>(get(a)),
+        Op::Divide(a, b) => get(a).divided_by::<FUSED>(get(b)),
         Op::Root(a) => get(a).sqrt(),
         Op::Power(a, exponent) => get(a).power(program.constants[exponent as usize]),
         Op::ParametricPower(a, exponent) => get(a).raised(get(exponent)),

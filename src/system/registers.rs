@@ -217,7 +217,7 @@ impl<R: StageNumber> Registers<R> {
         let (program, places) = map.program(program);
         let get = |r: Register| self.values[usize::from(places[r as usize])];
         let op = program.ops[operation as usize];
-        if let Some((value, companion)) = value_of(program, op, get) {
+        if let Some((value, companion)) = value_of::<_, false>(program, op, get) {
             self.values[usize::from(to)] = value;
             if let Some(companion) = companion {
                 self.values[usize::from(to) + 1] = companion;

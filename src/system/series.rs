@@ -14,12 +14,13 @@ use super::jet::{Jet, Side};
 use super::machine_code::CompiledGrowth;
 use super::program::{Program, Register};
 use super::state::State;
-use super::state_sum::StateSum;
+use super::state_sum::{SeriesList, StateSum};
 use super::step_series::StepSeries;
 use super::underflow;
 use crate::expr::FunctionId;
 use crate::num::{
-    Analytic, DoubleDouble, ExtendedRange, Kernel, Real, all_finite, polynomial, vectorized,
+    Analytic, DoubleDouble, ExtendedRange, Kernel, Real, all_finite, in_four_lanes, polynomial,
+    vectorized,
 };
 
 /// The series of all numbers of a state, in the native form of its system.
@@ -142,8 +143,9 @@ impl Series {
     /// Builds the series at a state of the native form.
     pub fn build(&mut self, state: &State) -> Result<(), MotionError> {
         self.time = state.exact_time();
-        for (i, x) in self.origin.iter_mut().enumerate() {
-            *x = state.exact(i);
+        let numbers = state.values.iter().zip(&state.carry);
+        for (x, (&high, &low)) in self.origin.iter_mut().zip(numbers) {
+            *x = DoubleDouble { high, low };
         }
         match self.grow() {
             Ok(()) => Ok(()),
@@ -163,9 +165,10 @@ impl Series {
     /// Builds the orders. If a number leaves the range of `f64`, all orders are rebuilt in a wider
     /// one.
     fn grow(&mut self) -> Result<(), Halt> {
-        self.units.fill(1.0);
+        if std::mem::take(&mut self.has_left_range) {
+            self.units.fill(1.0);
+        }
         let small = self.origin.iter().any(|x| underflow::is_small(x.high));
-        self.has_left_range = false;
         match self.grow_in_range() {
             Ok(()) if self.sees_finite() && !self.underflows(small) => Ok(()),
             Err(Halt::Cancelled) => Err(Halt::Cancelled),
@@ -357,12 +360,12 @@ impl Series {
     /// Writes the state at a time `after` the origin into `out`, by the polynomials.
     pub fn state_after(&self, after: DoubleDouble, out: &mut State) {
         let x = after * self.scale.recip();
-        let low = |i: usize| match &self.low {
-            Some(low) => low.known_series(i),
-            None => &self.origin[i..=i],
+        let (low, known) = match &self.low {
+            Some(low) => (low.list(), low.known_orders()),
+            None => (SeriesList { coefficients: &self.origin, stride: 1 }, 1),
         };
-        let (high, units) = (|i: usize| self.high.series(i), &self.units[..]);
-        vectorized(StateSum { low, high, units, x, out: &mut *out });
+        let (high, units) = (self.high.list(), &self.units[..]);
+        in_four_lanes(StateSum { low, known, high, units, x, out: &mut *out });
         let time = self.time + after;
         (out.time, out.time_carry) = (time.high, time.low);
     }

@@ -39,7 +39,7 @@ pub(super) fn of(program: &Program, value: impl Fn(Register) -> f64, sizes: &mut
                     let get = |a: Register| {
                         value(a) + if moved == Some(a) { PART * size(a) } else { 0.0 }
                     };
-                    value_of(program, op, get)
+                    value_of::<_, false>(program, op, get)
                         .map_or([0.0; 2], |(x, companion)| [x, companion.unwrap_or_default()])
                 };
                 let here = at(None);

@@ -14,7 +14,7 @@ use super::parts::Parts;
 use super::program::{Block, Op, Program, Register, Singular};
 use super::solve::Factored;
 use super::underflow;
-use crate::num::{Analytic, DoubleDouble, ExtendedRange, Real};
+use crate::num::{Analytic, DoubleDouble, ExtendedRange, Kernel, Real, vectorized};
 
 /// Factors beyond 2⁹⁹⁰ overflow where a product of two parts splits them, though their product may not.
 const LARGEST_FACTOR: f64 = 1e298;
@@ -68,7 +68,7 @@ impl<R: Real> Evaluator<R> {
         for &r in &self.program.prologue {
             match self.program.ops[r as usize] {
                 Op::Parameter(i) => self.registers[r as usize] = R::of(parameters[i as usize]),
-                op => run(&self.program, &mut self.registers, r, op),
+                op => run::<_, false>(&self.program, &mut self.registers, r, op),
             }
         }
         let value = |r: Register| self.registers[r as usize].value();
@@ -198,8 +198,17 @@ struct Memory<'a, R> {
 
 impl<R: Real> Memory<'_, R> {
     /// Evaluates a range of the body of a program.
-    #[inline]
     fn interpret(
+        &mut self,
+        program: &Program,
+        time: R,
+        range: Range<usize>,
+    ) -> Result<(), Singular> {
+        vectorized(Interpreted { memory: self, program, time, range })
+    }
+
+    #[inline(always)]
+    fn interpret_with<const FUSED: bool>(
         &mut self,
         program: &Program,
         time: R,
@@ -215,10 +224,27 @@ impl<R: Real> Memory<'_, R> {
                         return Err(Singular { block: at });
                     }
                 }
-                op => run(program, registers, r, op),
+                op => run::<_, FUSED>(program, registers, r, op),
             }
         }
         Ok(())
+    }
+}
+
+/// A range of the body of a program, to be evaluated.
+struct Interpreted<'a, 'm, R> {
+    memory: &'a mut Memory<'m, R>,
+    program: &'a Program,
+    time: R,
+    range: Range<usize>,
+}
+
+impl<R: Real> Kernel for Interpreted<'_, '_, R> {
+    type Output = Result<(), Singular>;
+
+    #[inline(always)]
+    fn run<const FUSED: bool>(self) -> Result<(), Singular> {
+        self.memory.interpret_with::<FUSED>(self.program, self.time, self.range)
     }
 }
 
@@ -244,9 +270,14 @@ fn solve<R: Real>(
 
 /// Sets the register of an operation and that of its companion.
 #[inline(always)]
-fn run<R: Real>(program: &Program, registers: &mut [R], register: Register, op: Op) {
+fn run<R: Real, const FUSED: bool>(
+    program: &Program,
+    registers: &mut [R],
+    register: Register,
+    op: Op,
+) {
     let at = register as usize;
-    if let Some((value, companion)) = value_of(program, op, |r| registers[r as usize]) {
+    if let Some((value, companion)) = value_of::<_, FUSED>(program, op, |r| registers[r as usize]) {
         registers[at] = value;
         if let Some(companion) = companion {
             registers[at + 1] = companion;

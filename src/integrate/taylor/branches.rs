@@ -4,7 +4,9 @@
 
 use super::super::roots::{first_crossing, refined, value_and_slope};
 use super::last_orders::{BEFORE, FAINT, LAST};
-use crate::num::{DoubleDouble, square_root};
+use crate::num::{
+    DoubleDouble, FourLaneKernel, FourLanes, LANES, in_four_lanes, padded, square_root,
+};
 use crate::system::{ExactRates, Series};
 
 /// A root this small relative to the terms of its series is zero; the rest is rounding.
@@ -104,27 +106,38 @@ pub(super) fn may_stray(series: &Series, after: f64) -> bool {
 /// other terms together are less than the first. A root of it is the same branch there. Nothing is known of a series whose
 /// last terms vanish, which may end before its first.
 fn keeps_off_zero(c: &[f64], distance: f64) -> bool {
-    // four sums side by side, each in powers of the fourth power
-    const LANES: usize = 4;
-    let square = distance * distance;
-    let (chunks, rest) = c.as_chunks::<LANES>();
-    let mut sums = [0.0; LANES];
-    for (sum, c) in sums.iter_mut().zip(rest) {
-        *sum = c.abs();
-    }
-    for chunk in chunks.iter().rev() {
-        for lane in 0..LANES {
-            sums[lane] = sums[lane] * (square * square) + chunk[lane].abs();
-        }
-    }
-    let [zeroth, first, second, third] = sums;
     let Some(own) = c.first().map(|c| c.abs()) else { return false };
     let ends = c.iter().skip(1).rev().take(LAST + BEFORE).all(|c| c.abs() < FAINT);
     if ends || own < FAINT {
         return false;
     }
-    let rest = (zeroth - own) + distance * first + square * (second + distance * third);
-    rest < OFF_ZERO * own
+    in_four_lanes(OtherTerms { c, distance }) < OFF_ZERO * own
+}
+
+/// The sizes of all terms but the first at a distance, summed.
+struct OtherTerms<'a> {
+    c: &'a [f64],
+    distance: f64,
+}
+
+impl FourLaneKernel for OtherTerms<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn run<L: FourLanes, const FUSED: bool>(self, lanes: L) -> f64 {
+        let OtherTerms { c, distance } = self;
+        let square = distance * distance;
+        // four sums side by side, each in powers of the fourth power
+        let fourth = lanes.splat(square * square);
+        let (chunks, rest) = c.as_chunks::<LANES>();
+        let mut sums = lanes.abs(lanes.of(padded(rest, 0.0)));
+        for i in (0..chunks.len()).rev() {
+            sums = lanes.add(lanes.mul(sums, fourth), lanes.abs(lanes.of(chunks[i])));
+        }
+        let [zeroth, first, second, third] = lanes.give(sums);
+        let own = c[0].abs();
+        (zeroth - own) + distance * first + square * (second + distance * third)
+    }
 }
 
 /// Whether some root deviates from its series a time `after` the origin, in its unit, at a state

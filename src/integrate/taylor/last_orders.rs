@@ -20,7 +20,7 @@ pub(super) const FAINT: f64 = 1e-290;
 pub(super) const ROOM: usize = 64;
 
 /// The number of logarithms taken together.
-pub(super) const LANES: usize = 4;
+pub(super) const LANES: usize = crate::num::LANES;
 
 /// The number of lowest orders that are looked at first.
 pub(super) const FIRST: usize = 3;
@@ -30,6 +30,12 @@ pub(super) const CLEARLY: f64 = 1.001;
 
 /// The number of lanes for the last orders, in whole chunks. The highest order is in the last lane.
 pub(super) const WIDTH: usize = (LAST + BEFORE).next_multiple_of(LANES);
+
+/// The number of these chunks.
+pub(super) const CHUNKS: usize = WIDTH / LANES;
+
+/// A number for each of the last orders.
+pub(super) type LastOrders = [[f64; LANES]; CHUNKS];
 
 /// By how much the logarithm of the step may be longer for the k-th of p orders.
 #[inline(always)]
@@ -54,9 +60,11 @@ pub(super) fn lanes_of_last_orders(
     p: usize,
     otherwise: f64,
     of: impl Fn(usize) -> f64,
-) -> [f64; WIDTH] {
-    std::array::from_fn(|lane| {
-        let order = (p + 1 + lane).checked_sub(WIDTH);
-        order.filter(|k| last_orders(p).contains(k)).map_or(otherwise, &of)
+) -> LastOrders {
+    std::array::from_fn(|chunk| {
+        std::array::from_fn(|lane| {
+            let order = (p + 1 + LANES * chunk + lane).checked_sub(WIDTH);
+            order.filter(|k| last_orders(p).contains(k)).map_or(otherwise, &of)
+        })
     })
 }

@@ -14,10 +14,10 @@
 //! allows more is seen by multiplications.
 
 use super::last_orders::{
-    CLEARLY, LANES, ROOM, WIDTH, has_radius, lanes_of_last_orders, last_orders,
+    CHUNKS, CLEARLY, LANES, LastOrders, ROOM, WIDTH, has_radius, lanes_of_last_orders, last_orders,
 };
-use super::rough_logarithms::rough_logarithms;
-use crate::num::{Batch, math, padded};
+use super::rough_logarithms::four_logarithms;
+use crate::num::{FourLanes, math, padded};
 
 /// What the lower orders enter with for one of the last, four at once.
 #[derive(Clone, Debug)]
@@ -31,40 +31,50 @@ struct OrderBound {
 #[derive(Clone, Copy, Debug)]
 struct BoundChunk {
     /// The reciprocals of the differences of the orders.
-    reciprocals: Batch<LANES>,
+    reciprocals: [f64; LANES],
     /// What is added for the tolerance; −∞ where the order is none of those below.
-    by_tolerance: Batch<LANES>,
+    by_tolerance: [f64; LANES],
     /// What is added for the radius of convergence; −∞ where the order gives none.
-    by_radius: Batch<LANES>,
+    by_radius: [f64; LANES],
     /// With the terms a_j = |c_j| h^j at a step h, the j-th order may allow more than h only where a_j times this is
     /// no less than a_k: by the tolerance.
-    tolerance_factors: Batch<LANES>,
+    tolerance_factors: [f64; LANES],
     /// The same factor by the radius of convergence.
-    radius_factors: Batch<LANES>,
+    radius_factors: [f64; LANES],
 }
 
 /// One of the lowest orders, for all of the last at once.
 #[derive(Clone, Copy, Debug)]
 struct LowOrder {
-    reciprocals: Batch<WIDTH>,
-    by_tolerance: Batch<WIDTH>,
-    by_radius: Batch<WIDTH>,
+    reciprocals: LastOrders,
+    by_tolerance: LastOrders,
+    by_radius: LastOrders,
 }
 
 /// The logarithms of the steps that the lowest orders allow, one for each of the last orders. Other orders may allow more.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LowestBounds {
-    by_tolerance: Batch<WIDTH>,
+    by_tolerance: LastOrders,
     /// By the tolerance and by the radius of convergence.
-    pub(super) logs: Batch<WIDTH>,
+    pub(super) logs: LastOrders,
+    /// The least of them, and its place.
+    pub(super) least: f64,
+    place: usize,
 }
 
 impl LowestBounds {
     /// Those of a series too short to have these orders: nothing is known to be allowed.
     const NOTHING: LowestBounds = LowestBounds {
-        by_tolerance: Batch([f64::NEG_INFINITY; WIDTH]),
-        logs: Batch([f64::NEG_INFINITY; WIDTH]),
+        by_tolerance: [[f64::NEG_INFINITY; LANES]; CHUNKS],
+        logs: [[f64::NEG_INFINITY; LANES]; CHUNKS],
+        least: f64::NEG_INFINITY,
+        place: 0,
     };
+
+    /// That in a lane.
+    pub(super) fn bound(&self, lane: usize) -> f64 {
+        self.logs[lane / LANES][lane % LANES]
+    }
 }
 
 /// The bounds at one tolerance and order.
@@ -72,7 +82,7 @@ impl LowestBounds {
 pub(super) struct OrderBounds {
     bounds: Vec<OrderBound>,
     lowest: [LowOrder; LANES],
-    indulgences: Batch<WIDTH>,
+    indulgences: LastOrders,
 }
 
 impl OrderBounds {
@@ -86,7 +96,7 @@ impl OrderBounds {
     ) -> OrderBounds {
         let only = |known: bool, x: f64| if known { x } else { f64::NEG_INFINITY };
         let chunk = |k: usize, first: usize| {
-            let lanes = |of: &dyn Fn(usize) -> f64| Batch(std::array::from_fn(|i| of(first + i)));
+            let lanes = |of: &dyn Fn(usize) -> f64| std::array::from_fn(|i| of(first + i));
             let factor = |j: usize, log: f64| {
                 CLEARLY * math::exp(k.saturating_sub(j).max(1) as f64 * (log + indulgence(k)))
             };
@@ -105,66 +115,91 @@ impl OrderBounds {
         };
         let bounds: Vec<OrderBound> = last_orders(order).map(bound).collect();
         let first = |k: usize| &bounds[k - *last_orders(order).start()].chunks[0];
-        let low = |otherwise: f64, of: &dyn Fn(usize) -> f64| {
-            Batch(lanes_of_last_orders(order, otherwise, of))
-        };
+        let low =
+            |otherwise: f64, of: &dyn Fn(usize) -> f64| lanes_of_last_orders(order, otherwise, of);
         // an order that does not enter, and a radius that is not known, allow anything
         let any = f64::INFINITY;
-        let radius = |j: usize, k: usize| if has_radius(k) { first(k).by_radius.0[j] } else { any };
+        let radius = |j: usize, k: usize| if has_radius(k) { first(k).by_radius[j] } else { any };
         let lowest = std::array::from_fn(|j| LowOrder {
-            reciprocals: low(0.0, &|k| first(k).reciprocals.0[j]),
-            by_tolerance: low(any, &|k| first(k).by_tolerance.0[j]),
+            reciprocals: low(0.0, &|k| first(k).reciprocals[j]),
+            by_tolerance: low(any, &|k| first(k).by_tolerance[j]),
             by_radius: low(any, &|k| radius(j, k)),
         });
-        let indulgences = Batch(lanes_of_last_orders(order, 0.0, indulgence));
+        let indulgences = lanes_of_last_orders(order, 0.0, indulgence);
         OrderBounds { bounds, lowest, indulgences }
     }
 
     /// What the lowest orders of a series allow.
     #[inline(always)]
-    pub(super) fn of_lowest(&self, coefficients: &[f64]) -> LowestBounds {
+    pub(super) fn of_lowest<L: FourLanes>(&self, lanes: L, coefficients: &[f64]) -> LowestBounds {
         let (low, own) = (coefficients.first_chunk::<LANES>(), coefficients.last_chunk::<WIDTH>());
         let (Some(low), Some(own)) = (low, own) else { return LowestBounds::NOTHING };
-        let (low, own) = (Batch(*low).abs(), Batch(*own).abs());
-        let (low, own) = (rough_logarithms(low.0), Batch(rough_logarithms(own.0)));
-        let mut by_tolerance = Batch([f64::NEG_INFINITY; WIDTH]);
-        let mut by_radius = by_tolerance;
-        for j in 0..LANES {
-            let (order, log) = (&self.lowest[j], low[j]);
-            let root = (Batch::splat(log) - own) * order.reciprocals;
-            by_tolerance = by_tolerance.larger(root + order.by_tolerance);
-            by_radius = by_radius.larger(root + order.by_radius);
+        let low = lanes.give(four_logarithms(lanes, lanes.abs(lanes.of(*low))));
+        let (infinite, none) = (lanes.splat(f64::INFINITY), lanes.splat(f64::NEG_INFINITY));
+        let mut found = LowestBounds::NOTHING;
+        let mut least = infinite;
+        let mut bounds = [infinite; CHUNKS];
+        let own = own.as_chunks::<LANES>().0;
+        // by places, since what is given to an iterator is not always inlined
+        for i in 0..CHUNKS {
+            let own = four_logarithms(lanes, lanes.abs(lanes.of(own[i])));
+            let (mut by_tolerance, mut by_radius) = (none, none);
+            for j in 0..LANES {
+                let order = &self.lowest[j];
+                let apart = lanes.sub(lanes.splat(low[j]), own);
+                let root = lanes.mul(apart, lanes.of(order.reciprocals[i]));
+                let allowed = lanes.add(root, lanes.of(order.by_tolerance[i]));
+                by_tolerance = lanes.larger(by_tolerance, allowed);
+                // the first two say nothing of the radius
+                if j >= 2 {
+                    let allowed = lanes.add(root, lanes.of(order.by_radius[i]));
+                    by_radius = lanes.larger(by_radius, allowed);
+                }
+            }
+            let indulgences = lanes.of(self.indulgences[i]);
+            let logs = lanes.add(lanes.smaller(by_tolerance, by_radius), indulgences);
+            // a coefficient that vanishes allows anything
+            let logs = lanes.where_below(own, lanes.splat(f64::MIN), infinite, logs);
+            found.by_tolerance[i] = lanes.give(lanes.add(by_tolerance, indulgences));
+            found.logs[i] = lanes.give(logs);
+            bounds[i] = logs;
+            least = lanes.smaller(least, logs);
         }
-        // a coefficient that vanishes allows anything
-        let any = Batch([f64::INFINITY; WIDTH]);
-        let logs = by_tolerance.smaller(by_radius) + self.indulgences;
-        let logs = own.where_equal(f64::NEG_INFINITY, any, logs);
-        LowestBounds { by_tolerance: by_tolerance + self.indulgences, logs }
+        found.least = lanes.least(least);
+        let (all, mut equal) = (lanes.splat(found.least), 0);
+        for i in 0..CHUNKS {
+            equal |= lanes.equal(bounds[i], all) << (LANES * i);
+        }
+        found.place = equal.trailing_zeros() as usize;
+        found
     }
 
     /// Whether the least of these bounds is the step that all orders allow, whose powers are given.
     #[inline(always)]
-    pub(super) fn is_decided(
+    pub(super) fn is_decided<L: FourLanes>(
         &self,
+        lanes: L,
         lowest: &LowestBounds,
         coefficients: &[f64],
         powers: &[f64; ROOM],
     ) -> bool {
-        let lane = lowest.logs.place_of_least();
-        let Some(bound) = self.in_lane(lane) else { return false };
+        let place = lowest.place;
+        let Some(bound) = self.in_lane(place) else { return false };
         let own = coefficients[bound.order].abs() * powers[bound.order];
-        let by_tolerance = lowest.logs.0[lane] == lowest.by_tolerance.0[lane];
+        let (chunk, lane) = (place / LANES, place % LANES);
+        let by_tolerance = lowest.logs[chunk][lane] == lowest.by_tolerance[chunk][lane];
         let (chunks, rest) = coefficients.as_chunks::<LANES>();
-        let last = padded(rest, 0.0);
         let powers = powers.as_chunks::<LANES>().0;
-        let mut are_smaller = true;
+        let (all, mut most) = (lanes.splat(own), lanes.splat(0.0));
         for i in 1..bound.chunks.len() {
-            let (chunk, lower) = (&bound.chunks[i], chunks.get(i).unwrap_or(&last));
-            let factors = if by_tolerance { chunk.tolerance_factors } else { chunk.radius_factors };
-            let terms = Batch(*lower).abs() * Batch(powers[i]) * factors;
-            are_smaller &= Batch::splat(own).all_above(terms);
+            let chunk = &bound.chunks[i];
+            let lower = if i < chunks.len() { chunks[i] } else { padded(rest, 0.0) };
+            let factors =
+                if by_tolerance { &chunk.tolerance_factors } else { &chunk.radius_factors };
+            let terms = lanes.mul(lanes.abs(lanes.of(lower)), lanes.of(powers[i]));
+            most = lanes.larger(most, lanes.mul(terms, lanes.of(*factors)));
         }
-        own.is_normal() && are_smaller
+        own.is_normal() && lanes.above(all, most) == lanes.all_lanes()
     }
 
     #[inline(always)]
@@ -175,22 +210,25 @@ impl OrderBounds {
     /// The logarithm of the step that the order in a lane of [`lanes_of_last_orders`](super::last_orders::lanes_of_last_orders)
     /// allows, infinite for one that does not enter. A coefficient that vanishes has the logarithm −∞.
     #[inline(always)]
-    pub(super) fn of_lane(&self, lane: usize, logs: &[f64; ROOM]) -> f64 {
+    pub(super) fn of_lane<L: FourLanes>(&self, lanes: L, lane: usize, logs: &[f64; ROOM]) -> f64 {
         let Some(bound) = self.in_lane(lane) else { return f64::INFINITY };
         let own = logs[bound.order];
         if own == f64::NEG_INFINITY {
             // a coefficient that vanishes allows anything
             return f64::INFINITY;
         }
-        let own = Batch::splat(own);
-        let mut by_tolerance = Batch([f64::NEG_INFINITY; LANES]);
-        let mut by_radius = by_tolerance;
-        for (chunk, logs) in bound.chunks.iter().zip(logs.as_chunks::<LANES>().0) {
-            let root = (Batch(*logs) - own) * chunk.reciprocals;
-            by_tolerance = by_tolerance.larger(root + chunk.by_tolerance);
-            by_radius = by_radius.larger(root + chunk.by_radius);
+        let own = lanes.splat(own);
+        let none = lanes.splat(f64::NEG_INFINITY);
+        let (mut by_tolerance, mut by_radius) = (none, none);
+        let logs = logs.as_chunks::<LANES>().0;
+        for i in 0..bound.chunks.len() {
+            let chunk = &bound.chunks[i];
+            let root = lanes.mul(lanes.sub(lanes.of(logs[i]), own), lanes.of(chunk.reciprocals));
+            let allowed = lanes.add(root, lanes.of(chunk.by_tolerance));
+            by_tolerance = lanes.larger(by_tolerance, allowed);
+            by_radius = lanes.larger(by_radius, lanes.add(root, lanes.of(chunk.by_radius)));
         }
-        let (by_tolerance, by_radius) = (by_tolerance.largest(), by_radius.largest());
+        let (by_tolerance, by_radius) = (lanes.largest(by_tolerance), lanes.largest(by_radius));
         let no_radius = by_radius == f64::NEG_INFINITY;
         let log = if no_radius { by_tolerance } else { by_tolerance.min(by_radius) };
         log + bound.indulgence

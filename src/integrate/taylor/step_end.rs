@@ -77,6 +77,42 @@ impl StepEnd {
 }
 
 impl Taylor {
+    /// Takes a step that may be this long, with `left` to go to the limit, where nothing can happen on the way: there are no
+    /// kinks and no steep powers, no root may leave its branch, and the steps do not vanish. Returns false elsewhere.
+    pub(super) fn take_plain_step(
+        &mut self,
+        step: f64,
+        (left, limit): (DoubleDouble, f64),
+    ) -> Result<bool, MotionError> {
+        let (time, scale) = (self.state.time.abs(), self.series.scale());
+        let may_turn = self.series.switches() > 0 || self.series.is_steep();
+        if may_turn || step <= SMALLEST * time || self.vanishes(step) {
+            return Ok(false);
+        }
+        let last = step >= left.high.abs();
+        let after = if last { left } else { DoubleDouble::from(step.copysign(left.high)) };
+        if branches::may_stray(&self.series, after.high / scale) {
+            return Ok(false);
+        }
+        self.begin = self.state.time;
+        self.series.state_after(after, &mut self.state);
+        let size = after.high.abs();
+        self.history.passed_plainly(size);
+        if last {
+            self.state.time = limit;
+        } else {
+            self.history.unit.take(size, step, left.high);
+        }
+        self.system.check_finite(&self.state)?;
+        Ok(true)
+    }
+
+    /// Whether a step is so short that it ends at a point where a series has no radius of convergence.
+    fn vanishes(&self, step: f64) -> bool {
+        let part = if self.exact { VANISHING } else { VANISHING_IN_F64 };
+        step < part * self.history.stride || step < SOON_STALLED * self.state.time.abs()
+    }
+
     /// Where a step ends that may be this long, with `left` to go; `None` if another kind of step was taken instead.
     pub(super) fn end_of_step(
         &mut self,
@@ -85,8 +121,7 @@ impl Taylor {
     ) -> Result<Option<StepEnd>, MotionError> {
         let time = self.state.time.abs();
         let scale = self.series.scale();
-        let part = if self.exact { VANISHING } else { VANISHING_IN_F64 };
-        let vanishing = step < part * self.history.stride || step < SOON_STALLED * time;
+        let vanishing = self.vanishes(step);
         let last = step >= left.high.abs();
         let after = if last { left } else { DoubleDouble::from(step.copysign(left.high)) };
         // what makes the steps vanish lies a little farther than they reach

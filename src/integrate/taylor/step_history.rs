@@ -62,6 +62,12 @@ impl StepHistory {
         leads_away
     }
 
+    /// Records a step of this size on whose way nothing could happen.
+    pub(super) fn passed_plainly(&mut self, size: f64) {
+        (self.is_leaving, self.is_passing) = (false, false);
+        self.stepped(size, false, false);
+    }
+
     /// Counts a collocation step at a time. Returns false if these no longer advance the time.
     pub(super) fn count_leap(&mut self, time: f64, left: f64) -> bool {
         self.leaps.0 += 1;

@@ -5,9 +5,10 @@
 //! finds no shorter one; "not surely" decides nothing. Never here: the rule, its constants.
 
 use super::last_orders::{
-    CLEARLY, FAINT, FIRST, LANES, ROOM, WIDTH, has_radius, indulgence_of, lanes_of_last_orders,
+    CHUNKS, CLEARLY, FAINT, FIRST, LANES, LastOrders, ROOM, WIDTH, has_radius, indulgence_of,
+    lanes_of_last_orders,
 };
-use crate::num::{Batch, math};
+use crate::num::{FourLanes, math};
 
 /// With the terms a_j = |c_j| h^j at a step h, the bound of the j-th order on the k-th is no shorter
 /// than h where a_j times a constant is no less than a_k. The lowest orders mostly suffice.
@@ -16,11 +17,11 @@ pub(super) struct StepScreen {
     /// The order in the first lane.
     first: usize,
     /// The constants of the tolerance, for the j-th order.
-    by_tolerance: [Batch<WIDTH>; FIRST],
+    by_tolerance: [LastOrders; FIRST],
     /// Those of the radius of convergence, for the order j + 2; zero where that gives none.
-    by_radius: [Batch<WIDTH>; FIRST],
+    by_radius: [LastOrders; FIRST],
     /// Zero for an order that does not enter, else one.
-    entering: Batch<WIDTH>,
+    entering: LastOrders,
 }
 
 impl StepScreen {
@@ -42,52 +43,82 @@ impl StepScreen {
         StepScreen {
             first: order + 1 - WIDTH,
             by_tolerance: std::array::from_fn(|j| {
-                Batch(lanes_of_last_orders(order, 0.0, |k| constant(j, k, table[j])))
+                lanes_of_last_orders(order, 0.0, |k| constant(j, k, table[j]))
             }),
             by_radius: std::array::from_fn(|j| {
-                Batch(lanes_of_last_orders(order, 0.0, |k| by_radius(j + 2, k)))
+                lanes_of_last_orders(order, 0.0, |k| by_radius(j + 2, k))
             }),
-            entering: Batch(lanes_of_last_orders(order, 0.0, |_| 1.0)),
+            entering: lanes_of_last_orders(order, 0.0, |_| 1.0),
         }
     }
 
     /// Whether all of the last orders of a series surely allow the step whose powers are given.
     #[inline(always)]
-    pub(super) fn passes(&self, coefficients: &[f64], powers: &[f64; ROOM]) -> bool {
+    pub(super) fn passes<L: FourLanes>(
+        &self,
+        lanes: L,
+        coefficients: &[f64],
+        powers: &[f64; ROOM],
+    ) -> bool {
         let last = powers[self.first..].first_chunk::<WIDTH>();
-        let (Some(&own), Some(&powers_of_last)) = (coefficients.last_chunk::<WIDTH>(), last) else {
+        let (Some(own), Some(last)) = (coefficients.last_chunk::<WIDTH>(), last) else {
             return false;
         };
-        let low = |j: usize| {
-            let c = coefficients[j].abs();
-            Batch::splat(if c < FAINT { 0.0 } else { c * powers[j] })
-        };
-        let own = Batch(own).abs() * self.entering;
-        // a coefficient that vanishes allows anything
-        let terms = own.where_below(FAINT, Batch([-1.0; WIDTH]), own * Batch(powers_of_last));
-        let mut by_tolerance = low(0) * self.by_tolerance[0];
-        let mut by_radius = low(2) * self.by_radius[0];
+        let (own, last) = (own.as_chunks::<LANES>().0, last.as_chunks::<LANES>().0);
+        let (faint, vanishing) = (lanes.splat(FAINT), lanes.splat(-1.0));
+        let (first, second) =
+            (low(lanes, coefficients, powers, 0), low(lanes, coefficients, powers, 2));
+        let mut terms = [vanishing; CHUNKS];
+        let mut passing = lanes.all_lanes();
+        // by places, since what is given to an iterator is not always inlined
+        for i in 0..CHUNKS {
+            let own = lanes.mul(lanes.abs(lanes.of(own[i])), lanes.of(self.entering[i]));
+            let term = lanes.mul(own, lanes.of(last[i]));
+            // a coefficient that vanishes allows anything
+            terms[i] = lanes.where_below(own, faint, vanishing, term);
+            let by_tolerance = lanes.mul(first, lanes.of(self.by_tolerance[0][i]));
+            let by_radius = lanes.mul(second, lanes.of(self.by_radius[0][i]));
+            passing &= lanes.above(lanes.smaller(by_tolerance, by_radius), terms[i]);
+        }
         // one order of each is mostly enough
-        if by_tolerance.smaller(by_radius).all_above(terms) {
+        if passing == lanes.all_lanes() {
             return true;
         }
-        for j in 1..FIRST {
-            by_tolerance = by_tolerance.larger(low(j) * self.by_tolerance[j]);
-            by_radius = by_radius.larger(low(j + 2) * self.by_radius[j]);
+        for i in 0..CHUNKS {
+            let mut by_tolerance = lanes.mul(first, lanes.of(self.by_tolerance[0][i]));
+            let mut by_radius = lanes.mul(second, lanes.of(self.by_radius[0][i]));
+            for j in 1..FIRST {
+                let own = low(lanes, coefficients, powers, j);
+                by_tolerance =
+                    lanes.larger(by_tolerance, lanes.mul(own, lanes.of(self.by_tolerance[j][i])));
+                let own = low(lanes, coefficients, powers, j + 2);
+                by_radius = lanes.larger(by_radius, lanes.mul(own, lanes.of(self.by_radius[j][i])));
+            }
+            let allowed = lanes.smaller(by_tolerance, by_radius);
+            if lanes.above(allowed, terms[i]) != lanes.all_lanes() {
+                return false;
+            }
         }
-        by_tolerance.smaller(by_radius).all_above(terms)
+        true
     }
+}
+
+/// The term of one of the lowest orders in all lanes, zero where it is an underflow.
+#[inline(always)]
+fn low<L: FourLanes>(lanes: L, coefficients: &[f64], powers: &[f64; ROOM], j: usize) -> L::Numbers {
+    let c = coefficients[j].abs();
+    lanes.splat(if c < FAINT { 0.0 } else { c * powers[j] })
 }
 
 /// The powers of a step up to one of this order, several at once; the others stay as they are.
 #[inline(always)]
-pub(super) fn set_powers(powers: &mut [f64; ROOM], h: f64, order: usize) {
+pub(super) fn set_powers<L: FourLanes>(lanes: L, powers: &mut [f64; ROOM], h: f64, order: usize) {
     let square = h * h;
-    let mut next = [1.0, h, square, square * h];
-    for chunk in &mut powers.as_chunks_mut::<LANES>().0[..=order / LANES] {
-        *chunk = next;
-        for power in &mut next {
-            *power *= square * square;
-        }
+    let mut next = lanes.of([1.0, h, square, square * h]);
+    let fourth = lanes.splat(square * square);
+    let chunks = &mut powers.as_chunks_mut::<LANES>().0[..=order / LANES];
+    for i in 0..chunks.len() {
+        chunks[i] = lanes.give(next);
+        next = lanes.mul(next, fourth);
     }
 }

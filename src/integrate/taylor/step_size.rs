@@ -13,10 +13,10 @@ use super::argument_step::{
     FARTHEST_ARGUMENT, before_pole, may_pass_pole, of_argument, of_steep_pole,
 };
 use super::last_orders::{INDULGENCE, ROOM, WIDTH, indulgence_of};
-use super::order_bounds::OrderBounds;
+use super::order_bounds::{LowestBounds, OrderBounds};
 use super::rough_logarithms::{logarithms, rough_exponential};
 use super::step_screen::{StepScreen, set_powers};
-use crate::num::{Kernel, math, vectorized};
+use crate::num::{FourLaneKernel, FourLanes, in_four_lanes, math};
 use crate::system::Series;
 
 /// Below this tolerance the lowest orders are built in double-double.
@@ -81,7 +81,7 @@ impl StepSize {
         if !series.is_finite() {
             return None;
         }
-        let mut shortest = vectorized(ByCoefficients { rule: self, series });
+        let mut shortest = in_four_lanes(ByCoefficients { rule: self, series });
         for (function, u, log_size) in series.arguments() {
             if may_pass_pole(function) {
                 shortest = shortest.min(before_pole(u));
@@ -101,24 +101,29 @@ impl StepSize {
 
     /// The step that the coefficients allow, which are finite.
     #[inline(always)]
-    fn by_coefficients(&mut self, series: &Series) -> f64 {
+    fn by_coefficients<L: FourLanes>(&mut self, lanes: L, series: &Series) -> f64 {
         let StepSize { motion, integrals: spared, least } = self;
         let mut shortest = ShortestStep::new();
-        let (first, inputs) = (*least, series.inputs());
-        if first < inputs {
-            shortest.take(series.coefficients(first), motion);
-        }
-        for i in 0..inputs {
-            if i != first && shortest.take(series.coefficients(i), motion) {
+        let (inputs, switches) = (series.inputs(), series.switches());
+        let first = *least;
+        // in one loop, so that there is one copy of what it does
+        for place in 0..series.len() + switches {
+            let i = match place {
+                0 => first,
+                place if place <= first => place - 1,
+                place => place,
+            };
+            // the numbers, the switches, the integrals
+            let (coefficients, shares) = if i < inputs {
+                (series.coefficients(i), &*motion)
+            } else if i < inputs + switches {
+                (series.switch(i - inputs), &*motion)
+            } else {
+                (series.coefficients(i - switches), &*spared)
+            };
+            if shortest.take(lanes, coefficients, shares) && i < inputs {
                 *least = i;
             }
-        }
-        for i in 0..series.switches() {
-            shortest.take(series.switch(i), motion);
-        }
-        // the integrals
-        for i in inputs..series.len() {
-            shortest.take(series.coefficients(i), spared);
         }
         shortest.step()
     }
@@ -147,29 +152,23 @@ impl ShortestStep {
     /// A test by multiplications tells whether its last orders surely allow the step found so far. If not, what the lowest
     /// orders allow mostly decides; only where it does not, all are asked.
     #[inline(always)]
-    fn take(&mut self, coefficients: &[f64], shares: &Shares) -> bool {
-        if self.log < f64::INFINITY && shares.screen.passes(coefficients, &self.powers) {
+    fn take<L: FourLanes>(&mut self, lanes: L, coefficients: &[f64], shares: &Shares) -> bool {
+        if self.log < f64::INFINITY && shares.screen.passes(lanes, coefficients, &self.powers) {
             return false;
         }
-        let lowest = shares.bounds.of_lowest(coefficients);
-        let log = lowest.logs.least();
+        let lowest = shares.bounds.of_lowest(lanes, coefficients);
+        let log = lowest.least;
         if log >= self.log {
             return false;
         }
-        set_powers(&mut self.powers, rough_exponential(log), shares.order);
-        if shares.bounds.is_decided(&lowest, coefficients, &self.powers) {
+        set_powers(lanes, &mut self.powers, rough_exponential(log), shares.order);
+        if shares.bounds.is_decided(lanes, &lowest, coefficients, &self.powers) {
             self.log = log;
             return true;
         }
         let before = self.log;
-        let mut logs = [f64::NEG_INFINITY; ROOM];
-        logarithms(coefficients, &mut logs);
-        for lane in 0..WIDTH {
-            if lowest.logs.0[lane] < self.log {
-                self.log = self.log.min(shares.bounds.of_lane(lane, &logs));
-            }
-        }
-        set_powers(&mut self.powers, rough_exponential(self.log), shares.order);
+        self.log = shares.of_all(lanes, coefficients, &lowest, before);
+        set_powers(lanes, &mut self.powers, rough_exponential(self.log), shares.order);
         self.log < before
     }
 }
@@ -180,12 +179,12 @@ struct ByCoefficients<'a> {
     series: &'a Series,
 }
 
-impl Kernel for ByCoefficients<'_> {
+impl FourLaneKernel for ByCoefficients<'_> {
     type Output = f64;
 
     #[inline(always)]
-    fn run<const FUSED: bool>(self) -> f64 {
-        self.rule.by_coefficients(self.series)
+    fn run<L: FourLanes, const FUSED: bool>(self, lanes: L) -> f64 {
+        self.rule.by_coefficients(lanes, self.series)
     }
 }
 
@@ -234,6 +233,26 @@ impl Shares {
         indulgence_of(self.log_indulgence, k, p)
     }
 
+    /// The logarithm of the step that all orders allow, or `before` where that is less; the lowest allow as much as is said.
+    #[inline(always)]
+    fn of_all<L: FourLanes>(
+        &self,
+        lanes: L,
+        coefficients: &[f64],
+        lowest: &LowestBounds,
+        before: f64,
+    ) -> f64 {
+        let mut logs = [f64::NEG_INFINITY; ROOM];
+        logarithms(lanes, coefficients, &mut logs);
+        let mut least = before;
+        for lane in 0..WIDTH {
+            if lowest.bound(lane) < least {
+                least = least.min(self.bounds.of_lane(lanes, lane, &logs));
+            }
+        }
+        least
+    }
+
     fn new(tolerance: f64, order: usize) -> Shares {
         let log = math::ln(tolerance);
         let mut table = [f64::NEG_INFINITY; ROOM];
@@ -257,6 +276,7 @@ pub(super) fn reciprocals(k: usize) -> &'static [f64] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::num::Separately;
 
     /// A series whose terms grow by a factor from one to the next.
     fn geometric(ratio: f64) -> Vec<f64> {
@@ -266,8 +286,8 @@ mod tests {
     /// The logarithm of the step that a series allows, with every order asked.
     fn of_one(coefficients: &[f64], shares: &Shares) -> f64 {
         let mut logs = [f64::NEG_INFINITY; ROOM];
-        logarithms(coefficients, &mut logs);
-        let of_lane = |lane| shares.bounds.of_lane(lane, &logs);
+        logarithms(Separately, coefficients, &mut logs);
+        let of_lane = |lane| shares.bounds.of_lane(Separately, lane, &logs);
         (0..WIDTH).map(of_lane).fold(f64::INFINITY, f64::min)
     }
 
@@ -302,17 +322,18 @@ mod tests {
                     let mut with = ShortestStep::new();
                     let mut without = f64::INFINITY;
                     for series in (0..4).map(|i| noisy(4 * seed + i, order)) {
-                        let shorter = with.take(&series, &shares);
+                        let shorter = with.take(Separately, &series, &shares);
                         let found = of_one(&series, &shares);
                         assert_eq!(shorter, found < without, "{series:?}");
                         without = without.min(found);
-                        passed += usize::from(shares.screen.passes(&series, &with.powers));
-                        let lowest = shares.bounds.of_lowest(&series);
-                        let log = lowest.logs.least();
+                        passed +=
+                            usize::from(shares.screen.passes(Separately, &series, &with.powers));
+                        let lowest = shares.bounds.of_lowest(Separately, &series);
+                        let log = lowest.least;
                         assert!(log <= found, "{series:?}");
                         let mut powers = [f64::NAN; ROOM];
-                        set_powers(&mut powers, rough_exponential(log), order);
-                        let known = shares.bounds.is_decided(&lowest, &series, &powers);
+                        set_powers(Separately, &mut powers, rough_exponential(log), order);
+                        let known = shares.bounds.is_decided(Separately, &lowest, &series, &powers);
                         assert!(!known || log == found, "{series:?}");
                         decided += usize::from(known);
                     }

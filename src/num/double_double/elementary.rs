@@ -3,7 +3,7 @@
 
 use super::DoubleDouble;
 use crate::num::convolution::{DoubleLanes, InnerProducts, LANES};
-use crate::num::instruction_set::Kernel;
+use crate::num::instruction_set::{Kernel, vectorized};
 use crate::num::math;
 use crate::num::real::{Analytic, Real};
 
@@ -110,18 +110,42 @@ impl DoubleDouble {
 
     /// Sine and cosine of an argument up to π/4, by their series.
     fn sin_cos_reduced(self) -> (DoubleDouble, DoubleDouble) {
-        let square = self * self;
-        let sine = square * even_series(&SINE, &SINE_TAIL, square);
-        let cosine = square * even_series(&COSINE, &COSINE_TAIL, square);
-        (self + self * sine, DoubleDouble::ONE + cosine)
+        vectorized(SinCosReduced(self))
     }
 }
 
-/// `Σ first_j x^j + Σ tail_j x^{j + n}`, where n is the number of `first`.
-fn even_series(first: &[DoubleDouble], tail: &[f64], x: DoubleDouble) -> DoubleDouble {
-    let rest = tail.iter().rev().fold(0.0, |sum, c| sum * x.high + c) * x.high;
-    let (last, before) = first.split_last().unwrap_or((&DoubleDouble::ZERO, &[]));
-    before.iter().rev().fold(*last + DoubleDouble::from(rest), |sum, &c| sum * x + c)
+/// The kernel of [`DoubleDouble::sin_cos_reduced`], whose products take a fused multiply-add each.
+struct SinCosReduced(DoubleDouble);
+
+impl Kernel for SinCosReduced {
+    type Output = (DoubleDouble, DoubleDouble);
+
+    #[inline(always)]
+    fn run<const FUSED: bool>(self) -> (DoubleDouble, DoubleDouble) {
+        let x = self.0;
+        let square = x.times::<FUSED>(x);
+        let sine = square.times::<FUSED>(even_series::<FUSED>(&SINE, &SINE_TAIL, square));
+        let cosine = square.times::<FUSED>(even_series::<FUSED>(&COSINE, &COSINE_TAIL, square));
+        (x + x.times::<FUSED>(sine), DoubleDouble::ONE + cosine)
+    }
+}
+
+/// `Σ first_j x^j + Σ tail_j x^{j + 8}`.
+#[inline(always)]
+fn even_series<const FUSED: bool>(
+    first: &[DoubleDouble; 8],
+    tail: &[f64; 5],
+    x: DoubleDouble,
+) -> DoubleDouble {
+    let mut rest = 0.0;
+    for j in (0..tail.len()).rev() {
+        rest = rest * x.high + tail[j];
+    }
+    let mut sum = first[first.len() - 1] + DoubleDouble::from(rest * x.high);
+    for j in (0..first.len() - 1).rev() {
+        sum = sum.times::<FUSED>(x) + first[j];
+    }
+    sum
 }
 
 impl Real for DoubleDouble {

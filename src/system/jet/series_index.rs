@@ -14,6 +14,8 @@ pub(super) struct SeriesIndex {
     /// Those that are copies of registers, each with its place among all. The factors of a parametric power are stored
     /// nowhere else.
     pub(super) copies: Vec<(Register, u32)>,
+    /// The functions that are not constant, each with its argument.
+    pub(super) arguments: Vec<(FunctionId, Register)>,
     /// The bases of high negative powers.
     pub(super) steep_poles: Vec<SteepPole>,
     /// For each register of the program, its place among these; [`NOWHERE`] if it has none.
@@ -90,7 +92,13 @@ impl SeriesIndex {
         }
         let copies = (0..).zip(&registers).filter(|&(_, &register)| !factors[register as usize]);
         let copies = copies.map(|(place, &register)| (register, place)).collect();
-        SeriesIndex { registers, copies, steep_poles, places }
+        let calls = program.body.iter().map(|&r| program.ops[r as usize]);
+        let arguments = calls.filter_map(|op| match op {
+            Op::Call(function, [argument, _]) => Some((function, argument)),
+            _ => None,
+        });
+        let arguments = arguments.collect();
+        SeriesIndex { registers, copies, arguments, steep_poles, places }
     }
 
     /// Where the series of a register begins, if they are `stride` apart.

@@ -9,6 +9,7 @@ use super::operands::Operands;
 use super::orders::{Coefficient, Elimination, Orders};
 use super::series_index::SeriesIndex;
 use super::side::Side;
+use crate::num::{Kernel, vectorized};
 use crate::system::operation::value_of;
 use crate::system::program::{Block, Op, Program, Register, Singular};
 use crate::system::schedule::Schedule;
@@ -91,6 +92,16 @@ impl<R: Coefficient> Tables<R> {
         time: R,
         range: Range<usize>,
     ) -> Result<(), Singular> {
+        vectorized(Begun { tables: self, program, time, range })
+    }
+
+    #[inline(always)]
+    fn begin_with<const FUSED: bool>(
+        &mut self,
+        program: &Program,
+        time: R,
+        range: Range<usize>,
+    ) -> Result<(), Singular> {
         for &r in &program.body[range] {
             match program.ops[r as usize] {
                 Op::Time => self.rows[r as usize] = time,
@@ -104,7 +115,7 @@ impl<R: Coefficient> Tables<R> {
                     self.blocks[block as usize].solve(solution);
                     self.rows[r as usize..][..block_of.size()].copy_from_slice(solution);
                 }
-                op => self.evaluate(program, r, op),
+                op => self.evaluate_with::<FUSED>(program, r, op),
             }
         }
         Ok(())
@@ -112,10 +123,17 @@ impl<R: Coefficient> Tables<R> {
 
     /// Sets the value of an operation.
     pub(super) fn evaluate(&mut self, program: &Program, r: Register, op: Op) {
+        self.evaluate_with::<false>(program, r, op);
+    }
+
+    #[inline(always)]
+    fn evaluate_with<const FUSED: bool>(&mut self, program: &Program, r: Register, op: Op) {
         if let Op::Select { .. } | Op::ParametricPower(..) = op {
             let value = R::alone(&mut self.orders(), program, r, 0);
             self.rows[r as usize] = value;
-        } else if let Some((value, companion)) = value_of(program, op, |r| self.rows[r as usize]) {
+        } else if let Some((value, companion)) =
+            value_of::<_, FUSED>(program, op, |r| self.rows[r as usize])
+        {
             self.rows[r as usize] = value;
             if let Some(companion) = companion {
                 self.rows[r as usize + 1] = companion;
@@ -128,5 +146,23 @@ impl<R: Coefficient> Tables<R> {
         let n = block.size();
         let entry = |i, j| self.rows[block.matrix[i * n + j] as usize];
         if self.blocks[at].factor(entry) { Ok(()) } else { Err(Singular { block: at as u32 }) }
+    }
+}
+
+/// A range of the body of a program, to be evaluated at order 0.
+struct Begun<'a, R: Coefficient> {
+    tables: &'a mut Tables<R>,
+    program: &'a Program,
+    time: R,
+    range: Range<usize>,
+}
+
+impl<R: Coefficient> Kernel for Begun<'_, R> {
+    type Output = Result<(), Singular>;
+    const OF_SEVERAL: bool = R::OF_SEVERAL;
+
+    #[inline(always)]
+    fn run<const FUSED: bool>(self) -> Result<(), Singular> {
+        self.tables.begin_with::<FUSED>(self.program, self.time, self.range)
     }
 }

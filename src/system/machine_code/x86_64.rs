@@ -14,6 +14,7 @@ mod function;
 mod growth;
 mod layout;
 mod plain;
+mod product_loops;
 mod solution;
 mod values;
 

@@ -9,6 +9,7 @@
 use super::basic_block::{BasicBlock, MachineInstruction, Operand, Value, Width};
 use super::encoding::{Bytes, Source, Vector};
 use super::layout::{Address, Area};
+use super::product_loops::{self, ProductLoops};
 
 /// The number of vector registers.
 const REGISTERS: usize = 16;
@@ -28,6 +29,7 @@ struct Location {
 
 struct Allocator {
     bytes: Bytes,
+    loops: ProductLoops,
     places: Vec<Location>,
     registers: [Option<Value>; REGISTERS],
     /// The registers that the current instruction reads.
@@ -44,6 +46,7 @@ pub(super) fn assemble(block: &BasicBlock, room: usize, slot: usize) -> (Vec<u8>
     let places = first.into_iter().map(|next| Location { next, ..Location::default() }).collect();
     let mut allocator = Allocator {
         bytes: Bytes::default(),
+        loops: ProductLoops::default(),
         places,
         registers: [None; REGISTERS],
         pinned: 0,
@@ -53,8 +56,10 @@ pub(super) fn assemble(block: &BasicBlock, room: usize, slot: usize) -> (Vec<u8>
     for (instruction, next) in block.instructions.iter().zip(&next) {
         allocator.write(instruction, next);
     }
-    allocator.bytes.end();
-    (allocator.bytes.0, allocator.room)
+    let Allocator { mut bytes, loops, room, .. } = allocator;
+    bytes.end();
+    loops.write(&mut bytes);
+    (bytes.0, room)
 }
 
 /// The first instruction that reads each number, and for each instruction those that read its operands next.
@@ -93,7 +98,7 @@ impl Allocator {
             MachineInstruction::Binary { operation, width, left, right, made } => {
                 let left = self.read(left);
                 let right = match right {
-                    Operand::At(address) => Source::Memory(address),
+                    Operand::At(address) => Source::Memory(address.into()),
                     Operand::Made(right) => self.source(right, next[1]),
                 };
                 self.advance(&reads, next);
@@ -115,6 +120,14 @@ impl Allocator {
                     self.places[value.0 as usize].memory = Some(to);
                 }
                 self.advance(&reads, next);
+            }
+            MachineInstruction::InnerProducts(products) => {
+                for register in 0..product_loops::REGISTERS {
+                    if let Some(value) = self.registers[register].take() {
+                        self.spill(value, Vector(register as u8));
+                    }
+                }
+                self.loops.call(&mut self.bytes, products);
             }
         }
     }
@@ -138,7 +151,7 @@ impl Allocator {
     fn source(&mut self, value: Value, next: u32) -> Source {
         let place = self.places[value.0 as usize];
         match (place.register, place.memory) {
-            (None, Some(memory)) if next == NEVER => Source::Memory(memory),
+            (None, Some(memory)) if next == NEVER => Source::Memory(memory.into()),
             _ => Source::Register(self.read(value)),
         }
     }

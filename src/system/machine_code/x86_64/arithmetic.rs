@@ -3,7 +3,7 @@
 //! In: numbers of a precision. Out: instructions whose results have the bits of [`Analytic`](crate::num::Analytic) in that
 //! precision. Never here: which numbers.
 
-use super::basic_block::{BasicBlock, Operand, Operation, Value, Width};
+use super::basic_block::{BasicBlock, InnerProducts, Operand, Operation, Value, Width};
 use super::layout::{Address, MemoryLayout};
 use crate::num::DoubleDouble;
 
@@ -54,7 +54,11 @@ impl Code {
         terms: usize,
         to: Address,
     ) {
-        const APART: usize = 4;
+        if terms >= LOOPED {
+            let products = InnerProducts { width, left, right, distance, terms, to };
+            self.block.inner_products(products);
+            return;
+        }
         let product = |code: &mut Code, j: usize| {
             let a = code.block.load(width, left.plus(j * distance));
             let b = Operand::At(right.plus(j * distance));
@@ -82,6 +86,13 @@ impl Code {
         self.block.store(width, sum, to, false);
     }
 }
+
+/// From so many terms on inner products are a loop. Written out, they would be most of the code, which is read from memory at
+/// every step where it is more than a core's first-level cache holds.
+const LOOPED: usize = 8;
+
+/// The number of sums of an inner product that are kept apart.
+pub(super) const APART: usize = 4;
 
 /// The number of inner products of one orbit side by side.
 pub(super) const SIDE: usize = 4;

@@ -1,7 +1,7 @@
 //! A basic block: arithmetic in a straight line, before its numbers have registers.
 //!
 //! In: operations on numbers that were made before or lie in memory. Out: the instructions in their order, each of which
-//! makes at most one number. Never here: registers, bytes, what is computed.
+//! makes at most one number; long inner products are one of them, which is a call. Never here: registers, bytes, what is computed.
 //!
 //! An [`Operand`] in memory is read where it is used: it must not have been overwritten by then.
 
@@ -101,6 +101,20 @@ pub(super) enum MachineInstruction {
         to: Address,
         stays: bool,
     },
+    InnerProducts(InnerProducts),
+}
+
+/// Inner products `Σ a_j b_j` of several lanes, stored where they are overwritten later. Four sums are kept apart.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct InnerProducts {
+    pub(super) width: Width,
+    /// The first operands.
+    pub(super) left: Address,
+    pub(super) right: Address,
+    /// The number of `f64` from one operand to the next.
+    pub(super) distance: usize,
+    pub(super) terms: usize,
+    pub(super) to: Address,
 }
 
 impl MachineInstruction {
@@ -109,7 +123,8 @@ impl MachineInstruction {
         match *self {
             MachineInstruction::Zero { .. }
             | MachineInstruction::Load { .. }
-            | MachineInstruction::LoadBehind { .. } => [None; 3],
+            | MachineInstruction::LoadBehind { .. }
+            | MachineInstruction::InnerProducts(_) => [None; 3],
             MachineInstruction::Binary { left, right, .. } => match right {
                 Operand::Made(right) => [Some(left), Some(right), None],
                 Operand::At(_) => [Some(left), None, None],
@@ -198,23 +213,46 @@ impl BasicBlock {
     }
 }
 
+impl BasicBlock {
+    /// Stores inner products by a loop.
+    pub(super) fn inner_products(&mut self, products: InnerProducts) {
+        self.instructions.push(MachineInstruction::InnerProducts(products));
+    }
+}
+
 impl MachineInstruction {
     /// The memory that it reads or writes, but for what lies behind an offset that is read: where, and how many `f64`.
-    pub(super) fn memory(&self) -> [Option<(Address, usize)>; 2] {
+    pub(super) fn memory(&self) -> [Option<(Address, usize)>; 3] {
         match *self {
-            MachineInstruction::Load { width, from, .. } => [Some((from, width.numbers())), None],
+            MachineInstruction::Load { width, from, .. } => {
+                [Some((from, width.numbers())), None, None]
+            }
             MachineInstruction::LoadBehind { from, offset, .. } => {
-                [Some((from, 1)), Some((offset, 1))]
+                [Some((from, 1)), Some((offset, 1)), None]
             }
             MachineInstruction::Binary { operation, width, right: Operand::At(from), .. } => {
                 // of a pair one number is read
                 let count = if operation == Operation::Pair { 1 } else { width.numbers() };
-                [Some((from, count)), None]
+                [Some((from, count)), None, None]
             }
-            MachineInstruction::Store { width, to, .. } => [Some((to, width.numbers())), None],
+            MachineInstruction::Store { width, to, .. } => {
+                [Some((to, width.numbers())), None, None]
+            }
+            MachineInstruction::InnerProducts(InnerProducts {
+                width,
+                left,
+                right,
+                distance,
+                terms,
+                to,
+            }) => {
+                let count = width.numbers();
+                let operands = terms.saturating_sub(1) * distance + count;
+                [Some((left, operands)), Some((right, operands)), Some((to, count))]
+            }
             MachineInstruction::Zero { .. }
             | MachineInstruction::Binary { .. }
-            | MachineInstruction::ProductError { .. } => [None; 2],
+            | MachineInstruction::ProductError { .. } => [None; 3],
         }
     }
 }

@@ -16,7 +16,38 @@ pub(super) struct Vector(pub(super) u8);
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Source {
     Register(Vector),
-    Memory(Address),
+    Memory(Place),
+}
+
+/// A place in memory: so many bytes behind where a general register points.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
+    base: General,
+    displacement: i32,
+}
+
+impl Place {
+    /// So many `f64` behind where a register points.
+    pub(super) fn behind(base: General, count: usize) -> Place {
+        Place { base, displacement: 8 * count as i32 }
+    }
+}
+
+impl From<Address> for Place {
+    fn from(address: Address) -> Place {
+        Place::behind(base(address.area), address.offset)
+    }
+}
+
+/// A general register.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) struct General(u8);
+
+impl General {
+    /// Those that belong to nobody: rax, r10 and r11.
+    pub(super) const RAX: General = General(0);
+    pub(super) const R10: General = General(10);
+    pub(super) const R11: General = General(11);
 }
 
 /// The opcode maps.
@@ -28,9 +59,6 @@ const MAP_0F3A: u8 = 3;
 const PACKED_SINGLE: u8 = 0;
 const PACKED: u8 = 1;
 const SCALAR: u8 = 3;
-
-/// The general register in which an offset is loaded.
-const RAX: u8 = 0;
 
 /// The operand of an instruction with one source.
 const NONE: Vector = Vector(0);
@@ -117,33 +145,100 @@ impl Bytes {
     }
 
     /// Loads what lies in memory.
-    pub(super) fn load(&mut self, width: Width, to: Vector, from: Address) {
-        self.vex(moves(width, 0x10), to, NONE, Source::Memory(from));
+    pub(super) fn load(&mut self, width: Width, to: Vector, from: impl Into<Place>) {
+        self.vex(moves(width, 0x10), to, NONE, Source::Memory(from.into()));
     }
 
     /// Stores a register.
     pub(super) fn store(&mut self, width: Width, from: Vector, to: Address) {
-        self.vex(moves(width, 0x11), from, NONE, Source::Memory(to));
+        self.vex(moves(width, 0x11), from, NONE, Source::Memory(to.into()));
     }
 
     /// Loads the number so many bytes behind an address, both in the stretch of work.
     pub(super) fn load_behind(&mut self, to: Vector, from: Address, offset: Address) {
         // mov rax, [offset]
         self.0.extend([0x48, 0x8B]);
-        self.memory(RAX, offset, true);
+        self.memory(General::RAX.0, offset.into(), true);
         // vmovsd to, [from + rax]
         let opcode = moves(Width::One, 0x10);
         self.prefixes(opcode, to, NONE, false);
         let index = 4;
         self.0.push(0x80 | (to.0 & 7) << 3 | index);
-        self.0.push(RAX << 3 | base(from.area));
-        self.0.extend(displacement(from).to_le_bytes());
+        let from = Place::from(from);
+        self.0.push(General::RAX.0 << 3 | from.base.0);
+        self.0.extend(from.displacement.to_le_bytes());
     }
 
-    /// Returns to the caller.
+    /// Returns to the caller of the function.
     pub(super) fn end(&mut self) {
-        // vzeroupper, ret
-        self.0.extend([0xC5, 0xF8, 0x77, 0xC3]);
+        // vzeroupper
+        self.0.extend([0xC5, 0xF8, 0x77]);
+        self.back();
+    }
+
+    /// Returns.
+    pub(super) fn back(&mut self) {
+        // ret
+        self.0.push(0xC3);
+    }
+
+    /// Points a register to a place.
+    pub(super) fn point(&mut self, register: General, place: impl Into<Place>) {
+        // lea
+        let place = place.into();
+        let (high, extended) = (u8::from(register.0 >= 8), u8::from(place.base.0 >= 8));
+        self.0.extend([0x48 | high << 2 | extended, 0x8D]);
+        self.memory(register.0, place, true);
+    }
+
+    /// Points a register so many `f64` farther.
+    pub(super) fn move_on(&mut self, register: General, count: usize) {
+        // add, with an immediate operand
+        self.0.extend([0x48 | u8::from(register.0 >= 8), 0x81, 0xC0 | register.0 & 7]);
+        self.0.extend((8 * count as i32).to_le_bytes());
+    }
+
+    /// Sets a register to a number of repetitions.
+    pub(super) fn count(&mut self, register: General, repetitions: u32) {
+        // mov, of the lower half, which clears the upper one
+        if register.0 >= 8 {
+            self.0.push(0x41);
+        }
+        self.0.push(0xB8 | register.0 & 7);
+        self.0.extend(repetitions.to_le_bytes());
+    }
+
+    /// Takes one from a register of at least one, and goes back to a place among the bytes unless it is zero then.
+    pub(super) fn repeat(&mut self, register: General, from: usize) {
+        // dec
+        if register.0 >= 8 {
+            self.0.push(0x41);
+        }
+        self.0.extend([0xFF, 0xC8 | register.0 & 7]);
+        // jnz
+        self.0.extend([0x0F, 0x85]);
+        self.distance_to(from);
+    }
+
+    /// Calls what will begin elsewhere, and returns what is to be [told](Bytes::begins) of that.
+    pub(super) fn call(&mut self) -> Call {
+        // call
+        self.0.push(0xE8);
+        let call = Call(self.0.len());
+        self.0.extend([0; 4]);
+        call
+    }
+
+    /// Says where what is called begins.
+    pub(super) fn begins(&mut self, Call(at): Call, place: usize) {
+        let distance = place as i32 - (at as i32 + 4);
+        self.0[at..at + 4].copy_from_slice(&distance.to_le_bytes());
+    }
+
+    /// The bytes from behind an instruction that ends with this distance to a place.
+    fn distance_to(&mut self, place: usize) {
+        let distance = place as i32 - (self.0.len() as i32 + 4);
+        self.0.extend(distance.to_le_bytes());
     }
 
     fn vex(&mut self, opcode: Opcode, register: Vector, left: Vector, last: Source) {
@@ -152,10 +247,10 @@ impl Bytes {
                 self.prefixes(opcode, register, left, last.0 >= 8);
                 self.0.push(0xC0 | (register.0 & 7) << 3 | last.0 & 7);
             }
-            Source::Memory(address) => {
-                self.prefixes(opcode, register, left, base(address.area) >= 8);
+            Source::Memory(place) => {
+                self.prefixes(opcode, register, left, place.base.0 >= 8);
                 // the short displacements of the EVEX prefix are counted in vectors
-                self.memory(register.0, address, opcode.width != Width::Eight);
+                self.memory(register.0, place, opcode.width != Width::Eight);
             }
         }
     }
@@ -181,17 +276,20 @@ impl Bytes {
     }
 
     /// The operand in memory beside a register.
-    fn memory(&mut self, register: u8, address: Address, may_be_short: bool) {
-        let (low, base) = ((register & 7) << 3, base(address.area) & 7);
-        let displacement = displacement(address);
-        if may_be_short && let Ok(short) = i8::try_from(displacement) {
+    fn memory(&mut self, register: u8, place: Place, may_be_short: bool) {
+        let (low, base) = ((register & 7) << 3, place.base.0 & 7);
+        if may_be_short && let Ok(short) = i8::try_from(place.displacement) {
             self.0.extend([0x40 | low | base, short as u8]);
         } else {
             self.0.push(0x80 | low | base);
-            self.0.extend(displacement.to_le_bytes());
+            self.0.extend(place.displacement.to_le_bytes());
         }
     }
 }
+
+/// A call of what begins at a place that is not known yet.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Call(usize);
 
 fn moves(width: Width, code: u8) -> Opcode {
     // vmovsd, vmovupd
@@ -201,18 +299,13 @@ fn moves(width: Width, code: u8) -> Opcode {
 
 /// The general register that holds the address of a stretch of memory: those in which the System V convention passes the
 /// arguments: rdi, rsi, rdx, rcx, r8, r9.
-fn base(area: Area) -> u8 {
-    match area {
+fn base(area: Area) -> General {
+    General(match area {
         Area::Values => 7,
         Area::Work => 6,
         Area::Series => 2,
         Area::State => 1,
         Area::ExactSeries => 8,
         Area::ExactState => 9,
-    }
-}
-
-/// The bytes between the start of a stretch and a number.
-fn displacement(address: Address) -> i32 {
-    8 * address.offset as i32
+    })
 }

@@ -4,7 +4,7 @@
 //!
 //! What the compiler of this source cannot check holds for these reasons:
 //! - The bytes are a function with the signature of [`FunctionPointer`]: they read nothing but its six arguments, change no register
-//!   that belongs to the caller, and end with a return (`encoding`).
+//!   that belongs to the caller, call nothing but the loops behind them, and end with a return (`encoding`, `product_loops`).
 //! - It reads and writes only inside the six stretches of memory that it is given: `compile` compares every address with
 //!   the lengths of the layout, and each call the lengths of the slices with these. What is read is numbers, for
 //!   which every pattern of bits is valid; the only addresses that are read from memory are rows of a matrix, written
@@ -23,7 +23,7 @@ use pulp::x86::{V3, V4};
 use rustix::mm::{MapFlags, MprotectFlags, ProtFlags, mmap_anonymous, mprotect, munmap};
 
 use super::basic_block::Width;
-use super::layout::Area;
+use super::layout::{Area, LINE};
 use crate::num::{BATCH, Batch, DoubleDouble};
 
 /// The values, the work, the series and the state, and the exact series and state.
@@ -98,7 +98,7 @@ pub(super) struct Stretches<'a> {
 /// A cache line.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
-struct Line([f64; 8]);
+struct Line([f64; LINE]);
 
 /// A stretch of memory that begins with a cache line.
 #[derive(Clone, Debug)]
@@ -110,22 +110,30 @@ pub(super) struct Work {
 impl Work {
     /// One with these numbers.
     pub(super) fn of(numbers: &[f64]) -> Work {
-        let mut work =
-            Work { lines: vec![Line([0.0; 8]); numbers.len().div_ceil(8)], length: numbers.len() };
+        let mut work = Work {
+            lines: vec![Line([0.0; LINE]); numbers.len().div_ceil(LINE)],
+            length: numbers.len(),
+        };
         work.copy(0, numbers);
         work
     }
 
-    /// Copies numbers to a place.
+    /// Copies numbers to a place, which is the beginning of a cache line.
     pub(super) fn copy(&mut self, first: usize, numbers: &[f64]) {
-        for (i, &number) in (first..).zip(numbers) {
-            self.set(i, number);
+        debug_assert!(first.is_multiple_of(LINE), "{first}");
+        let lines = &mut self.lines[first / LINE..];
+        let (whole, rest) = numbers.as_chunks::<LINE>();
+        for (line, numbers) in lines.iter_mut().zip(whole) {
+            line.0 = *numbers;
+        }
+        if !rest.is_empty() {
+            lines[whole.len()].0[..rest.len()].copy_from_slice(rest);
         }
     }
 
     /// Sets a number.
     pub(super) fn set(&mut self, i: usize, number: f64) {
-        self.lines[i / 8].0[i % 8] = number;
+        self.lines[i / LINE].0[i % LINE] = number;
     }
 }
 

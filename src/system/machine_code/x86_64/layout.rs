@@ -16,7 +16,7 @@
 use crate::system::jet::JetPlan;
 
 /// The size of a cache line, which a group of operands must not cross.
-const LINE: usize = 8;
+pub(super) const LINE: usize = 8;
 
 /// A stretch of memory that the code is given.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

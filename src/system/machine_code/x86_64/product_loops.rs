@@ -1,0 +1,99 @@
+//! The loops of long inner products, which the code calls.
+//!
+//! In: which operands, how many. Out: calls, and behind the code the loops that they call. Never here: which inner products are
+//! loops.
+//!
+//! ```text
+//!   code    … point to a_1 and b_{k−1}, count, call ─┐  store the sums …
+//!                                                    ▼
+//!   loop    four sums apart, four terms at a time; what is left over; the sums together; back
+//! ```
+
+use super::arithmetic::APART;
+use super::basic_block::{InnerProducts, Operation, Width};
+use super::encoding::{Bytes, Call, General, Place, Source, Vector};
+
+/// A loop computes with the first registers: the sums apart, that of what is left over, a product.
+pub(super) const REGISTERS: usize = APART + 2;
+
+const REST: Vector = Vector(APART as u8);
+const PRODUCT: Vector = Vector(APART as u8 + 1);
+
+/// Where a loop finds its operands, and how often it goes on.
+const LEFT: General = General::RAX;
+const RIGHT: General = General::R10;
+const COUNT: General = General::R11;
+
+/// One kind of loop.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+struct Kind {
+    width: Width,
+    distance: usize,
+    /// The number of terms that are left over.
+    rest: usize,
+}
+
+/// The loops that were called.
+#[derive(Debug, Default)]
+pub(super) struct ProductLoops {
+    calls: Vec<(Kind, Call)>,
+}
+
+impl ProductLoops {
+    /// Writes a call whose sums are stored.
+    pub(super) fn call(&mut self, bytes: &mut Bytes, products: InnerProducts) {
+        let InnerProducts { width, left, right, distance, terms, to } = products;
+        bytes.point(LEFT, left);
+        bytes.point(RIGHT, right);
+        bytes.count(COUNT, (terms / APART) as u32);
+        self.calls.push((Kind { width, distance, rest: terms % APART }, bytes.call()));
+        bytes.store(width, Vector(0), to);
+    }
+
+    /// Writes the loops behind the code.
+    pub(super) fn write(self, bytes: &mut Bytes) {
+        let mut known: Vec<(Kind, usize)> = Vec::new();
+        for (kind, call) in self.calls {
+            let place = known.iter().find(|(other, _)| *other == kind).map(|(_, place)| *place);
+            let place = place.unwrap_or_else(|| {
+                let place = bytes.0.len();
+                kind.write(bytes);
+                known.push((kind, place));
+                place
+            });
+            bytes.begins(call, place);
+        }
+    }
+}
+
+impl Kind {
+    /// Writes the loop, which has at least four terms.
+    fn write(self, bytes: &mut Bytes) {
+        let sum = |i: usize| Vector(i as u8);
+        (0..=APART).for_each(|i| bytes.zero(sum(i)));
+        let from = bytes.0.len();
+        (0..APART).for_each(|i| self.add(bytes, i, sum(i)));
+        bytes.move_on(LEFT, APART * self.distance);
+        bytes.move_on(RIGHT, APART * self.distance);
+        bytes.repeat(COUNT, from);
+        (0..self.rest).for_each(|i| self.add(bytes, i, REST));
+        for (to, other) in [(0, 2), (1, 3), (0, 1)] {
+            self.plus(bytes, sum(to), sum(other));
+        }
+        self.plus(bytes, sum(0), REST);
+        bytes.back();
+    }
+
+    /// Adds the product of the operands at a place from where the registers point.
+    fn add(self, bytes: &mut Bytes, place: usize, to: Vector) {
+        let at = |base| Place::behind(base, place * self.distance);
+        bytes.load(self.width, PRODUCT, at(LEFT));
+        let right = Source::Memory(at(RIGHT));
+        bytes.binary(Operation::Multiply, self.width, PRODUCT, PRODUCT, right);
+        self.plus(bytes, to, PRODUCT);
+    }
+
+    fn plus(self, bytes: &mut Bytes, to: Vector, other: Vector) {
+        bytes.binary(Operation::Add, self.width, to, to, Source::Register(other));
+    }
+}
