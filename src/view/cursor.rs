@@ -93,11 +93,11 @@ mod tests {
         let frame = PlotFrame::new(Scale::linear(-1.0, 1.0), Scale::linear(-2.0, 2.0), area);
         let (wide, high) = frame.dots(crate::view::glyphs::Glyphs::Braille);
         let half = [wide, high].map(|dots| HALF / f64::from(dots));
-        assert_eq!(near_zero(&frame, [1e-17, -1e-17], half), [0.0, 0.0]);
-        assert_eq!(near_zero(&frame, [0.0124, -0.0499], half), [0.0, 0.0]);
-        assert_eq!(near_zero(&frame, [0.0126, -0.0501], half), [0.0126, -0.0501]);
+        assert_eq!(frame.near_zero([1e-17, -1e-17], half), [0.0, 0.0]);
+        assert_eq!(frame.near_zero([0.0124, -0.0499], half), [0.0, 0.0]);
+        assert_eq!(frame.near_zero([0.0126, -0.0501], half), [0.0126, -0.0501]);
         // a power of ten on a logarithmic axis is no zero, however small
         let frame = PlotFrame::new(Scale::log(1e-12, 1e-6), Scale::linear(0.0, 1.0), area);
-        assert_eq!(near_zero(&frame, [1e-9, 0.5], half), [1e-9, 0.5]);
+        assert_eq!(frame.near_zero([1e-9, 0.5], half), [1e-9, 0.5]);
     }
 }
