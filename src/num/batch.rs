@@ -239,6 +239,11 @@ impl<const N: usize> Analytic for Batch<N> {
     }
 
     #[inline(always)]
+    fn integrated<const FUSED: bool>(self, unit: Batch<N>, n: usize) -> Batch<N> {
+        self / (Batch::splat(n as f64) / unit)
+    }
+
+    #[inline(always)]
     fn side_by_side(number: impl Fn(usize) -> Batch<N>) -> [f64; N] {
         number(0).0
     }

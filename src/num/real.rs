@@ -60,6 +60,12 @@ pub trait Analytic:
     /// Multiplication by a power of two.
     #[must_use]
     fn scaled(self, power_of_two: Self::Unit) -> Self;
+    /// The n-th coefficient of a series, in a unit of time that is a power of two, of whose rate of change this is the coefficient before.
+    #[must_use]
+    #[inline(always)]
+    fn integrated<const FUSED: bool>(self, unit: Self::Unit, n: usize) -> Self {
+        self.scaled(unit).over::<FUSED>(n)
+    }
     /// The product.
     #[must_use]
     #[inline(always)]
@@ -182,6 +188,11 @@ impl Analytic for f64 {
     #[inline(always)]
     fn scaled(self, power_of_two: f64) -> f64 {
         self * power_of_two
+    }
+    /// By one division, as every order waits for the one before.
+    #[inline(always)]
+    fn integrated<const FUSED: bool>(self, unit: f64, n: usize) -> f64 {
+        self / (n as f64 / unit)
     }
     #[inline(always)]
     fn side_by_side(number: impl Fn(usize) -> f64) -> [f64; LANES] {

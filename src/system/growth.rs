@@ -154,7 +154,7 @@ impl<R: Coefficient> SeriesBuilder<R> {
         clock: SeriesClock<R>,
     ) -> Result<(), Singular> {
         self.jet.advance_with::<FUSED>(k, clock.time, clock.scale)?;
-        let made = |x: R| x.scaled(clock.scale).over::<FUSED>(k + 1);
+        let made = |x: R| x.integrated::<FUSED>(clock.scale, k + 1);
         self.jet.give_out((&mut self.state, self.inputs), k, made);
         Ok(())
     }

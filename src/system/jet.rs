@@ -198,7 +198,7 @@ impl<R: Coefficient> Jet<R> {
             if k > 0 {
                 tables.advance::<FUSED>(program, schedule, k, scale);
             }
-            let made = |x: R| x.scaled(scale).over::<FUSED>(next);
+            let made = |x: R| x.integrated::<FUSED>(scale, next);
             tables.give_out(program, (&mut *state, count), k, made);
         }
         Ok(true)

@@ -121,13 +121,17 @@ impl Allocator {
                 }
                 self.advance(&reads, next);
             }
-            MachineInstruction::InnerProducts(products) => {
+            MachineInstruction::InnerProducts { products, made } => {
                 for register in 0..product_loops::REGISTERS {
                     if let Some(value) = self.registers[register].take() {
                         self.spill(value, Vector(register as u8));
                     }
                 }
-                self.loops.call(&mut self.bytes, products);
+                let to = self.loops.call(&mut self.bytes, products);
+                self.places[made.0 as usize].width = Some(products.width);
+                if self.places[made.0 as usize].next != NEVER {
+                    self.take(to, made);
+                }
             }
         }
     }

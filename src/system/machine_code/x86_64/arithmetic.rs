@@ -14,9 +14,46 @@ pub(super) struct Code {
     pub(super) layout: MemoryLayout,
     /// The width of the numbers of several orbits.
     pub(super) lanes: Width,
+    /// The reciprocal of the unit of time, and the last order over that.
+    frequency: Option<Operand>,
+    order_over_unit: Option<(usize, Operand)>,
 }
 
 impl Code {
+    /// None yet.
+    pub(super) fn new(lanes: Width) -> Code {
+        Code {
+            block: BasicBlock::default(),
+            layout: MemoryLayout::new(),
+            lanes,
+            frequency: None,
+            order_over_unit: None,
+        }
+    }
+
+    /// An order over the unit of time, which is exact. The constants are those of one orbit or of several.
+    pub(super) fn order_over_unit(
+        &mut self,
+        n: usize,
+        constant: impl Fn(&mut Code, f64) -> Operand,
+    ) -> Operand {
+        if let Some((order, known)) = self.order_over_unit
+            && order == n
+        {
+            return known;
+        }
+        let frequency = self.frequency.unwrap_or_else(|| {
+            let one = constant(self, 1.0);
+            let unit = Operand::At(self.layout.scale);
+            self.binary(Operation::Divide, self.lanes, one, unit)
+        });
+        self.frequency = Some(frequency);
+        let order = constant(self, n as f64);
+        let quotient = self.binary(Operation::Multiply, self.lanes, frequency, order);
+        self.order_over_unit = Some((n, quotient));
+        quotient
+    }
+
     pub(super) fn binary(
         &mut self,
         operation: Operation,
@@ -45,19 +82,17 @@ impl Code {
         self.block.load(Width::Four, at)
     }
 
-    /// Stores inner products `Σ a_j b_j` of several lanes, whose operands lie side by side with so many `f64` from one to the
+    /// Inner products `Σ a_j b_j` of several lanes, whose operands lie side by side with so many `f64` from one to the
     /// next. Four sums are kept apart, as in [`Analytic::inner_products`](crate::num::Analytic::inner_products).
     pub(super) fn inner_products(
         &mut self,
         (width, distance): (Width, usize),
         (left, right): (Address, Address),
         terms: usize,
-        to: Address,
-    ) {
+    ) -> Operand {
         if terms >= LOOPED {
-            let products = InnerProducts { width, left, right, distance, terms, to };
-            self.block.inner_products(products);
-            return;
+            let products = InnerProducts { width, left, right, distance, terms };
+            return self.block.inner_products(products).into();
         }
         let product = |code: &mut Code, j: usize| {
             let a = code.block.load(width, left.plus(j * distance));
@@ -83,7 +118,18 @@ impl Code {
             let apart = add(self, even, odd);
             sum = add(self, apart, sum);
         }
-        self.block.store(width, sum, to, false);
+        sum
+    }
+
+    /// One of four numbers side by side.
+    pub(super) fn lane(&mut self, four: Operand, lane: usize) -> Operand {
+        let half =
+            if lane < 2 { four } else { self.binary(Operation::Upper, Width::Four, four, four) };
+        if lane.is_multiple_of(2) {
+            half
+        } else {
+            self.binary(Operation::Odd, Width::Two, half, half)
+        }
     }
 }
 
@@ -133,6 +179,12 @@ pub(super) trait Arithmetic {
     fn twice(code: &mut Code, a: Self::Number) -> Self::Number {
         Self::sum(code, a, a)
     }
+    /// [`Analytic::integrated`](crate::num::Analytic::integrated).
+    fn integrated(code: &mut Code, a: Self::Number, n: usize) -> Self::Number {
+        let unit = Operand::At(code.layout.scale);
+        let scaled = Self::scaled(code, a, unit);
+        Self::over(code, scaled, n)
+    }
     /// The quotient by an integer.
     fn over(code: &mut Code, a: Self::Number, n: usize) -> Self::Number;
     fn opposite(code: &mut Code, a: Self::Number) -> Self::Number;
@@ -146,10 +198,14 @@ pub(super) trait Arithmetic {
     fn side_by_side(code: &mut Code, numbers: &[Self::Number], to: Address);
     /// The nearest `f64`.
     fn nearest(a: Self::Number) -> Operand;
-    /// Stores [`Arithmetic::SIDE`] inner products `Σ a_j b_j` of so many terms, whose operands lie side by side.
-    fn inner_products(code: &mut Code, operands: (Address, Address), terms: usize, to: Address);
+    /// [`Arithmetic::SIDE`] inner products `Σ a_j b_j` of so many terms, whose operands lie side by side.
+    fn inner_products(code: &mut Code, operands: (Address, Address), terms: usize) -> Self::Number;
+    /// Stores such inner products where they are overwritten later.
+    fn store_inner_products(code: &mut Code, products: Self::Number, to: Address);
     /// One of the inner products that were stored.
     fn inner_product(stored: Address, lane: usize) -> Self::Number;
+    /// One of those that were not.
+    fn lane(code: &mut Code, products: Self::Number, lane: usize) -> Self::Number;
     /// The number so many bytes behind an address as the integer at `offset` says; `None` for several orbits, of which each
     /// has its own.
     fn behind(code: &mut Code, from: Address, offset: Address) -> Option<Self::Number>;

@@ -60,6 +60,10 @@ pub(super) enum Operation {
     Pair,
     /// Two and two side by side.
     Join,
+    /// The second number of each operand, side by side.
+    Odd,
+    /// The upper two of four.
+    Upper,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -101,10 +105,13 @@ pub(super) enum MachineInstruction {
         to: Address,
         stays: bool,
     },
-    InnerProducts(InnerProducts),
+    InnerProducts {
+        products: InnerProducts,
+        made: Value,
+    },
 }
 
-/// Inner products `Σ a_j b_j` of several lanes, stored where they are overwritten later. Four sums are kept apart.
+/// Inner products `Σ a_j b_j` of several lanes. Four sums are kept apart.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct InnerProducts {
     pub(super) width: Width,
@@ -114,7 +121,6 @@ pub(super) struct InnerProducts {
     /// The number of `f64` from one operand to the next.
     pub(super) distance: usize,
     pub(super) terms: usize,
-    pub(super) to: Address,
 }
 
 impl MachineInstruction {
@@ -124,7 +130,7 @@ impl MachineInstruction {
             MachineInstruction::Zero { .. }
             | MachineInstruction::Load { .. }
             | MachineInstruction::LoadBehind { .. }
-            | MachineInstruction::InnerProducts(_) => [None; 3],
+            | MachineInstruction::InnerProducts { .. } => [None; 3],
             MachineInstruction::Binary { left, right, .. } => match right {
                 Operand::Made(right) => [Some(left), Some(right), None],
                 Operand::At(_) => [Some(left), None, None],
@@ -214,45 +220,34 @@ impl BasicBlock {
 }
 
 impl BasicBlock {
-    /// Stores inner products by a loop.
-    pub(super) fn inner_products(&mut self, products: InnerProducts) {
-        self.instructions.push(MachineInstruction::InnerProducts(products));
+    /// Inner products by a loop.
+    pub(super) fn inner_products(&mut self, products: InnerProducts) -> Value {
+        self.push(|made| MachineInstruction::InnerProducts { products, made })
     }
 }
 
 impl MachineInstruction {
     /// The memory that it reads or writes, but for what lies behind an offset that is read: where, and how many `f64`.
-    pub(super) fn memory(&self) -> [Option<(Address, usize)>; 3] {
+    pub(super) fn memory(&self) -> [Option<(Address, usize)>; 2] {
         match *self {
-            MachineInstruction::Load { width, from, .. } => {
-                [Some((from, width.numbers())), None, None]
-            }
+            MachineInstruction::Load { width, from, .. } => [Some((from, width.numbers())), None],
             MachineInstruction::LoadBehind { from, offset, .. } => {
-                [Some((from, 1)), Some((offset, 1)), None]
+                [Some((from, 1)), Some((offset, 1))]
             }
             MachineInstruction::Binary { operation, width, right: Operand::At(from), .. } => {
                 // of a pair one number is read
                 let count = if operation == Operation::Pair { 1 } else { width.numbers() };
-                [Some((from, count)), None, None]
+                [Some((from, count)), None]
             }
-            MachineInstruction::Store { width, to, .. } => {
-                [Some((to, width.numbers())), None, None]
-            }
-            MachineInstruction::InnerProducts(InnerProducts {
-                width,
-                left,
-                right,
-                distance,
-                terms,
-                to,
-            }) => {
-                let count = width.numbers();
-                let operands = terms.saturating_sub(1) * distance + count;
-                [Some((left, operands)), Some((right, operands)), Some((to, count))]
+            MachineInstruction::Store { width, to, .. } => [Some((to, width.numbers())), None],
+            MachineInstruction::InnerProducts { products, .. } => {
+                let InnerProducts { width, left, right, distance, terms } = products;
+                let count = terms.saturating_sub(1) * distance + width.numbers();
+                [Some((left, count)), Some((right, count))]
             }
             MachineInstruction::Zero { .. }
             | MachineInstruction::Binary { .. }
-            | MachineInstruction::ProductError { .. } => [None; 3],
+            | MachineInstruction::ProductError { .. } => [None; 2],
         }
     }
 }

@@ -5,11 +5,11 @@
 
 use super::allocation::assemble;
 use super::arithmetic::{Arithmetic, Code};
-use super::basic_block::{BasicBlock, MachineInstruction, Width};
+use super::basic_block::{MachineInstruction, Width};
 use super::double::Double;
 use super::emitter::Emitter;
 use super::function::{CompiledFunction, NotCompiled, Work};
-use super::layout::{Address, Area, FactoredPlace, MemoryLayout, Precision, SeriesPlaces};
+use super::layout::{Address, Area, FactoredPlace, Precision, SeriesPlaces};
 use super::plain::{Lanes, Plain};
 use crate::num::BATCH;
 use crate::system::jet::JetPlan;
@@ -63,8 +63,7 @@ pub(super) fn compile(
     if !(2..=plan.stride).contains(&first) {
         return Err(NotCompiled);
     }
-    let mut code =
-        Code { block: BasicBlock::default(), layout: MemoryLayout::new(), lanes: extent.orbits };
+    let mut code = Code::new(extent.orbits);
     let (places, exactly_factored) = if extent.orbits == Width::One {
         write_one(plan, exact, &mut code, extent)?
     } else {

@@ -199,12 +199,7 @@ impl Arithmetic for Double {
         a.0
     }
 
-    fn inner_products(
-        code: &mut Code,
-        (left, right): (Address, Address),
-        terms: usize,
-        to: Address,
-    ) {
+    fn inner_products(code: &mut Code, (left, right): (Address, Address), terms: usize) -> Parts {
         let four = Width::Four;
         let mut sum: Operand = code.block.zero(four).into();
         let mut errors = sum;
@@ -221,13 +216,20 @@ impl Arithmetic for Double {
             errors = code.binary(Operation::Add, four, errors, low);
             sum = next;
         }
-        let (high, low) = code.exact_sum(four, sum, errors);
-        code.block.store(four, high, to, false);
-        code.block.store(four, low, to.plus(SIDE), false);
+        code.exact_sum(four, sum, errors)
+    }
+
+    fn store_inner_products(code: &mut Code, (high, low): Parts, to: Address) {
+        code.block.store(Width::Four, high, to, false);
+        code.block.store(Width::Four, low, to.plus(SIDE), false);
     }
 
     fn inner_product(stored: Address, lane: usize) -> Parts {
         (Operand::At(stored.plus(lane)), Operand::At(stored.plus(SIDE + lane)))
+    }
+
+    fn lane(code: &mut Code, products: Parts, lane: usize) -> Parts {
+        (code.lane(products.0, lane), code.lane(products.1, lane))
     }
 
     fn behind(code: &mut Code, from: Address, offset: Address) -> Option<Parts> {

@@ -6,7 +6,7 @@
 //! Every sum has the order of [`Orders`](crate::system::jet), so the bits are the same. What is left out changes none: a term
 //! that is zero, a factor 1, the low part of a power of two.
 
-use super::arithmetic::{Arithmetic, Code};
+use super::arithmetic::{Arithmetic, Code, SIDE};
 use super::basic_block::Operand;
 use super::function::NotCompiled;
 use super::layout::SeriesPlaces;
@@ -30,8 +30,21 @@ pub(super) struct Emitter<'a, A: Arithmetic> {
     /// The order that is written, and the registers at it.
     pub(super) k: usize,
     now: Vec<Option<A::Number>>,
+    /// The inner products at it, where they are not stored.
+    kept: Vec<KeptProducts<A::Number>>,
     /// What was divided by, as it is divided by again.
     divisors: Vec<(SharedDivisor, A::Number)>,
+}
+
+/// Up to so many groups of inner products are kept in registers until they are read: a number that was just stored is read later
+/// than one in a register.
+const KEPT: usize = 3;
+
+/// A group of inner products side by side, and those that were taken from it.
+#[derive(Clone, Copy)]
+struct KeptProducts<T> {
+    products: T,
+    lanes: [Option<T>; SIDE],
 }
 
 /// What several numbers are divided by.
@@ -62,6 +75,7 @@ impl<'a, A: Arithmetic> Emitter<'a, A> {
             numbers,
             inputs,
             k: 0,
+            kept: Vec::new(),
             divisors: Vec::new(),
         }
     }
@@ -91,10 +105,17 @@ impl<'a, A: Arithmetic> Emitter<'a, A> {
     /// The inner products of one order.
     fn multiply(&mut self) {
         let places = self.places;
-        for group in 0..self.plan.schedule.pairs.len().div_ceil(A::SIDE) {
+        let groups = self.plan.schedule.pairs.len().div_ceil(A::SIDE);
+        self.kept.clear();
+        for group in 0..groups {
             // b_{k−1} is met by a_1
             let operands = (places.left(group, 1), places.right(group, self.k - 1));
-            A::inner_products(self.code, operands, self.k - 1, places.products(group));
+            let products = A::inner_products(self.code, operands, self.k - 1);
+            if groups <= KEPT {
+                self.kept.push(KeptProducts { products, lanes: [None; SIDE] });
+            } else {
+                A::store_inner_products(self.code, products, places.products(group));
+            }
         }
     }
 
@@ -221,9 +242,7 @@ impl<'a, A: Arithmetic> Emitter<'a, A> {
         let mut coefficients = Vec::with_capacity(self.numbers);
         for (i, &output) in program.outputs.iter().take(self.numbers).enumerate() {
             let rate = if self.k == 0 { self.value(output) } else { self.now(output)? };
-            let scale = Operand::At(self.code.layout.scale);
-            let made = A::scaled(self.code, rate, scale);
-            let made = A::over(self.code, made, next);
+            let made = A::integrated(self.code, rate, next);
             let made = A::held(self.code, made);
             A::store(self.code, made, self.places.of_state(i, next));
             if let Some(copies) = self.copies {
@@ -340,7 +359,10 @@ impl<'a, A: Arithmetic> Emitter<'a, A> {
     /// An inner product of this order.
     pub(super) fn product(&mut self, inner: u32) -> A::Number {
         let (group, lane) = (inner as usize / A::SIDE, inner as usize % A::SIDE);
-        A::inner_product(self.places.products(group), lane)
+        let Some(KeptProducts { products, lanes }) = self.kept.get_mut(group) else {
+            return A::inner_product(self.places.products(group), lane);
+        };
+        *lanes[lane].get_or_insert_with(|| A::lane(self.code, *products, lane))
     }
 
     /// `a_0 b_k + a_k b_0`.

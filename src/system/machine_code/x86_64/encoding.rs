@@ -107,10 +107,16 @@ impl Bytes {
             },
             // vinsertf128
             Operation::Join => (MAP_0F3A, PACKED, 0x18),
+            // vunpckhpd
+            Operation::Odd => (MAP_0F, PACKED, 0x15),
+            // vperm2f128
+            Operation::Upper => (MAP_0F3A, PACKED, 0x06),
         };
-        let width = if operation == Operation::Join { Width::Four } else { width };
+        let of_four = matches!(operation, Operation::Join | Operation::Upper);
+        let width = if of_four { Width::Four } else { width };
         self.vex(Opcode { map, prefix, wide: false, width, code }, to, left, right);
-        if operation == Operation::Join {
+        if of_four {
+            // the upper half of what is made; of the first operand, the upper half
             self.0.push(1);
         }
     }

@@ -75,6 +75,11 @@ impl<const ORBITS: usize> Arithmetic for Floats<ORBITS> {
         Self::over_shared(code, a, n)
     }
 
+    fn integrated(code: &mut Code, a: Operand, n: usize) -> Operand {
+        let divisor = code.order_over_unit(n, Self::splat);
+        Self::over_shared(code, a, divisor)
+    }
+
     fn opposite(code: &mut Code, a: Operand) -> Operand {
         let a = Self::held(code, a);
         // there is no exclusive or of one number
@@ -110,14 +115,23 @@ impl<const ORBITS: usize> Arithmetic for Floats<ORBITS> {
         a
     }
 
-    fn inner_products(code: &mut Code, operands: (Address, Address), terms: usize, to: Address) {
+    fn inner_products(code: &mut Code, operands: (Address, Address), terms: usize) -> Operand {
         let of_one = ORBITS == 1;
         let size = if of_one { (Width::Four, SIDE) } else { (code.lanes, BATCH) };
-        code.inner_products(size, operands, terms, to);
+        code.inner_products(size, operands, terms)
+    }
+
+    fn store_inner_products(code: &mut Code, products: Operand, to: Address) {
+        let width = if ORBITS == 1 { Width::Four } else { code.lanes };
+        code.block.store(width, products, to, false);
     }
 
     fn inner_product(stored: Address, lane: usize) -> Operand {
         Operand::At(stored.plus(lane))
+    }
+
+    fn lane(code: &mut Code, products: Operand, lane: usize) -> Operand {
+        if ORBITS == 1 { code.lane(products, lane) } else { products }
     }
 
     fn behind(code: &mut Code, from: Address, offset: Address) -> Option<Operand> {

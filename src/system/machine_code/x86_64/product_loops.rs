@@ -4,7 +4,7 @@
 //! loops.
 //!
 //! ```text
-//!   code    … point to a_1 and b_{k−1}, count, call ─┐  store the sums …
+//!   code    … point to a_1 and b_{k−1}, count, call ─┐  the sums in the first register …
 //!                                                    ▼
 //!   loop    four sums apart, four terms at a time; what is left over; the sums together; back
 //! ```
@@ -40,14 +40,14 @@ pub(super) struct ProductLoops {
 }
 
 impl ProductLoops {
-    /// Writes a call whose sums are stored.
-    pub(super) fn call(&mut self, bytes: &mut Bytes, products: InnerProducts) {
-        let InnerProducts { width, left, right, distance, terms, to } = products;
+    /// Writes a call, and returns the register that the sums are in.
+    pub(super) fn call(&mut self, bytes: &mut Bytes, products: InnerProducts) -> Vector {
+        let InnerProducts { width, left, right, distance, terms } = products;
         bytes.point(LEFT, left);
         bytes.point(RIGHT, right);
         bytes.count(COUNT, (terms / APART) as u32);
         self.calls.push((Kind { width, distance, rest: terms % APART }, bytes.call()));
-        bytes.store(width, Vector(0), to);
+        Vector(0)
     }
 
     /// Writes the loops behind the code.

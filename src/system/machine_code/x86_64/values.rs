@@ -8,9 +8,9 @@ use std::sync::Arc;
 
 use super::allocation::assemble;
 use super::arithmetic::{Arithmetic, Code};
-use super::basic_block::{BasicBlock, MachineInstruction, Operand, Operation, Width};
+use super::basic_block::{MachineInstruction, Operand, Operation, Width};
 use super::function::{CompiledFunction, NotCompiled, Stretches, Values, Work};
-use super::layout::{Address, Area, MemoryLayout};
+use super::layout::{Address, Area};
 use super::plain::Plain;
 use crate::num::DoubleDouble;
 use crate::system::parts::Parts;
@@ -144,8 +144,7 @@ fn is_arithmetic(program: &Program, op: Op) -> bool {
 
 /// The function of operations of a body.
 fn compile(program: &Program, range: Range<usize>) -> Result<Part, NotCompiled> {
-    let block = BasicBlock::default();
-    let code = Code { block, layout: MemoryLayout::new(), lanes: Width::One };
+    let code = Code::new(Width::One);
     let mut writer = ValueWriter { program, code, now: vec![None; program.ops.len()] };
     for &register in &program.body[range] {
         if let Some(value) = writer.value(program.ops[register as usize])? {
