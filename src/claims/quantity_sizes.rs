@@ -89,8 +89,13 @@ impl<'a> QuantitySizes<'a> {
 
     /// How far a value may be from what is expected.
     pub(super) fn tolerance(&self, index: usize) -> f64 {
-        let QuantitySize { ever, lately } = self.sizes[index];
-        self.values[index].within.unwrap_or((TOLERANCE * lately).max(ROUNDING * ever))
+        self.values[index].within.unwrap_or(self.sizes[index].tolerance())
+    }
+}
+
+impl QuantitySize {
+    fn tolerance(self) -> f64 {
+        (TOLERANCE * self.lately).max(ROUNDING * self.ever)
     }
 }
 
@@ -103,4 +108,22 @@ fn last_part_before(time: f64, start: f64) -> f64 {
 pub(super) fn tolerated_delay(expected: &ExpectedEvent, start: f64) -> f64 {
     let size = expected.at.abs().max((expected.at - start).abs());
     expected.within.unwrap_or(TOLERANCE * size)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_error_is_a_part_of_what_is_left_and_no_rounding_of_what_was() {
+        let tolerance = |ever: f64, lately: f64| QuantitySize { ever, lately }.tolerance();
+        assert_eq!(tolerance(2.0, 2.0), 2.0 * 1e-10);
+        assert_eq!(tolerance(2.0, 2e-3), 2e-3 * 1e-10);
+        assert_eq!(tolerance(2.0, 2e-9), 2.0 * 1e-15);
+    }
+
+    #[test]
+    fn the_last_part_of_the_way_is_an_eighth_of_it() {
+        assert_eq!(last_part_before(9.0, 1.0), 8.0);
+    }
 }

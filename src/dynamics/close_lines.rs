@@ -38,9 +38,14 @@ impl CloseLines {
         APART * TAU / self.apart
     }
 
-    /// Of a signal at intervals of `spacing` that has nothing else around this frequency; `None` if it is not two lines.
-    pub(super) fn of(signal: &[f64], spacing: f64, frequency: f64) -> Option<CloseLines> {
-        Some(CloseLines { frequency, apart: apart(signal, spacing, frequency)? })
+    /// Of a signal at intervals of `spacing` that has nothing else around the first of these frequencies, for which one line was fitted
+    /// at the other; `None` if it is not two lines.
+    pub(super) fn of(
+        signal: &[f64],
+        spacing: f64,
+        (at, frequency): (f64, f64),
+    ) -> Option<CloseLines> {
+        Some(CloseLines { frequency, apart: apart(signal, spacing, at)? })
     }
 }
 
@@ -84,7 +89,7 @@ mod tests {
         let beside = 1.0 + turns * TAU / 1000.0;
         let at = |t: f64| math::sin_cos(t).1 + amplitude * math::sin_cos(beside * t + 1.0).1;
         let signal: Vec<f64> = (0..4000).map(|k| at(0.25 * f64::from(k))).collect();
-        let found = CloseLines::of(&signal, 0.25, 1.0 + 0.3 * turns * TAU / 1000.0)?;
+        let found = CloseLines::of(&signal, 0.25, (1.0 + 0.3 * turns * TAU / 1000.0, 1.0))?;
         Some(found.apart * 1000.0 / TAU)
     }
 
@@ -103,13 +108,13 @@ mod tests {
     fn what_grows_like_the_time_is_not_two_lines() {
         let at = |t: f64| (1.0 + 0.05 * t) * math::sin_cos(t).0;
         let signal: Vec<f64> = (0..4000).map(|k| at(0.25 * f64::from(k))).collect();
-        assert_eq!(CloseLines::of(&signal, 0.25, 1.0), None);
+        assert_eq!(CloseLines::of(&signal, 0.25, (1.0, 1.0)), None);
     }
 
     #[test]
     fn what_grows_is_not_two_lines() {
         let at = |t: f64| (1.0 + 2.0 * math::exp(t / 300.0)) * math::sin_cos(t).1;
         let signal: Vec<f64> = (0..4000).map(|k| at(0.25 * f64::from(k))).collect();
-        assert_eq!(CloseLines::of(&signal, 0.25, 1.0), None);
+        assert_eq!(CloseLines::of(&signal, 0.25, (1.0, 1.0)), None);
     }
 }

@@ -98,3 +98,22 @@ fn vanish_at_one_place(functions: &[(Vec<f64>, f64)], count: usize) -> bool {
     let size = right.amax().max(place.amax());
     (&matrix * place - right).amax() <= ROUNDING * size
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The smaller singular value of the rows (1, 0) and (1, e) is e/2 of the larger one.
+    #[test]
+    fn functions_depend_on_each_other_up_to_a_part_of_1e_12() {
+        let meet = |e: f64| vanish_at_one_place(&[(vec![1.0, 0.0], 0.0), (vec![1.0, e], 0.0)], 2);
+        assert!(meet(2.2e-12) && !meet(1.8e-12));
+    }
+
+    /// 1 + x and 1 + e + x miss each other by e/2.
+    #[test]
+    fn functions_vanish_together_up_to_a_part_of_1e_12() {
+        let meet = |e: f64| vanish_at_one_place(&[(vec![1.0], 1.0), (vec![1.0], 1.0 + e)], 1);
+        assert!(meet(1.8e-12) && !meet(2.2e-12));
+    }
+}

@@ -9,7 +9,7 @@
 //!
 //! In: numbers at equal intervals of time. Out: lines with what they are sure of. Never here: motions, pictures.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use super::close_lines::CloseLines;
 use super::spectral_fit::{SpectralFit, Wave};
@@ -226,7 +226,7 @@ fn fitted(
             break;
         }
     }
-    let errors = fit.polish(LAST_STEPS);
+    let errors = polished(&mut fit, least);
     let (mut lines, fundamentals) = fit.named(&errors, fundamentals, drive);
     let root_mean_square = |numbers: &[f64]| {
         let squares: f64 = numbers.iter().map(|x| x * x).sum();
@@ -246,6 +246,25 @@ fn fitted(
     let mean = fit.mean;
     let spectrum = Spectrum { mean, trend, lines, fundamentals, curve, left, size, turns, close };
     Fitted { spectrum, fewest: slowest }
+}
+
+/// The errors of the lines after the last corrections, without those that these carry out of the range of frequencies: where a wave
+/// decays, as under friction, there is no line for some of what is left.
+fn polished(fit: &mut SpectralFit<'_>, least: f64) -> Vec<f64> {
+    let turn = TAU / fit.length();
+    let fastest = PI / fit.spacing();
+    loop {
+        let before = (fit.lines.clone(), fit.mean, fit.trend.clone());
+        let errors = fit.polish(LAST_STEPS);
+        let stays = |line: &Wave| (least * turn..=fastest).contains(&line.frequency);
+        let stay: Vec<bool> = fit.lines.iter().map(stays).collect();
+        if stay.iter().all(|&stays| stays) {
+            return errors;
+        }
+        (fit.lines, fit.mean, fit.trend) = before;
+        let mut stay = stay.into_iter();
+        fit.lines.retain(|_| stay.next().unwrap_or(false));
+    }
 }
 
 /// Whether a line is rounding beside the strongest, or the size of the signal.
@@ -277,7 +296,8 @@ fn close_lines(
     {
         return None;
     }
-    CloseLines::of(&fit.left_around(nearest.frequency, APART * turn), fit.spacing(), at)
+    let around = fit.left_around(nearest.frequency, APART * turn);
+    CloseLines::of(&around, fit.spacing(), (at, nearest.frequency))
 }
 
 /// An angle that goes round less its mean advance, so that what is left has lines.

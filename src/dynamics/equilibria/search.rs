@@ -245,8 +245,7 @@ impl<'a> EquilibriumSearch<'a> {
         if df.row_iter().all(|row| row.amax() > 0.0) {
             return place;
         }
-        let within = NO_DIGITS * size_of(&place);
-        let round = place.map(|x| if x.abs() <= within { 0.0 } else { x });
+        let round = without_small(&place);
         let is_zero = self.evaluate(&round).is_some_and(|(g, _)| g.amax() <= f.amax());
         if is_zero { round } else { place }
     }
@@ -272,7 +271,7 @@ impl<'a> EquilibriumSearch<'a> {
                 }
             }
             // without directions in which little changes; where these alone are left, in them too
-            let across = linear::least_squares(&df, &(-&f), VANISHES * df.amax())?;
+            let across = step_across(&df, &f)?;
             let mut next = self.damped(&variables, (&f, settled > 0), &across);
             if next.is_none() {
                 let whole = newton_step(&df, &f);
@@ -409,6 +408,17 @@ pub(super) fn size_of(place: &DVector<f64>) -> f64 {
     place.amax().max(1.0)
 }
 
+/// A place without what is small in it.
+fn without_small(place: &DVector<f64>) -> DVector<f64> {
+    let within = NO_DIGITS * size_of(place);
+    place.map(|x| if x.abs() <= within { 0.0 } else { x })
+}
+
+/// The step at which the linear part of f vanishes, without directions in which little changes.
+fn step_across(df: &DMatrix<f64>, f: &DVector<f64>) -> Option<DVector<f64>> {
+    linear::least_squares(df, &(-f), VANISHES * df.amax())
+}
+
 /// The step at which the linear part of f vanishes; `None` if it does not change in some direction.
 fn newton_step(df: &DMatrix<f64>, f: &DVector<f64>) -> Option<DVector<f64>> {
     let step = if df.is_square() {
@@ -464,5 +474,24 @@ mod tests {
         assert!(begins_there(1.9e-6, 2.0) && !begins_there(2.1e-6, 2.0));
         assert!(falls_away(201.0, 2.0) && !falls_away(199.0, 2.0));
         assert!(differ(2.1e-9, 2.0) && !differ(1.9e-9, 2.0));
+    }
+
+    #[test]
+    fn what_is_small_in_a_place_is_a_thousandth_of_its_size() {
+        let place = DVector::from_vec(vec![-4.0, 3.9e-3, 4.1e-3]);
+        assert_eq!(without_small(&place), DVector::from_vec(vec![-4.0, 0.0, 4.1e-3]));
+        // of its units at least
+        let place = DVector::from_vec(vec![0.9e-3, -1.1e-3]);
+        assert_eq!(without_small(&place), DVector::from_vec(vec![0.0, -1.1e-3]));
+    }
+
+    #[test]
+    fn a_step_leaves_out_directions_of_less_than_a_hundred_millionth_of_the_change() {
+        let step = |small: f64| {
+            let df = DMatrix::from_diagonal(&DVector::from_vec(vec![2.0, 2.0 * small]));
+            step_across(&df, &DVector::from_vec(vec![1.0, 1.0])).expect("a step")
+        };
+        assert!((step(1.1e-8)[1] * 2.2e-8 + 1.0).abs() < 1e-6);
+        assert_eq!(step(0.9e-8)[1], 0.0);
     }
 }

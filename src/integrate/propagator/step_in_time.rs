@@ -64,10 +64,10 @@ impl Propagator {
         Ok(())
     }
 
-    /// Whether the last step ends at a step in time.
+    /// Whether the last step ends at a step in time, on one side or the other.
     pub fn ends_at_step_in_time(&self) -> bool {
-        let end = self.stepper.time();
-        self.ends_before_step_in_time() || self.crossed.is_some_and(|crossed| crossed.high == end)
+        let end = self.stepper.state().exact_time();
+        self.system.beside_step(end, 0.0, &self.parameters).is_ok_and(|beside| beside.is_some())
     }
 
     /// Whether the last step ends at a step in time that is not crossed yet.

@@ -487,6 +487,8 @@ fn lines_too_close_to_be_told_apart_are_not_called_too_fast() {
             let longer = match close {
                 Some(close) => {
                     assert!((close.apart / apart - 1.0).abs() < 0.01, "{turns}: {close:?}");
+                    let mut fitted = found.spectrum.lines.iter().map(|line| line.frequency);
+                    assert!(fitted.any(|fitted| fitted == close.frequency), "{found:?}");
                     sampled(apart, amplitude, close.time_to_part())
                 }
                 None => found,
@@ -501,4 +503,24 @@ fn lines_too_close_to_be_told_apart_are_not_called_too_fast() {
     // one line, and two that are told apart, are not close
     assert!(sampled(0.0, 1.0, 1000.0).spectrum.close.is_none());
     assert!(sampled(3.0 * TAU / 1000.0, 1.0, 1000.0).spectrum.close.is_none());
+}
+
+/// A wave that decays is no sum of lines: what is listed for it lies between zero and the fastest that the values can show.
+#[test]
+fn lines_of_a_wave_that_decays_are_between_zero_and_half_of_the_rate_of_values() {
+    for (rate, frequency, drive) in [(0.05, 1.3, 0.0), (0.15, 1.0, 0.0), (0.15, 1.4, 0.05)] {
+        let at = |t: f64| {
+            let wave = (-rate * t).exp();
+            // the frequency falls with the amplitude
+            wave * (frequency * t - 2.0 * wave).cos() + drive * (t + 1.0).cos()
+        };
+        let (count, spacing) = (1024, 90.0 / 1024.0);
+        let signal: Vec<f64> = (0..count).map(|k| at(f64::from(k) * spacing)).collect();
+        let found = spectrum(&signal, spacing, (10, 1), &mut |_| true).expect("a spectrum");
+        for line in &found.lines {
+            let range = TAU / 90.0..=std::f64::consts::PI / spacing;
+            assert!(range.contains(&line.frequency), "{rate}: {:?}", found.lines);
+        }
+        assert!(found.is_continuous() || !found.lines.is_empty());
+    }
 }

@@ -3,7 +3,7 @@
 use phaselab::experiment::{Command, Experiment, Setup, Status};
 use phaselab::system::InitialOverride::Position;
 
-use super::{build, run, shipped};
+use super::{PLENTY, build, run, shipped};
 
 const FRAME: f64 = 1.0 / 60.0;
 
@@ -139,6 +139,51 @@ fn before_an_impulse_the_steps_are_those_that_were_taken_there() {
         assert_eq!(back.snapshot().state, alone.snapshot().state, "{method}, on again");
         assert_eq!(back.snapshot().method.step, alone.snapshot().method.step, "{method}");
     }
+}
+
+/// A mass that is halved at t = 1, where the velocity jumps: before and after it the past is what it was, and time can be reversed.
+#[test]
+fn a_step_in_time_is_gone_back_over_and_taken_again() {
+    let text = "title = \"Halved\"\n[coordinates]\nx = { initial = 2 }\n[lagrangian]\n\
+                L = \"1/4*(3 - sign(t - 1))*x'^2 - 1/2*x^2\"\n";
+    for method in ["taylor", "dop853", "rk4"] {
+        let begun = || build(text, |setup| setup.method = method.into());
+        let there = |time: f64| {
+            let mut alone = begun();
+            run(&mut alone, time);
+            alone.snapshot().state.values.clone()
+        };
+        let mut back = begun();
+        run(&mut back, 3.0);
+        // a frame of half a second
+        back.execute(Command::Speed(30.0));
+        let same = |found: &[f64], time: f64, what: &str| {
+            for (a, b) in found.iter().zip(there(time)) {
+                assert!((a - b).abs() < 1e-11, "{method}, {what} {time}: {a} and {b}");
+            }
+        };
+        for time in [1.25, 0.75, 1.0, 2.0] {
+            back.execute(Command::LookAt(time));
+            same(&back.snapshot().state.values, time, "looked at");
+        }
+        back.execute(Command::LookAt(f64::INFINITY));
+        for time in [2.5, 2.0, 1.5, 1.0, 0.5] {
+            back.execute(Command::StepBack(1));
+            assert_eq!(back.time(), time);
+            same(&back.snapshot().state.values, time, "carried back to");
+        }
+        run(&mut back, 2.0);
+        same(&back.snapshot().state.values, 2.0, "on again to");
+    }
+    let mut back = build(text, |setup| setup.method = "taylor".into());
+    run(&mut back, 2.0);
+    back.execute(Command::Play);
+    back.execute(Command::Reverse);
+    assert!(back.is_backwards(), "{:?}", back.snapshot().notices);
+    back.advance(f64::INFINITY, PLENTY);
+    let seen = back.snapshot();
+    let returned = seen.returned.clone().expect("it has returned");
+    assert!(returned.error.is_some_and(|error| error < 1e-13), "{returned:?}");
 }
 
 #[test]
