@@ -130,9 +130,9 @@ mod tests {
                     let mut out = State::new(0.0, Form::Velocity, vec![0.0; count]);
                     let sum = StateSum { low, known, high, units: &units, x, out: &mut out };
                     if at_once {
-                        in_four_lanes(sum)
+                        in_four_lanes(sum);
                     } else {
-                        sum.run::<_, false>(Separately)
+                        sum.run::<_, false>(Separately);
                     }
                     out
                 };
