@@ -12,6 +12,7 @@ mod effective_potential;
 mod extremum;
 mod frozen;
 mod mean_return;
+mod no_action;
 mod quadrature;
 mod row;
 mod separatrix;
@@ -22,7 +23,6 @@ pub use angle_at_time::AngleAtTime;
 pub use effective_potential::{AllowedInterval, EffectivePotential, PotentialProfile};
 pub use frozen::{FrozenMotion, FrozenSystem, NotFrozen, OwnMotion};
 pub use mean_return::average_returns;
-pub use row::{
-    ActionRow, ActionSystems, NoAction, RegionKind, action_row, action_rows, cyclic_row,
-};
+pub use no_action::NoAction;
+pub use row::{ActionRow, ActionSystems, RegionKind, action_row, action_rows, cyclic_row};
 pub use separatrix::Separatrix;

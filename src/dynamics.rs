@@ -80,8 +80,10 @@ mod turning;
 mod unclosed_motion;
 mod unit_circle;
 mod unresolved_lines;
+mod unsuited;
 mod variation;
 mod vector_fidelity;
+mod vector_field;
 mod virtual_work;
 mod wandering;
 
@@ -112,7 +114,7 @@ pub use newton::Fixed;
 pub use orbit::{Orbit, nearest_orbit, periodic_orbit};
 pub use orbit_stability::{NOTICED_ROUNDING, OrbitStability};
 pub use path_search::stationary_path_between;
-pub use phase_space::{PhaseSpace, VectorField};
+pub use phase_space::PhaseSpace;
 pub use principle::{Hamiltonian, abbreviated_action, action_at_energy};
 pub use return_growth::{ReturnGrowth, growth_after, return_growth};
 pub use rotation::{NoRotation, Rotation, Turning, angle_rotation, rotation};
@@ -130,4 +132,5 @@ pub use variation::{
     EndSlope, VARIATIONS, VariedAction, varied_abbreviated_action, varied_action,
     varied_phase_action,
 };
+pub use vector_field::VectorField;
 pub use virtual_work::VirtualWork;

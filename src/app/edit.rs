@@ -1,24 +1,22 @@
 //! Editing the file of the system in the lab while it runs.
 //!
-//! In: keys, time, and the results of checks, saves and changes on disk. Out: the changed buffer, and what to check
-//! or save. Never here: files, threads, how it is drawn.
+//! In: keys, time, and the results of checks. Out: the changed buffer, and what to check
+//! or save. Never here: files (`file_on_disk`), threads, how it is drawn.
 //!
 //! A text is checked when typing pauses, one check at a time. If it is correct, the lab is rebuilt from it. A newer
 //! text cancels the check of an older one. A file changed by another program is handled the same way.
 
-use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
 use crossterm::event::KeyEvent;
 use tui_input::Input;
 
-use super::buffer::{Asking, BufferState, CheckedRevision, SourceBuffer, Unsaved};
+use super::buffer::{Asking, BufferState, CheckedRevision, SourceBuffer};
 use super::field::{paste, paste_selected};
 use super::pending::AwaitedPlots;
-use super::{App, CheckedText, EditCommand, Effect, Lab, Notification, Overlay, Page, SaveError};
+use super::{App, CheckedText, EditCommand, Effect, Lab, Notification, Overlay, Page};
 use crate::diagnostic::Document;
-use crate::preset::{PresetOrigin, is_path};
 
 impl App {
     /// Returns the buffer being edited, while the editor is open.
@@ -26,7 +24,7 @@ impl App {
         self.workbench.top().filter(|_| matches!(self.overlay, Some(Overlay::Workbench)))
     }
 
-    fn buffer(&mut self) -> Option<&mut SourceBuffer> {
+    pub(super) fn buffer(&mut self) -> Option<&mut SourceBuffer> {
         self.workbench.top_mut()
     }
 
@@ -40,19 +38,6 @@ impl App {
                 .filter(|buffer| self.page == Page::Lab && buffer.state != BufferState::Left);
         };
         self.workbench.of(&lab.loaded.name, self.file().as_deref())
-    }
-
-    /// Returns the file of the loaded system, if it has one.
-    pub fn file(&self) -> Option<PathBuf> {
-        let name = &self.lab.as_ref()?.loaded.name;
-        if is_path(name) {
-            return Some(PathBuf::from(name));
-        }
-        let entry = self.picker.entries.iter().find(|entry| entry.name == *name)?;
-        match &entry.origin {
-            PresetOrigin::User(path) => Some(path.clone()),
-            PresetOrigin::Shipped => None,
-        }
     }
 
     /// Returns a line about the file's errors while its editor is closed.
@@ -70,11 +55,6 @@ impl App {
     /// Whether the result of a check is still wanted.
     pub fn awaits(&self, ticket: u64) -> bool {
         self.own_buffer().is_some_and(|buffer| buffer.awaits(ticket))
-    }
-
-    /// Returns the unsaved texts of all systems.
-    pub fn unsaved(&self) -> Vec<Unsaved> {
-        self.workbench.unsaved()
     }
 
     /// Opens the file of the loaded system.
@@ -96,41 +76,10 @@ impl App {
         Some(self.workbench.lay(&self.lab.as_ref()?.loaded, place))
     }
 
-    /// Ends the program. If a text would be lost, the user has to ask twice.
-    pub(super) fn quit(&mut self) -> Vec<Effect> {
-        let Some(message) = self.loss().filter(|_| !self.workbench.keeps) else {
-            return vec![Effect::Quit];
-        };
-        if self.notifications.shown.as_ref().is_some_and(|notice| notice.text == message) {
-            return vec![Effect::Quit];
-        }
-        self.fail(message)
-    }
-
-    /// Cancels the end of the program because a text could not be stored.
-    pub fn stay(&mut self) {
-        self.workbench.keeps = false;
-        self.notifications.shown = self.loss().map(Notification::error);
-    }
-
-    /// Returns a sentence about what would be lost.
-    fn loss(&self) -> Option<String> {
-        let text = self.workbench.unsaved().into_iter().next()?;
-        Some(format!("{} has unsaved changes; quit again to discard them.", text.title))
-    }
-
     /// Checks an unsaved text at once if it is the one that was running. Returns whether there is one.
     pub(super) fn wake(&mut self) -> bool {
         let modified = self.own_buffer().is_some_and(SourceBuffer::is_modified);
         modified && self.ready_buffer().is_some()
-    }
-
-    /// Reminds the user of an unsaved text of the system in the lab.
-    pub(super) fn remind(&mut self) {
-        if let Some(buffer) = self.own_buffer().filter(|buffer| buffer.is_modified()) {
-            let message = format!("{} has unsaved changes; E shows them.", buffer.title);
-            self.notifications.show(Notification::info(message));
-        }
     }
 
     /// Handles a key that is typed as text.
@@ -275,102 +224,6 @@ impl App {
             return Vec::new();
         }
         self.notify(format!("not found: `{sought}`"))
-    }
-
-    fn save_file(&mut self) -> Vec<Effect> {
-        let Some(buffer) = self.buffer() else { return Vec::new() };
-        let text = buffer.editor.text();
-        match &buffer.place {
-            Some(place) => {
-                let known = (!buffer.overwrites).then(|| buffer.on_disk.clone());
-                vec![Effect::Save { place: place.clone(), text, known }]
-            }
-            None => {
-                let copy = format!("my-{}", buffer.name);
-                buffer.asking = Some(Asking::name(copy));
-                Vec::new()
-            }
-        }
-    }
-
-    /// Handles the result of saving a text.
-    pub(super) fn saved_file(&mut self, outcome: Result<(PathBuf, String), SaveError>) {
-        let Some(buffer) = self.workbench.top_mut() else { return };
-        buffer.overwrites = outcome == Err(SaveError::Changed);
-        self.notifications.show(match outcome {
-            Ok((place, text)) => {
-                let shown = place.display().to_string();
-                buffer.on_disk = text;
-                let renamed = buffer.place.as_ref() != Some(&place);
-                if renamed {
-                    // From now on the copy is the open file.
-                    let here = |lab: &&mut Lab| lab.loaded.name == buffer.name;
-                    let name = if is_path(&shown) { shown.clone() } else { format!("./{shown}") };
-                    if let Some(lab) = self.lab.as_mut().filter(here) {
-                        lab.loaded.name.clone_from(&name);
-                    }
-                    (buffer.name, buffer.title) = (name, shown.clone());
-                    buffer.place = Some(place);
-                }
-                let saved = match (buffer.saved_as(), buffer.state) {
-                    (Some(message), BufferState::Wrong) => Notification::error(message),
-                    (message, _) => Notification::info(message.unwrap_or_default()),
-                };
-                let unchecked = buffer.state == BufferState::Changed;
-                if renamed && buffer.state != BufferState::Wrong {
-                    // a text without a title has that of its file
-                    buffer.touch_at_once(false);
-                }
-                buffer.unchecked = unchecked;
-                saved
-            }
-            Err(SaveError::Changed) => Notification::error(format!(
-                "{} was changed by another program: Ctrl-s again overwrites it, Ctrl-o reloads it.",
-                buffer.title
-            )),
-            Err(SaveError::Exists(place)) => {
-                buffer.asking = Some(Asking::name(place.display().to_string()));
-                Notification::error(format!(
-                    "{} already exists; choose another name.",
-                    place.display()
-                ))
-            }
-            Err(SaveError::Refused(why)) => Notification::error(why),
-        });
-    }
-
-    /// Handles a new text of the file on disk; `asked` says whether the user asked to read it.
-    pub(super) fn changed_on_disk(&mut self, text: &str, asked: bool) {
-        if let Some(buffer) = self.own_buffer().filter(|buffer| !asked && buffer.is_modified()) {
-            if buffer.on_disk != text {
-                let message = format!(
-                    "{} was changed by another program; your text has unsaved changes.",
-                    buffer.title
-                );
-                self.notifications.show(Notification::error(message));
-            }
-            return;
-        }
-        let Some(buffer) = self.ready_buffer() else { return };
-        text.clone_into(&mut buffer.on_disk);
-        if buffer.editor.text() != text {
-            buffer.editor.become_text(text);
-            buffer.touch_at_once(!asked);
-        }
-        buffer.overwrites = false;
-    }
-
-    /// Handles the disappearance or return of the watched file.
-    pub(super) fn found_on_disk(&mut self, there: bool) {
-        let Some(lab) = &self.lab else { return };
-        let title = &lab.loaded.document.path;
-        self.notifications.show(if there {
-            Notification::info(format!("{title} exists again."))
-        } else {
-            Notification::error(format!(
-                "{title} no longer exists; its last valid version keeps running."
-            ))
-        });
     }
 
     /// Advances the time.

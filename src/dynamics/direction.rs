@@ -4,7 +4,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::phase_space::{PhaseSpace, VectorField};
+use super::phase_space::PhaseSpace;
+use super::vector_field::VectorField;
 use crate::system::{Form, MotionError, Rates, State, System};
 
 /// A motion is at rest if each of its rates is less than this part of what its variables, by their size, may add to it.

@@ -10,6 +10,7 @@
 //! kind is that of the effective potential: the least energy at fixed coordinates, whose second
 //! derivative is H_qq − H_qp H_pp⁻¹ H_pq.
 
+mod acceptance;
 mod beginnings;
 mod family;
 mod likeness;

@@ -4,7 +4,8 @@
 
 use std::f64::consts::TAU;
 
-use super::phase_space::{PhaseSpace, VectorField};
+use super::phase_space::PhaseSpace;
+use super::vector_field::VectorField;
 use crate::system::{Form, State};
 
 /// A coordinate whose start is smaller or larger than 1 by no more than a factor 1000 has the unit 1, any

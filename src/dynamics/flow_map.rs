@@ -14,8 +14,9 @@ use nalgebra::DMatrix;
 use super::amplified_rounding::{AmplifiedRounding, MapRounding};
 use super::carrier::Carrier;
 use super::error::DynamicsError;
-use super::phase_space::{PhaseSpace, VectorField};
+use super::phase_space::PhaseSpace;
 use super::tangent_step::TangentStep;
+use super::vector_field::VectorField;
 
 use crate::integrate::{Method, Settings, Stepping};
 use crate::num::{gauss, math};

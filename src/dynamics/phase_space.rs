@@ -1,20 +1,26 @@
 //! The phase space of a system: its canonical variables (q, p), or the variables of its brackets,
 //! at one set of parameters.
+//!
+//! In: a model, its equations, a compiled system, parameters. Out: what is known of its motions before any is followed. Never
+//! here: which systems are unsuited.
 
 use std::sync::Arc;
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 
 use super::drive::{acts, coordinate_period, drive_period};
 use super::error::DynamicsError;
 use super::even_powers::has_one_strict_minimum;
 use super::levels::Levels;
 use super::power::never_adds_energy;
+use super::unsuited::{
+    acts_by_the_clock, refuse, refuse_acts, refuse_acts_but, refuse_constraints,
+};
 use crate::cancel::Cancel;
 use crate::expr::Expr;
 use crate::mechanics::Equations;
 use crate::model::{EventAction, Mechanics, Model};
-use crate::system::{Form, MotionError, Rates, State, System};
+use crate::system::{Form, MotionError, State, System};
 
 /// Why nothing is asked of a system whose constraints allow no displacement.
 pub(super) const NOTHING_MOVES: &str = "the constraints leave nothing that could move";
@@ -346,11 +352,6 @@ impl PhaseSpace {
     pub fn variables<'a>(&self, state: &'a State) -> &'a [f64] {
         &state.values[..self.dimension()]
     }
-
-    /// The rates of change of its variables, with their derivatives.
-    pub fn vector_field(&self) -> VectorField {
-        VectorField::new(self)
-    }
 }
 
 /// Whether a constraint depends on a coordinate, which L may lack.
@@ -358,108 +359,4 @@ fn in_a_constraint(equations: &Equations, coordinate: usize) -> bool {
     let position = equations.coordinates[coordinate].position;
     let mut entries = equations.constraints.iter().flat_map(|one| &one.row);
     entries.any(|&entry| equations.pool.depends(entry, position))
-}
-
-/// Refuses what has no derivative at some places, where nothing here would notice.
-fn refuse(system: &System) -> Result<(), DynamicsError> {
-    let unsuited = |why: &str| Err(DynamicsError::Unsuited(why.to_owned()));
-    if system.has_kinks_of_states() {
-        return unsuited(
-            "the forces have kinks or jumps (abs, sign, min, max, or a cut of atan2), across which \
-             derivatives of the motion are not computed",
-        );
-    }
-    if system.momenta_jump() {
-        return unsuited(
-            "L has a step in time in its momenta, where velocities jump, and derivatives of such motions are not computed: write H",
-        );
-    }
-    if !system.has_tangents_in(Form::Momentum) && system.form() == Form::Velocity {
-        return unsuited(
-            "its velocities follow from its momenta by iteration only, and derivatives of such \
-             motions are not computed",
-        );
-    }
-    Ok(())
-}
-
-/// Refuses constraints.
-fn refuse_constraints(system: &System) -> Result<(), DynamicsError> {
-    if system.constraints() == 0 {
-        return Ok(());
-    }
-    let why = "the motion is held to constraints, and this asks for independent coordinates";
-    Err(DynamicsError::Unsuited(why.to_owned()))
-}
-
-/// Refuses impulses that act on the motion, and events that do.
-fn refuse_acts(system: &System) -> Result<(), DynamicsError> {
-    refuse_acts_but(system, |_| false)
-}
-
-/// The same, but for some actions of events.
-fn refuse_acts_but(system: &System, allowed: fn(EventAction) -> bool) -> Result<(), DynamicsError> {
-    let unsuited = |why: &str| Err(DynamicsError::Unsuited(why.to_owned()));
-    if acts_by_the_clock(system) {
-        return unsuited(
-            "impulses act on the way, across which derivatives of the motion are not computed",
-        );
-    }
-    let passive =
-        |action: EventAction| matches!(action, EventAction::Mark | EventAction::Section(_));
-    let mut events = system.discontinuities().events.iter();
-    if !events.all(|event| passive(event.action) || allowed(event.action)) {
-        return unsuited("events act on the motion, across which its derivatives are not computed");
-    }
-    Ok(())
-}
-
-/// Whether impulses act at given times.
-fn acts_by_the_clock(system: &System) -> bool {
-    system.discontinuities().impulses.iter().any(|impulse| impulse.scheduled)
-}
-
-/// The rates of change f(z) of the variables z of a phase space, and their derivatives ∂f/∂z.
-#[derive(Clone, Debug)]
-pub struct VectorField {
-    rates: Rates,
-    dimension: usize,
-    first: usize,
-    numbers: Vec<f64>,
-    out: Vec<f64>,
-}
-
-impl VectorField {
-    fn new(space: &PhaseSpace) -> VectorField {
-        let dimension = space.dimension();
-        let system = space.system.with_tangents(dimension);
-        let mut rates = system.canonical_rates();
-        rates.set_parameters(&space.parameters);
-        let mut numbers = vec![0.0; system.state_len()];
-        for i in 0..dimension {
-            numbers[system.tangent_place(i) + i] = 1.0;
-        }
-        let out = vec![0.0; system.state_len()];
-        VectorField { rates, dimension, first: system.tangent_place(0), numbers, out }
-    }
-
-    /// Evaluates at a time and at these variables.
-    ///
-    /// # Errors
-    /// Returns an error if there are no rates, as at a singular mass matrix.
-    pub fn evaluate(&mut self, time: f64, variables: &[f64]) -> Result<(), MotionError> {
-        self.numbers[..self.dimension].copy_from_slice(&variables[..self.dimension]);
-        self.rates.evaluate(time, &self.numbers, &mut self.out)
-    }
-
-    /// f(z).
-    pub fn rate(&self) -> DVector<f64> {
-        DVector::from_column_slice(&self.out[..self.dimension])
-    }
-
-    /// ∂f/∂z.
-    pub fn derivative(&self) -> DMatrix<f64> {
-        let n = self.dimension;
-        DMatrix::from_column_slice(n, n, &self.out[self.first..self.first + n * n])
-    }
 }

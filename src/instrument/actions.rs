@@ -6,6 +6,7 @@
 //! Source: *The Principles of Dynamics*, §§ 4.2, 4.3.
 
 mod action_at_time;
+mod computed;
 
 use std::sync::Arc;
 
@@ -14,24 +15,18 @@ use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
     Need, Offer, Physics, Picture, Plot, PlotContext, Present, Upwards,
 };
-use crate::action_angle::{FrozenMotion, OwnMotion, RegionKind, Separatrix, is_adiabatic};
+use crate::action_angle::{RegionKind, is_adiabatic};
 use crate::job::{Job, Progress};
-use crate::num::{math, significant};
+use crate::num::significant;
 use crate::system::ChannelKind;
 use action_at_time::{ActionAtTime, signed};
+use computed::{ComputedActions, Found};
 
 /// The levels of the picture.
 const SEPARATRIX: Level = 0;
 const CURVE: Level = 1;
 const PAST: Level = 2;
 const NOW: Level = 3;
-
-/// The energies of the curve, and how many more stand on each side of a separatrix, ever closer to it.
-const ENERGIES: usize = 40;
-const BESIDE: u32 = 5;
-
-/// The part of the range above the motion and the separatrices.
-const ABOVE: f64 = 0.4;
 
 /// Relative changes below this tell nothing of how slow the change is, and those below the second nothing against it: at the
 /// beginning of a ramp J swings with its rate, while E has hardly moved.
@@ -41,37 +36,8 @@ const SWINGS: f64 = 0.1;
 /// What is said as long as nothing is known.
 const BEING_COMPUTED: &str = "being computed";
 
-/// Beyond this energy, relative to the motion's, a top is out of the picture.
-const FAR: f64 = 20.0;
-
-/// A change of the energy by more than this part of its height is no swing within the steps of a method: the motion is
-/// another one.
-const ANOTHER_ENERGY: f64 = 0.02;
-
-/// The part of the time since the start, and of the period, after which a moving law is evaluated again.
-const LATER: f64 = 0.01;
-const OF_A_PERIOD: f64 = 0.25;
-
 /// The row.
 pub(super) struct ActionsPlot;
-
-/// What was found, and of what.
-struct ComputedActions {
-    course: FrozenCourse<ActionAtTime>,
-    found: Result<Found, String>,
-    /// The instants at which another law took the place of the one before, as a ramp by a key does.
-    replaced: Vec<ActionAtTime>,
-}
-
-/// The curve and the motion.
-struct Found {
-    /// Lines through (E, J), one for each kind of motion.
-    curves: Vec<Vec<[f64; 2]>>,
-    separatrices: Vec<Separatrix>,
-    own: OwnMotion,
-    /// Its energy above the least one of the coordinate where it moves.
-    height: f64,
-}
 
 impl Instrument for ActionsPlot {
     fn name(&self) -> &'static str {
@@ -247,100 +213,6 @@ impl Instrument for ActionsPlot {
                 value: |context| computed(context.answer)?.changes().map(|[action, _]| action),
             },
         ]
-    }
-}
-
-impl ComputedActions {
-    /// Whether it is still what is to be seen in a state of the motion.
-    fn holds_at(&self, now: &CoordinateState) -> bool {
-        let FrozenCourse { state, .. } = &self.course;
-        if !self.course.is_of_this_law() {
-            return false;
-        }
-        if !self.course.moves() {
-            // an impulse or friction changes it
-            let height = self.found.as_ref().map_or(f64::INFINITY, |found| found.height);
-            return now.has_energy_of(state, (ANOTHER_ENERGY, height));
-        }
-        state.time <= now.time && !self.is_behind(now.time)
-    }
-
-    /// Whether the motion has come so much further that it has to be computed again.
-    fn is_behind(&self, time: f64) -> bool {
-        let FrozenCourse { state, past, .. } = &self.course;
-        let period = self.found.as_ref().ok().and_then(|found| found.own.row.as_ref().ok());
-        let period = period.map(|row| row.period).filter(|period| period.is_finite());
-        let since = past.first().map_or(0.0, |first| (time - first.time).abs());
-        let later = (LATER * since).max(OF_A_PERIOD * period.unwrap_or(0.0));
-        time - state.time > later
-    }
-
-    /// By which part the action, and the height of the energy, have changed since the first instant.
-    fn changes(&self) -> Option<[f64; 2]> {
-        self.changes_since(self.course.past.first()?)
-    }
-
-    /// By which part they have changed since an instant; of nothing there is no part.
-    fn changes_since(&self, first: &ActionAtTime) -> Option<[f64; 2]> {
-        self.course.past.last()?.changes_since(first)
-    }
-}
-
-impl Found {
-    fn of(motion: &mut FrozenMotion<'_>) -> Result<Found, String> {
-        let own = motion.own().map_err(|why| why.to_string())?;
-        let separatrices = motion.separatrices().map_err(|why| why.to_string())?;
-        let bottom = motion.bottom(&own);
-        let reach = (own.energy - bottom).max(f64::MIN_POSITIVE);
-        let separatrices: Vec<Separatrix> = separatrices
-            .into_iter()
-            .filter(|s| s.energy.is_finite() && s.energy > bottom)
-            .filter(|s| bottom.is_infinite() || s.energy - bottom < FAR * reach)
-            .collect();
-        let tops: Vec<f64> = separatrices.iter().map(|s| s.energy).collect();
-        let highest = tops.iter().copied().fold(own.energy, f64::max);
-        let from = if bottom.is_finite() { bottom } else { own.energy - own.energy.abs().max(1.0) };
-        let span = if highest > from { highest - from } else { from.abs().max(1.0) };
-        let to = highest + ABOVE * span;
-        let mut energies: Vec<f64> =
-            (1..=ENERGIES).map(|i| from + (to - from) * i as f64 / ENERGIES as f64).collect();
-        for &top in &tops {
-            let step = |k: u32| span * math::exp(-1.6 * f64::from(k + 1));
-            energies.extend((1..=BESIDE).flat_map(|k| [top - step(k), top + step(k)]));
-        }
-        energies.retain(|energy| *energy > from && !tops.contains(energy));
-        energies.sort_by(f64::total_cmp);
-        let mut curves: Vec<Vec<[f64; 2]>> = Vec::new();
-        let mut open: Vec<(RegionKind, usize)> = Vec::new();
-        let mut before = from;
-        for energy in energies {
-            // an energy at which a motion is lost has no point
-            let Ok(rows) = motion.rows(energy) else { continue };
-            let kinds: Vec<RegionKind> = rows.iter().map(|row| row.kind).collect();
-            let crossed = tops.iter().any(|top| before < *top && *top < energy);
-            let same = open.iter().map(|(kind, _)| *kind).eq(kinds.iter().copied());
-            if crossed || !same {
-                let begin = curves.len();
-                open = kinds.iter().enumerate().map(|(i, &kind)| (kind, begin + i)).collect();
-                curves.extend(kinds.iter().map(|_| Vec::new()));
-            }
-            for ((_, curve), row) in open.iter().zip(&rows) {
-                curves[*curve].push([energy, row.action]);
-            }
-            before = energy;
-        }
-        Ok(Found { curves, separatrices, height: own.energy - bottom, own })
-    }
-
-    /// The motion at a time, if it returns.
-    fn moment(&self, time: f64) -> Option<ActionAtTime> {
-        let row = self.own.row.as_ref().ok().filter(|row| row.kind != RegionKind::Unbounded)?;
-        Some(ActionAtTime {
-            time,
-            energy: self.own.energy,
-            height: self.height,
-            action: row.action,
-        })
     }
 }
 
