@@ -40,6 +40,7 @@ mod rerun;
 mod residual;
 mod restore;
 mod returned;
+mod reversal;
 mod reverse;
 mod rewind;
 mod row_spacing;

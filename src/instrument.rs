@@ -54,7 +54,7 @@ pub use equilibria::{
     start_at, value_at,
 };
 pub use kind::{
-    Axis, Columns, Instrument, Measure, MotionCurve, NoStart, Offer, Plot, PlotContext,
+    Axis, Columns, Instrument, Measure, MotionCurve, NoStart, Offer, Plot, PlotContext, StartValues,
 };
 pub use periodic_points::{PeriodicOrbits, PeriodicPoints};
 pub use picture::{

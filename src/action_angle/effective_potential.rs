@@ -172,7 +172,6 @@ impl<'a> EffectivePotential<'a> {
     }
 }
 
-/// The column of a channel.
 fn column(system: &System, kind: ChannelKind) -> usize {
     system.channels().iter().position(|channel| channel.kind == kind).unwrap_or(0)
 }

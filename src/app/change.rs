@@ -62,7 +62,6 @@ impl Lab {
         self.pending.given.clone().unwrap_or_else(fact)
     }
 
-    /// Changes a value.
     pub(super) fn change(&mut self, target: ValueId, to: f64) -> Vec<Effect> {
         let Some(from) = self.value(target).filter(|from| *from != to) else { return Vec::new() };
         let numbers = [from, to];

@@ -54,7 +54,6 @@ impl App {
         }
     }
 
-    /// Applies the impulse of this index.
     pub(super) fn apply_impulse(&mut self, index: usize) -> Vec<Effect> {
         match self.snapshot().map(|s| &s.status) {
             Some(Status::Ended(_)) => self.notify("The motion has ended: begin it again with r."),

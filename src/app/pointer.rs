@@ -12,9 +12,8 @@ use crossterm::event::{MouseButton, MouseEventKind};
 use super::hit_target::{Grab, HitTarget};
 use super::{Action, App, Effect, InputField, Lab, Notification, Overlay, Page, Pane, ValueId};
 use crate::experiment::Command;
-use crate::instrument::{NoStart, Plot, Sight};
+use crate::instrument::{NoStart, Plot, PlotContext, Sight, StartValues};
 use crate::model::Model;
-use crate::system::InitialOverride;
 
 /// The number of lines of text or of a list per notch of the wheel.
 const LINES: isize = 3;
@@ -367,15 +366,11 @@ impl Lab {
     }
 
     /// Returns the initial values that a point of a plot represents, or why it represents none.
-    pub(super) fn beginning_at(
-        &self,
-        index: usize,
-        at: [f64; 2],
-    ) -> Result<Vec<InitialOverride>, NoStart> {
+    pub(super) fn beginning_at(&self, index: usize, at: [f64; 2]) -> StartValues {
         let (Some(plot), Some(present)) = (self.plots.get(index), self.present()) else {
             return Err(NoStart::Nothing);
         };
-        let given = plot.kind.start(plot, &present, at)?;
+        let given = plot.kind.start(PlotContext { plot, present: &present, answer: None }, at)?;
         if self.loaded.model.constraints.is_empty() {
             return Ok(given);
         }

@@ -10,11 +10,8 @@ use crate::model::{Allowed, Direction, Model, Scope, View};
 use crate::preset::{NewSurface, NewZero, SurfaceView};
 use crate::system::ChannelKind;
 
-/// The words for directions; the first of each is that of files.
-const DIRECTIONS: [(&str, Direction); 9] = [
-    ("rising", Direction::Rising),
-    ("falling", Direction::Falling),
-    ("either", Direction::Either),
+/// The words for directions besides those of files.
+const DIRECTIONS: [(&str, Direction); 6] = [
     ("up", Direction::Rising),
     ("down", Direction::Falling),
     ("both", Direction::Either),
@@ -22,10 +19,6 @@ const DIRECTIONS: [(&str, Direction); 9] = [
     ("downwards", Direction::Falling),
     ("+-", Direction::Either),
 ];
-
-fn word(direction: Direction) -> &'static str {
-    DIRECTIONS.iter().find(|(_, one)| *one == direction).map_or("either", |(word, _)| word)
-}
 
 impl App {
     /// Asks for the surface of the focused section, or for one to be shown in place of the focused plot.
@@ -36,7 +29,7 @@ impl App {
             let on = view.axes.last().and_then(|axis| axis.first());
             let on = on.map_or("", |on| on.written.as_str());
             let of_angle = turn(&lab.loaded, on).is_some();
-            format!("{on} = 0, {}", word(if of_angle { Direction::Either } else { now }))
+            format!("{on} = 0, {}", if of_angle { Direction::Either } else { now }.word())
         });
         self.overlay = Some(Overlay::Field(InputField::new(Purpose::Surface(plot), now)));
         Vec::new()
@@ -54,10 +47,11 @@ impl App {
             return self.notify("Only a section has a direction; L shows one here.");
         };
         let next = match now {
-            Direction::Rising => "falling",
-            Direction::Falling => "either",
-            Direction::Either => "rising",
+            Direction::Rising => Direction::Falling,
+            Direction::Falling => Direction::Either,
+            Direction::Either => Direction::Rising,
         };
+        let next = next.word();
         let surface = NewSurface { on: None, axes: None, direction: Some(next) };
         let sentence = format!("Crossings: {next}; E shows it in the text.");
         self.write_surface((plot, &SurfaceView::Known(view)), &surface, sentence)
@@ -150,11 +144,12 @@ fn read(loaded: &Loaded, typed: &str) -> Result<NewSurface, String> {
         // the comma between two arguments
         Some((_, last)) if last.contains(')') => (typed, None),
         Some((body, last)) => {
-            let known = DIRECTIONS.iter().find(|(name, _)| *name == last.trim());
-            let (_, direction) = known.ok_or_else(|| {
+            let of_files = Direction::ALL.map(|direction| (direction.word(), direction));
+            let mut known = of_files.into_iter().chain(DIRECTIONS);
+            let (_, direction) = known.find(|(word, _)| *word == last.trim()).ok_or_else(|| {
                 format!("`{}` is no direction: write rising, falling or either.", last.trim())
             })?;
-            (body.trim(), Some(word(*direction)))
+            (body.trim(), Some(direction.word()))
         }
     };
     if let Some(name) = body.strip_prefix("event ").map(str::trim) {

@@ -122,7 +122,6 @@ pub(super) fn parameters(model: &Model, set: &[Assignment]) -> Result<Vec<f64>, 
     Ok(values)
 }
 
-/// The parameter of a name.
 pub(super) fn parameter(model: &Model, name: &str) -> Result<usize, CommandError> {
     model.parameter(name).ok_or_else(|| {
         let names = model.parameters.iter().map(|p| p.name.as_str());

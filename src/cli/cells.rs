@@ -20,7 +20,6 @@ pub(super) enum TableFormat {
 }
 
 impl TableFormat {
-    /// The form of its output.
     pub(super) fn form(self) -> OutputForm {
         match self {
             TableFormat::Text | TableFormat::Csv => OutputForm::Text,

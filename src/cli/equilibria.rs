@@ -45,15 +45,6 @@ pub(super) fn execute(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     study::write(&arguments.study, result, None, interrupt)
 }
 
-fn word(kind: Kind) -> &'static str {
-    match kind {
-        Kind::Minimum => "minimum",
-        Kind::Saddle => "saddle",
-        Kind::Maximum => "maximum",
-        Kind::Degenerate => "degenerate",
-    }
-}
-
 fn object(study: &Study, found: &Equilibria) -> Map<String, Value> {
     let mut object = study.head(study.settings);
     let one = |one: &Equilibrium| {
@@ -69,7 +60,7 @@ fn object(study: &Study, found: &Equilibria) -> Map<String, Value> {
             "energy": one.energy,
             "multipliers": multipliers(study, one),
             "virtual_work": one.work.iter().map(|work| balance(names, work)).collect::<Vec<_>>(),
-            "kind": one.kind.map(word),
+            "kind": one.kind.map(Kind::word),
             "family": one.family.iter().map(|along| study.named(along)).collect::<Vec<_>>(),
             "eigenvalues": one.eigenvalues,
             "frequencies": frequencies,
@@ -115,7 +106,7 @@ fn text(study: &Study, found: &Equilibria) -> String {
     }
     let mut text = String::new();
     for one in &found.found {
-        let kind = one.kind.map_or("equilibrium", word);
+        let kind = one.kind.map_or("equilibrium", Kind::word);
         let stable = one.stability();
         let name = if one.name.is_empty() { String::new() } else { format!("{}: ", one.name) };
         let energy = match one.energy {

@@ -17,7 +17,6 @@ pub(super) enum Format {
 }
 
 impl Format {
-    /// The form of its output.
     pub(super) fn form(self) -> OutputForm {
         match self {
             Format::Text | Format::Latex => OutputForm::Text,

@@ -37,7 +37,6 @@ enum ListFormat {
 }
 
 impl ListFormat {
-    /// The form of its output.
     fn form(self) -> OutputForm {
         match self {
             ListFormat::Text | ListFormat::Names => OutputForm::Text,

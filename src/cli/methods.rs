@@ -32,7 +32,6 @@ enum MethodsFormat {
 }
 
 impl MethodsFormat {
-    /// The form of its output.
     fn form(self) -> OutputForm {
         match self {
             MethodsFormat::Text => OutputForm::Text,

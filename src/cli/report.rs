@@ -14,7 +14,6 @@ pub(super) struct Header {
     pub(super) phaselab: &'static str,
     /// The system's title.
     pub(super) title: String,
-    /// The parameters with their values.
     pub(super) parameters: Map<String, Value>,
     /// The method and its settings.
     pub(super) method: Map<String, Value>,

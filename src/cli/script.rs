@@ -13,7 +13,6 @@ pub(super) enum MathScript {
 }
 
 impl MathScript {
-    /// The script of the locale.
     pub(super) fn of_locale() -> MathScript {
         let glyphs = Glyphs::from_environment(&|name| std::env::var(name).ok());
         if glyphs.is_ascii() { MathScript::Ascii } else { MathScript::Unicode }

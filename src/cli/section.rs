@@ -6,6 +6,9 @@ mod rotation_columns;
 use std::ops::Range;
 use std::path::PathBuf;
 
+use clap::ValueEnum;
+use clap::builder::PossibleValue;
+
 use self::report::{SectionReport, ShownColumn};
 use self::rotation_columns::RotationColumns;
 use super::assignment::{self, number, whole};
@@ -50,7 +53,7 @@ pub(super) struct Arguments {
     on: Option<String>,
     /// Which crossings count: by default the rising ones, or those of the file's own surface.
     #[arg(long, value_enum)]
-    direction: Option<Sense>,
+    direction: Option<Direction>,
     /// The number of crossings after which an orbit ends; 100 where there is no --until either.
     #[arg(long, allow_hyphen_values = true, value_name = "N", value_parser = whole::<u64>(1, MOST))]
     count: Option<u64>,
@@ -94,56 +97,34 @@ const MOST: u64 = 100_000_000;
 const IDLE: u64 = 100_000;
 const IDLE_ASKED: u64 = 1_000_000;
 
-/// A direction of crossing.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, clap::ValueEnum)]
-enum Sense {
-    /// From below zero.
-    Rising,
-    /// From above zero.
-    Falling,
-    /// Both.
-    Either,
-}
-
-impl Sense {
-    fn direction(self) -> Direction {
-        match self {
-            Sense::Rising => Direction::Rising,
-            Sense::Falling => Direction::Falling,
-            Sense::Either => Direction::Either,
-        }
+impl ValueEnum for Direction {
+    fn value_variants<'a>() -> &'a [Self] {
+        &Direction::ALL
     }
 
-    fn of(direction: Direction) -> Sense {
-        match direction {
-            Direction::Rising => Sense::Rising,
-            Direction::Falling => Sense::Falling,
-            Direction::Either => Sense::Either,
-        }
-    }
-
-    fn word(self) -> &'static str {
-        match self {
-            Sense::Rising => "rising",
-            Sense::Falling => "falling",
-            Sense::Either => "either",
-        }
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        let help = match self {
+            Direction::Rising => "From below zero",
+            Direction::Falling => "From above zero",
+            Direction::Either => "Both",
+        };
+        Some(PossibleValue::new(self.word()).help(help))
     }
 }
 
 pub(super) fn execute(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
     let mut reading = arguments.motion.read()?;
-    let (on, sense) = match (&arguments.on, reading.surface.take()) {
-        (Some(on), _) => (on.clone(), Sense::Rising),
-        (None, Some((on, direction))) => (on, Sense::of(direction)),
+    let (on, direction) = match (&arguments.on, reading.surface.take()) {
+        (Some(on), _) => (on.clone(), Direction::Rising),
+        (None, Some(of_file)) => of_file,
         (None, None) => {
             let message = "the file has no surface of section; --on says where, as `--on x`";
             return Err(CommandError::WrongUse(message.to_owned()));
         }
     };
-    let sense = arguments.direction.unwrap_or(sense);
+    let direction = arguments.direction.unwrap_or(direction);
     let surface = surface(&mut reading.model, &on, "--on")?;
-    let event = add_section(&mut reading.model, surface, sense.direction());
+    let event = add_section(&mut reading.model, surface, direction);
     let wanted = arguments.columns.as_deref().map(split);
     let rotation_names = arguments.rotation.as_deref().map(split);
     let named: Vec<String> = wanted.iter().chain(&rotation_names).flatten().cloned().collect();
@@ -185,7 +166,7 @@ pub(super) fn execute(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let section = SectionReport {
         laid: &laid,
         on: &on,
-        direction: sense.word(),
+        direction: direction.word(),
         format: arguments.format,
         orbits: &orbits,
         shown: &shown,

@@ -332,7 +332,6 @@ impl Continuation<'_> {
         self.first(orbit)
     }
 
-    /// The size of a state.
     fn size(&self, state: &State) -> f64 {
         self.space.variables(state).iter().fold(0.1, |m: f64, x| m.max(x.abs()))
     }

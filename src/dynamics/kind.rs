@@ -27,6 +27,18 @@ pub enum Kind {
     Degenerate,
 }
 
+impl Kind {
+    /// Its name.
+    pub fn word(self) -> &'static str {
+        match self {
+            Kind::Minimum => "minimum",
+            Kind::Saddle => "saddle",
+            Kind::Maximum => "maximum",
+            Kind::Degenerate => "degenerate",
+        }
+    }
+}
+
 /// In how many directions a potential grows, falls, or does neither by a square.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct Signature {

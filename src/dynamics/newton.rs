@@ -205,7 +205,6 @@ impl Newton<'_> {
         Ok(self.space.state(&native)?)
     }
 
-    /// The size of a state.
     pub(super) fn size(&self, state: &State) -> f64 {
         let variables = DVector::from_column_slice(self.space.variables(state));
         self.units.scaled(&variables).amax()

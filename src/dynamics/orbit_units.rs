@@ -24,7 +24,6 @@ pub(super) struct OrbitUnits {
 }
 
 impl OrbitUnits {
-    /// The units of the file.
     pub(super) fn of_file(dimension: usize) -> OrbitUnits {
         OrbitUnits { variables: DVector::repeat(dimension, 1.0), time: 1.0 }
     }

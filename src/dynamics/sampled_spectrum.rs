@@ -10,7 +10,7 @@
 use super::frequency_drift::{FrequencyDrift, frequency_drift};
 use super::spectral_line::SpectralLine;
 use super::spectrum::{MeanRate, Spectrum, advance, driven_spectrum, mean_rate, straightened};
-use crate::num::math;
+use crate::num::{math, significant};
 
 /// Where between two values the quantity is evaluated, as a part of the interval.
 const BETWEEN: f64 = 0.618_033_988_749_894_9;
@@ -80,11 +80,13 @@ pub struct SampledSpectrum {
 }
 
 /// Why there is no spectrum.
-#[derive(Clone, Copy, PartialEq, Debug)]
+#[derive(Clone, Copy, PartialEq, Debug, thiserror::Error)]
 pub enum NoSpectrum {
     /// The motion ends before this time.
+    #[error("the motion ends before t = {}", significant(*.0, 4, 1e-3..1e5))]
     Ends(f64),
     /// The quantity is not finite.
+    #[error("the motion has no finite values")]
     NotFinite,
 }
 

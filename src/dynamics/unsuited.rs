@@ -29,7 +29,6 @@ pub(super) fn refuse(system: &System) -> Result<(), DynamicsError> {
     Ok(())
 }
 
-/// Refuses constraints.
 pub(super) fn refuse_constraints(system: &System) -> Result<(), DynamicsError> {
     if system.constraints() == 0 {
         return Ok(());

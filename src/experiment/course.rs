@@ -13,7 +13,7 @@ use super::law_changes::LawChanges;
 use super::notices::Notices;
 use super::observed_motion::ObservedMotion;
 use super::recorder::Recorder;
-use super::reverse::Reversal;
+use super::reversal::Reversal;
 use super::row_spacing::RowSpacing;
 use super::run_log::RunLog;
 use super::run_state::RunState;

@@ -222,7 +222,6 @@ impl Gauges {
         rounding_floor(steps.saturating_sub(self.reference_steps))
     }
 
-    /// The gauges as shown.
     pub(super) fn show(&self, now: &GaugeInputs<'_>) -> Arc<[Gauge]> {
         let floor = self.floor(now.steps);
         let show = |monitor: &InvariantMonitor| {

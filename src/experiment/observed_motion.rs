@@ -79,7 +79,6 @@ impl ObservedMotion {
         self.inner.change_method(method, settings)
     }
 
-    /// Begins at a state.
     pub(super) fn begin(&mut self, state: &State, parameters: &[f64]) -> Result<(), MotionError> {
         self.log.clear();
         self.inner.begin(state, parameters)?;

@@ -21,24 +21,6 @@ use crate::expr::Expr;
 use crate::integrate::Stepping;
 use crate::model::EventAction;
 use crate::num::short;
-use crate::system::System;
-
-/// What reversing time has to know.
-pub(super) struct Reversal {
-    /// The system run the other way, once it was needed.
-    other_way: Option<System>,
-    /// The reading of the clock at which time was reversed last, or the motion began.
-    pub(super) began: f64,
-    /// The run before time was reversed.
-    pub(super) echo: Option<Box<Echo>>,
-}
-
-impl Reversal {
-    /// No reversal of a motion that begins at a time.
-    pub(super) fn none(began: f64) -> Reversal {
-        Reversal { other_way: None, began, echo: None }
-    }
-}
 
 impl Experiment {
     /// Reverses time.

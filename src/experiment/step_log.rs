@@ -73,7 +73,6 @@ impl StepLog {
         self.earlier.drain(..excess);
     }
 
-    /// The token of the run.
     pub(super) fn run(&self) -> RunToken {
         self.run.clone()
     }

@@ -15,7 +15,6 @@ pub(super) const DISTINCT: usize = u128::BITS as usize;
 pub(super) struct SymbolSet(u128);
 
 impl SymbolSet {
-    /// The set of one symbol.
     pub(super) fn of(symbol: Symbol) -> SymbolSet {
         SymbolSet(1 << (symbol.index() % DISTINCT))
     }

@@ -44,7 +44,6 @@ impl PlotConditions {
         self.parameters == other.parameters && self.initial == other.initial
     }
 
-    /// The method and its settings.
     pub(super) fn method(&self) -> Option<(&'static Method, Settings)> {
         Some((method_named(self.method)?, self.settings))
     }

@@ -19,11 +19,10 @@ use super::straight_line::StraightLine;
 use super::varied::{self, VariedMotions};
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, NoStart,
-    Offer, Physics, Picture, Plot, PlotContext, PlotTable, Present, Upwards,
+    Offer, Physics, Picture, Plot, PlotContext, PlotTable, Present, StartValues, Upwards,
 };
 use crate::job::Job;
 use crate::model::{Variation, View};
-use crate::system::InitialOverride;
 
 /// The levels of the picture.
 const NOW: Level = 0;
@@ -168,10 +167,9 @@ impl Instrument for Diagram {
 
     fn start(
         &self,
-        plot: &Plot,
-        present: &Present<'_>,
+        PlotContext { plot, present, .. }: PlotContext<'_>,
         at: [f64; 2],
-    ) -> Result<Vec<InitialOverride>, NoStart> {
+    ) -> StartValues {
         match plot.over.first() {
             Some(&Variation::Initial(index)) => {
                 Ok(vec![present.physics.system.initial_override(index, at[0])])

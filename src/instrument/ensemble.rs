@@ -17,13 +17,13 @@ use super::conditions::PlotConditions;
 use super::phase::initial_values;
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
-    Need, NoStart, Offer, Physics, Picture, Plot, PlotContext, Present, Seed, Upwards,
+    Need, NoStart, Offer, Physics, Picture, Plot, PlotContext, Present, Seed, StartValues, Upwards,
 };
 use crate::expr::{Expr, Symbol};
 use crate::integrate::method_named;
 use crate::job::Job;
 use crate::num::{math, significant};
-use crate::system::{ChannelKind, Form, InitialOverride};
+use crate::system::{ChannelKind, Form};
 
 use cloud::{Cloud, CloudTask};
 use frame::CloudFrame;
@@ -88,8 +88,7 @@ impl Instrument for Ensemble {
     }
 
     fn across(&self, context: PlotContext<'_>) -> Across {
-        let range = range(context, 0);
-        context.plot.column(0).map_or(Across::Nothing, |x| Across::Channel(x, range))
+        context.plot.across(range(context, 0))
     }
 
     fn picture(&self, context: PlotContext<'_>, _seen: [f64; 2]) -> Option<Picture> {
@@ -118,10 +117,9 @@ impl Instrument for Ensemble {
 
     fn start(
         &self,
-        plot: &Plot,
-        present: &Present<'_>,
+        PlotContext { plot, present, .. }: PlotContext<'_>,
         at: [f64; 2],
-    ) -> Result<Vec<InitialOverride>, NoStart> {
+    ) -> StartValues {
         initial_values(plot, present.physics, at).ok_or(NoStart::Nothing)
     }
 

@@ -174,13 +174,7 @@ fn on_the_surface(
 
 /// An equilibrium in words: its kind, where it is, and its frequencies.
 pub fn described(physics: Physics<'_>, one: &Equilibrium) -> (String, String) {
-    let kind = match one.kind {
-        Some(Kind::Minimum) => "minimum",
-        Some(Kind::Saddle) => "saddle",
-        Some(Kind::Maximum) => "maximum",
-        Some(Kind::Degenerate) => "degenerate",
-        None => "equilibrium",
-    };
+    let kind = one.kind.map_or("equilibrium", Kind::word);
     let stable = match one.stable {
         None if !one.is_linearly_stable() => "neutral",
         _ => one.stability(),

@@ -8,10 +8,9 @@
 use std::f64::consts::TAU;
 
 use super::varied::VariedMotions;
-use crate::dynamics::{NoSpectrum, SampledSpectrum, SpectrumRequest, sampled_spectrum};
+use crate::dynamics::{SampledSpectrum, SpectrumRequest, sampled_spectrum};
 use crate::ensemble::{Start, SystemFlow};
 use crate::expr::Expr;
-use crate::num::significant;
 use crate::system::{ChannelKind, System};
 
 /// How many numbers are taken of a motion, first and at most, and the lines that are searched for.
@@ -59,12 +58,7 @@ impl VariedMotions {
         };
         let mut report = |_| !system.cancel().is_cancelled();
         let sampled =
-            sampled_spectrum(&request, &mut sample, &mut report).map_err(|why| match why {
-                NoSpectrum::Ends(time) => {
-                    format!("the motion ends before t = {}", significant(time, 4, 1e-3..1e5))
-                }
-                NoSpectrum::NotFinite => "the motion has no finite values".to_owned(),
-            })?;
+            sampled_spectrum(&request, &mut sample, &mut report).map_err(|why| why.to_string())?;
         let is_too_fast = sampled.is_false() || sampled.is_strongest_left_out();
         let SampledSpectrum { spectrum: found, rate, .. } = sampled;
         let rounds = |rate: f64, turn: f64| (rate * length / turn).abs();

@@ -172,12 +172,7 @@ pub trait Instrument: Sync {
     ///
     /// # Errors
     /// Returns an error if points of the picture are no initial values, or if this one is none.
-    fn start(
-        &self,
-        _plot: &Plot,
-        _present: &Present<'_>,
-        _at: [f64; 2],
-    ) -> Result<Vec<InitialOverride>, NoStart> {
+    fn start(&self, _context: PlotContext<'_>, _at: [f64; 2]) -> StartValues {
         Err(NoStart::Nothing)
     }
 
@@ -284,6 +279,9 @@ pub struct Offer {
     /// What it runs over, where no view says so.
     pub over: Vec<Variation>,
 }
+
+/// The initial values that a point of a picture stands for.
+pub type StartValues = Result<Vec<InitialOverride>, NoStart>;
 
 /// Why a point of a picture does not begin a motion.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -14,7 +14,8 @@ use super::section::zero;
 use super::varied::{self, VariedMotions};
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
-    Need, NoStart, Offer, Physics, Picture, Plot, PlotContext, PlotTable, Present, Upwards,
+    Need, NoStart, Offer, Physics, Picture, Plot, PlotContext, PlotTable, Present, StartValues,
+    Upwards,
 };
 use crate::job::Job;
 use crate::mechanics::Valuation;
@@ -146,10 +147,9 @@ impl Instrument for Map {
 
     fn start(
         &self,
-        plot: &Plot,
-        present: &Present<'_>,
+        PlotContext { plot, present, .. }: PlotContext<'_>,
         at: [f64; 2],
-    ) -> Result<Vec<InitialOverride>, NoStart> {
+    ) -> StartValues {
         let system = present.physics.system;
         let initial = plot.over.iter().zip(at).filter_map(|(&over, x)| match over {
             Variation::Initial(index) => Some(system.initial_override(index, x)),

@@ -13,14 +13,14 @@ use super::orbit_crossings::periodic_points;
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
     Need, NoStart, Offer, PeriodicOrbits, Physics, Picture, Plot, PlotContext, Present, Seed,
-    Upwards,
+    StartValues, Upwards,
 };
 use crate::dynamics::{DynamicsError, Orbit as Closed, OrbitStability, explained};
 use crate::ensemble::{Start, SystemFlow};
 use crate::integrate::{Method, Settings, method_named};
 use crate::job::{Job, Progress};
 use crate::num::{math, significant};
-use crate::system::{ChannelKind, Form, InitialOverride, System};
+use crate::system::{ChannelKind, Form, System};
 
 /// The levels of the picture.
 const TRAIL: Level = 0;
@@ -94,8 +94,7 @@ impl Instrument for OrbitPlot {
     }
 
     fn across(&self, context: PlotContext<'_>) -> Across {
-        let range = range(context, 0);
-        context.plot.column(0).map_or(Across::Nothing, |x| Across::Channel(x, range))
+        context.plot.across(range(context, 0))
     }
 
     fn picture(&self, context: PlotContext<'_>, _seen: [f64; 2]) -> Option<Picture> {
@@ -116,10 +115,9 @@ impl Instrument for OrbitPlot {
 
     fn start(
         &self,
-        plot: &Plot,
-        present: &Present<'_>,
+        PlotContext { plot, present, .. }: PlotContext<'_>,
         at: [f64; 2],
-    ) -> Result<Vec<InitialOverride>, NoStart> {
+    ) -> StartValues {
         let found = super::phase::initial_values(plot, present.physics, at);
         found.ok_or(NoStart::Nothing)
     }

@@ -10,7 +10,7 @@ use super::equilibria::marks;
 use super::{
     Across, Answer, Axis, Columns, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape,
     Measure, MotionCurve, Need, NoStart, Offer, Physics, Picture, Plot, PlotContext, Present,
-    Upwards, value_at,
+    StartValues, Upwards, value_at,
 };
 use crate::analysis::{Landscape, Plane};
 use crate::dynamics::Equilibrium;
@@ -124,10 +124,9 @@ impl Instrument for Phase {
     /// A point represents initial values if both axes belong to the state and are not the same.
     fn start(
         &self,
-        plot: &Plot,
-        present: &Present<'_>,
+        PlotContext { plot, present, .. }: PlotContext<'_>,
         at: [f64; 2],
-    ) -> Result<Vec<InitialOverride>, NoStart> {
+    ) -> StartValues {
         initial_values(plot, present.physics, at).ok_or(NoStart::Nothing)
     }
 

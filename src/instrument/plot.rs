@@ -6,7 +6,7 @@
 use std::f64::consts::PI;
 
 use super::{
-    Answer, CameraPose, Columns, Entry, Heading, Instrument, MOST_SEEDS, Physics, Plot,
+    Across, Answer, CameraPose, Columns, Entry, Heading, Instrument, MOST_SEEDS, Physics, Plot,
     PlotContext, Present, Seed, Sight, Viewport,
 };
 use crate::model::{Model, View};
@@ -73,6 +73,11 @@ impl Plot {
     /// The only channel, or the first, of an axis.
     pub fn column(&self, axis: usize) -> Option<usize> {
         self.columns.get(axis)?.first().copied()
+    }
+
+    /// The horizontal axis of its first column, over a range.
+    pub(super) fn across(&self, range: Option<[f64; 2]>) -> Across {
+        self.column(0).map_or(Across::Nothing, |x| Across::Channel(x, range))
     }
 
     /// The name of the plot without a picture.

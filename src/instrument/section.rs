@@ -15,7 +15,8 @@ use std::sync::Arc;
 use super::equilibria::{lies_on, marks, value_at};
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
-    Need, NoStart, Offer, Physics, Picture, Plot, PlotContext, PlotTable, Present, Seed, Upwards,
+    Need, NoStart, Offer, Physics, Picture, Plot, PlotContext, PlotTable, Present, Seed,
+    StartValues, Upwards,
 };
 use crate::ensemble::{NotInPlane, PhaseShift, SectionPlan, SectionPlane, Start};
 use crate::expr::Expr;
@@ -126,8 +127,7 @@ impl Instrument for SectionPlot {
     }
 
     fn across(&self, context: PlotContext<'_>) -> Across {
-        let range = range(context, 0);
-        context.plot.column(0).map_or(Across::Nothing, |x| Across::Channel(x, range))
+        context.plot.across(range(context, 0))
     }
 
     fn awaits(&self, PlotContext { plot, present, answer }: PlotContext<'_>) -> Option<String> {
@@ -186,10 +186,9 @@ impl Instrument for SectionPlot {
 
     fn start(
         &self,
-        plot: &Plot,
-        present: &Present<'_>,
+        PlotContext { plot, present, .. }: PlotContext<'_>,
         at: [f64; 2],
-    ) -> Result<Vec<InitialOverride>, NoStart> {
+    ) -> StartValues {
         let plane = plane(plot, present).ok_or(NoStart::Nothing)?;
         let given = beginning(plot, present, &plane, at);
         given.map_err(|why| NoStart::Refused(capitalised(&why.to_string())))

@@ -10,8 +10,8 @@ use super::{
     Physics, Picture, Plot, PlotContext, Present, Upwards,
 };
 use crate::dynamics::{
-    FrequencyDrift, MeanRate, NoSpectrum, PhaseSpace, SampledSpectrum, SpectralLine,
-    Spectrum as Lines, SpectrumRequest, independent_frequencies, sampled_spectrum,
+    FrequencyDrift, MeanRate, PhaseSpace, SampledSpectrum, SpectralLine, Spectrum as Lines,
+    SpectrumRequest, independent_frequencies, sampled_spectrum,
 };
 use crate::ensemble::SystemFlow;
 use crate::integrate::method_named;
@@ -183,13 +183,7 @@ impl Instrument for SpectrumPlot {
                     seen.iter().map(|row| row[0]).collect()
                 };
                 let sampled = sampled_spectrum(&request, &mut sample, &mut report);
-                let sampled = sampled.map_err(|why| match why {
-                    NoSpectrum::Ends(time) => {
-                        let time = significant(time, 4, 1e-3..1e5);
-                        format!("the motion ends before t = {time}")
-                    }
-                    NoSpectrum::NotFinite => "the motion has no finite values".to_owned(),
-                })?;
+                let sampled = sampled.map_err(|why| why.to_string())?;
                 if sampled.is_false() {
                     return Err("it is faster than so many values can show".to_owned());
                 }

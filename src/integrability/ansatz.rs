@@ -164,7 +164,6 @@ impl Ansatz {
         row
     }
 
-    /// A column as an expression.
     pub(super) fn expression(&self, pool: &mut Pool, atoms: &Atoms, column: usize) -> Expr {
         let (a, b) = self.columns[column];
         let momenta = atoms.momenta.iter().zip(&self.momenta[a]);

@@ -231,7 +231,6 @@ impl ResidueEvaluator {
         Some(ResidueRates(rates))
     }
 
-    /// Its rate.
     pub(super) fn rate(&self, rates: &ResidueRates, e: Expr) -> Residue {
         rates.0[self.index[&e]]
     }

@@ -333,7 +333,6 @@ fn leibniz(
     terms
 }
 
-/// A polynomial as an expression.
 fn polynomial(pool: &mut Pool, terms: &ConstantPolynomial, functions: &[Expr]) -> Expr {
     let terms: Vec<Expr> = terms
         .iter()

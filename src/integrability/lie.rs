@@ -49,20 +49,8 @@ pub struct PointSymmetry {
     pub scaling: Option<Vec<Number>>,
 }
 
-/// The symmetries of the equations that were found, and where. All of them are proved.
-#[derive(Clone, Debug)]
-pub struct PointSymmetries {
-    /// A basis of them, Noether's first.
-    pub found: Vec<PointSymmetry>,
-    /// What was searched, in words.
-    pub searched: String,
-    /// Whether their number is proved: the ansatz has no others.
-    pub complete: bool,
-    /// How many more there are whose coefficients are no short fractions, or that are not proved, so that they are not written.
-    pub unwritten: usize,
-    /// How many more there are that were not written when the time ran out.
-    pub unfinished: usize,
-}
+/// The symmetries of the equations that were found, Noether's first, and where. All of them are proved.
+pub type PointSymmetries = Symmetries<PointSymmetry>;
 
 /// Searches for Lie point symmetries of the equations of motion, at the parameters' values. `noether` are those that come
 /// from the Lagrangian, if they are known; those that are met here, as their gauge terms are of higher degree, are added.

@@ -30,15 +30,15 @@ pub(super) const DEGREE: u32 = 3;
 
 /// The symmetries that were found, and where.
 #[derive(Clone, Debug)]
-pub struct Symmetries {
+pub struct Symmetries<S = Symmetry> {
     /// A basis of them.
-    pub found: Vec<Symmetry>,
+    pub found: Vec<S>,
     /// What was searched, in words.
     pub searched: String,
     /// Whether their number is proved: the ansatz has no others, but for a chance far below 2⁻⁵⁰⁰ that a dependence of
     /// monomials is seen at random points and does not hold.
     pub complete: bool,
-    /// How many more there are whose coefficients are no short fractions, so that they are not written.
+    /// How many more there are whose coefficients are no short fractions, or that are not proved, so that they are not written.
     pub unwritten: usize,
     /// How many more there are that were not written when the time ran out.
     pub unfinished: usize,

@@ -218,7 +218,6 @@ impl<'a> Search<'a> {
         atoms.clone()
     }
 
-    /// The highest degree of an ansatz.
     fn highest_degree(&self, ansatz: &Ansatz) -> u32 {
         let degree = ansatz.bounds.iter().map(|&(k, _)| k).max().unwrap_or(0);
         if self.law.positions == 0 { ansatz.bounds[0].1 } else { degree }

@@ -26,7 +26,6 @@ pub(super) struct PieceCount {
 }
 
 impl PieceCount {
-    /// No piece.
     pub(super) const NONE: PieceCount = PieceCount { shortest: 0, step: f64::NAN, count: 0 };
 
     /// Begins to count anew within a step.

@@ -46,6 +46,18 @@ pub enum Direction {
 }
 
 impl Direction {
+    /// All directions.
+    pub const ALL: [Direction; 3] = [Direction::Rising, Direction::Falling, Direction::Either];
+
+    /// Its word in files.
+    pub fn word(self) -> &'static str {
+        match self {
+            Direction::Rising => "rising",
+            Direction::Falling => "falling",
+            Direction::Either => "either",
+        }
+    }
+
     /// The direction of a function of −t that has this direction as a function of t.
     #[must_use]
     pub fn reversed(self) -> Direction {

@@ -39,7 +39,7 @@ pub(super) use frame::DraftFrame;
 pub(super) use law::{DraftBracket, DraftMechanics, LawTable};
 pub(super) use occurrence::{DraftEvent, DraftImpulse};
 pub(super) use picture::{
-    DraftCamera, DraftFollow, DraftSection, DraftShape, DraftShapeKind, DraftView,
+    DraftCamera, DraftFollow, DraftSection, DraftShape, DraftView, ShapeKind,
 };
 pub(super) use run::DraftRun;
 pub(super) use system::{DraftCoordinate, DraftMoving, DraftParameter, DraftRamp, NamedFormula};
@@ -66,7 +66,6 @@ pub(super) struct Draft {
     pub(super) definitions: Vec<NamedFormula>,
     /// Every law of motion given; exactly one is valid.
     pub(super) mechanics: Vec<DraftMechanics>,
-    /// The constraints.
     pub(super) constraints: Vec<DraftConstraint>,
     pub(super) impulses: Vec<DraftImpulse>,
     /// The events, crossings to be located.

@@ -315,7 +315,6 @@ impl ScriptRunner {
         })
     }
 
-    /// The course of one value in a sweep.
     fn course(&self, way: &SweepPath) -> Result<ValueRamp, Diagnostic> {
         let target = self.target(&way.name)?;
         let of = |text: &LineText| assertion::value(&self.lab.app, text);

@@ -24,7 +24,6 @@ impl ScreenStyle {
         &self.full
     }
 
-    /// The style to draw with.
     pub(super) fn drawn(&self) -> &RenderStyle {
         &self.drawn
     }

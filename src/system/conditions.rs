@@ -192,7 +192,6 @@ impl Conditions {
         if inputs.is_finite() { inputs } else { 0.0 }
     }
 
-    /// The entry of A for one constraint and one coordinate.
     pub(super) fn entry(&self, constraint: usize, coordinate: usize) -> DoubleDouble {
         self.output(constraint, coordinate)
     }

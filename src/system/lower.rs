@@ -20,7 +20,6 @@ pub(super) struct Lowering<'a> {
     /// The register of every operation emitted: equal operations share one.
     written: FxHashMap<Op, Register>,
     constants: FxHashMap<(u64, u64), u32>,
-    /// The expression of each switch.
     pub(super) switches: Vec<Expr>,
     pub(super) unknown: Option<Symbol>,
     /// Whether the cut of `atan2` is a switch, as it must be for a motion that it drives.
@@ -68,13 +67,11 @@ impl<'a> Lowering<'a> {
         self.known.insert(e, register);
     }
 
-    /// The register of a symbol.
     pub(super) fn variable(&mut self, symbol: Symbol) -> Register {
         let e = self.pool.variable(symbol);
         self.lower(e)
     }
 
-    /// The register of an expression.
     pub(super) fn lower(&mut self, e: Expr) -> Register {
         let mut stack = vec![(e, false)];
         while let Some((e, parts_done)) = stack.pop() {
@@ -92,7 +89,6 @@ impl<'a> Lowering<'a> {
         self.known[&e]
     }
 
-    /// The registers of all expressions of a list.
     pub(super) fn lower_all(&mut self, list: &[Expr]) -> Vec<Register> {
         list.iter().map(|&e| self.lower(e)).collect()
     }

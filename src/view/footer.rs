@@ -94,7 +94,6 @@ fn current_notification(app: &App) -> Option<(String, Role)> {
     notice.or_else(|| app.banner().map(|banner| (banner, Role::Bad)))
 }
 
-/// The role of a notification.
 pub(super) fn notice_role(notice: &Notification) -> Role {
     match notice.kind {
         NotificationKind::Info => Role::Good,

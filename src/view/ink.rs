@@ -25,7 +25,6 @@ pub(super) fn pen(canvas: &Canvas<'_>, ink: Ink, level: Level) -> Pen {
     }
 }
 
-/// The marker of a shape.
 pub(super) fn marker(shape: MarkerShape) -> Marker {
     match shape {
         MarkerShape::Disc => Marker::Disc,

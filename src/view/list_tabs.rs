@@ -80,7 +80,6 @@ pub(super) fn add_key(canvas: &Canvas<'_>, title: &mut Vec<Span>, room: usize) {
     }
 }
 
-/// That key.
 const KEY: &str = "  \\";
 
 /// Makes the titles of panes in a frame clickable; a line separates neighbouring titles.

@@ -86,7 +86,6 @@ impl<'a> Quantities<'a> {
         if size(channel) < ROUNDING * greatest { (-greatest, greatest) } else { (lo, hi) }
     }
 
-    /// The period of a channel, if it has one.
     pub(super) fn period(&self, channel: usize) -> Option<f64> {
         self.lab.loaded.system.period(channel, &self.snapshot.parameters)
     }

@@ -29,7 +29,6 @@ pub(super) fn is_residual(lab: &Lab, gauge: &Gauge) -> bool {
         || model.attitude.is_some() && gauge.name == ATTITUDE_GAUGE
 }
 
-/// A verdict in full, and its role.
 pub(super) fn in_full(verdict: &Verdict) -> (&'static str, Role) {
     let (word, role) = word(verdict);
     let words = match verdict {
@@ -101,7 +100,6 @@ pub(super) fn reason(gauge: &Gauge, residual: bool, glyphs: Glyphs) -> String {
     }
 }
 
-/// The reason in a word.
 pub(super) fn reason_in_a_word(gauge: &Gauge, residual: bool) -> &'static str {
     match (residual, gauge.proved) {
         _ if gauge.verdict == Verdict::Released => "",

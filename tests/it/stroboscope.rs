@@ -2,7 +2,7 @@
 
 use phaselab::app::{AppEvent, Drawn};
 use phaselab::experiment::{Command, Prepared};
-use phaselab::instrument::{Layer, NoStart, Seed};
+use phaselab::instrument::{Layer, NoStart, PlotContext, Seed};
 
 use crate::laboratory::{layers, prepared, typed};
 use crate::section::{opened, shipped};
@@ -24,8 +24,9 @@ fn a_point_at_another_phase_of_a_drive_is_carried_back_to_the_start() {
         let plot = app.lab.as_ref().unwrap().plots[index].clone();
         let given = {
             let lab = app.lab.as_ref().unwrap();
+            let present = &lab.present().unwrap();
             plot.kind
-                .start(&plot, &lab.present().unwrap(), at)
+                .start(PlotContext { plot: &plot, present, answer: None }, at)
                 .unwrap_or_else(|why| panic!("{title}: {why:?}"))
         };
         let physics = app.lab.as_ref().unwrap().loaded.physics();
@@ -73,8 +74,8 @@ fn a_point_is_not_carried_back_over_an_impulse() {
         kind = \"section\"\non = \"t - 1.5\"\nx = \"x\"\ny = \"p_x\"\n";
     let (app, index) = opened(prepared(text), 0.01);
     let lab = app.lab.as_ref().unwrap();
-    let plot = &lab.plots[index];
-    let refused = plot.kind.start(plot, &lab.present().unwrap(), [0.3, 0.2]);
+    let (plot, present) = (&lab.plots[index], &lab.present().unwrap());
+    let refused = plot.kind.start(PlotContext { plot, present, answer: None }, [0.3, 0.2]);
     let Err(NoStart::Refused(why)) = refused else { panic!("{refused:?}") };
     assert_eq!(
         why,

@@ -9,7 +9,7 @@ use crate::mechanics::{
     Further, GeneratingFunction, HamiltonJacobi, Holonomy, LeftSide, NoFunction, Report,
     ReportedEquation, Separation,
 };
-use crate::model::{Direction, EventAction, Model, MotionEvent};
+use crate::model::{EventAction, Model, MotionEvent};
 
 pub(super) fn write(
     report: &Report<'_>,
@@ -310,11 +310,7 @@ impl JsonReport<'_> {
 
 fn events(model: &Model) -> Vec<Value> {
     let object = |event: &MotionEvent| {
-        let direction = match event.direction {
-            Direction::Rising => "rising",
-            Direction::Falling => "falling",
-            Direction::Either => "either",
-        };
+        let direction = event.direction.word();
         let action = match event.action {
             EventAction::Mark => "mark".to_owned(),
             EventAction::Section(_) => "section".to_owned(),

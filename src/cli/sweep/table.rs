@@ -275,7 +275,6 @@ impl SweepTable {
         all
     }
 
-    /// The row of a run and what was measured on it.
     fn row(&self, start: &Start, outcome: RunOutcome, measured: &[f64]) -> SweepRow {
         let mut cells: Vec<TableCell> =
             self.set.iter().map(|&set| TableCell::Number(value(set, start))).collect();

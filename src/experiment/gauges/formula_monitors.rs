@@ -167,7 +167,6 @@ impl FormulaMonitors {
         }
     }
 
-    /// The gauges as shown.
     pub(super) fn show(&self, now: ChannelValues<'_>, floor: f64, errors: Errors) -> Vec<Gauge> {
         let FormulaValues { values, .. } = self.values(now);
         let show = |monitor: &InvariantMonitor| monitor.show(&values, self.since, floor, errors);

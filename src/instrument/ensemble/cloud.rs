@@ -157,7 +157,6 @@ impl CloudTask {
         FRAMES as f64 * speed.unwrap_or(1.0) / RATE
     }
 
-    /// The flow by a method.
     fn flow(&self, method: (&'static Method, Settings), progress: &Progress) -> SystemFlow {
         let flow = SystemFlow {
             system: self.system.with_cancel(progress.token().clone()),
@@ -244,7 +243,6 @@ impl CloudTask {
         }
     }
 
-    /// The cloud where it begins.
     fn beginning(&self) -> CloudStage {
         let parameters = &self.conditions.parameters;
         let start = |s: f64| self.state(self.origin.boundary(s));

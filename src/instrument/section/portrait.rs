@@ -56,7 +56,6 @@ pub(super) struct Portrait {
 }
 
 impl Portrait {
-    /// The portrait of an answer.
     pub(super) fn of(answer: Option<&Answer>) -> Option<&Portrait> {
         answer?.of::<Portrait>()
     }

@@ -38,11 +38,10 @@ pub(super) fn crossing<'a>(physics: Physics<'a>, view: &View) -> &'a str {
 pub(super) fn surface(physics: Physics<'_>, view: &View) -> String {
     let section = view.section.and_then(|index| physics.model.sections.get(index));
     let direction = match section.map_or(Direction::Either, |section| section.direction) {
-        Direction::Rising => ", rising",
-        Direction::Falling => ", falling",
-        Direction::Either => "",
+        Direction::Either => String::new(),
+        direction => format!(", {}", direction.word()),
     };
-    format!("{}{direction}", zero(physics, view))
+    zero(physics, view) + &direction
 }
 
 /// The equation of the surface of a view, in mathematical notation: `sin(ω t) = 0`.

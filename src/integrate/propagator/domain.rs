@@ -15,7 +15,6 @@ pub(super) struct MotionDomain {
 }
 
 impl MotionDomain {
-    /// The domain of a motion from this state on.
     pub(super) fn around(system: &System, state: &State, parameters: &[f64]) -> MotionDomain {
         MotionDomain {
             branch: system.branch(state, parameters),

@@ -194,21 +194,17 @@ impl ModelBuilder<'_> {
     }
 
     pub(super) fn sense(&mut self, written: &Spanned<String>) -> Direction {
-        match written.get_ref().as_str() {
-            "rising" => Direction::Rising,
-            "falling" => Direction::Falling,
-            "either" => Direction::Either,
-            other => {
-                let known = ["rising", "falling", "either"];
-                let help = match nearest(other, known) {
-                    Some(near) => format!("did you mean `{near}`?"),
-                    None => "a direction is `rising`, `falling` or `either`".to_owned(),
-                };
-                let message = format!("there is no direction `{other}`");
-                self.diagnostics.push(Diagnostic::error(written.span(), message).with_help(help));
-                Direction::Either
-            }
-        }
+        let word = written.get_ref().as_str();
+        let known = Direction::ALL.into_iter().find(|direction| direction.word() == word);
+        known.unwrap_or_else(|| {
+            let help = match nearest(word, Direction::ALL.map(Direction::word)) {
+                Some(near) => format!("did you mean `{near}`?"),
+                None => "a direction is `rising`, `falling` or `either`".to_owned(),
+            };
+            let message = format!("there is no direction `{word}`");
+            self.diagnostics.push(Diagnostic::error(written.span(), message).with_help(help));
+            Direction::Either
+        })
     }
 
     fn action(&mut self, written: &Spanned<String>) -> Option<EventAction> {

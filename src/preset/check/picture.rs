@@ -14,8 +14,7 @@ use crate::model::{
     Variation, View, Viewpoint, WrittenExpr,
 };
 use crate::preset::draft::{
-    DraftCamera, DraftFollow, DraftSection, DraftShape, DraftShapeKind, DraftView, Formula,
-    Formulas,
+    DraftCamera, DraftFollow, DraftSection, DraftShape, DraftView, Formula, Formulas, ShapeKind,
 };
 
 /// The default number of segments of a path.
@@ -219,10 +218,10 @@ impl ModelBuilder<'_> {
         let mut scope = Scope::new(&self.model, Allowed::Observable, "a shape");
         let mut shapes = Vec::new();
         for written in written {
-            shapes.extend(match &written.kind {
-                DraftShapeKind::Path { .. } => self.path(written, nodes, &mut scope),
-                DraftShapeKind::Body { at } => {
-                    let at = self.point(at.as_ref(), &mut scope);
+            shapes.extend(match written.kind {
+                ShapeKind::Path => self.path(written, nodes, &mut scope),
+                ShapeKind::Body => {
+                    let at = self.point(written.at.as_ref(), &mut scope);
                     if self.model.body.is_none() {
                         let message = "there is no [body] to draw";
                         let help = "put it together from pieces in [body]";
@@ -231,7 +230,7 @@ impl ModelBuilder<'_> {
                     }
                     at.map(|at| Shape::Body { at })
                 }
-                _ => self.shape(&written.kind, &mut scope),
+                _ => self.shape(written, &mut scope),
             });
         }
         shapes
@@ -273,70 +272,28 @@ impl ModelBuilder<'_> {
     }
 
     /// Reads a shape other than a path or a body. All parts are read, even if one of them is missing or wrong.
-    fn shape(&mut self, written: &DraftShapeKind, scope: &mut Scope) -> Option<Shape> {
-        match written {
-            DraftShapeKind::Line { from, to } => {
-                let (from, to) = (self.point(from.as_ref(), scope), self.point(to.as_ref(), scope));
-                Some(Shape::Line { from: from?, to: to? })
-            }
-            DraftShapeKind::Spring { from, to } => {
-                let (from, to) = (self.point(from.as_ref(), scope), self.point(to.as_ref(), scope));
-                Some(Shape::Spring { from: from?, to: to? })
-            }
-            DraftShapeKind::Trace { at } => {
-                Some(Shape::Trace { at: self.point(at.as_ref(), scope)? })
-            }
-            DraftShapeKind::Circle { centre, radius, normal } => {
-                let (centre, radius) =
-                    (self.point(centre.as_ref(), scope), self.size(radius.as_ref(), scope));
-                let normal = self.normal(normal.as_ref(), scope);
-                Some(Shape::Circle { centre: centre?, radius: radius?, normal: normal? })
-            }
-            DraftShapeKind::Mass { at, radius } => {
-                let (at, read) =
-                    (self.point(at.as_ref(), scope), self.size(radius.as_ref(), scope));
-                Some(Shape::Mass { at: at?, radius: read })
-            }
-            DraftShapeKind::Path { .. } | DraftShapeKind::Body { .. } => None,
-            DraftShapeKind::Disc { centre, radius, normal, shade } => {
-                let (centre, radius) =
-                    (self.point(centre.as_ref(), scope), self.size(radius.as_ref(), scope));
-                let normal = self.normal(normal.as_ref(), scope);
-                let shade = self.size(shade.as_ref(), scope);
-                Some(Shape::Disc { centre: centre?, radius: radius?, normal: normal?, shade })
-            }
-            DraftShapeKind::Sphere { centre, radius } => {
-                let (centre, radius) =
-                    (self.point(centre.as_ref(), scope), self.size(radius.as_ref(), scope));
-                Some(Shape::Sphere { centre: centre?, radius: radius? })
-            }
-            DraftShapeKind::Cone { tip, base, radius } => {
-                let (tip, base) =
-                    (self.point(tip.as_ref(), scope), self.point(base.as_ref(), scope));
-                let radius = self.size(radius.as_ref(), scope);
-                Some(Shape::Cone { tip: tip?, base: base?, radius: radius? })
-            }
-            DraftShapeKind::Cylinder { from, to, radius } => {
-                let (from, to) = (self.point(from.as_ref(), scope), self.point(to.as_ref(), scope));
-                let radius = self.size(radius.as_ref(), scope);
-                Some(Shape::Cylinder { from: from?, to: to?, radius: radius? })
-            }
-            DraftShapeKind::Caption { at, text } => {
-                let at = self.point(at.as_ref(), scope);
-                Some(Shape::Caption { at: at?, text: text.clone() })
-            }
-            DraftShapeKind::Vector { at, components, label } => {
-                let (at, components) =
-                    (self.point(at.as_ref(), scope), self.point(components.as_ref(), scope));
-                let label = label.clone();
-                Some(Shape::Vector { at: at?, components: components?, label })
-            }
-            DraftShapeKind::Plane { at, normal, size } => {
-                let (at, size) = (self.point(at.as_ref(), scope), self.size(size.as_ref(), scope));
-                let normal = self.normal(normal.as_ref(), scope);
-                Some(Shape::Plane { at: at?, normal: normal?, size: size? })
-            }
-        }
+    fn shape(&mut self, written: &DraftShape, scope: &mut Scope) -> Option<Shape> {
+        let [at, to] = [&written.at, &written.to].map(|point| self.point(point.as_ref(), scope));
+        let [size, shade] =
+            [&written.size, &written.shade].map(|size| self.size(size.as_ref(), scope));
+        let normal = self.normal(written.normal.as_ref(), scope);
+        let text = written.text.clone();
+        let (at, radius) = (at?, size);
+        Some(match written.kind {
+            ShapeKind::Path | ShapeKind::Body => return None,
+            ShapeKind::Line => Shape::Line { from: at, to: to? },
+            ShapeKind::Spring => Shape::Spring { from: at, to: to? },
+            ShapeKind::Trace => Shape::Trace { at },
+            ShapeKind::Circle => Shape::Circle { centre: at, radius: radius?, normal: normal? },
+            ShapeKind::Mass => Shape::Mass { at, radius },
+            ShapeKind::Disc => Shape::Disc { centre: at, radius: radius?, normal: normal?, shade },
+            ShapeKind::Sphere => Shape::Sphere { centre: at, radius: radius? },
+            ShapeKind::Cone => Shape::Cone { tip: at, base: to?, radius: radius? },
+            ShapeKind::Cylinder => Shape::Cylinder { from: at, to: to?, radius: radius? },
+            ShapeKind::Caption => Shape::Caption { at, text },
+            ShapeKind::Vector => Shape::Vector { at, components: to?, label: text },
+            ShapeKind::Plane => Shape::Plane { at, normal: normal?, size: size? },
+        })
     }
 
     fn size(&mut self, written: Option<&Formula>, scope: &mut Scope) -> Option<Expr> {
@@ -368,15 +325,14 @@ impl ModelBuilder<'_> {
         nodes: &mut usize,
         scope: &mut Scope,
     ) -> Option<Shape> {
-        let DraftShapeKind::Path { curve, from, to, samples } = &written.kind else { return None };
-        let count = self.samples(samples.as_ref());
-        let [from, to] = [from, to].map(|end| self.size(end.as_ref(), scope));
+        let count = self.samples(written.samples.as_ref());
+        let [from, to] = written.ends.each_ref().map(|end| self.size(end.as_ref(), scope));
         let s = self.model.pool.symbol("s of a path");
         let along = self.model.pool.variable(s);
         let mut inner = scope.clone();
         inner.define("s", along);
         let s_was_used = self.used.contains("s");
-        let curve = self.point(curve.as_ref(), &mut inner);
+        let curve = self.point(written.at.as_ref(), &mut inner);
         if !s_was_used {
             self.used.remove("s");
         }

@@ -49,7 +49,6 @@ pub(in crate::preset) struct DraftAttitude {
 pub(in crate::preset) struct DraftComparison {
     /// The range of the table.
     pub(in crate::preset) place: SourceRange,
-    /// The range of the list.
     pub(in crate::preset) list: SourceRange,
     pub(in crate::preset) eliminate: Vec<Spanned<String>>,
 }

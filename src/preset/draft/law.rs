@@ -11,7 +11,6 @@ use crate::diagnostic::{Diagnostic, Diagnostics, SourceRange};
 
 /// A law of motion as written.
 pub(in crate::preset) struct DraftMechanics {
-    /// The table.
     pub(in crate::preset) law: LawTable,
     /// The range of the table's name.
     pub(in crate::preset) place: SourceRange,
@@ -23,7 +22,6 @@ pub(in crate::preset) struct DraftMechanics {
     pub(in crate::preset) forces: Vec<NamedFormula>,
     /// The brackets of variables.
     pub(in crate::preset) brackets: Vec<DraftBracket>,
-    /// The range of the brackets.
     pub(in crate::preset) brackets_place: SourceRange,
     pub(in crate::preset) casimirs: Vec<NamedFormula>,
 }

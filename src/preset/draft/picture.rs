@@ -42,12 +42,23 @@ pub(in crate::preset) struct DraftSection {
     pub(in crate::preset) ranges: [Option<[Formula; 2]>; 2],
 }
 
-/// A shape as written.
+/// A shape as written; parts that could not be read, or that its kind does not have, are `None`.
 pub(in crate::preset) struct DraftShape {
     /// The range of the entry.
     pub(in crate::preset) place: SourceRange,
-    /// The kind of shape.
-    pub(in crate::preset) kind: DraftShapeKind,
+    pub(in crate::preset) kind: ShapeKind,
+    /// The value of the key that names the kind: a point, or the curve of a path.
+    pub(in crate::preset) at: Option<Formulas>,
+    pub(in crate::preset) to: Option<Formulas>,
+    pub(in crate::preset) normal: Option<Formulas>,
+    /// The radius, or the size of a plane.
+    pub(in crate::preset) size: Option<Formula>,
+    pub(in crate::preset) shade: Option<Formula>,
+    /// The first and the last value of the parameter of a path.
+    pub(in crate::preset) ends: [Option<Formula>; 2],
+    pub(in crate::preset) samples: Option<Spanned<f64>>,
+    /// The label or the caption.
+    pub(in crate::preset) text: String,
 }
 
 /// The point that the camera follows, as written.
@@ -64,76 +75,41 @@ pub(in crate::preset) struct DraftCamera {
     pub(in crate::preset) elevation: Option<Spanned<f64>>,
 }
 
-/// A kind of shape; parts that could not be read are `None`.
-pub(in crate::preset) enum DraftShapeKind {
-    Line {
-        from: Option<Formulas>,
-        to: Option<Formulas>,
-    },
-    Spring {
-        from: Option<Formulas>,
-        to: Option<Formulas>,
-    },
-    Trace {
-        at: Option<Formulas>,
-    },
-    Circle {
-        centre: Option<Formulas>,
-        radius: Option<Formula>,
-        normal: Option<Formulas>,
-    },
-    Mass {
-        at: Option<Formulas>,
-        radius: Option<Formula>,
-    },
-    Path {
-        curve: Option<Formulas>,
-        from: Option<Formula>,
-        to: Option<Formula>,
-        samples: Option<Spanned<f64>>,
-    },
-    Vector {
-        at: Option<Formulas>,
-        components: Option<Formulas>,
-        label: String,
-    },
-    Plane {
-        at: Option<Formulas>,
-        normal: Option<Formulas>,
-        size: Option<Formula>,
-    },
-    Disc {
-        centre: Option<Formulas>,
-        radius: Option<Formula>,
-        normal: Option<Formulas>,
-        shade: Option<Formula>,
-    },
-    Sphere {
-        centre: Option<Formulas>,
-        radius: Option<Formula>,
-    },
-    Cone {
-        tip: Option<Formulas>,
-        base: Option<Formulas>,
-        radius: Option<Formula>,
-    },
-    Cylinder {
-        from: Option<Formulas>,
-        to: Option<Formulas>,
-        radius: Option<Formula>,
-    },
-    Caption {
-        at: Option<Formulas>,
-        text: String,
-    },
-    Body {
-        at: Option<Formulas>,
-    },
+/// A kind of shape.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(in crate::preset) enum ShapeKind {
+    Line,
+    Spring,
+    Trace,
+    Circle,
+    Mass,
+    Path,
+    Vector,
+    Plane,
+    Disc,
+    Sphere,
+    Cone,
+    Cylinder,
+    Caption,
+    Body,
 }
 
-const SHAPES: [&str; 14] = [
-    "line", "spring", "trace", "circle", "mass", "path", "vector", "plane", "disc", "sphere",
-    "cone", "cylinder", "caption", "body",
+/// The key that names each kind.
+const SHAPES: [(&str, ShapeKind); 14] = [
+    ("line", ShapeKind::Line),
+    ("spring", ShapeKind::Spring),
+    ("trace", ShapeKind::Trace),
+    ("circle", ShapeKind::Circle),
+    ("mass", ShapeKind::Mass),
+    ("path", ShapeKind::Path),
+    ("vector", ShapeKind::Vector),
+    ("plane", ShapeKind::Plane),
+    ("disc", ShapeKind::Disc),
+    ("sphere", ShapeKind::Sphere),
+    ("cone", ShapeKind::Cone),
+    ("cylinder", ShapeKind::Cylinder),
+    ("caption", ShapeKind::Caption),
+    ("body", ShapeKind::Body),
 ];
 
 pub(super) fn views(top: &mut Table<'_>, diagnostics: &mut Diagnostics) -> Vec<DraftView> {
@@ -292,89 +268,80 @@ fn shapes_of(table: &mut Table<'_>, diagnostics: &mut Diagnostics) -> Vec<DraftS
 }
 
 fn shape(mut table: Table<'_>, diagnostics: &mut Diagnostics) -> Option<DraftShape> {
-    let given: Vec<&'static str> = SHAPES.into_iter().filter(|kind| table.has(kind)).collect();
-    let [kind] = given[..] else {
+    let names = SHAPES.map(|(name, _)| name);
+    let given: Vec<_> = SHAPES.into_iter().filter(|(name, _)| table.has(name)).collect();
+    let [(name, kind)] = given[..] else {
         let message = match given[..] {
-            [first, second, ..] => format!("this shape is `{first}` and `{second}` at once"),
+            [(first, _), (second, _), ..] => {
+                format!("this shape is `{first}` and `{second}` at once")
+            }
             _ => "unknown shape".to_owned(),
         };
         let misspelt = table
             .entries()
-            .find_map(|(key, _)| nearest(key.get_ref(), SHAPES).map(|near| (key.span(), near)));
+            .find_map(|(key, _)| nearest(key.get_ref(), names).map(|near| (key.span(), near)));
         let diagnostic = match misspelt {
             Some((place, near)) if given.is_empty() => {
                 Diagnostic::error(place, message).with_help(format!("did you mean `{near}`?"))
             }
             _ => {
                 let help =
-                    format!("the shapes are {}; each is a table of its own", SHAPES.join(", "));
+                    format!("the shapes are {}; each is a table of its own", names.join(", "));
                 Diagnostic::error(table.place.clone(), message).with_help(help)
             }
         };
         diagnostics.push(diagnostic);
         return None;
     };
-    table.called = format!("the shape `{kind}`");
-    let first = point(&mut table, kind, diagnostics);
-    let kind = match kind {
-        "line" => DraftShapeKind::Line { from: first, to: point(&mut table, "to", diagnostics) },
-        "spring" => {
-            DraftShapeKind::Spring { from: first, to: point(&mut table, "to", diagnostics) }
+    table.called = format!("the shape `{name}`");
+    use ShapeKind::{
+        Body, Caption, Circle, Cone, Cylinder, Disc, Line, Mass, Path, Plane, Sphere, Spring,
+        Trace, Vector,
+    };
+    let mut shape = DraftShape {
+        place: table.place.clone(),
+        kind,
+        at: point(&mut table, name, diagnostics),
+        to: None,
+        normal: None,
+        size: None,
+        shade: None,
+        ends: [None, None],
+        samples: None,
+        text: String::new(),
+    };
+    if kind == Vector {
+        shape.text = table.line("label", diagnostics);
+    }
+    if let Line | Spring | Vector | Cone | Cylinder = kind {
+        shape.to = point(&mut table, "to", diagnostics);
+    }
+    if let Circle | Disc | Plane = kind {
+        shape.normal = optional_point(&mut table, "normal", diagnostics);
+    }
+    match kind {
+        Circle | Disc | Sphere | Cone | Cylinder => {
+            shape.size = size(&mut table, "radius", diagnostics);
         }
-        "trace" => DraftShapeKind::Trace { at: first },
-        "circle" => DraftShapeKind::Circle {
-            centre: first,
-            radius: size(&mut table, "radius", diagnostics),
-            normal: optional_point(&mut table, "normal", diagnostics),
-        },
-        "body" => DraftShapeKind::Body { at: first },
-        "mass" => DraftShapeKind::Mass { at: first, radius: table.formula("radius", diagnostics) },
-        "path" => DraftShapeKind::Path {
-            curve: first,
-            from: size(&mut table, "from", diagnostics),
-            to: size(&mut table, "to", diagnostics),
-            samples: table.number("samples", diagnostics),
-        },
-        "vector" => {
-            let label = table.line("label", diagnostics);
-            let components = point(&mut table, "to", diagnostics);
-            DraftShapeKind::Vector { at: first, components, label }
+        Plane => shape.size = size(&mut table, "size", diagnostics),
+        Mass => shape.size = table.formula("radius", diagnostics),
+        Path => {
+            shape.ends = ["from", "to"].map(|key| size(&mut table, key, diagnostics));
+            shape.samples = table.number("samples", diagnostics);
         }
-        "disc" => DraftShapeKind::Disc {
-            centre: first,
-            radius: size(&mut table, "radius", diagnostics),
-            normal: optional_point(&mut table, "normal", diagnostics),
-            shade: table.formula("shade", diagnostics),
-        },
-        "sphere" => DraftShapeKind::Sphere {
-            centre: first,
-            radius: size(&mut table, "radius", diagnostics),
-        },
-        "cone" => DraftShapeKind::Cone {
-            tip: first,
-            base: point(&mut table, "to", diagnostics),
-            radius: size(&mut table, "radius", diagnostics),
-        },
-        "caption" => {
+        Caption => {
             if !table.has("text") {
                 table.lacks_key("text", "write text = \"...\"");
             }
-            DraftShapeKind::Caption { at: first, text: table.line("text", diagnostics) }
+            shape.text = table.line("text", diagnostics);
         }
-        "cylinder" => DraftShapeKind::Cylinder {
-            from: first,
-            to: point(&mut table, "to", diagnostics),
-            radius: size(&mut table, "radius", diagnostics),
-        },
-        _ => DraftShapeKind::Plane {
-            at: first,
-            normal: optional_point(&mut table, "normal", diagnostics),
-            size: size(&mut table, "size", diagnostics),
-        },
-    };
-    let place = table.place.clone();
+        Line | Spring | Vector | Trace | Body => {}
+    }
+    if kind == Disc {
+        shape.shade = table.formula("shade", diagnostics);
+    }
     table.finish(diagnostics);
-    Some(DraftShape { place, kind })
+    Some(shape)
 }
 
 /// A required number or expression.

@@ -17,7 +17,6 @@ const LAWS: [(&str, &str); 3] =
 pub(in crate::preset) struct Table<'d> {
     /// Its name in messages: `[run]`, `the coordinate x`.
     pub(super) called: String,
-    /// Its range.
     pub(super) place: SourceRange,
     entries: &'d DeTable<'d>,
     /// Its description in the schema; `None` if only its reader knows the keys.

@@ -24,7 +24,6 @@ pub(in crate::preset) struct SchemaTable {
 #[derive(Clone, Copy, Debug)]
 pub(in crate::preset) struct Key {
     pub(in crate::preset) name: &'static str,
-    /// The kind of its value.
     pub(in crate::preset) kind: ValueKind,
     /// The unit of its number; empty if it has none, or if the file determines it.
     pub(in crate::preset) unit: &'static str,

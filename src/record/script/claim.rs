@@ -38,7 +38,6 @@ const MEASURES: [(&str, AssertedNumber); 5] = [
 /// The words for the status of an experiment.
 const STATUS: [Word; 4] = ["running", "paused", "ended", "stopped"];
 
-/// The verdicts of one word.
 const VERDICTS: [Word; 7] = ["exact", "bounded", "secular", "lost", "open", "unknown", "released"];
 
 /// What some of them are called elsewhere: in old scripts, and where a column of the screen is narrow.

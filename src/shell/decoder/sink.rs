@@ -40,7 +40,6 @@ pub(super) struct Expected {
     pub(super) mouse: bool,
     /// Focus reports.
     pub(super) focus: bool,
-    /// Answers to questions.
     pub(super) answers: Questions,
 }
 
@@ -54,7 +53,6 @@ pub(super) struct Sink {
     pub(super) paste: Option<String>,
     /// The reports that are not noise.
     pub(super) expects: Expected,
-    /// What the terminal has answered.
     pub(super) answers: VecDeque<TerminalReply>,
     /// The remaining bytes of a mouse report in the old form, which is not supported.
     pub(super) skip: usize,
