@@ -50,8 +50,6 @@ pub struct SourceBuffer {
     revision: u64,
     /// The running check.
     checking: Option<RunningCheck>,
-    /// How long that check has been running.
-    busy: Duration,
     /// The time left until the text is checked.
     rest: Option<Duration>,
     /// Whether the text has just been read from disk and may be incomplete; if it is wrong, it is read once more.
@@ -71,6 +69,8 @@ struct RunningCheck {
     /// The revision that it checks, and its text.
     revision: u64,
     text: String,
+    /// How long it has been running.
+    busy: Duration,
 }
 
 /// An unsaved text, in the form stored between runs of the program.
@@ -181,7 +181,6 @@ impl SourceBuffer {
             on_disk: unsaved.of,
             revision: 0,
             checking: None,
-            busy: Duration::ZERO,
             rest: None,
             may_be_partial: false,
             overwrites: false,
@@ -276,13 +275,15 @@ impl SourceBuffer {
     /// Advances the time. Returns whether the text is to be checked now, replacing any older check.
     pub(super) fn tick(&mut self, elapsed: Duration) -> bool {
         self.rest = self.rest.map(|rest| rest.saturating_sub(elapsed));
-        self.busy = self.busy.saturating_add(elapsed);
+        if let Some(check) = &mut self.checking {
+            check.busy = check.busy.saturating_add(elapsed);
+        }
         self.rest == Some(Duration::ZERO)
     }
 
     /// Whether its check has run so long that leaving the buffer should stop it.
     pub fn is_long_checked(&self) -> bool {
-        self.checking.is_some() && self.busy >= LONG
+        self.checking.as_ref().is_some_and(|check| check.busy >= LONG)
     }
 
     /// Postpones its check until it is opened again. Returns whether a check was running.
@@ -298,8 +299,8 @@ impl SourceBuffer {
     pub(super) fn begin_check(&mut self, ticket: u64) -> String {
         let (revision, text) = (self.revision, self.editor.text());
         self.rest = None;
-        self.checking = Some(RunningCheck { ticket, revision, text: text.clone() });
-        self.busy = Duration::ZERO;
+        let busy = Duration::ZERO;
+        self.checking = Some(RunningCheck { ticket, revision, text: text.clone(), busy });
         text
     }
 

@@ -4,7 +4,7 @@
 //! not as the file has it, and for a motion that cannot start. Never here: what is proved symbolically.
 
 use super::conservation::Claim;
-use super::look::{self, Look};
+use super::observation::{self, Observation};
 use super::own_method::{self, LENGTH};
 use super::quantity_sizes::{QuantitySizes, tolerated_delay};
 use super::start;
@@ -252,21 +252,22 @@ impl<'a> ClaimedMotion<'a> {
         let start = model.run.start;
         let end = model.run.until.unwrap_or(start + LENGTH);
         let (expected, mut sizes) = (&model.expect.values, QuantitySizes::of(model));
-        let schedule = look::schedule(model, end, &sizes, !claims.is_empty());
+        let schedule = observation::schedule(model, end, &sizes, !claims.is_empty());
         let last = schedule.last().map_or(end, |(time, _)| *time);
         let last = model.expect.counts.iter().map(|count| count.until).fold(last, f64::max);
         let later = |event: &ExpectedEvent| {
             event.at + (LATER * (event.at - start)).max(tolerated_delay(event, start))
         };
         let last = model.expect.events.iter().map(later).fold(last, f64::max);
-        for (k, &(time, look)) in schedule.iter().enumerate() {
-            if let (true, Look::Value(i)) = (time < start, look) {
+        for (k, &(time, observation)) in schedule.iter().enumerate() {
+            if let (true, Observation::Value(i)) = (time < start, observation) {
                 let message = format!("the motion begins at {start}; {time} is before it");
                 diagnostics.push(Diagnostic::error(expected[i].place.clone(), message));
                 continue;
             }
             if let Err(short) = self.reach(time, last) {
-                let values = schedule[k..].iter().filter_map(|(_, look)| look.value());
+                let values =
+                    schedule[k..].iter().filter_map(|(_, observation)| observation.value());
                 let values = values.map(|i| (&expected[i].name, &expected[i].place));
                 let unchecked = |(name, place): (&String, &SourceRange)| {
                     let message = format!("`{name}` cannot be checked: {short}");
@@ -281,13 +282,13 @@ impl<'a> ClaimedMotion<'a> {
                 let claims = claims.iter().map(|claim| (&claim.name, &claim.place));
                 return diagnostics.extend(claims.map(unchecked));
             }
-            sizes.look(equations, time, &|symbol| self.value_of(model, equations, symbol, time));
-            match look {
-                Look::Value(i) => {
+            sizes.observe(equations, time, &|symbol| self.value_of(model, equations, symbol, time));
+            match observation {
+                Observation::Value(i) => {
                     diagnostics.extend(self.compare(&expected[i], sizes.tolerance(i)));
                 }
-                Look::Claims => self.sample(model, equations, &mut claims),
-                Look::Sizes => {}
+                Observation::Claims => self.sample(model, equations, &mut claims),
+                Observation::Sizes => {}
             }
         }
         let at = |symbol: Symbol| self.value_of(model, equations, symbol, end);

@@ -4,7 +4,7 @@
 //! What swings through zero is as large there as just before, and what has decayed is as small as that: sizes are those of the last
 //! part of the way.
 //!
-//! In: the values of all symbols at looks along the motion. Out: a tolerance. Never here: the motion.
+//! In: the values of all symbols at times along the motion. Out: a tolerance. Never here: the motion.
 
 use crate::expr::Symbol;
 use crate::mechanics::Equations;
@@ -13,17 +13,17 @@ use crate::model::{ExpectedEvent, ExpectedValue, Model};
 /// The tolerated error of an expected number, relative to the largest size of its terms in the last part of the way.
 const TOLERANCE: f64 = 1e-10;
 
-/// The last part of the way until a value is expected, and how often the motion is looked at there.
+/// The last part of the way until a value is expected, and how often the motion is observed there.
 const LAST_PART: f64 = 0.125;
-const LAST_LOOKS: u32 = 8;
+const LAST_OBSERVATIONS: u32 = 8;
 
 /// Rounding of what was larger before, relative to that.
 const ROUNDING: f64 = 1e-15;
 
-/// How often the motion is looked at between the start and the last time at which a value is expected.
-const LOOKS: u32 = 64;
+/// How often the motion is observed between the start and the last time at which a value is expected.
+const OBSERVATIONS: u32 = 64;
 
-/// Where in each interval between two looks it is looked at.
+/// Where in each of these intervals it is observed.
 const PLACE: f64 = 0.618;
 
 /// The largest sizes of the terms of each expected quantity.
@@ -56,23 +56,23 @@ impl<'a> QuantitySizes<'a> {
         }
     }
 
-    /// The times at which to look: none if each value has a tolerance of its own.
-    pub(super) fn looks(&self, start: f64) -> Vec<f64> {
+    /// The times of observation: none if each value has a tolerance of its own.
+    pub(super) fn times(&self, start: f64) -> Vec<f64> {
         let open = self.values.iter().filter(|value| value.within.is_none());
         let last = open.map(|value| value.at).fold(start, f64::max);
-        let count = if last > start { LOOKS } else { 0 };
-        let part = |k: u32, looks: u32| (f64::from(k) + PLACE) / f64::from(looks);
-        let all = (0..count).map(|k| start + (last - start) * part(k, LOOKS));
+        let count = if last > start { OBSERVATIONS } else { 0 };
+        let part = |k: u32, observations: u32| (f64::from(k) + PLACE) / f64::from(observations);
+        let all = (0..count).map(|k| start + (last - start) * part(k, OBSERVATIONS));
         let lately = |value: &ExpectedValue| {
             let (from, at) = (last_part_before(value.at, start), value.at);
-            (0..LAST_LOOKS).map(move |k| from + (at - from) * part(k, LAST_LOOKS))
+            (0..LAST_OBSERVATIONS).map(move |k| from + (at - from) * part(k, LAST_OBSERVATIONS))
         };
         let open = self.values.iter().filter(|value| value.within.is_none() && value.at > start);
         all.chain(open.flat_map(lately)).collect()
     }
 
     /// Looks at the quantities at a time.
-    pub(super) fn look(&mut self, equations: &Equations, time: f64, at: &dyn Fn(Symbol) -> f64) {
+    pub(super) fn observe(&mut self, equations: &Equations, time: f64, at: &dyn Fn(Symbol) -> f64) {
         for (value, largest) in self.values.iter().zip(&mut self.sizes) {
             if value.within.is_some() {
                 continue;

@@ -105,7 +105,7 @@ impl Excursion {
         self.one = Some(OneDegree::default());
     }
 
-    /// Whether each step is looked at with its rates.
+    /// Whether each step is observed with its rates.
     pub(super) fn wants_rates(&self) -> bool {
         self.one.is_some()
     }
@@ -276,7 +276,7 @@ fn is_unchanged(change: f64, largest: f64) -> bool {
     change <= SAME * largest
 }
 
-/// The distance of a variable from its start, how far it goes on the whole way, and its largest size.
+/// The distance of a variable from its start, how far it moves on the whole way, and its largest size.
 pub(super) struct Apart {
     pub(super) distance: f64,
     pub(super) extent: f64,

@@ -32,7 +32,7 @@ pub(super) enum LinearMotion {
     Grows,
     /// All are damped: so they are in the full motion (A. M. Lyapunov's first method).
     Damped,
-    /// None grows and some oscillate without end: of the full motion that tells nothing.
+    /// None grows and some oscillate without end: this says nothing about the full motion.
     Bounded,
     /// Eigenvalues that are zero leave it open; or equal frequencies have fewer modes than there are of them, so that some grow in
     /// proportion to time; or the eigenvalues are not known.

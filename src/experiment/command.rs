@@ -4,7 +4,7 @@ use super::{Checkpoint, FoundConstant};
 use crate::integrate::Settings;
 use crate::system::InitialOverride;
 
-/// What the experiment is told to do; it can be logged and replayed.
+/// A request to the experiment; it can be logged and replayed.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Command {
     /// Lets time run.

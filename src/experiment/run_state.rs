@@ -1,4 +1,4 @@
-//! Whether a motion goes on: running or paused, ended, or unable to continue.
+//! Whether a motion continues: running or paused, ended, or unable to continue.
 //!
 //! In: what has happened to it. Out: its [`Status`]. Never here: the motion itself.
 

@@ -6,10 +6,10 @@
 use super::{Expr, FunctionId, Node, Pool};
 use crate::num::Number;
 
-/// Of an expression with more nodes than this, written out, it is not found out.
+/// The range of an expression with more nodes than this, written out, is not computed.
 const HEAVY: u64 = 10_000;
 
-/// The number of kinks on each side of which an expression is looked at: they are tried with each other.
+/// The number of kinks on both sides of which an expression is evaluated, in all combinations.
 const KINKS: usize = 4;
 
 /// A function that is known to be positive, or negative.

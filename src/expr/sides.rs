@@ -13,7 +13,7 @@ use crate::num::Number;
 /// A kink: the function that changes its sign there.
 type Switch = Expr;
 
-/// Distances from a kink at which values are looked at, relative to its place on a line.
+/// Distances from a kink at which values are taken, relative to its place on a line.
 const BESIDE: [f64; 4] = [1e-12, 1e-9, 1e-6, 1e-3];
 
 /// A jump below this part of the size of what jumps is rounding.

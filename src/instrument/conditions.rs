@@ -1,4 +1,4 @@
-//! What the result of a job depends on: when it changes, the job is begun anew.
+//! What the result of a job depends on: when it changes, the job begins again.
 //!
 //! In: the current state, what was added. Out: [`PlotConditions`], to be compared. Never here: what is computed.
 

@@ -2,7 +2,7 @@
 //!
 //! The crossings of the running motion are its own, located while it is computed. Its job computes many other orbits of
 //! the same energy, their starts spread over what the energy allows, and the boundary of that region; it is done in
-//! parts, so that the picture fills as one looks, and begun anew when a parameter, the method or the energy changes.
+//! parts, so that the picture fills while it is seen, and begun again when a parameter, the method or the energy changes.
 
 mod measures;
 mod periodic;

@@ -67,7 +67,7 @@ pub struct Invariants {
     pub known: Vec<KnownConstant>,
     /// Which of them are independent of those before.
     pub known_independent: Vec<bool>,
-    /// The constants that nobody wrote down.
+    /// The constants that the file does not name.
     pub found: Vec<Constant>,
     /// What was searched to the end.
     pub searched: Vec<Searched>,

@@ -108,7 +108,7 @@ pub struct Supplements {
     pub attitude_symbols: Option<[[Symbol; 3]; 3]>,
     /// Of each constraint whether it is holonomic.
     pub holonomy: Vec<Holonomy>,
-    /// Whether Hamilton–Jacobi separates in the file's coordinates, once it has been found out.
+    /// Whether Hamilton–Jacobi separates in the file's coordinates, once that has been determined.
     pub separation: Option<Separation>,
     /// The law and what follows from it with ramped parameters by their names, if there are any.
     pub named_ramps: Option<Arc<NamedRamps>>,

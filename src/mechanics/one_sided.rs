@@ -11,7 +11,7 @@ use crate::expr::{Expr, Symbol, Zero};
 use crate::model::Model;
 use crate::num::Number;
 
-/// More kinks than this are not looked at: each is tried with the others.
+/// The most kinks that are examined, in all combinations of their sides.
 const MOST: usize = 16;
 
 /// The kinks of a rate of change and the jumps of its observable.

@@ -131,7 +131,7 @@ pub struct BodyReport {
     names: BodyNames,
 }
 
-/// A derivation in the order in which it is told, for any renderer.
+/// A derivation in the order in which it is presented, for any renderer.
 #[derive(Clone, Debug)]
 pub struct Report<'a> {
     /// The model that the file describes.
@@ -176,7 +176,7 @@ pub struct Report<'a> {
     pub cyclic: Vec<Symbol>,
     /// The conserved quantities, each with its reason.
     pub conserved: Vec<ConservedReport<'a>>,
-    /// Whether Hamilton–Jacobi separates in the file's coordinates, once it has been found out.
+    /// Whether Hamilton–Jacobi separates in the file's coordinates, once that has been determined.
     pub separation: Option<&'a Separation>,
 }
 

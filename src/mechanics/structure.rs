@@ -1,7 +1,7 @@
 //! What is known of the structure of a system: of each constraint whether it is holonomic, and whether Hamilton–Jacobi
 //! separates.
 //!
-//! Never here: how it is found out, which are `frobenius` and `separation`.
+//! Never here: how it is determined (`frobenius`, `separation`).
 
 use crate::expr::{Expr, Symbol};
 

@@ -243,7 +243,7 @@ impl Lesson {
         if !self.is_moving() {
             self.time = self.runner.now();
         }
-        // a motion that began again is looked at from its beginning
+        // a motion that began again is observed from its beginning
         let now = self.runner.lab.app.snapshot().map_or(f64::INFINITY, |snapshot| snapshot.time);
         if let Some(QuestionKind::Place { since, .. }) =
             self.question.as_mut().map(|question| &mut question.kind)

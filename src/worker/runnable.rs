@@ -12,6 +12,7 @@ pub trait Runnable: Send {
     fn cancel(&self) -> Cancel {
         Cancel::new()
     }
+    /// Executes a command.
     fn execute(&mut self, command: Command);
     /// Advances to a time in at most `budget` steps.
     fn advance(&mut self, time: f64, budget: u64) -> AdvanceOutcome;

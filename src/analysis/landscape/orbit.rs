@@ -14,7 +14,7 @@ const SIDE: usize = 41;
 /// closed by then is treated as unbounded.
 const GRIDS: usize = 20;
 
-/// A curve that fills less than this part of a grid is looked at more closely.
+/// A curve that fills less than this part of a grid is drawn on a finer one.
 const SMALL: f64 = 0.25;
 
 /// The horizontal and vertical extent of the level curve through a point, or `None` if it is not closed. The search begins in a
