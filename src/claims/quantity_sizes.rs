@@ -71,7 +71,7 @@ impl<'a> QuantitySizes<'a> {
         all.chain(open.flat_map(lately)).collect()
     }
 
-    /// Looks at the quantities at a time.
+    /// Records how large the terms of the quantities are at a time.
     pub(super) fn observe(&mut self, equations: &Equations, time: f64, at: &dyn Fn(Symbol) -> f64) {
         for (value, largest) in self.values.iter().zip(&mut self.sizes) {
             if value.within.is_some() {

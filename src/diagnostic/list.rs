@@ -1,5 +1,6 @@
 //! An error in a file, with its place and a correction, and the list that collects errors.
 
+use std::cell::{Cell, RefCell};
 use std::collections::BTreeSet;
 
 /// A range of bytes in the text of a file.
@@ -67,8 +68,8 @@ const MOST: usize = 100;
 /// nothing is reported as missing because of them.
 #[derive(Default, Debug)]
 pub struct Diagnostics {
-    list: Vec<Diagnostic>,
-    left_out: usize,
+    list: RefCell<Vec<Diagnostic>>,
+    left_out: Cell<usize>,
     /// Keys lost in TOML syntax errors.
     lost_keys: BTreeSet<String>,
     /// Values with TOML syntax errors; no further errors are reported in them.
@@ -76,12 +77,12 @@ pub struct Diagnostics {
     /// Whether any part of the file may be lost.
     lost_track: bool,
     /// The plain forms of what is written in the notation of the screen.
-    plain: Vec<(SourceRange, String)>,
+    plain: RefCell<Vec<(SourceRange, String)>>,
 }
 
 impl Diagnostics {
     /// Records an error.
-    pub fn push(&mut self, mut diagnostic: Diagnostic) {
+    pub fn push(&self, mut diagnostic: Diagnostic) {
         shorten(&mut diagnostic.message);
         if let Some(help) = &mut diagnostic.help {
             shorten(help);
@@ -92,25 +93,20 @@ impl Diagnostics {
         if self.lost_values.iter().any(overlaps) {
             return;
         }
-        if self.list.len() < MOST || diagnostic.severity == Severity::Error && self.make_room() {
-            self.list.push(diagnostic);
-        } else {
-            self.left_out += 1;
+        let mut list = self.list.borrow_mut();
+        if list.len() >= MOST {
+            // a warning makes room for an error
+            let is_error = diagnostic.severity == Severity::Error;
+            let is_warning = |one: &Diagnostic| one.severity == Severity::Warning;
+            self.left_out.update(|count| count + 1);
+            let Some(at) = list.iter().rposition(is_warning).filter(|_| is_error) else { return };
+            list.remove(at);
         }
-    }
-
-    /// Drops a warning to make room for an error.
-    fn make_room(&mut self) -> bool {
-        let warning = self.list.iter().rposition(|m| m.severity == Severity::Warning);
-        if let Some(at) = warning {
-            self.list.remove(at);
-            self.left_out += 1;
-        }
-        warning.is_some()
+        list.push(diagnostic);
     }
 
     /// Records that something called `key` is missing, unless a TOML syntax error explains it.
-    pub fn missing(&mut self, key: &str, diagnostic: Diagnostic) {
+    pub fn missing(&self, key: &str, diagnostic: Diagnostic) {
         if !self.lost_keys.contains(key) {
             self.push(diagnostic);
         }
@@ -137,39 +133,37 @@ impl Diagnostics {
     }
 
     /// Records the plain form of an expression.
-    pub fn note_plain(&mut self, place: SourceRange, plain: Option<String>) {
-        self.plain.extend(plain.map(|plain| (place, plain)));
+    pub fn note_plain(&self, place: SourceRange, plain: Option<String>) {
+        self.plain.borrow_mut().extend(plain.map(|plain| (place, plain)));
     }
 
     /// The plain forms recorded so far.
-    pub fn take_plain(&mut self) -> Vec<(SourceRange, String)> {
-        std::mem::take(&mut self.plain)
+    pub fn take_plain(&self) -> Vec<(SourceRange, String)> {
+        self.plain.take()
     }
 
     /// All errors, in the order of their places.
-    pub fn into_list(mut self) -> Vec<Diagnostic> {
-        self.sort();
-        if self.left_out > 0 {
-            let place = self.list.last().map_or(0..0, |m| m.place.clone());
-            let message = format!("{} more errors are not listed", self.left_out);
-            self.list.push(Diagnostic::error(place, message));
+    pub fn into_list(self) -> Vec<Diagnostic> {
+        let left_out = self.left_out.get();
+        let mut list = self.into_warnings();
+        if left_out > 0 {
+            let place = list.last().map_or(0..0, |m| m.place.clone());
+            let message = format!("{left_out} more errors are not listed");
+            list.push(Diagnostic::error(place, message));
         }
-        self.list
+        list
     }
 
     /// All errors in the order of their places, if none makes the file unusable.
-    pub fn into_warnings(mut self) -> Vec<Diagnostic> {
-        self.sort();
-        self.list
+    pub fn into_warnings(self) -> Vec<Diagnostic> {
+        let mut list = self.list.into_inner();
+        list.sort_by_key(|m| (m.place.start, m.place.end));
+        list
     }
 
     /// Returns whether there is an error that makes the file unusable.
     pub fn any_error(&self) -> bool {
-        self.list.iter().any(|m| m.severity == Severity::Error)
-    }
-
-    fn sort(&mut self) {
-        self.list.sort_by_key(|m| (m.place.start, m.place.end));
+        self.list.borrow().iter().any(|m| m.severity == Severity::Error)
     }
 }
 

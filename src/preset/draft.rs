@@ -108,62 +108,59 @@ impl Draft {
 const TOP_LEVEL: [&str; 6] = ["title", "summary", "source", "chapter", "topics", "notes"];
 
 /// Reads the whole file.
-pub(super) fn read(file: &Spanned<DeTable<'_>>, diagnostics: &mut Diagnostics) -> Draft {
-    let mut top = Table::new("the file", 0..0, file.get_ref()).with(&FILE);
-    let info = read_info(&mut top, diagnostics);
-    let (shapes, camera) = picture::space(&mut top, diagnostics);
+pub(super) fn read(file: &Spanned<DeTable<'_>>, diagnostics: &Diagnostics) -> Draft {
+    let mut top = Table::new("the file", 0..0, file.get_ref(), diagnostics).with(&FILE);
+    let info = read_info(&mut top);
+    let (shapes, camera) = picture::space(&mut top);
     let draft = Draft {
         info,
-        moving: system::moving(&mut top, diagnostics),
-        parameters: system::parameters(&mut top, diagnostics),
-        ramps: system::ramps(&mut top, diagnostics),
-        definitions: system::definitions(&mut top, diagnostics),
-        mechanics: law::mechanics(&mut top, diagnostics),
-        constraints: constraint::constraints(&mut top, diagnostics),
-        impulses: occurrence::impulses(&mut top, diagnostics),
-        events: occurrence::events(&mut top, diagnostics),
-        body: body::body(&mut top, diagnostics),
-        attitude: body::attitude(&mut top, diagnostics),
-        comparison: body::comparison(&mut top, diagnostics),
-        transformations: transformation::transformations(&mut top, diagnostics),
-        generators: transformation::generators(&mut top, diagnostics),
-        equilibria: equilibrium::equilibria(&mut top, diagnostics),
-        integral: transformation::integral(&mut top, diagnostics),
-        observables: claims::observables(&mut top, diagnostics),
-        expect: claims::expect(&mut top, diagnostics),
-        frames: frame::frames(&mut top, diagnostics),
-        views: picture::views(&mut top, diagnostics),
+        moving: system::moving(&mut top),
+        parameters: system::parameters(&mut top),
+        ramps: system::ramps(&mut top),
+        definitions: system::definitions(&mut top),
+        mechanics: law::mechanics(&mut top),
+        constraints: constraint::constraints(&mut top),
+        impulses: occurrence::impulses(&mut top),
+        events: occurrence::events(&mut top),
+        body: body::body(&mut top),
+        attitude: body::attitude(&mut top),
+        comparison: body::comparison(&mut top),
+        transformations: transformation::transformations(&mut top),
+        generators: transformation::generators(&mut top),
+        equilibria: equilibrium::equilibria(&mut top),
+        integral: transformation::integral(&mut top),
+        observables: claims::observables(&mut top),
+        expect: claims::expect(&mut top),
+        frames: frame::frames(&mut top),
+        views: picture::views(&mut top),
         shapes,
         camera,
-        run: run::read(&mut top, diagnostics),
+        run: run::read(&mut top),
     };
-    top.finish(diagnostics);
+    top.finish();
     draft
 }
 
 /// Reads only the head of the file, for a list of presets. Errors are ignored.
 pub(super) fn read_head(file: &Spanned<DeTable<'_>>) -> Info {
-    let mut top = Table::new("the file", 0..0, file.get_ref());
-    read_info(&mut top, &mut Diagnostics::default())
+    let ignored = Diagnostics::default();
+    read_info(&mut Table::new("the file", 0..0, file.get_ref(), &ignored))
 }
 
-fn read_info(top: &mut Table<'_>, diagnostics: &mut Diagnostics) -> Info {
-    let line = |found: Option<Spanned<String>>, diagnostics: &mut Diagnostics| match found {
-        Some(text) => value::one_line(&text, diagnostics).unwrap_or_default(),
-        None => String::new(),
-    };
-    let title = top.text("title", diagnostics);
+fn read_info(top: &mut Table<'_>) -> Info {
+    let diagnostics = top.diagnostics;
+    let title = top.text("title");
     if let Some(blank) = title.as_ref().filter(|t| t.get_ref().trim().is_empty()) {
         diagnostics.push(Diagnostic::error(blank.span(), "the title is empty"));
     }
-    let notes = top.text("notes", diagnostics);
+    let notes = top.text("notes");
     Info {
-        title: line(title, diagnostics),
-        summary: line(top.text("summary", diagnostics), diagnostics),
-        source: line(top.text("source", diagnostics), diagnostics),
-        chapter: line(top.text("chapter", diagnostics), diagnostics),
+        title: title.and_then(|text| value::one_line(&text, diagnostics)).unwrap_or_default(),
+        summary: top.line("summary"),
+        source: top.line("source"),
+        chapter: top.line("chapter"),
         topics: top
-            .list("topics", diagnostics)
+            .list("topics")
             .iter()
             .filter_map(|item| {
                 let topic = value::text(item, "a topic", diagnostics)?;

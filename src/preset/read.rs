@@ -59,16 +59,13 @@ pub fn read_with(text: &str, cancel: &Cancel) -> Result<Checked, Vec<Diagnostic>
     if diagnostics.lost_track() {
         return conclude(diagnostics, None);
     }
-    let draft = draft::read(&table, &mut diagnostics);
+    let draft = draft::read(&table, &diagnostics);
     let model = check::check(text, &draft, cancel, &mut diagnostics);
     conclude(diagnostics, model)
 }
 
 /// Returns the model with its warnings, or all diagnostics if one of them is an error.
-fn conclude(
-    mut diagnostics: Diagnostics,
-    model: Option<Model>,
-) -> Result<Checked, Vec<Diagnostic>> {
+fn conclude(diagnostics: Diagnostics, model: Option<Model>) -> Result<Checked, Vec<Diagnostic>> {
     match model {
         Some(mut model) if !diagnostics.any_error() => {
             let plain = diagnostics.take_plain();

@@ -47,7 +47,7 @@ impl Document {
         let file = toml_errors::parse(&self.text, &mut diagnostics);
         let mut entries = Vec::new();
         if !diagnostics.lost_track() {
-            let mut table = Table::new(called, 0..0, file.get_ref());
+            let mut table = Table::new(called, 0..0, file.get_ref(), &diagnostics);
             for &key in keys {
                 if let Some((_, value)) = table.take(key) {
                     entries.push(Setting {
@@ -57,7 +57,7 @@ impl Document {
                     });
                 }
             }
-            table.finish(&mut diagnostics);
+            table.finish();
         }
         let diagnostics = diagnostics.into_list();
         // a value that is not TOML is already reported

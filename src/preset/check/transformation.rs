@@ -294,7 +294,7 @@ impl ModelBuilder<'_> {
     /// The type of the generating function for each pair.
     fn types(&mut self, written: &DraftTransformation, n: usize) -> Option<Vec<GeneratingType>> {
         let known = || GeneratingType::ALL.map(GeneratingType::name);
-        let mut read = |name: &Spanned<String>, others: &[&str]| {
+        let read = |name: &Spanned<String>, others: &[&str]| {
             let found = GeneratingType::by_name(name.get_ref());
             if found.is_none() {
                 let message = format!("there is no kind `{}` of transformation", name.get_ref());

@@ -53,38 +53,38 @@ pub(in crate::preset) struct DraftComparison {
     pub(in crate::preset) eliminate: Vec<Spanned<String>>,
 }
 
-pub(super) fn body(top: &mut Table<'_>, diagnostics: &mut Diagnostics) -> Option<DraftBody> {
-    let mut table = top.table("body", diagnostics)?;
+pub(super) fn body(top: &mut Table<'_>) -> Option<DraftBody> {
+    let mut table = top.table("body")?;
     let example = "{ solid = \"sphere\", mass = \"m\", radius = \"a\" }";
     let mut pieces = Vec::new();
     if let Some((_, found)) = table.take("pieces") {
-        let items = value::list(found, "`pieces`", diagnostics);
+        let items = value::list(found, "`pieces`", top.diagnostics);
         if items.is_some_and(|items| items.is_empty()) {
             let diagnostic =
                 Diagnostic::error(found.span(), "a body is made of at least one piece");
-            diagnostics.push(diagnostic.with_help(format!("write pieces = [ {example} ]")));
+            top.diagnostics.push(diagnostic.with_help(format!("write pieces = [ {example} ]")));
         }
         for item in items.into_iter().flatten() {
-            let entry = Table::of(item, "this piece", item.span(), example, diagnostics);
-            pieces.extend(entry.and_then(|entry| piece(entry.with(&PIECE), diagnostics)));
+            let entry = Table::of(item, "this piece", item.span(), example, top.diagnostics);
+            pieces.extend(entry.and_then(|entry| piece(entry.with(&PIECE))));
         }
     }
     let place = table.place.clone();
-    table.finish(diagnostics);
+    table.finish();
     Some(DraftBody { place, pieces })
 }
 
-fn piece(mut table: Table<'_>, diagnostics: &mut Diagnostics) -> Option<DraftPiece> {
-    let point = table.flag("point", diagnostics).filter(|flag| *flag.get_ref());
-    let (had, written) = (table.has("solid"), table.text("solid", diagnostics));
+fn piece(mut table: Table<'_>) -> Option<DraftPiece> {
+    let point = table.flag("point").filter(|flag| *flag.get_ref());
+    let (had, written) = (table.has("solid"), table.text("solid"));
     let solid = match (&point, &written) {
         (Some(_), Some(solid)) => {
             let message = "a piece is a point or a solid, not both";
-            diagnostics.push(Diagnostic::error(solid.span(), message));
+            table.diagnostics.push(Diagnostic::error(solid.span(), message));
             return None;
         }
         (Some(_), None) => None,
-        (None, Some(solid)) => Some(known(solid, diagnostics)?),
+        (None, Some(solid)) => Some(known(solid, table.diagnostics)?),
         (None, None) => {
             if !had {
                 let message = "this piece has no `solid`";
@@ -93,36 +93,36 @@ fn piece(mut table: Table<'_>, diagnostics: &mut Diagnostics) -> Option<DraftPie
                     "solid",
                     Diagnostic::error(table.place.clone(), message).with_help(help),
                 );
-                table.finish_unread(diagnostics);
+                table.finish_unread();
             }
             return None;
         }
     };
     table.called = format!("this {}", solid.unwrap_or("point"));
     table.is_of_kind(solid.unwrap_or("point"));
-    let mass = table.formula("mass", diagnostics);
+    let mass = table.formula("mass");
     let mut sizes = Vec::new();
     let sized = |row: &&Key| {
         !SOLIDS.iter().all(|s| row.only.allows(s)) && solid.is_some_and(|s| row.only.allows(s))
     };
     for key in PIECE.keys.iter().filter(sized).map(|row| row.name) {
         if key == "size" {
-            let edges = vector::triple(&mut table, key, diagnostics);
+            let edges = vector::triple(&mut table, key);
             let edges = edges.map(Formulas::into_inner);
             let edge = |i| edges.as_ref().and_then(|edges: &Vec<Formula>| edges.get(i).cloned());
             sizes.extend((0..3).map(|i| (key, edge(i))));
         } else {
-            sizes.push((key, table.formula(key, diagnostics)));
+            sizes.push((key, table.formula(key)));
         }
     }
-    let at = vector::triple(&mut table, "at", diagnostics);
-    let turn = if solid.is_some() { turn(&mut table, diagnostics) } else { DraftTurn::None };
+    let at = vector::triple(&mut table, "at");
+    let turn = if solid.is_some() { turn(&mut table) } else { DraftTurn::None };
     let place = table.place.clone();
-    table.finish(diagnostics);
+    table.finish();
     Some(DraftPiece { solid, sizes, mass, at, turn, place })
 }
 
-fn known(solid: &Spanned<String>, diagnostics: &mut Diagnostics) -> Option<&'static str> {
+fn known(solid: &Spanned<String>, diagnostics: &Diagnostics) -> Option<&'static str> {
     let name = solid.get_ref().as_str();
     let known = SOLIDS.iter().find(|known| **known == name);
     if known.is_none() {
@@ -136,10 +136,10 @@ fn known(solid: &Spanned<String>, diagnostics: &mut Diagnostics) -> Option<&'sta
     known.copied()
 }
 
-fn turn(table: &mut Table<'_>, diagnostics: &mut Diagnostics) -> DraftTurn {
+fn turn(table: &mut Table<'_>) -> DraftTurn {
     let Some((place, found)) = table.take("turned") else { return DraftTurn::None };
     let shape = "turned = { axis = [\"0\", \"0\", \"1\"], angle = \"...\" }";
-    let Some(table) = Table::of(found, "`turned`", place, shape, diagnostics) else {
+    let Some(table) = Table::of(found, "`turned`", place, shape, table.diagnostics) else {
         return DraftTurn::None;
     };
     let mut table = table.with(&TURN);
@@ -147,29 +147,26 @@ fn turn(table: &mut Table<'_>, diagnostics: &mut Diagnostics) -> DraftTurn {
         for (key, _) in table.entries() {
             if let "axis" | "angle" = key.get_ref().as_str() {
                 let message = "a piece is turned by `axis` and `angle` or by `euler`, not by both";
-                diagnostics.push(Diagnostic::error(key.span(), message));
+                table.diagnostics.push(Diagnostic::error(key.span(), message));
             }
         }
         table.pass_over(&["axis", "angle"]);
-        DraftTurn::Euler(vector::triple(&mut table, "euler", diagnostics))
+        DraftTurn::Euler(vector::triple(&mut table, "euler"))
     } else {
-        let axis = vector::triple(&mut table, "axis", diagnostics);
-        DraftTurn::Axis { axis, angle: table.formula("angle", diagnostics) }
+        let axis = vector::triple(&mut table, "axis");
+        DraftTurn::Axis { axis, angle: table.formula("angle") }
     };
-    table.finish(diagnostics);
+    table.finish();
     turn
 }
 
-pub(super) fn attitude(
-    top: &mut Table<'_>,
-    diagnostics: &mut Diagnostics,
-) -> Option<DraftAttitude> {
-    let mut table = top.table("attitude", diagnostics)?;
+pub(super) fn attitude(top: &mut Table<'_>) -> Option<DraftAttitude> {
+    let mut table = top.table("attitude")?;
     let (has_euler, has_omega) = (table.has("euler"), table.has("omega"));
-    let euler = vector::triple(&mut table, "euler", diagnostics);
-    let omega = vector::triple(&mut table, "omega", diagnostics);
+    let euler = vector::triple(&mut table, "euler");
+    let omega = vector::triple(&mut table, "omega");
     let (start_key, _) = table.take("start").unzip();
-    let start = vector::triple(&mut table, "start", diagnostics);
+    let start = vector::triple(&mut table, "start");
     match (has_euler, has_omega, start_key) {
         (false, false, _) => {
             let message = "[attitude] has neither `euler` nor `omega`";
@@ -180,33 +177,30 @@ pub(super) fn attitude(
         (true, true, _) => {
             let message = "[attitude] has both `euler` and `omega`";
             let help = "either angles or an angular velocity say how a body stands";
-            diagnostics.push(Diagnostic::error(table.place.clone(), message).with_help(help));
+            top.diagnostics.push(Diagnostic::error(table.place.clone(), message).with_help(help));
         }
         (true, false, Some(start)) => {
             let message = "`start` goes with `omega`; the angles of `euler` need none";
-            diagnostics.push(Diagnostic::error(start, message));
+            top.diagnostics.push(Diagnostic::error(start, message));
         }
         _ => {}
     }
     let place = table.place.clone();
-    table.finish(diagnostics);
+    table.finish();
     Some(DraftAttitude { place, euler, omega, start })
 }
 
-pub(super) fn comparison(
-    top: &mut Table<'_>,
-    diagnostics: &mut Diagnostics,
-) -> Option<DraftComparison> {
-    let mut table = top.table("comparison", diagnostics)?;
+pub(super) fn comparison(top: &mut Table<'_>) -> Option<DraftComparison> {
+    let mut table = top.table("comparison")?;
     let found = table.take("eliminate");
     let list = found.as_ref().map_or(0..0, |(_, found)| found.span());
-    let items = found.and_then(|(_, found)| value::list(found, "`eliminate`", diagnostics));
+    let items = found.and_then(|(_, found)| value::list(found, "`eliminate`", top.diagnostics));
     let eliminate = items
         .into_iter()
         .flatten()
-        .filter_map(|item| value::text(item, "a coordinate to eliminate", diagnostics))
+        .filter_map(|item| value::text(item, "a coordinate to eliminate", top.diagnostics))
         .collect();
     let place = table.place.clone();
-    table.finish(diagnostics);
+    table.finish();
     Some(DraftComparison { place, list, eliminate })
 }

@@ -4,7 +4,7 @@ use toml::Spanned;
 
 use super::table::Table;
 use super::{Formula, value};
-use crate::diagnostic::{Diagnostics, SourceRange};
+use crate::diagnostic::SourceRange;
 
 /// An observable as written.
 pub(in crate::preset) struct DraftObservable {
@@ -81,114 +81,111 @@ pub(in crate::preset) struct DraftValue {
     pub(in crate::preset) place: SourceRange,
 }
 
-pub(super) fn observables(
-    top: &mut Table<'_>,
-    diagnostics: &mut Diagnostics,
-) -> Vec<DraftObservable> {
+pub(super) fn observables(top: &mut Table<'_>) -> Vec<DraftObservable> {
     let mut all = Vec::new();
-    for mut table in top.tables("observables", "this observable", diagnostics) {
+    for mut table in top.tables("observables", "this observable") {
         all.push(DraftObservable {
-            name: table.text("name", diagnostics),
-            expression: table.formula("expression", diagnostics),
-            conserved: table.flag("conserved", diagnostics),
-            unit: table.line("unit", diagnostics),
+            name: table.text("name"),
+            expression: table.formula("expression"),
+            conserved: table.flag("conserved"),
+            unit: table.line("unit"),
         });
-        table.finish(diagnostics);
+        table.finish();
     }
     all
 }
 
-pub(super) fn expect(top: &mut Table<'_>, diagnostics: &mut Diagnostics) -> DraftExpect {
-    let Some(mut table) = top.table("expect", diagnostics) else { return DraftExpect::default() };
+pub(super) fn expect(top: &mut Table<'_>) -> DraftExpect {
+    let Some(mut table) = top.table("expect") else { return DraftExpect::default() };
     let conserves = table
-        .list("conserves", diagnostics)
+        .list("conserves")
         .iter()
-        .filter_map(|item| value::text(item, "what is conserved", diagnostics))
+        .filter_map(|item| value::text(item, "what is conserved", top.diagnostics))
         .collect();
     let (value, event) =
         ("{ expression = \"...\", at = 1.0, is = 2.0 }", "{ name = \"...\", at = 1.0 }");
     let count = "{ name = \"...\", until = 10.0, is = 3 }";
     let bracket = "{ f = \"...\", g = \"...\", is = \"...\" }";
-    let values = table.items("values", ("this expected value", value), diagnostics);
-    let events = table.items("events", ("this expected event", event), diagnostics);
-    let counts = table.items("count", ("this expected count", count), diagnostics);
-    let brackets = table.items("brackets", ("this expected bracket", bracket), diagnostics);
+    let values = table.items("values", ("this expected value", value));
+    let events = table.items("events", ("this expected event", event));
+    let counts = table.items("count", ("this expected count", count));
+    let brackets = table.items("brackets", ("this expected bracket", bracket));
     let step = "{ transformation = \"...\", method = \"symplectic-euler\", step = \"h\" }";
-    let steps = table.items("steps", ("this expected step", step), diagnostics);
-    let invariants = table.number("invariants", diagnostics);
-    let degree = table.number("degree", diagnostics);
-    table.finish(diagnostics);
+    let steps = table.items("steps", ("this expected step", step));
+    let invariants = table.number("invariants");
+    let degree = table.number("degree");
+    table.finish();
     DraftExpect {
         conserves,
-        values: values.into_iter().map(|entry| expected(entry, diagnostics)).collect(),
-        events: events.into_iter().map(|entry| occurrence(entry, diagnostics)).collect(),
-        counts: counts.into_iter().map(|entry| self::count(entry, diagnostics)).collect(),
-        brackets: brackets.into_iter().map(|entry| self::bracket(entry, diagnostics)).collect(),
-        steps: steps.into_iter().map(|entry| self::step(entry, diagnostics)).collect(),
+        values: values.into_iter().map(expected).collect(),
+        events: events.into_iter().map(occurrence).collect(),
+        counts: counts.into_iter().map(self::count).collect(),
+        brackets: brackets.into_iter().map(self::bracket).collect(),
+        steps: steps.into_iter().map(self::step).collect(),
         invariants,
         degree,
     }
 }
 
-fn step(mut table: Table<'_>, diagnostics: &mut Diagnostics) -> DraftStep {
+fn step(mut table: Table<'_>) -> DraftStep {
     let claim = DraftStep {
-        transformation: table.text("transformation", diagnostics),
-        method: table.text("method", diagnostics),
-        step: table.formula("step", diagnostics),
-        within: table.number("within", diagnostics),
-        source: table.line("source", diagnostics),
+        transformation: table.text("transformation"),
+        method: table.text("method"),
+        step: table.formula("step"),
+        within: table.number("within"),
+        source: table.line("source"),
         place: table.place.clone(),
     };
-    table.finish(diagnostics);
+    table.finish();
     claim
 }
 
-fn occurrence(mut table: Table<'_>, diagnostics: &mut Diagnostics) -> DraftOccurrence {
-    let name = table.name(diagnostics);
+fn occurrence(mut table: Table<'_>) -> DraftOccurrence {
+    let name = table.name();
     let claim = DraftOccurrence {
         name,
-        nth: table.number("nth", diagnostics),
-        at: table.number("at", diagnostics),
-        within: table.number("within", diagnostics),
-        source: table.line("source", diagnostics),
+        nth: table.number("nth"),
+        at: table.number("at"),
+        within: table.number("within"),
+        source: table.line("source"),
         place: table.place.clone(),
     };
-    table.finish(diagnostics);
+    table.finish();
     claim
 }
 
-fn count(mut table: Table<'_>, diagnostics: &mut Diagnostics) -> DraftCount {
-    let name = table.name(diagnostics);
+fn count(mut table: Table<'_>) -> DraftCount {
+    let name = table.name();
     let claim = DraftCount {
         name,
-        until: table.number("until", diagnostics),
-        is: table.number("is", diagnostics),
-        source: table.line("source", diagnostics),
+        until: table.number("until"),
+        is: table.number("is"),
+        source: table.line("source"),
         place: table.place.clone(),
     };
-    table.finish(diagnostics);
+    table.finish();
     claim
 }
 
-fn bracket(mut table: Table<'_>, diagnostics: &mut Diagnostics) -> DraftBracketClaim {
-    let [f, g, is] = ["f", "g", "is"].map(|key| table.formula(key, diagnostics));
-    let source = table.line("source", diagnostics);
+fn bracket(mut table: Table<'_>) -> DraftBracketClaim {
+    let [f, g, is] = ["f", "g", "is"].map(|key| table.formula(key));
+    let source = table.line("source");
     let place = table.place.clone();
-    table.finish(diagnostics);
+    table.finish();
     DraftBracketClaim { f, g, is, source, place }
 }
 
-fn expected(mut table: Table<'_>, diagnostics: &mut Diagnostics) -> DraftValue {
-    let name = table.line("name", diagnostics);
+fn expected(mut table: Table<'_>) -> DraftValue {
+    let name = table.line("name");
     let value = DraftValue {
         name,
-        expression: table.formula("expression", diagnostics),
-        at: table.number("at", diagnostics),
-        is: table.number("is", diagnostics),
-        within: table.number("within", diagnostics),
-        source: table.line("source", diagnostics),
+        expression: table.formula("expression"),
+        at: table.number("at"),
+        is: table.number("is"),
+        within: table.number("within"),
+        source: table.line("source"),
         place: table.place.clone(),
     };
-    table.finish(diagnostics);
+    table.finish();
     value
 }

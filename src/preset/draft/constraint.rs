@@ -4,7 +4,7 @@ use toml::Spanned;
 
 use super::Formula;
 use super::table::Table;
-use crate::diagnostic::{Diagnostics, SourceRange};
+use crate::diagnostic::SourceRange;
 
 /// A constraint as written.
 pub(in crate::preset) struct DraftConstraint {
@@ -16,21 +16,18 @@ pub(in crate::preset) struct DraftConstraint {
     pub(in crate::preset) place: SourceRange,
 }
 
-pub(super) fn constraints(
-    top: &mut Table<'_>,
-    diagnostics: &mut Diagnostics,
-) -> Vec<DraftConstraint> {
+pub(super) fn constraints(top: &mut Table<'_>) -> Vec<DraftConstraint> {
     let mut all = Vec::new();
-    for mut table in top.tables("constraints", "this constraint", diagnostics) {
-        let name = table.name(diagnostics);
+    for mut table in top.tables("constraints", "this constraint") {
+        let name = table.name();
         all.push(DraftConstraint {
             name,
-            expression: table.formula("expression", diagnostics),
-            unit: table.line("unit", diagnostics),
-            about: table.line("about", diagnostics),
+            expression: table.formula("expression"),
+            unit: table.line("unit"),
+            about: table.line("about"),
             place: table.place.clone(),
         });
-        table.finish(diagnostics);
+        table.finish();
     }
     all
 }

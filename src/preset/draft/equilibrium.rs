@@ -5,7 +5,7 @@ use toml::Spanned;
 use super::NamedFormula;
 use super::system::formulas;
 use super::table::Table;
-use crate::diagnostic::{Diagnostic, Diagnostics, SourceRange};
+use crate::diagnostic::{Diagnostic, SourceRange};
 
 /// A name of an equilibrium as written.
 pub(in crate::preset) struct DraftEquilibrium {
@@ -16,29 +16,26 @@ pub(in crate::preset) struct DraftEquilibrium {
     pub(in crate::preset) place: SourceRange,
 }
 
-pub(super) fn equilibria(
-    top: &mut Table<'_>,
-    diagnostics: &mut Diagnostics,
-) -> Vec<DraftEquilibrium> {
+pub(super) fn equilibria(top: &mut Table<'_>) -> Vec<DraftEquilibrium> {
     let mut all = Vec::new();
-    for mut table in top.tables("equilibria", "this equilibrium", diagnostics) {
-        let name = table.name(diagnostics);
+    for mut table in top.tables("equilibria", "this equilibrium") {
+        let name = table.name();
         let mut near = Vec::new();
         if let Some((place, found)) = table.take("near") {
             let shape = "near = { x = \"...\" }";
-            let inner = Table::of(found, "`near`".to_owned(), place, shape, diagnostics);
+            let inner = Table::of(found, "`near`".to_owned(), place, shape, top.diagnostics);
             near = inner.map_or(near, |inner| {
-                let all = formulas(&inner, "the coordinate", diagnostics);
+                let all = formulas(&inner, "the coordinate");
                 if all.is_empty() {
                     let message = "`near` has no coordinate, so this may be any equilibrium";
                     let error = Diagnostic::error(inner.place.clone(), message);
-                    diagnostics.push(error.with_help(format!("write {shape}")));
+                    top.diagnostics.push(error.with_help(format!("write {shape}")));
                 }
                 all
             });
         }
         all.push(DraftEquilibrium { name, near, place: table.place.clone() });
-        table.finish(diagnostics);
+        table.finish();
     }
     all
 }

@@ -5,7 +5,7 @@ use toml::Spanned;
 use super::table::Table;
 use super::vector::{self, Formulas};
 use super::{Formula, value};
-use crate::diagnostic::{Diagnostic, Diagnostics, SourceRange};
+use crate::diagnostic::{Diagnostic, SourceRange};
 
 /// A frame as written.
 pub(in crate::preset) struct DraftFrame {
@@ -21,16 +21,16 @@ pub(in crate::preset) struct DraftFrame {
     pub(in crate::preset) place: SourceRange,
 }
 
-pub(super) fn frames(top: &mut Table<'_>, diagnostics: &mut Diagnostics) -> Vec<DraftFrame> {
-    let tables = top.tables("frames", "this frame", diagnostics);
-    tables.into_iter().map(|table| frame(table, diagnostics)).collect()
+pub(super) fn frames(top: &mut Table<'_>) -> Vec<DraftFrame> {
+    let tables = top.tables("frames", "this frame");
+    tables.into_iter().map(frame).collect()
 }
 
-fn frame(mut table: Table<'_>, diagnostics: &mut Diagnostics) -> DraftFrame {
-    let name = table.name(diagnostics);
-    let attitude = table.flag("attitude", diagnostics).filter(|flag| *flag.get_ref());
+fn frame(mut table: Table<'_>) -> DraftFrame {
+    let name = table.name();
+    let attitude = table.flag("attitude").filter(|flag| *flag.get_ref());
     let (axis_key, _) = table.take("axis").unzip();
-    let axis = vector::triple(&mut table, "axis", diagnostics);
+    let axis = vector::triple(&mut table, "axis");
     let (angle_key, found) = match &attitude {
         Some(_) => table.take("angle"),
         None => {
@@ -39,23 +39,23 @@ fn frame(mut table: Table<'_>, diagnostics: &mut Diagnostics) -> DraftFrame {
         }
     }
     .unzip();
-    let angle = found.and_then(|found| value::formula(found, "`angle`", diagnostics));
+    let angle = found.and_then(|found| value::formula(found, "`angle`", table.diagnostics));
     if attitude.is_some() {
         for key in [axis_key, angle_key].into_iter().flatten() {
             let message = "the frame of the body turns with [attitude]; it has no axis and angle";
-            diagnostics.push(Diagnostic::error(key, message));
+            table.diagnostics.push(Diagnostic::error(key, message));
         }
     }
-    let origin = vector::triple(&mut table, "origin", diagnostics);
+    let origin = vector::triple(&mut table, "origin");
     let mut particles = Vec::new();
     let particle = ("this particle", "{ at = [\"x\", \"y\", \"0\"], mass = \"m\" }");
-    for mut entry in table.items("particles", particle, diagnostics) {
-        let at = vector::triple(&mut entry, "at", diagnostics);
-        particles.push((at, entry.formula("mass", diagnostics)));
-        entry.finish(diagnostics);
+    for mut entry in table.items("particles", particle) {
+        let at = vector::triple(&mut entry, "at");
+        particles.push((at, entry.formula("mass")));
+        entry.finish();
     }
     let place = table.place.clone();
-    table.finish(diagnostics);
+    table.finish();
     let attitude = attitude.map(|flag| flag.span());
     DraftFrame { name, axis, angle, origin, particles, attitude, place }
 }

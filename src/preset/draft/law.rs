@@ -55,9 +55,9 @@ impl LawTable {
     }
 }
 
-pub(super) fn mechanics(top: &mut Table<'_>, diagnostics: &mut Diagnostics) -> Vec<DraftMechanics> {
+pub(super) fn mechanics(top: &mut Table<'_>) -> Vec<DraftMechanics> {
     let laws = [LawTable::Lagrangian, LawTable::Hamiltonian, LawTable::Poisson];
-    let given = laws.map(|one| law(one, top, diagnostics));
+    let given = laws.map(|one| law(one, top));
     if !laws.into_iter().any(|law| top.has(law.table())) {
         let missing = Diagnostic::error(0..0, "the file has no law of motion");
         let (key, help) = if top.has("variables") {
@@ -70,33 +70,29 @@ pub(super) fn mechanics(top: &mut Table<'_>, diagnostics: &mut Diagnostics) -> V
     given.into_iter().flatten().collect()
 }
 
-fn law(
-    law: LawTable,
-    top: &mut Table<'_>,
-    diagnostics: &mut Diagnostics,
-) -> Option<DraftMechanics> {
-    let mut table = top.table(law.table(), diagnostics)?;
-    let function = table.formula(if law == LawTable::Lagrangian { "L" } else { "H" }, diagnostics);
+fn law(law: LawTable, top: &mut Table<'_>) -> Option<DraftMechanics> {
+    let mut table = top.table(law.table())?;
+    let function = table.formula(if law == LawTable::Lagrangian { "L" } else { "H" });
     let mut dissipation = None;
     if law == LawTable::Lagrangian {
-        dissipation = table.formula("dissipation", diagnostics);
+        dissipation = table.formula("dissipation");
     }
     let (mut brackets, mut brackets_place, mut casimirs) = (Vec::new(), 0..0, Vec::new());
     if law == LawTable::Poisson {
         if let Some((_, found)) = table.take("brackets") {
             brackets_place = found.span();
-            let items = value::list(found, "`brackets`", diagnostics);
+            let items = value::list(found, "`brackets`", top.diagnostics);
             brackets = items
                 .map_or(&[][..], |items| items)
                 .iter()
-                .filter_map(|item| bracket(item, diagnostics))
+                .filter_map(|item| bracket(item, top.diagnostics))
                 .collect();
         }
-        casimirs = named(&mut table, "casimirs", "C", "the Casimir", diagnostics);
+        casimirs = named(&mut table, "casimirs", "C", "the Casimir");
     }
-    let forces = named(&mut table, "forces", "x", "the force on", diagnostics);
+    let forces = named(&mut table, "forces", "x", "the force on");
     let place = table.place.clone();
-    table.finish(diagnostics);
+    table.finish();
     Some(DraftMechanics {
         law,
         place,
@@ -115,16 +111,15 @@ fn named(
     key: &'static str,
     example: &str,
     called: &str,
-    diagnostics: &mut Diagnostics,
 ) -> Vec<NamedFormula> {
     let Some((place, found)) = table.take(key) else { return Vec::new() };
     let shape = format!("{key} = {{ {example} = \"...\" }}");
-    let table = Table::of(found, format!("`{key}`"), place, &shape, diagnostics);
-    table.map_or(Vec::new(), |t| formulas(&t, called, diagnostics))
+    let table = Table::of(found, format!("`{key}`"), place, &shape, table.diagnostics);
+    table.map_or(Vec::new(), |t| formulas(&t, called))
 }
 
 /// `["a", "b", "{a, b}"]`.
-fn bracket(found: &Value<'_>, diagnostics: &mut Diagnostics) -> Option<DraftBracket> {
+fn bracket(found: &Value<'_>, diagnostics: &Diagnostics) -> Option<DraftBracket> {
     let items = match found.get_ref() {
         DeValue::Array(items) if items.len() == 3 => items,
         other => {
@@ -138,7 +133,7 @@ fn bracket(found: &Value<'_>, diagnostics: &mut Diagnostics) -> Option<DraftBrac
             return None;
         }
     };
-    let mut name = |item: &Value<'_>| value::text(item, "a variable of a bracket", diagnostics);
+    let name = |item: &Value<'_>| value::text(item, "a variable of a bracket", diagnostics);
     let (first, second) = (name(&items[0]), name(&items[1]));
     let value = value::formula(&items[2], "a bracket", diagnostics);
     Some(DraftBracket { pair: [first?, second?], value: value?, place: found.span() })

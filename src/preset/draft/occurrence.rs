@@ -6,7 +6,7 @@ use toml::de::DeValue;
 use super::system::formulas;
 use super::table::Table;
 use super::{Formula, NamedFormula, value};
-use crate::diagnostic::{Diagnostic, Diagnostics, SourceRange};
+use crate::diagnostic::{Diagnostic, SourceRange};
 
 /// An impulse as written.
 pub(in crate::preset) struct DraftImpulse {
@@ -31,58 +31,61 @@ pub(in crate::preset) struct DraftEvent {
     pub(in crate::preset) place: SourceRange,
 }
 
-pub(super) fn impulses(top: &mut Table<'_>, diagnostics: &mut Diagnostics) -> Vec<DraftImpulse> {
-    let tables = top.tables("impulses", "this impulse", diagnostics);
-    tables.into_iter().map(|table| impulse(table, diagnostics)).collect()
+pub(super) fn impulses(top: &mut Table<'_>) -> Vec<DraftImpulse> {
+    let tables = top.tables("impulses", "this impulse");
+    tables.into_iter().map(impulse).collect()
 }
 
-fn impulse(mut table: Table<'_>, diagnostics: &mut Diagnostics) -> DraftImpulse {
-    let name = table.name(diagnostics);
+fn impulse(mut table: Table<'_>) -> DraftImpulse {
+    let name = table.name();
     let at = table.take("at");
     let every = table.take("every");
     if let (Some((at, _)), Some((every, _))) = (&at, &every) {
         let diagnostic = Diagnostic::error(every.clone(), "`at` and `every` exclude each other");
         let diagnostic = diagnostic.with_also(at.clone(), "the times are given here");
-        diagnostics.push(diagnostic.with_help("write two impulses"));
+        table.diagnostics.push(diagnostic.with_help("write two impulses"));
     }
     let at = at.map_or(Vec::new(), |(_, found)| match found.get_ref() {
         DeValue::Array(items) => {
             if items.is_empty() {
-                diagnostics.push(Diagnostic::error(found.span(), "this list is empty"));
+                table.diagnostics.push(Diagnostic::error(found.span(), "this list is empty"));
             }
-            items.iter().filter_map(|v| value::formula(v, "a time in `at`", diagnostics)).collect()
+            items
+                .iter()
+                .filter_map(|v| value::formula(v, "a time in `at`", table.diagnostics))
+                .collect()
         }
-        _ => value::formula(found, "`at`", diagnostics).into_iter().collect(),
+        _ => value::formula(found, "`at`", table.diagnostics).into_iter().collect(),
     });
-    let every = every.and_then(|(_, found)| value::formula(found, "`every`", diagnostics));
+    let every = every.and_then(|(_, found)| value::formula(found, "`every`", table.diagnostics));
     let change = table.take("change");
     let change = change.and_then(|(place, found)| {
         let shape = "change = { p_x = \"...\" }";
-        let changes = Table::of(found, "`change`", place, shape, diagnostics)?;
+        let changes = Table::of(found, "`change`", place, shape, table.diagnostics)?;
         if changes.entries().next().is_none() {
             let diagnostic = Diagnostic::error(found.span(), "this impulse changes nothing");
-            diagnostics.push(diagnostic.with_help(format!("write {shape}")));
+            table.diagnostics.push(diagnostic.with_help(format!("write {shape}")));
         }
-        Some(formulas(&changes, "the change of", diagnostics))
+        Some(formulas(&changes, "the change of"))
     });
-    let about = table.line("about", diagnostics);
+    let about = table.line("about");
     let place = table.place.clone();
-    table.finish(diagnostics);
+    table.finish();
     DraftImpulse { name, at, every, change, about, place }
 }
 
-pub(super) fn events(top: &mut Table<'_>, diagnostics: &mut Diagnostics) -> Vec<DraftEvent> {
+pub(super) fn events(top: &mut Table<'_>) -> Vec<DraftEvent> {
     let mut all = Vec::new();
-    for mut table in top.tables("events", "this event", diagnostics) {
-        let name = table.name(diagnostics);
+    for mut table in top.tables("events", "this event") {
+        let name = table.name();
         all.push(DraftEvent {
             name,
-            when: table.formula("when", diagnostics),
-            direction: table.text("direction", diagnostics),
-            action: table.text("action", diagnostics),
+            when: table.formula("when"),
+            direction: table.text("direction"),
+            action: table.text("action"),
             place: table.place.clone(),
         });
-        table.finish(diagnostics);
+        table.finish();
     }
     all
 }

@@ -112,12 +112,12 @@ const SHAPES: [(&str, ShapeKind); 14] = [
     ("body", ShapeKind::Body),
 ];
 
-pub(super) fn views(top: &mut Table<'_>, diagnostics: &mut Diagnostics) -> Vec<DraftView> {
-    let tables = top.tables("views", "this view", diagnostics);
-    tables.into_iter().filter_map(|table| view(table, diagnostics)).collect()
+pub(super) fn views(top: &mut Table<'_>) -> Vec<DraftView> {
+    let tables = top.tables("views", "this view");
+    tables.into_iter().filter_map(view).collect()
 }
 
-fn view(mut table: Table<'_>, diagnostics: &mut Diagnostics) -> Option<DraftView> {
+fn view(mut table: Table<'_>) -> Option<DraftView> {
     let help = format!("write kind = {}", listed("\"", "or"));
     let Some((_, found)) = table.require("kind", &help) else {
         let axes = INSTRUMENTS.into_iter().flat_map(Instrument::written);
@@ -128,82 +128,77 @@ fn view(mut table: Table<'_>, diagnostics: &mut Diagnostics) -> Option<DraftView
         {
             table.take(key);
         }
-        table.finish(diagnostics);
+        table.finish();
         return None;
     };
-    let written = value::text(found, "`kind`", diagnostics)?;
-    let kind = view_kind(&written, diagnostics)?;
+    let written = value::text(found, "`kind`", table.diagnostics)?;
+    let kind = view_kind(&written, table.diagnostics)?;
     table.called = format!("this view of kind {}", written.get_ref());
-    let title = table.line("title", diagnostics);
+    let title = table.line("title");
     let place = table.place.clone();
     let mut axes: Vec<Vec<Formula>> =
-        kind.written().iter().map(|axis| several(&mut table, axis, diagnostics)).collect();
+        kind.written().iter().map(|axis| several(&mut table, axis)).collect();
     let (mut frame, mut shapes) = (None, None);
     if kind.is_scene() {
-        frame = table.text("frame", diagnostics);
-        shapes = table.has("shapes").then(|| shapes_of(&mut table, diagnostics));
+        frame = table.text("frame");
+        shapes = table.has("shapes").then(|| shapes_of(&mut table));
     }
     let mut until = None;
     if kind.follows_motions() {
         let of = table.take("of");
         axes.extend(of.map(|(_, found)| {
-            value::formula(found, "`of`", diagnostics).into_iter().collect::<Vec<_>>()
+            value::formula(found, "`of`", table.diagnostics).into_iter().collect::<Vec<_>>()
         }));
         let found = table.take("until");
-        until = found.and_then(|(_, found)| value::formula(found, "`until`", diagnostics));
+        until = found.and_then(|(_, found)| value::formula(found, "`until`", table.diagnostics));
     }
-    let section =
-        kind.is_section().then(|| section(&mut table, !kind.follows_motions(), diagnostics));
+    let section = kind.is_section().then(|| section(&mut table, !kind.follows_motions()));
     let (mut over, mut slope) = (None, false);
     if kind.is_over_a_parameter() {
-        over = table.text("over", diagnostics);
+        over = table.text("over");
         if over.is_none() {
             table.require("over", "write over = \"...\", a parameter");
         }
-        slope = table.flag("slope", diagnostics).is_some_and(|flag| *flag.get_ref());
+        slope = table.flag("slope").is_some_and(|flag| *flag.get_ref());
     }
-    table.finish(diagnostics);
+    table.finish();
     Some(DraftView { place, kind, title, axes, frame, shapes, section, over, until, slope })
 }
 
 /// The keys of a section besides its axes.
 const SECTION_KEYS: [&str; 4] = ["on", "direction", "x_range", "y_range"];
 
-fn section(table: &mut Table<'_>, needed: bool, diagnostics: &mut Diagnostics) -> DraftSection {
+fn section(table: &mut Table<'_>, needed: bool) -> DraftSection {
     let on = if needed {
         table.require("on", "write on = \"...\", which vanishes on the surface")
     } else {
         table.take("on")
     };
-    let on = on.and_then(|(_, found)| value::formula(found, "`on`", diagnostics));
-    let direction = table.text("direction", diagnostics);
-    let ranges = ["x_range", "y_range"].map(|key| range(table, key, diagnostics));
+    let on = on.and_then(|(_, found)| value::formula(found, "`on`", table.diagnostics));
+    let direction = table.text("direction");
+    let ranges = ["x_range", "y_range"].map(|key| range(table, key));
     DraftSection { on, direction, ranges }
 }
 
 /// The two ends of an axis.
-fn range(
-    table: &mut Table<'_>,
-    key: &'static str,
-    diagnostics: &mut Diagnostics,
-) -> Option<[Formula; 2]> {
+fn range(table: &mut Table<'_>, key: &'static str) -> Option<[Formula; 2]> {
     let (_, found) = table.take(key)?;
     let items = match found.get_ref() {
         DeValue::Array(items) if items.len() == 2 => items,
         _ => {
             let message = format!("`{key}` must be the two ends of the axis");
             let help = format!("write {key} = [\"-pi\", \"pi\"]");
-            diagnostics.push(Diagnostic::error(found.span(), message).with_help(help));
+            table.diagnostics.push(Diagnostic::error(found.span(), message).with_help(help));
             return None;
         }
     };
-    let mut end = |place: usize| value::formula(&items[place], &format!("`{key}`"), diagnostics);
+    let end = |place: usize| value::formula(&items[place], &format!("`{key}`"), table.diagnostics);
     let (from, to) = (end(0), end(1));
     Some([from?, to?])
 }
 
 /// The expressions of an axis: one, or a list if the axis takes several.
-fn several(table: &mut Table<'_>, axis: &Axis, diagnostics: &mut Diagnostics) -> Vec<Formula> {
+fn several(table: &mut Table<'_>, axis: &Axis) -> Vec<Formula> {
     let key = axis.key;
     let Some((_, found)) = table.require(key, &format!("write {key} = \"...\"")) else {
         return Vec::new();
@@ -212,18 +207,18 @@ fn several(table: &mut Table<'_>, axis: &Axis, diagnostics: &mut Diagnostics) ->
     match found.get_ref() {
         DeValue::Array(items) if axis.several => {
             if items.is_empty() {
-                diagnostics.push(Diagnostic::error(found.span(), "this list is empty"));
+                table.diagnostics.push(Diagnostic::error(found.span(), "this list is empty"));
             }
-            items.iter().filter_map(|v| value::formula(v, &called, diagnostics)).collect()
+            items.iter().filter_map(|v| value::formula(v, &called, table.diagnostics)).collect()
         }
-        _ => value::formula(found, &called, diagnostics).into_iter().collect(),
+        _ => value::formula(found, &called, table.diagnostics).into_iter().collect(),
     }
 }
 
 /// The kind that a name denotes.
 fn view_kind(
     written: &Spanned<String>,
-    diagnostics: &mut Diagnostics,
+    diagnostics: &Diagnostics,
 ) -> Option<&'static dyn Instrument> {
     let name = written.get_ref().as_str();
     let kind = named(name);
@@ -239,35 +234,31 @@ fn view_kind(
 }
 
 /// Reads `[space]`: its shapes, and the camera: where it stands, and what it follows.
-pub(super) fn space(
-    top: &mut Table<'_>,
-    diagnostics: &mut Diagnostics,
-) -> (Vec<DraftShape>, DraftCamera) {
-    let Some(mut table) = top.table("space", diagnostics) else { return Default::default() };
-    let all = shapes_of(&mut table, diagnostics);
-    let follow = table.has("follow").then(|| DraftFollow {
-        at: point(&mut table, "follow", diagnostics),
-        reach: size(&mut table, "reach", diagnostics),
-    });
-    let azimuth = table.number("azimuth", diagnostics);
-    let elevation = table.number("elevation", diagnostics);
-    table.finish(diagnostics);
+pub(super) fn space(top: &mut Table<'_>) -> (Vec<DraftShape>, DraftCamera) {
+    let Some(mut table) = top.table("space") else { return Default::default() };
+    let all = shapes_of(&mut table);
+    let follow = table
+        .has("follow")
+        .then(|| DraftFollow { at: point(&mut table, "follow"), reach: size(&mut table, "reach") });
+    let azimuth = table.number("azimuth");
+    let elevation = table.number("elevation");
+    table.finish();
     (all, DraftCamera { follow, azimuth, elevation })
 }
 
 /// The list of shapes of a table.
-fn shapes_of(table: &mut Table<'_>, diagnostics: &mut Diagnostics) -> Vec<DraftShape> {
+fn shapes_of(table: &mut Table<'_>) -> Vec<DraftShape> {
     let mut all = Vec::new();
-    for item in table.list("shapes", diagnostics) {
+    for item in table.list("shapes") {
         let shape = "{ line = [\"0\", \"0\", \"0\"], to = [\"x\", \"y\", \"0\"] }";
-        if let Some(entry) = Table::of(item, "this shape", item.span(), shape, diagnostics) {
-            all.extend(self::shape(entry, diagnostics));
+        if let Some(entry) = Table::of(item, "this shape", item.span(), shape, table.diagnostics) {
+            all.extend(self::shape(entry));
         }
     }
     all
 }
 
-fn shape(mut table: Table<'_>, diagnostics: &mut Diagnostics) -> Option<DraftShape> {
+fn shape(mut table: Table<'_>) -> Option<DraftShape> {
     let names = SHAPES.map(|(name, _)| name);
     let given: Vec<_> = SHAPES.into_iter().filter(|(name, _)| table.has(name)).collect();
     let [(name, kind)] = given[..] else {
@@ -290,7 +281,7 @@ fn shape(mut table: Table<'_>, diagnostics: &mut Diagnostics) -> Option<DraftSha
                 Diagnostic::error(table.place.clone(), message).with_help(help)
             }
         };
-        diagnostics.push(diagnostic);
+        table.diagnostics.push(diagnostic);
         return None;
     };
     table.called = format!("the shape `{name}`");
@@ -301,7 +292,7 @@ fn shape(mut table: Table<'_>, diagnostics: &mut Diagnostics) -> Option<DraftSha
     let mut shape = DraftShape {
         place: table.place.clone(),
         kind,
-        at: point(&mut table, name, diagnostics),
+        at: point(&mut table, name),
         to: None,
         normal: None,
         size: None,
@@ -311,45 +302,41 @@ fn shape(mut table: Table<'_>, diagnostics: &mut Diagnostics) -> Option<DraftSha
         text: String::new(),
     };
     if kind == Vector {
-        shape.text = table.line("label", diagnostics);
+        shape.text = table.line("label");
     }
     if let Line | Spring | Vector | Cone | Cylinder = kind {
-        shape.to = point(&mut table, "to", diagnostics);
+        shape.to = point(&mut table, "to");
     }
     if let Circle | Disc | Plane = kind {
-        shape.normal = optional_point(&mut table, "normal", diagnostics);
+        shape.normal = optional_point(&mut table, "normal");
     }
     match kind {
         Circle | Disc | Sphere | Cone | Cylinder => {
-            shape.size = size(&mut table, "radius", diagnostics);
+            shape.size = size(&mut table, "radius");
         }
-        Plane => shape.size = size(&mut table, "size", diagnostics),
-        Mass => shape.size = table.formula("radius", diagnostics),
+        Plane => shape.size = size(&mut table, "size"),
+        Mass => shape.size = table.formula("radius"),
         Path => {
-            shape.ends = ["from", "to"].map(|key| size(&mut table, key, diagnostics));
-            shape.samples = table.number("samples", diagnostics);
+            shape.ends = ["from", "to"].map(|key| size(&mut table, key));
+            shape.samples = table.number("samples");
         }
         Caption => {
             if !table.has("text") {
                 table.lacks_key("text", "write text = \"...\"");
             }
-            shape.text = table.line("text", diagnostics);
+            shape.text = table.line("text");
         }
         Line | Spring | Vector | Trace | Body => {}
     }
     if kind == Disc {
-        shape.shade = table.formula("shade", diagnostics);
+        shape.shade = table.formula("shade");
     }
-    table.finish(diagnostics);
+    table.finish();
     Some(shape)
 }
 
 /// A required number or expression.
-fn size(
-    table: &mut Table<'_>,
-    key: &'static str,
-    diagnostics: &mut Diagnostics,
-) -> Option<Formula> {
+fn size(table: &mut Table<'_>, key: &'static str) -> Option<Formula> {
     let (_, found) = table.require(key, &format!("write {key} = \"...\""))?;
-    value::formula(found, &format!("`{key}`"), diagnostics)
+    value::formula(found, &format!("`{key}`"), table.diagnostics)
 }

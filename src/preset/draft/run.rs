@@ -3,7 +3,6 @@
 use toml::Spanned;
 
 use super::table::Table;
-use crate::diagnostic::Diagnostics;
 
 /// `[run]` as written.
 #[derive(Default)]
@@ -16,16 +15,16 @@ pub(in crate::preset) struct DraftRun {
     pub(in crate::preset) tolerance: Option<Spanned<f64>>,
 }
 
-pub(super) fn read(top: &mut Table<'_>, diagnostics: &mut Diagnostics) -> DraftRun {
-    let Some(mut table) = top.table("run", diagnostics) else { return DraftRun::default() };
+pub(super) fn read(top: &mut Table<'_>) -> DraftRun {
+    let Some(mut table) = top.table("run") else { return DraftRun::default() };
     let run = DraftRun {
-        method: table.text("method", diagnostics),
-        speed: table.number("speed", diagnostics),
-        start: table.number("start", diagnostics),
-        until: table.number("until", diagnostics),
-        step: table.number("step", diagnostics),
-        tolerance: table.number("tolerance", diagnostics),
+        method: table.text("method"),
+        speed: table.number("speed"),
+        start: table.number("start"),
+        until: table.number("until"),
+        step: table.number("step"),
+        tolerance: table.number("tolerance"),
     };
-    table.finish(diagnostics);
+    table.finish();
     run
 }

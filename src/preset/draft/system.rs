@@ -71,7 +71,7 @@ pub(in crate::preset) struct DraftMoving {
     pub(in crate::preset) variables: Option<SourceRange>,
 }
 
-pub(super) fn moving(top: &mut Table<'_>, diagnostics: &mut Diagnostics) -> DraftMoving {
+pub(super) fn moving(top: &mut Table<'_>) -> DraftMoving {
     let mut moving = DraftMoving { all: Vec::new(), coordinates: None, variables: None };
     if !top.has("coordinates") && !top.has("variables") {
         let key = if top.has("poisson") { "variables" } else { "coordinates" };
@@ -80,22 +80,22 @@ pub(super) fn moving(top: &mut Table<'_>, diagnostics: &mut Diagnostics) -> Draf
         top.lacks(key, missing.with_help(help));
     }
     let tables = ["coordinates", "variables"].map(|key| {
-        let table = top.table(key, diagnostics)?;
+        let table = top.table(key)?;
         if table.entries().next().is_none() {
             let what = key.trim_end_matches('s');
             let message = format!("there is no {what} here");
             let missing = Diagnostic::error(table.place.clone(), message);
-            diagnostics.missing(key, missing.with_help("write x = 1.0"));
+            top.diagnostics.missing(key, missing.with_help("write x = 1.0"));
         }
         Some(table)
     });
     let [coordinates, variables] = tables;
     if let Some(table) = coordinates {
-        moving.all.extend(table.entries().map(|(name, v)| coordinate(name, v, diagnostics)));
+        moving.all.extend(table.entries().map(|(name, v)| coordinate(name, v, top.diagnostics)));
         moving.coordinates = Some(table.place);
     }
     if let Some(table) = variables {
-        moving.all.extend(table.entries().map(|(name, v)| variable(name, v, diagnostics)));
+        moving.all.extend(table.entries().map(|(name, v)| variable(name, v, top.diagnostics)));
         moving.variables = Some(table.place);
     }
     moving
@@ -105,7 +105,7 @@ pub(super) fn moving(top: &mut Table<'_>, diagnostics: &mut Diagnostics) -> Draf
 fn coordinate<'d>(
     name: Spanned<String>,
     entry: &'d Value<'d>,
-    diagnostics: &mut Diagnostics,
+    diagnostics: &Diagnostics,
 ) -> DraftCoordinate {
     let called = format!("the coordinate `{}`", name.get_ref());
     let mut coordinate = DraftCoordinate::unread(name);
@@ -113,17 +113,18 @@ fn coordinate<'d>(
         coordinate.initial = value::formula(entry, &called, diagnostics);
         return coordinate;
     };
-    let mut table = Table::new(called, coordinate.name.span(), entries).with(&COORDINATE);
-    coordinate.initial = table.formula("initial", diagnostics);
+    let mut table =
+        Table::new(called, coordinate.name.span(), entries, diagnostics).with(&COORDINATE);
+    coordinate.initial = table.formula("initial");
     let mut rate = |key| {
         let (place, found) = table.take(key)?;
         value::formula(found, &format!("`{key}`"), diagnostics).map(|f| (place, f))
     };
     (coordinate.velocity, coordinate.momentum) = (rate("velocity"), rate("momentum"));
-    coordinate.symbol = symbol(&mut table, diagnostics);
-    coordinate.unit = table.line("unit", diagnostics);
-    coordinate.period = table.formula("period", diagnostics);
-    table.finish(diagnostics);
+    coordinate.symbol = symbol(&mut table);
+    coordinate.unit = table.line("unit");
+    coordinate.period = table.formula("period");
+    table.finish();
     coordinate
 }
 
@@ -131,7 +132,7 @@ fn coordinate<'d>(
 fn variable<'d>(
     name: Spanned<String>,
     entry: &'d Value<'d>,
-    diagnostics: &mut Diagnostics,
+    diagnostics: &Diagnostics,
 ) -> DraftCoordinate {
     let called = format!("the variable `{}`", name.get_ref());
     let mut variable = DraftCoordinate::unread(name);
@@ -139,11 +140,11 @@ fn variable<'d>(
         variable.initial = value::formula(entry, &called, diagnostics);
         return variable;
     };
-    let mut table = Table::new(called, variable.name.span(), entries).with(&VARIABLE);
-    variable.initial = table.formula("initial", diagnostics);
-    variable.symbol = symbol(&mut table, diagnostics);
-    variable.unit = table.line("unit", diagnostics);
-    variable.period = table.formula("period", diagnostics);
+    let mut table = Table::new(called, variable.name.span(), entries, diagnostics).with(&VARIABLE);
+    variable.initial = table.formula("initial");
+    variable.symbol = symbol(&mut table);
+    variable.unit = table.line("unit");
+    variable.period = table.formula("period");
     for (key, _) in table.entries() {
         if let rate @ ("velocity" | "momentum") = key.get_ref().as_str() {
             let message = format!("a variable has no `{rate}`");
@@ -153,31 +154,28 @@ fn variable<'d>(
         }
     }
     table.pass_over(&["velocity", "momentum"]);
-    table.finish(diagnostics);
+    table.finish();
     variable
 }
 
 /// The display symbol of a name; empty if the file gives none.
-fn symbol(table: &mut Table<'_>, diagnostics: &mut Diagnostics) -> String {
-    let Some(text) = table.text("symbol", diagnostics) else { return String::new() };
+fn symbol(table: &mut Table<'_>) -> String {
+    let Some(text) = table.text("symbol") else { return String::new() };
     if text.get_ref().trim().is_empty() {
-        diagnostics.push(Diagnostic::error(text.span(), "the symbol is empty"));
+        table.diagnostics.push(Diagnostic::error(text.span(), "the symbol is empty"));
     }
-    value::one_line(&text, diagnostics).unwrap_or_default()
+    value::one_line(&text, table.diagnostics).unwrap_or_default()
 }
 
-pub(super) fn parameters(
-    top: &mut Table<'_>,
-    diagnostics: &mut Diagnostics,
-) -> Vec<DraftParameter> {
-    let Some(table) = top.table("parameters", diagnostics) else { return Vec::new() };
-    table.entries().map(|(name, entry)| parameter(name, entry, diagnostics)).collect()
+pub(super) fn parameters(top: &mut Table<'_>) -> Vec<DraftParameter> {
+    let Some(table) = top.table("parameters") else { return Vec::new() };
+    table.entries().map(|(name, entry)| parameter(name, entry, top.diagnostics)).collect()
 }
 
 fn parameter<'d>(
     name: Spanned<String>,
     entry: &'d Value<'d>,
-    diagnostics: &mut Diagnostics,
+    diagnostics: &Diagnostics,
 ) -> DraftParameter {
     let called = format!("the parameter `{}`", name.get_ref());
     let mut parameter = DraftParameter {
@@ -192,53 +190,50 @@ fn parameter<'d>(
     };
     match entry.get_ref() {
         DeValue::Table(entries) => {
-            let mut table = Table::new(called, parameter.name.span(), entries).with(&PARAMETER);
+            let mut table =
+                Table::new(called, parameter.name.span(), entries, diagnostics).with(&PARAMETER);
             let found = table.take("value");
             parameter.value = found.and_then(|(_, v)| value::constant(v, "`value`", diagnostics));
-            parameter.min = table.number("min", diagnostics);
-            parameter.max = table.number("max", diagnostics);
-            parameter.scale = table.text("scale", diagnostics);
-            parameter.unit = table.line("unit", diagnostics);
-            parameter.symbol = symbol(&mut table, diagnostics);
-            parameter.about = table.line("about", diagnostics);
-            table.finish(diagnostics);
+            parameter.min = table.number("min");
+            parameter.max = table.number("max");
+            parameter.scale = table.text("scale");
+            parameter.unit = table.line("unit");
+            parameter.symbol = symbol(&mut table);
+            parameter.about = table.line("about");
+            table.finish();
         }
         _ => parameter.value = value::constant(entry, &called, diagnostics),
     }
     parameter
 }
 
-pub(super) fn ramps(top: &mut Table<'_>, diagnostics: &mut Diagnostics) -> Vec<DraftRamp> {
+pub(super) fn ramps(top: &mut Table<'_>) -> Vec<DraftRamp> {
     let mut all = Vec::new();
-    for mut table in top.tables("ramps", "this ramp", diagnostics) {
+    for mut table in top.tables("ramps", "this ramp") {
         all.push(DraftRamp {
-            parameter: table.text("parameter", diagnostics),
-            to: table.formula("to", diagnostics),
-            start: table.formula("start", diagnostics),
-            duration: table.formula("duration", diagnostics),
-            form: table.text("form", diagnostics),
+            parameter: table.text("parameter"),
+            to: table.formula("to"),
+            start: table.formula("start"),
+            duration: table.formula("duration"),
+            form: table.text("form"),
         });
-        table.finish(diagnostics);
+        table.finish();
     }
     all
 }
 
-pub(super) fn definitions(top: &mut Table<'_>, diagnostics: &mut Diagnostics) -> Vec<NamedFormula> {
-    let Some(table) = top.table("definitions", diagnostics) else { return Vec::new() };
-    formulas(&table, "the definition", diagnostics)
+pub(super) fn definitions(top: &mut Table<'_>) -> Vec<NamedFormula> {
+    let Some(table) = top.table("definitions") else { return Vec::new() };
+    formulas(&table, "the definition")
 }
 
 /// A table of names and expressions.
-pub(super) fn formulas(
-    table: &Table<'_>,
-    called: &str,
-    diagnostics: &mut Diagnostics,
-) -> Vec<NamedFormula> {
+pub(super) fn formulas(table: &Table<'_>, called: &str) -> Vec<NamedFormula> {
     table
         .entries()
         .map(|(name, entry)| {
             let called = format!("{called} `{}`", name.get_ref());
-            let formula = value::formula(entry, &called, diagnostics);
+            let formula = value::formula(entry, &called, table.diagnostics);
             (name, formula)
         })
         .collect()

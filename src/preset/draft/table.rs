@@ -19,6 +19,8 @@ pub(in crate::preset) struct Table<'d> {
     pub(super) called: String,
     pub(super) place: SourceRange,
     entries: &'d DeTable<'d>,
+    /// What is wrong with the file.
+    pub(super) diagnostics: &'d Diagnostics,
     /// Its description in the schema; `None` if only its reader knows the keys.
     section: Option<&'static SchemaTable>,
     /// The kind of entry, if kinds have different keys.
@@ -33,10 +35,21 @@ impl<'d> Table<'d> {
         called: impl Into<String>,
         place: SourceRange,
         entries: &'d DeTable<'d>,
+        diagnostics: &'d Diagnostics,
     ) -> Table<'d> {
         let (asked, passed, absent) = (Vec::new(), Vec::new(), Vec::new());
         let called = called.into();
-        Table { called, place, entries, section: None, kind: None, asked, passed, absent }
+        Table {
+            called,
+            place,
+            entries,
+            diagnostics,
+            section: None,
+            kind: None,
+            asked,
+            passed,
+            absent,
+        }
     }
 
     /// Attaches the schema's description of the table.
@@ -70,11 +83,11 @@ impl<'d> Table<'d> {
         called: impl Into<String>,
         place: SourceRange,
         shape: &str,
-        diagnostics: &mut Diagnostics,
+        diagnostics: &'d Diagnostics,
     ) -> Option<Table<'d>> {
         let called = called.into();
         match value.get_ref() {
-            DeValue::Table(entries) => Some(Table::new(called, place, entries)),
+            DeValue::Table(entries) => Some(Table::new(called, place, entries, diagnostics)),
             other => {
                 let message = format!("{called} must be a table, not {}", value::kind(other));
                 let diagnostic = Diagnostic::error(value.span(), message);
@@ -134,38 +147,33 @@ impl<'d> Table<'d> {
         &mut self,
         key: &'static str,
         fits: impl Fn(ValueKind) -> bool,
-        read: fn(&Value<'d>, &str, &mut Diagnostics) -> Option<T>,
-        diagnostics: &mut Diagnostics,
+        read: fn(&Value<'d>, &str, &Diagnostics) -> Option<T>,
     ) -> Option<T> {
         debug_assert!(self.agrees(key, fits), "{key} is of another kind in the schema");
         let (_, found) = self.take(key)?;
-        read(found, &format!("`{key}`"), diagnostics)
+        read(found, &format!("`{key}`"), self.diagnostics)
     }
 
-    pub(super) fn text(
-        &mut self,
-        key: &'static str,
-        diagnostics: &mut Diagnostics,
-    ) -> Option<Spanned<String>> {
-        self.value(key, |kind| matches!(kind, ValueKind::Text), value::text, diagnostics)
+    pub(super) fn text(&mut self, key: &'static str) -> Option<Spanned<String>> {
+        self.value(key, |kind| matches!(kind, ValueKind::Text), value::text)
     }
 
     /// A text for display on one line; empty if it is missing.
-    pub(super) fn line(&mut self, key: &'static str, diagnostics: &mut Diagnostics) -> String {
-        let text = self.text(key, diagnostics);
-        text.and_then(|text| value::one_line(&text, diagnostics)).unwrap_or_default()
+    pub(super) fn line(&mut self, key: &'static str) -> String {
+        let text = self.text(key);
+        text.and_then(|text| value::one_line(&text, self.diagnostics)).unwrap_or_default()
     }
 
     /// The required name of an entry, by which messages call the entry from then on.
-    pub(super) fn name(&mut self, diagnostics: &mut Diagnostics) -> Option<Spanned<String>> {
+    pub(super) fn name(&mut self) -> Option<Spanned<String>> {
         let (_, found) = self.take("name")?;
-        let name = value::text(found, "`name`", diagnostics)?;
+        let name = value::text(found, "`name`", self.diagnostics)?;
         let shown = name.get_ref().trim();
         if shown.is_empty() || shown.chars().any(char::is_control) {
             let kind = self.called.replacen("this ", "", 1);
             let article = if kind.starts_with(['e', 'i', 'o', 'a']) { "an" } else { "a" };
             let message = format!("{article} {kind} needs a name that can be shown");
-            diagnostics.push(Diagnostic::error(name.span(), message));
+            self.diagnostics.push(Diagnostic::error(name.span(), message));
             return None;
         }
         self.called = format!("{} `{shown}`", self.called.replacen("this", "the", 1));
@@ -173,56 +181,37 @@ impl<'d> Table<'d> {
     }
 
     /// A finite number.
-    pub(super) fn number(
-        &mut self,
-        key: &'static str,
-        diagnostics: &mut Diagnostics,
-    ) -> Option<Spanned<f64>> {
-        self.value(key, |kind| matches!(kind, ValueKind::Number), value::number, diagnostics)
+    pub(super) fn number(&mut self, key: &'static str) -> Option<Spanned<f64>> {
+        self.value(key, |kind| matches!(kind, ValueKind::Number), value::number)
     }
 
     /// A number or an expression in quotes.
-    pub(super) fn formula(
-        &mut self,
-        key: &'static str,
-        diagnostics: &mut Diagnostics,
-    ) -> Option<Formula> {
-        self.value(key, |kind| matches!(kind, ValueKind::Formula), value::formula, diagnostics)
+    pub(super) fn formula(&mut self, key: &'static str) -> Option<Formula> {
+        self.value(key, |kind| matches!(kind, ValueKind::Formula), value::formula)
     }
 
     /// `true` or `false`.
-    pub(super) fn flag(
-        &mut self,
-        key: &'static str,
-        diagnostics: &mut Diagnostics,
-    ) -> Option<Spanned<bool>> {
-        self.value(key, |kind| matches!(kind, ValueKind::Flag), value::flag, diagnostics)
+    pub(super) fn flag(&mut self, key: &'static str) -> Option<Spanned<bool>> {
+        self.value(key, |kind| matches!(kind, ValueKind::Flag), value::flag)
     }
 
     /// The items of a list; empty if the key is missing.
-    pub(super) fn list(
-        &mut self,
-        key: &'static str,
-        diagnostics: &mut Diagnostics,
-    ) -> &'d [Value<'d>] {
+    pub(super) fn list(&mut self, key: &'static str) -> &'d [Value<'d>] {
         match self.take(key) {
             None => &[],
             Some((_, found)) => {
                 let items: Option<&DeArray<'d>> =
-                    value::list(found, &format!("`{key}`"), diagnostics);
+                    value::list(found, &format!("`{key}`"), self.diagnostics);
                 items.map_or(&[], |items| items)
             }
         }
     }
 
     /// A subtable, `[key]`.
-    pub(super) fn table(
-        &mut self,
-        key: &'static str,
-        diagnostics: &mut Diagnostics,
-    ) -> Option<Table<'d>> {
+    pub(super) fn table(&mut self, key: &'static str) -> Option<Table<'d>> {
         let (place, found) = self.take(key)?;
-        let table = Table::of(found, format!("[{key}]"), place, &format!("[{key}]"), diagnostics)?;
+        let table =
+            Table::of(found, format!("[{key}]"), place, &format!("[{key}]"), self.diagnostics)?;
         Some(match self.row(key).map(|row| row.kind) {
             Some(ValueKind::Table(section)) => table.with(section),
             _ => table,
@@ -234,22 +223,16 @@ impl<'d> Table<'d> {
         &mut self,
         key: &'static str,
         (called, shape): (&str, &str),
-        diagnostics: &mut Diagnostics,
     ) -> Vec<Table<'d>> {
         let section = self.row(key).and_then(|row| row.kind.section());
-        let items = self.list(key, diagnostics).iter();
+        let items = self.list(key).iter();
         let tables =
-            items.filter_map(|item| Table::of(item, called, item.span(), shape, diagnostics));
+            items.filter_map(|item| Table::of(item, called, item.span(), shape, self.diagnostics));
         tables.map(|table| Table { section, ..table }).collect()
     }
 
     /// Tables of one kind, one `[[key]]` each; messages call each one `called`.
-    pub(super) fn tables(
-        &mut self,
-        key: &'static str,
-        called: &str,
-        diagnostics: &mut Diagnostics,
-    ) -> Vec<Table<'d>> {
+    pub(super) fn tables(&mut self, key: &'static str, called: &str) -> Vec<Table<'d>> {
         let Some((place, found)) = self.take(key) else { return Vec::new() };
         let head = format!("[[{key}]]");
         let section = match self.row(key).map(|row| row.kind) {
@@ -259,14 +242,14 @@ impl<'d> Table<'d> {
         match found.get_ref() {
             DeValue::Array(items) => items
                 .iter()
-                .filter_map(|item| Table::of(item, called, item.span(), &head, diagnostics))
+                .filter_map(|item| Table::of(item, called, item.span(), &head, self.diagnostics))
                 .map(|table| Table { section, ..table })
                 .collect(),
             other => {
                 let is = value::kind(other);
                 let message = format!("`{key}` must be a list of tables, not {is}");
                 let help = format!("head each one with {head}, in double brackets");
-                diagnostics.push(Diagnostic::error(place, message).with_help(help));
+                self.diagnostics.push(Diagnostic::error(place, message).with_help(help));
                 Vec::new()
             }
         }
@@ -285,18 +268,18 @@ impl<'d> Table<'d> {
     }
 
     /// Reports every unknown key and every missing one, once all allowed keys have been read.
-    pub(in crate::preset) fn finish(self, diagnostics: &mut Diagnostics) {
+    pub(in crate::preset) fn finish(self) {
         let read = |name: &str| self.asked.contains(&name) || self.passed.contains(&name);
         let unread = self
             .entries
             .keys()
             .find(|key| self.row(key.get_ref()).is_some() && !read(key.get_ref()));
         debug_assert!(unread.is_none(), "nobody reads {unread:?} in {}", self.called);
-        self.finish_unread(diagnostics);
+        self.finish_unread();
     }
 
     /// Like [`finish`](Table::finish), for a table whose reading was abandoned.
-    pub(super) fn finish_unread(mut self, diagnostics: &mut Diagnostics) {
+    pub(super) fn finish_unread(mut self) {
         let mut known: Vec<&'static str> = match self.section {
             Some(section) => {
                 let rows = section.keys.iter().filter(|row| self.allows(row));
@@ -332,10 +315,10 @@ impl<'d> Table<'d> {
             } else {
                 format!("the keys here are {}", known.join(", "))
             };
-            diagnostics.push(Diagnostic::error(key.span(), message).with_help(help));
+            self.diagnostics.push(Diagnostic::error(key.span(), message).with_help(help));
         }
         for (key, diagnostic) in self.absent {
-            diagnostics.missing(key, diagnostic);
+            self.diagnostics.missing(key, diagnostic);
         }
     }
 }

@@ -5,7 +5,7 @@ use toml::Spanned;
 use super::system::formulas;
 use super::table::Table;
 use super::{Formula, NamedFormula, value};
-use crate::diagnostic::{Diagnostics, SourceRange};
+use crate::diagnostic::SourceRange;
 
 /// A transformation as written.
 pub(in crate::preset) struct DraftTransformation {
@@ -40,25 +40,22 @@ pub(in crate::preset) struct DraftIntegral {
     pub(in crate::preset) place: SourceRange,
 }
 
-pub(super) fn transformations(
-    top: &mut Table<'_>,
-    diagnostics: &mut Diagnostics,
-) -> Vec<DraftTransformation> {
-    let tables = top.tables("transformations", "this transformation", diagnostics);
-    tables.into_iter().map(|table| transformation(table, diagnostics)).collect()
+pub(super) fn transformations(top: &mut Table<'_>) -> Vec<DraftTransformation> {
+    let tables = top.tables("transformations", "this transformation");
+    tables.into_iter().map(transformation).collect()
 }
 
-fn transformation(mut table: Table<'_>, diagnostics: &mut Diagnostics) -> DraftTransformation {
-    let name = table.name(diagnostics);
-    let kind = table.text("kind", diagnostics);
-    let types = names(&mut table, "types", "a type", diagnostics);
-    let of = names(&mut table, "of", "a transformation", diagnostics);
-    let function = table.formula("F", diagnostics);
-    let [positions, momenta] = ["Q", "P"].map(|key| named(&mut table, key, diagnostics));
-    let new = names(&mut table, "new", "a new variable", diagnostics);
-    let residual = table.text("residual", diagnostics);
+fn transformation(mut table: Table<'_>) -> DraftTransformation {
+    let name = table.name();
+    let kind = table.text("kind");
+    let types = names(&mut table, "types", "a type");
+    let of = names(&mut table, "of", "a transformation");
+    let function = table.formula("F");
+    let [positions, momenta] = ["Q", "P"].map(|key| named(&mut table, key));
+    let new = names(&mut table, "new", "a new variable");
+    let residual = table.text("residual");
     let place = table.place.clone();
-    table.finish(diagnostics);
+    table.finish();
     DraftTransformation {
         name,
         kind,
@@ -74,52 +71,37 @@ fn transformation(mut table: Table<'_>, diagnostics: &mut Diagnostics) -> DraftT
 }
 
 /// A list of texts.
-fn names(
-    table: &mut Table<'_>,
-    key: &'static str,
-    called: &str,
-    diagnostics: &mut Diagnostics,
-) -> Vec<Spanned<String>> {
-    let items = table.list(key, diagnostics).iter();
-    items.filter_map(|item| value::text(item, called, diagnostics)).collect()
+fn names(table: &mut Table<'_>, key: &'static str, called: &str) -> Vec<Spanned<String>> {
+    let items = table.list(key).iter();
+    items.filter_map(|item| value::text(item, called, table.diagnostics)).collect()
 }
 
 /// A table of new variables with their expressions.
-fn named(
-    table: &mut Table<'_>,
-    key: &'static str,
-    diagnostics: &mut Diagnostics,
-) -> Option<Vec<NamedFormula>> {
+fn named(table: &mut Table<'_>, key: &'static str) -> Option<Vec<NamedFormula>> {
     let (place, found) = table.take(key)?;
     let shape = format!("{key} = {{ {key} = \"...\" }}");
-    let inner = Table::of(found, format!("`{key}`"), place, &shape, diagnostics)?;
-    Some(formulas(&inner, "the new variable", diagnostics))
+    let inner = Table::of(found, format!("`{key}`"), place, &shape, table.diagnostics)?;
+    Some(formulas(&inner, "the new variable"))
 }
 
-pub(super) fn generators(
-    top: &mut Table<'_>,
-    diagnostics: &mut Diagnostics,
-) -> Vec<DraftGenerator> {
+pub(super) fn generators(top: &mut Table<'_>) -> Vec<DraftGenerator> {
     let mut all = Vec::new();
-    for mut table in top.tables("generators", "this generator", diagnostics) {
+    for mut table in top.tables("generators", "this generator") {
         all.push(DraftGenerator {
-            name: table.name(diagnostics),
-            function: table.formula("G", diagnostics),
+            name: table.name(),
+            function: table.formula("G"),
             place: table.place.clone(),
         });
-        table.finish(diagnostics);
+        table.finish();
     }
     all
 }
 
-pub(super) fn integral(
-    top: &mut Table<'_>,
-    diagnostics: &mut Diagnostics,
-) -> Option<DraftIntegral> {
-    let mut table = top.table("hamilton_jacobi", diagnostics)?;
-    let function = table.formula("S", diagnostics);
-    let constants = names(&mut table, "constants", "a constant", diagnostics);
+pub(super) fn integral(top: &mut Table<'_>) -> Option<DraftIntegral> {
+    let mut table = top.table("hamilton_jacobi")?;
+    let function = table.formula("S");
+    let constants = names(&mut table, "constants", "a constant");
     let place = table.place.clone();
-    table.finish(diagnostics);
+    table.finish();
     Some(DraftIntegral { function, constants, place })
 }

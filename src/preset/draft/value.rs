@@ -24,7 +24,7 @@ pub(in crate::preset) fn kind(value: &DeValue<'_>) -> &'static str {
     }
 }
 
-fn wrong(value: &Value<'_>, called: &str, wanted: &str, diagnostics: &mut Diagnostics) {
+fn wrong(value: &Value<'_>, called: &str, wanted: &str, diagnostics: &Diagnostics) {
     let message = format!("{called} must be {wanted}, not {}", kind(value.get_ref()));
     diagnostics.push(Diagnostic::error(value.span(), message));
 }
@@ -32,7 +32,7 @@ fn wrong(value: &Value<'_>, called: &str, wanted: &str, diagnostics: &mut Diagno
 pub(super) fn text(
     value: &Value<'_>,
     called: &str,
-    diagnostics: &mut Diagnostics,
+    diagnostics: &Diagnostics,
 ) -> Option<Spanned<String>> {
     match value.get_ref() {
         DeValue::String(text) => Some(Spanned::new(value.span(), text.to_string())),
@@ -47,7 +47,7 @@ pub(super) fn text(
 pub(super) fn flag(
     value: &Value<'_>,
     called: &str,
-    diagnostics: &mut Diagnostics,
+    diagnostics: &Diagnostics,
 ) -> Option<Spanned<bool>> {
     match value.get_ref() {
         DeValue::Boolean(flag) => Some(Spanned::new(value.span(), *flag)),
@@ -61,7 +61,7 @@ pub(super) fn flag(
 pub(super) fn list<'d>(
     value: &'d Value<'d>,
     called: &str,
-    diagnostics: &mut Diagnostics,
+    diagnostics: &Diagnostics,
 ) -> Option<&'d DeArray<'d>> {
     match value.get_ref() {
         DeValue::Array(items) => Some(items),
@@ -76,7 +76,7 @@ pub(super) fn list<'d>(
 pub(super) fn number(
     value: &Value<'_>,
     called: &str,
-    diagnostics: &mut Diagnostics,
+    diagnostics: &Diagnostics,
 ) -> Option<Spanned<f64>> {
     let digits = match value.get_ref() {
         DeValue::Integer(_) | DeValue::Float(_) => digits(value, called, diagnostics)?,
@@ -98,7 +98,7 @@ pub(super) fn number(
 pub(super) fn constant(
     value: &Value<'_>,
     called: &str,
-    diagnostics: &mut Diagnostics,
+    diagnostics: &Diagnostics,
 ) -> Option<Spanned<f64>> {
     let DeValue::String(text) = value.get_ref() else {
         return number(value, called, diagnostics);
@@ -124,7 +124,7 @@ pub(super) fn constant(
 pub(super) fn formula(
     value: &Value<'_>,
     called: &str,
-    diagnostics: &mut Diagnostics,
+    diagnostics: &Diagnostics,
 ) -> Option<Formula> {
     let written = match value.get_ref() {
         DeValue::String(text) => text.to_string(),
@@ -138,7 +138,7 @@ pub(super) fn formula(
 }
 
 /// The decimal digits of a TOML number, as expressions write them.
-fn digits(value: &Value<'_>, called: &str, diagnostics: &mut Diagnostics) -> Option<String> {
+fn digits(value: &Value<'_>, called: &str, diagnostics: &Diagnostics) -> Option<String> {
     let written = match value.get_ref() {
         DeValue::Integer(integer) if integer.radix() == 10 => Some(integer.as_str().to_owned()),
         DeValue::Integer(integer) => {
@@ -159,12 +159,12 @@ fn digits(value: &Value<'_>, called: &str, diagnostics: &mut Diagnostics) -> Opt
 }
 
 /// A text for display on one line, without terminal control characters.
-pub(super) fn one_line(text: &Spanned<String>, diagnostics: &mut Diagnostics) -> Option<String> {
+pub(super) fn one_line(text: &Spanned<String>, diagnostics: &Diagnostics) -> Option<String> {
     shown(text, |_| false, diagnostics).map(|text| text.trim().to_owned())
 }
 
 /// A text for display on several lines.
-pub(super) fn lines(text: &Spanned<String>, diagnostics: &mut Diagnostics) -> Option<String> {
+pub(super) fn lines(text: &Spanned<String>, diagnostics: &Diagnostics) -> Option<String> {
     shown(text, |c| matches!(c, '\n' | '\r' | '\t'), diagnostics)
         .map(|text| text.trim().replace("\r\n", "\n").replace('\t', "    "))
 }
@@ -172,7 +172,7 @@ pub(super) fn lines(text: &Spanned<String>, diagnostics: &mut Diagnostics) -> Op
 fn shown<'t>(
     text: &'t Spanned<String>,
     allowed: impl Fn(char) -> bool,
-    diagnostics: &mut Diagnostics,
+    diagnostics: &Diagnostics,
 ) -> Option<&'t str> {
     match text.get_ref().chars().find(|&c| is_steering(c) && !allowed(c)) {
         None => Some(text.get_ref()),

@@ -12,34 +12,22 @@ use crate::diagnostic::{Diagnostic, Diagnostics};
 pub(in crate::preset) type Formulas = Spanned<Vec<Formula>>;
 
 /// A required point; the third component is optional.
-pub(super) fn point(
-    table: &mut Table<'_>,
-    key: &'static str,
-    diagnostics: &mut Diagnostics,
-) -> Option<Formulas> {
+pub(super) fn point(table: &mut Table<'_>, key: &'static str) -> Option<Formulas> {
     let help = format!("write {key} = [\"x\", \"y\", \"z\"]");
     let (_, found) = table.require(key, &help)?;
-    entries(found, key, 2, diagnostics)
+    entries(found, key, 2, table.diagnostics)
 }
 
 /// An optional point or direction; its third component is also optional.
-pub(super) fn optional_point(
-    table: &mut Table<'_>,
-    key: &'static str,
-    diagnostics: &mut Diagnostics,
-) -> Option<Formulas> {
+pub(super) fn optional_point(table: &mut Table<'_>, key: &'static str) -> Option<Formulas> {
     let (_, found) = table.take(key)?;
-    entries(found, key, 2, diagnostics)
+    entries(found, key, 2, table.diagnostics)
 }
 
 /// Three expressions.
-pub(super) fn triple(
-    table: &mut Table<'_>,
-    key: &'static str,
-    diagnostics: &mut Diagnostics,
-) -> Option<Formulas> {
+pub(super) fn triple(table: &mut Table<'_>, key: &'static str) -> Option<Formulas> {
     let (_, found) = table.take(key)?;
-    entries(found, key, 3, diagnostics)
+    entries(found, key, 3, table.diagnostics)
 }
 
 /// A list of `least` to three expressions.
@@ -47,7 +35,7 @@ fn entries(
     found: &Value<'_>,
     key: &str,
     least: usize,
-    diagnostics: &mut Diagnostics,
+    diagnostics: &Diagnostics,
 ) -> Option<Formulas> {
     let items = match found.get_ref() {
         DeValue::Array(items) if (least..=3).contains(&items.len()) => items,
