@@ -259,6 +259,10 @@ fn shapes_of(table: &mut Table<'_>) -> Vec<DraftShape> {
 }
 
 fn shape(mut table: Table<'_>) -> Option<DraftShape> {
+    use ShapeKind::{
+        Body, Caption, Circle, Cone, Cylinder, Disc, Line, Mass, Path, Plane, Sphere, Spring,
+        Trace, Vector,
+    };
     let names = SHAPES.map(|(name, _)| name);
     let given: Vec<_> = SHAPES.into_iter().filter(|(name, _)| table.has(name)).collect();
     let [(name, kind)] = given[..] else {
@@ -285,10 +289,6 @@ fn shape(mut table: Table<'_>) -> Option<DraftShape> {
         return None;
     };
     table.called = format!("the shape `{name}`");
-    use ShapeKind::{
-        Body, Caption, Circle, Cone, Cylinder, Disc, Line, Mass, Path, Plane, Sphere, Spring,
-        Trace, Vector,
-    };
     let mut shape = DraftShape {
         place: table.place.clone(),
         kind,
