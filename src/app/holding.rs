@@ -80,9 +80,13 @@ impl Lab {
             let new = moved.iter().position(|other| *other == i).map(|at| after[at]);
             InitialOverride::Position(i, new.unwrap_or_else(|| now.at(position(i))))
         };
-        let rest = |i: usize| match model.is_lagrangian() {
-            true => InitialOverride::Velocity(i, 0.0),
-            false => InitialOverride::Momentum(i, 0.0),
+        let is_lagrangian = model.is_lagrangian();
+        let rest = |i: usize| {
+            if is_lagrangian {
+                InitialOverride::Velocity(i, 0.0)
+            } else {
+                InitialOverride::Momentum(i, 0.0)
+            }
         };
         Some((0..count).map(place).chain((0..count).map(rest)).collect())
     }
