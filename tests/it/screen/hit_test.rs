@@ -7,7 +7,7 @@ use crossterm::event::MouseEventKind;
 use crossterm::event::MouseEventKind::{Down, Drag, ScrollDown, ScrollUp, Up};
 use phaselab::app::{App, AppEvent, Grab, HitTarget, Overlay, Page, Pane, ValueId};
 use phaselab::experiment::{Command, Status};
-use phaselab::instrument::Sight;
+use phaselab::instrument::{Plot, Sight};
 use phaselab::model::Shape;
 use phaselab::view::glyphs::Glyphs;
 use phaselab::view::{hit_targets, hit_test};
@@ -410,7 +410,7 @@ fn a_mass_is_brought_where_the_mouse_is_or_as_near_as_it_can_be() {
         }
         act(&mut real, size, Drag(Left), to);
         let lab = real.lab();
-        let eye = lab.plots.iter().find_map(|plot| plot.eye()).expect("a picture");
+        let eye = lab.plots.iter().find_map(Plot::eye).expect("a picture");
         let Shape::Mass { at, .. } = &eye.shapes(&lab.loaded.model)[shape] else {
             panic!("{name}: no mass")
         };
