@@ -9,6 +9,7 @@ use phaselab::app::{App, AppEvent, Grab, HitTarget, Overlay, Page, Pane, ValueId
 use phaselab::experiment::{Command, Status};
 use phaselab::instrument::{Plot, Sight};
 use phaselab::model::Shape;
+use phaselab::num::math;
 use phaselab::view::glyphs::Glyphs;
 use phaselab::view::{hit_targets, hit_test};
 use ratatui::layout::Rect;
@@ -405,7 +406,7 @@ fn a_mass_is_brought_where_the_mouse_is_or_as_near_as_it_can_be() {
         let to = (place.0.saturating_sub(3), place.1 + 1);
         let (mut wanted, _) = hit(&real, to);
         if on_circle {
-            let far = wanted[0].hypot(wanted[1]);
+            let far = math::hypot(wanted[0], wanted[1]);
             wanted = wanted.map(|x| x / far);
         }
         act(&mut real, size, Drag(Left), to);
