@@ -78,5 +78,5 @@ pub use returned::Return;
 pub use run_token::RunToken;
 pub use saved_companion::{OriginKind, SavedCompanion};
 pub use setup::{MethodNotFound, Setup, choose_method, with_override};
-pub use snapshot::{Failure, Gauge, MethodFact, Recorded, Snapshot, Status, energy_drift};
+pub use snapshot::{Gauge, MethodFact, Recorded, RunError, Snapshot, Status, energy_drift};
 pub use trail::Trail;

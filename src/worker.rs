@@ -3,7 +3,7 @@
 //! In: an experiment ([`Worker::load`]) and [`Command`](crate::experiment::Command)s. Out: [`Snapshot`](crate::experiment::Snapshot)s through a slot of one, in which the
 //! newest replaces the last without blocking. The mailbox is emptied before each slice of about two milliseconds, so
 //! a repeating key costs one slice per press. While time is paused nothing is computed and the thread sleeps. A panic
-//! of the experiment becomes a fault in a snapshot. Obsolete work is cancelled within its step by a token. A [`SideJob`]
+//! of the experiment becomes an error in a snapshot. Obsolete work is cancelled within its step by a token. A [`SideJob`]
 //! runs background jobs, each on its own thread. Never here: terminals, physics, drawing.
 
 mod handle;

@@ -168,8 +168,8 @@ impl FlowStart {
                 break;
             }
             experiment.advance(end, SLICE);
-            if let Status::Failed(failure) = experiment.snapshot().status {
-                return Err(failure.message);
+            if let Status::Failed(error) = experiment.snapshot().status {
+                return Err(error.message);
             }
         }
         let snapshot = experiment.snapshot();

@@ -68,7 +68,7 @@ impl App {
         self.awaited.system = None;
         self.workbench.clear();
         self.workbench.lay_text(text);
-        (self.lab, self.picker.failure) = (None, None);
+        (self.lab, self.picker.error) = (None, None);
         (self.page, self.overlay, self.text.scroll) = (Page::Lab, Some(Overlay::Workbench), 0);
     }
 

@@ -1,6 +1,6 @@
 //! Transient notifications, shown beside the key hints.
 //!
-//! In: sentences. Out: the one to show now, and those that wait. Never here: lasting conditions, such as a fault.
+//! In: sentences. Out: the one to show now, and those that wait. Never here: lasting conditions, such as an error.
 
 use std::collections::VecDeque;
 use std::time::Duration;

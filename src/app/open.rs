@@ -25,9 +25,9 @@ impl App {
         let Some(name) = self.picker.take() else {
             return self.notify("No system fits this search.");
         };
-        if let Some(failure) = self.picker.failure.clone().filter(|f| f.name == name) {
+        if let Some(error) = self.picker.error.clone().filter(|f| f.name == name) {
             self.text.scroll = 0;
-            self.overlay = Some(Overlay::Message(failure));
+            self.overlay = Some(Overlay::Message(error));
             return Vec::new();
         }
         let here = self.lab.as_ref().is_some_and(|lab| lab.loaded.name == name);

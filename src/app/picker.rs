@@ -29,7 +29,7 @@ pub struct Picker {
     /// The index of the lesson or demo that was taken last.
     pub(super) last_guide: Option<usize>,
     /// Why the preview of the selected system cannot be shown.
-    pub failure: Option<LoadError>,
+    pub error: Option<LoadError>,
     /// The session that can be resumed from the row above the systems.
     session: Option<Saved>,
     /// The title of the unsaved text to which another row leads.
@@ -239,7 +239,7 @@ impl Picker {
 
     /// Schedules the selected system for loading once the selection stays unchanged.
     fn touch(&mut self) {
-        (self.waiting, self.failure) = (Some(REST), None);
+        (self.waiting, self.error) = (Some(REST), None);
     }
 
     /// Advances the time. Returns the system that is now due to be loaded, if there is one.

@@ -69,7 +69,7 @@ impl App {
             AppEvent::Resize(..) | AppEvent::Focus(_) => Vec::new(),
             AppEvent::Snapshot(snapshot) => self.see(&snapshot),
             AppEvent::Loaded(Ok(loaded)) => self.loaded(loaded),
-            AppEvent::Loaded(Err(failure)) => self.failed(failure),
+            AppEvent::Loaded(Err(error)) => self.failed(error),
             AppEvent::Rebuilt(loaded) => self.rebuilt(loaded),
             AppEvent::Written(Ok(sentence)) => {
                 self.notifications.show(Notification::info(sentence));
@@ -263,7 +263,7 @@ impl App {
         self.notifications.shown.take_if(|notice| !notice.is_error());
         self.notifications.clear_waiting();
         self.meter.forget();
-        self.picker.failure = None;
+        self.picker.error = None;
         if answered == Some(true) {
             self.go(Page::Lab);
         }
@@ -275,7 +275,7 @@ impl App {
     /// Returns the system whose file is reported to be wrong.
     pub fn failed_system(&self) -> Option<&str> {
         match &self.overlay {
-            Some(Overlay::Message(failure)) => Some(&failure.name),
+            Some(Overlay::Message(error)) => Some(&error.name),
             _ => None,
         }
     }
@@ -286,12 +286,12 @@ impl App {
         name.map(|name| self.ask(name, true)).into_iter().collect()
     }
 
-    fn failed(&mut self, failure: LoadError) -> Vec<Effect> {
-        if self.answered(&failure.name) == Some(true) {
+    fn failed(&mut self, error: LoadError) -> Vec<Effect> {
+        if self.answered(&error.name) == Some(true) {
             self.text.scroll = 0;
-            self.overlay = Some(Overlay::Message(failure.clone()));
+            self.overlay = Some(Overlay::Message(error.clone()));
         }
-        self.picker.failure = Some(failure);
+        self.picker.error = Some(error);
         Vec::new()
     }
 

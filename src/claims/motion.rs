@@ -62,7 +62,7 @@ enum Short {
 impl std::fmt::Display for Short {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Short::MotionError(fault) => fault.fmt(f),
+            Short::MotionError(error) => error.fmt(f),
             Short::Ended(time) => write!(f, "an event has ended the motion at t = {time}"),
             Short::Long(steps, time) => {
                 write!(f, "the {steps} steps that a check may take led only to t = {time}")
@@ -75,15 +75,15 @@ impl Short {
     /// The time it reached.
     fn time(&self) -> f64 {
         match self {
-            Short::MotionError(fault) => fault.time,
+            Short::MotionError(error) => error.time,
             Short::Long(_, time) | Short::Ended(time) => *time,
         }
     }
 }
 
 /// The place in the file that explains why a start is impossible.
-fn place_of(model: &Model, fault: &MotionError) -> SourceRange {
-    let constraint = match &fault.kind {
+fn place_of(model: &Model, error: &MotionError) -> SourceRange {
+    let constraint = match &error.kind {
         MotionErrorKind::ConstraintMissed(name, _)
         | MotionErrorKind::VelocitiesMissed(name, _)
         | MotionErrorKind::ConstraintParted(name) => {
@@ -181,15 +181,15 @@ impl<'a> ClaimedMotion<'a> {
             active_set_changes: 0,
         };
         let state = system.initial(model.run.start, &parameters, &[]);
-        let state = state.map_err(|fault| match &fault.kind {
+        let state = state.map_err(|error| match &error.kind {
             MotionErrorKind::ConstraintMissed(..)
             | MotionErrorKind::VelocitiesMissed(..)
             | MotionErrorKind::FreeVelocities(_) => {
-                refused(place_of(model, &fault), fault.to_string())
+                refused(place_of(model, &error), error.to_string())
             }
             _ => motion
-                .at_the_start(model, equations, Some(&fault))
-                .unwrap_or_else(|| refused(place_of(model, &fault), fault.to_string())),
+                .at_the_start(model, equations, Some(&error))
+                .unwrap_or_else(|| refused(place_of(model, &error), error.to_string())),
         })?;
         let begun = motion.course.begin(&state, &parameters);
         // also where the motion cannot begin, since the values give the reason
@@ -201,14 +201,14 @@ impl<'a> ClaimedMotion<'a> {
             motion.course.reach(end, end, &mut 1)?;
             motion.course.begin(&state, &parameters)
         });
-        let fault = stepped.err().filter(|fault| fault.time == model.run.start);
+        let error = stepped.err().filter(|error| error.time == model.run.start);
         let own = || own_method::first_step(model, system, &state, &parameters);
-        let fault = fault.filter(|_| !matches!(own(), Some(Ok(()))));
-        if let Some(fault @ MotionError { kind: MotionErrorKind::ConstraintParted(_), .. }) = &fault
+        let error = error.filter(|_| !matches!(own(), Some(Ok(()))));
+        if let Some(error @ MotionError { kind: MotionErrorKind::ConstraintParted(_), .. }) = &error
         {
-            return Err(refused(place_of(model, fault), fault.to_string()));
+            return Err(refused(place_of(model, error), error.to_string()));
         }
-        match motion.at_the_start(model, equations, fault.as_ref()) {
+        match motion.at_the_start(model, equations, error.as_ref()) {
             Some(diagnostic) => Err(diagnostic),
             None => {
                 if motion.course.begin(&state, &parameters).is_err() {
@@ -224,11 +224,11 @@ impl<'a> ClaimedMotion<'a> {
         &self,
         model: &Model,
         equations: &Equations,
-        fault: Option<&MotionError>,
+        error: Option<&MotionError>,
     ) -> Option<Diagnostic> {
         let energy = self.seen(ChannelKind::Energy);
         let at = |symbol| self.value_of(model, equations, symbol, model.run.start);
-        start::diagnostic(model, equations, fault, energy, &at)
+        start::diagnostic(model, equations, error, energy, &at)
     }
 
     /// The value of a channel at the last sample.

@@ -26,16 +26,16 @@ pub(super) fn first_step(
     let end = run.until.unwrap_or(run.start + LENGTH);
     let begun = course.begin(state, parameters);
     let outcome = begun.and_then(|()| course.reach(end, end, &mut 1).map(|_| ()));
-    Some(outcome.map_err(|fault| course.explained(fault)))
+    Some(outcome.map_err(|error| course.explained(error)))
 }
 
 /// Why the method that the file names cannot begin, if the motion itself can.
 pub(super) fn diagnostic(model: &Model, system: &System) -> Option<Diagnostic> {
     let parameters = model.parameter_values();
     let state = system.initial(model.run.start, &parameters, &[]).ok()?;
-    let fault = first_step(model, system, &state, &parameters)?.err()?;
+    let error = first_step(model, system, &state, &parameters)?.err()?;
     let place = model.run.method_place.clone().unwrap_or_else(|| model.law_place.clone());
     let name = &model.run.method;
-    let message = format!("the method `{name}` cannot begin this motion: {fault}");
-    (fault.time == model.run.start).then(|| Diagnostic::error(place, message))
+    let message = format!("the method `{name}` cannot begin this motion: {error}");
+    (error.time == model.run.start).then(|| Diagnostic::error(place, message))
 }

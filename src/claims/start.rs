@@ -28,25 +28,25 @@ const BESIDE: f64 = 1e-3;
 pub(super) fn diagnostic(
     model: &Model,
     equations: &Equations,
-    fault: Option<&MotionError>,
+    error: Option<&MotionError>,
     energy: f64,
     at: &dyn Fn(Symbol) -> f64,
 ) -> Option<Diagnostic> {
     let law = model.law_place.clone();
-    if fault.is_none() && energy.is_finite() {
+    if error.is_none() && energy.is_finite() {
         return on_a_pole(model, equations, at);
     }
     if let Some(MotionError {
         kind: MotionErrorKind::SingularMass | MotionErrorKind::NoMass, ..
-    }) = fault
+    }) = error
         && let Some(cause) = without_mass(model, equations)
     {
         return Some(cause);
     }
-    match (without_value(model, equations, at), fault) {
+    match (without_value(model, equations, at), error) {
         (Some(cause), _) => Some(cause),
-        (None, Some(fault)) => {
-            Some(Diagnostic::error(law, format!("the motion cannot start: {fault}")))
+        (None, Some(error)) => {
+            Some(Diagnostic::error(law, format!("the motion cannot start: {error}")))
         }
         (None, None) => {
             let message = "the motion cannot start: its energy is not a finite number there";

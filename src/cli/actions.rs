@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 use self::own::{containing, own_start};
 use super::assignment::{number, whole};
 use super::cells::{self, TableCell, TableFormat};
-use super::failure::CommandError;
+use super::error::CommandError;
 use super::interrupt::Interrupt;
 use super::motion_options::{Laid, ModelReading, MotionOptions};
 use super::output::Output;

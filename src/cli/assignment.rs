@@ -11,7 +11,7 @@ use crate::model::{Allowed, Model, Scope, WrittenExpr};
 use crate::num::Number;
 use crate::system::InitialOverride;
 
-use super::failure::CommandError;
+use super::error::CommandError;
 use super::stderr;
 use crate::printable;
 

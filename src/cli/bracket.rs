@@ -5,7 +5,7 @@ use std::ffi::OsString;
 use serde_json::{Value, json};
 
 use super::assignment::{self, Assignment};
-use super::failure::CommandError;
+use super::error::CommandError;
 use super::format::Format;
 use super::open;
 use super::output::Output;
@@ -131,10 +131,10 @@ impl BracketPoint {
     /// The value of every channel at the start.
     fn values(&self, model: &Model, system: &System) -> Result<Vec<f64>, String> {
         let state = system.initial(model.run.start, &self.parameters, &self.given);
-        let state = state.map_err(|fault| fault.to_string())?;
+        let state = state.map_err(|error| error.to_string())?;
         let mut values = vec![f64::NAN; system.channels().len()];
         let outcome = system.observer(&self.parameters).observe(&state, &mut values);
-        outcome.map_err(|fault| fault.to_string())?;
+        outcome.map_err(|error| error.to_string())?;
         Ok(values)
     }
 }

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::ValueEnum;
 use serde_json::{Value, json};
 
-use super::failure::CommandError;
+use super::error::CommandError;
 use super::output::{Output, OutputForm};
 use super::slow_notice::with_notice;
 use super::{open, stderr};

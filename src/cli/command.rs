@@ -21,8 +21,8 @@ use super::demo_source;
 use super::derive;
 use super::doctor;
 use super::equilibria;
+use super::error::CommandError;
 use super::exit;
-use super::failure::CommandError;
 use super::flow;
 use super::fmt;
 use super::interrupt::Interrupt;
@@ -179,9 +179,9 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     };
     match execute(arguments, &words, &[of_screen, after].concat()) {
         Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => {
-            stderr::report(failure.message());
-            failure.code()
+        Err(error) => {
+            stderr::report(error.message());
+            error.code()
         }
     }
 }
@@ -248,10 +248,10 @@ fn execute(
         };
     };
     let interrupt = Interrupt::watch();
-    dispatch(command, &interrupt, of_screen).map_err(|failure| match interrupt.signal() {
+    dispatch(command, &interrupt, of_screen).map_err(|error| match interrupt.signal() {
         // whatever failed, the signal stopped it
         Some(signal) => CommandError::Signal(signal),
-        None => failure,
+        None => error,
     })
 }
 
@@ -307,9 +307,9 @@ fn refused(words: &[OsString], error: &clap::Error) -> ExitCode {
         let printed = error.print().and_then(|()| io::stdout().flush());
         return match printed.map_err(|why| CommandError::writing("standard output", &why)) {
             Ok(()) | Err(CommandError::NobodyReads) => ExitCode::SUCCESS,
-            Err(failure) => {
-                stderr::report(failure.message());
-                failure.code()
+            Err(error) => {
+                stderr::report(error.message());
+                error.code()
             }
         };
     }

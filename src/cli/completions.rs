@@ -2,7 +2,7 @@
 
 use clap_complete::Shell;
 
-use super::failure::CommandError;
+use super::error::CommandError;
 use super::output::{Output, OutputForm};
 
 /// Print what a shell needs to complete commands, options and the names of presets.

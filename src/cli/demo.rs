@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Subcommand;
 
-use super::failure::CommandError;
+use super::error::CommandError;
 use super::{open, record};
 use crate::diagnostic::Document;
 use crate::record::Script;

@@ -8,7 +8,7 @@ mod text;
 use std::ffi::OsString;
 
 use self::against::LagrangianComparison;
-use super::failure::CommandError;
+use super::error::CommandError;
 use super::format::Format;
 use super::open;
 use super::output::Output;

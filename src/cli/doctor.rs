@@ -5,7 +5,7 @@ use std::io::{IsTerminal, stdout};
 
 use rustix::termios::tcgetwinsize;
 
-use super::failure::CommandError;
+use super::error::CommandError;
 use super::output::{Output, OutputForm};
 use crate::shell::diagnosis;
 use crate::view::card::card;

@@ -3,7 +3,7 @@
 use serde_json::{Map, Value, json};
 
 use super::assignment::Assignment;
-use super::failure::CommandError;
+use super::error::CommandError;
 use super::interrupt::Interrupt;
 use super::study::{self, Study, StudyArguments, shown, table};
 use crate::dynamics::{

@@ -4,7 +4,7 @@ use serde_json::{Map, Value, json};
 
 use super::assignment::number;
 use super::decimal::magnitude;
-use super::failure::CommandError;
+use super::error::CommandError;
 use super::interrupt::Interrupt;
 use super::run::progress::Bar;
 use super::study::{self, Study, StudyArguments, shown, table};
@@ -40,12 +40,12 @@ pub(super) fn execute(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let found = flow_map(&study.space, method, &study.start, until, &mut |time| bar.show(time));
     drop(bar);
     let mut map = found.map_err(study::failed)?;
-    let failure = map.failure.take().map(DynamicsError::Motion);
-    let (object, text) = (object(&study, &map, failure.as_ref()), text(&study, &map));
-    study::write(&arguments.study, (object, text), failure, interrupt)
+    let error = map.error.take().map(DynamicsError::Motion);
+    let (object, text) = (object(&study, &map, error.as_ref()), text(&study, &map));
+    study::write(&arguments.study, (object, text), error, interrupt)
 }
 
-fn object(study: &Study, map: &FlowMap, failure: Option<&DynamicsError>) -> Map<String, Value> {
+fn object(study: &Study, map: &FlowMap, error: Option<&DynamicsError>) -> Map<String, Value> {
     let mut object = study.head(map.settings);
     let rows: Vec<Vec<f64>> =
         map.matrix.row_iter().map(|row| row.iter().copied().collect()).collect();
@@ -59,8 +59,8 @@ fn object(study: &Study, map: &FlowMap, failure: Option<&DynamicsError>) -> Map<
     object.insert("determinant_expected".to_owned(), json!(map.determinant_expected));
     object.insert("symplectic_residual".to_owned(), json!(map.symplectic_residual));
     object.insert("symplectic_rounding".to_owned(), json!(map.symplectic_rounding));
-    object.insert("status".to_owned(), study::status(failure).into());
-    object.insert("message".to_owned(), json!(failure.map(DynamicsError::to_string)));
+    object.insert("status".to_owned(), study::status(error).into());
+    object.insert("message".to_owned(), json!(error.map(DynamicsError::to_string)));
     object
 }
 

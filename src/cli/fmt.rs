@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::path::PathBuf;
 
-use super::failure::CommandError;
+use super::error::CommandError;
 use super::output::{Output, OutputForm};
 use super::{open, stderr};
 use crate::diagnostic::Document;

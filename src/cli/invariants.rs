@@ -9,7 +9,7 @@ use std::str::FromStr;
 use std::time::Instant;
 
 use super::assignment::{self, Assignment, number, seconds, whole};
-use super::failure::CommandError;
+use super::error::CommandError;
 use super::format::Format;
 use super::open;
 use super::output::Output;

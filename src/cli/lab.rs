@@ -3,7 +3,7 @@
 use std::ffi::OsString;
 use std::io::IsTerminal;
 
-use super::failure::CommandError;
+use super::error::CommandError;
 use super::output::{Output, OutputForm};
 use super::{config, demo_source, record, stderr};
 use crate::preset::{Catalog, PresetOrigin, is_path};

@@ -6,7 +6,7 @@ use clap::Subcommand;
 use clap::ValueEnum;
 use serde_json::{Value, json};
 
-use super::failure::CommandError;
+use super::error::CommandError;
 use super::interrupt::Interrupt;
 use super::output::{Output, OutputForm};
 use super::slow_notice::with_notice;

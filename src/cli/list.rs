@@ -3,7 +3,7 @@
 use clap::ValueEnum;
 use serde_json::{Value, json};
 
-use super::failure::CommandError;
+use super::error::CommandError;
 use super::output::{Output, OutputForm};
 use super::stderr;
 use crate::preset::{Catalog, CatalogEntry, PresetOrigin};

@@ -3,7 +3,7 @@
 use serde_json::{Map, Value, json};
 
 use super::assignment::{number, whole};
-use super::failure::CommandError;
+use super::error::CommandError;
 use super::interrupt::Interrupt;
 use super::run::progress::Bar;
 use super::study::{self, Study, StudyArguments, shown, table};
@@ -65,7 +65,7 @@ pub(super) fn execute(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let found = lyapunov(&study.space, method, &study.start, until, &mut |time| bar.show(time));
     let mut found = found.map_err(study::failed)?;
     let volumes = match arguments.gali {
-        Some(count) if found.failure.is_none() => {
+        Some(count) if found.error.is_none() => {
             let mut report = |time| bar.show(time);
             let until = (&study.start, found.time);
             Some(
@@ -87,10 +87,10 @@ pub(super) fn execute(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     if let Some(volumes) = volumes {
         object.insert("gali".to_owned(), series(&volumes));
         text.push_str(&lines(&volumes));
-        found.failure = volumes.failure;
+        found.error = volumes.error;
     }
     let result = (object, text);
-    study::write(&arguments.study, result, found.failure, interrupt)
+    study::write(&arguments.study, result, found.error, interrupt)
 }
 
 /// ln GALIₖ over time by k.
@@ -130,8 +130,8 @@ fn object(study: &Study, found: &Lyapunov) -> Map<String, Value> {
     insert("sum", json!(found.sum));
     insert("pairing_residual", json!(found.pairing_residual));
     insert("curve", json!(found.curve));
-    insert("status", json!(study::status(found.failure.as_ref())));
-    insert("message", json!(found.failure.as_ref().map(ToString::to_string)));
+    insert("status", json!(study::status(found.error.as_ref())));
+    insert("message", json!(found.error.as_ref().map(ToString::to_string)));
     object
 }
 

@@ -5,8 +5,8 @@ use std::io::{self, Write};
 use clap_mangen::Man;
 use clap_mangen::roff::{Roff, bold, roman};
 
+use super::error::CommandError;
 use super::exit::EXITS;
-use super::failure::CommandError;
 use super::output::{Output, OutputForm};
 use crate::app::gestures::{GESTURES, MOUSE};
 use crate::app::keymap::{KEYS, KeyContext};

@@ -3,7 +3,7 @@
 //! In: options, the file's settings. Out: the method and its settings. Never here: the system, its start.
 
 use super::assignment::{number, tolerance};
-use super::failure::CommandError;
+use super::error::CommandError;
 use super::open;
 use crate::diagnostic::Document;
 use crate::experiment::choose_method;

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{self, Write};
 use std::path::PathBuf;
 
-use super::failure::CommandError;
+use super::error::CommandError;
 use super::output::{Output, OutputForm};
 use crate::preset::template;
 use crate::printable;

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use serde_json::{Map, Value};
 
-use super::failure::CommandError;
+use super::error::CommandError;
 use crate::{file, printable};
 
 /// The greatest size of a file that is read.

@@ -13,7 +13,7 @@ use crate::preset;
 use crate::printable;
 use crate::system::System;
 
-use super::failure::CommandError;
+use super::error::CommandError;
 use super::stderr;
 
 /// The name by which a file selects the best suitable method.

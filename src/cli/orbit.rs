@@ -6,7 +6,7 @@ use serde_json::{Map, Value, json};
 
 use super::assignment::{self, number};
 use super::decimal;
-use super::failure::CommandError;
+use super::error::CommandError;
 use super::interrupt::Interrupt;
 use super::slow_notice::with_notice;
 use super::study::{self, Study, StudyArguments, shown, table};
@@ -132,7 +132,7 @@ fn fixed(arguments: &Arguments, study: &Study) -> Result<Fixed, CommandError> {
         (None, Some(period)) => Ok(Fixed::Period(period)),
         (None, None) if conserved => {
             let energy = space.system().energy(&study.start, space.parameters());
-            energy.map(Fixed::Energy).map_err(|fault| CommandError::CouldNot(fault.to_string()))
+            energy.map(Fixed::Energy).map_err(|error| CommandError::CouldNot(error.to_string()))
         }
         (None, None) => Ok(Fixed::Nothing),
     }

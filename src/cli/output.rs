@@ -7,7 +7,7 @@ use std::fs::{self, File};
 use std::io::{self, BufWriter, Stdout, Write};
 use std::path::Path;
 
-use super::failure::CommandError;
+use super::error::CommandError;
 use super::interrupt::{Interrupt, PORTION};
 use super::stderr;
 use crate::printable;

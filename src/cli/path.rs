@@ -11,7 +11,7 @@ use judged::{JudgedPath, PathStudy, VariedPath};
 use super::assignment::{self, Assignment, number};
 use super::cells::{self, TableCell, TableFormat};
 use super::decimal::divisions;
-use super::failure::CommandError;
+use super::error::CommandError;
 use super::interrupt::Interrupt;
 use super::motion_options::{Laid, MotionOptions};
 use super::output::Output;

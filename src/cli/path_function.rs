@@ -3,7 +3,7 @@
 //! In: assignments `NAME=EXPR`. Out: [`PathFunctions`]. Never here: actions.
 
 use super::assignment::Assignment;
-use super::failure::CommandError;
+use super::error::CommandError;
 use crate::expr::{Expr, Pool, Symbol};
 use crate::mechanics::{Equations, Valuation};
 use crate::model::{Allowed, Model, Scope};

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
-use super::failure::CommandError;
+use super::error::CommandError;
 use super::interrupt::Interrupt;
 use super::number_table::NumberTable;
 use super::output::{Output, OutputForm};

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 
-use super::failure::CommandError;
+use super::error::CommandError;
 use super::open;
 use super::output::{Output, OutputForm};
 use super::slow_notice::with_notice;

@@ -6,7 +6,7 @@
 use serde_json::{Map, Value, json};
 
 use super::assignment::number;
-use super::failure::CommandError;
+use super::error::CommandError;
 use super::interrupt::Interrupt;
 use super::motion_options::Laid;
 use super::run::progress::Bar;
@@ -137,8 +137,8 @@ fn advance(
         if let Some(signal) = interrupt.signal() {
             return Err(CommandError::Signal(signal));
         }
-        if let Status::Failed(failure) = experiment.status() {
-            return Err(CommandError::CouldNot(failure.message));
+        if let Status::Failed(error) = experiment.status() {
+            return Err(CommandError::CouldNot(error.message));
         }
         if progress != AdvanceOutcome::Underway {
             return Ok(());
@@ -156,8 +156,8 @@ fn rate(laid: &Laid, until: f64) -> Result<(f64, f64), String> {
     let start = start.map_err(|why| why.to_string())?;
     let method = (laid.method, laid.settings);
     let found = lyapunov(&space, method, &start, until, &mut |_| {}).map_err(in_words)?;
-    if let Some(failure) = found.failure {
-        return Err(failure.to_string());
+    if let Some(error) = found.error {
+        return Err(error.to_string());
     }
     let pairs = found.exponents.iter().zip(&found.uncertainty);
     let least = pairs.min_by(|a, b| a.0.total_cmp(b.0));

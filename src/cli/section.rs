@@ -13,7 +13,7 @@ use self::report::{SectionReport, ShownColumn};
 use self::rotation_columns::RotationColumns;
 use super::assignment::{self, number, whole};
 use super::cells::TableFormat;
-use super::failure::CommandError;
+use super::error::CommandError;
 use super::interrupt::Interrupt;
 use super::motion_options::{Laid, MotionOptions};
 use super::output::Output;

@@ -3,7 +3,7 @@
 use serde_json::{Map, Value, json};
 
 use super::assignment::{number, whole};
-use super::failure::CommandError;
+use super::error::CommandError;
 use super::interrupt::Interrupt;
 use super::motion_options::Laid;
 use super::slow_notice::with_notice;
@@ -86,7 +86,7 @@ pub(super) fn execute(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         return Err(CommandError::WrongUse(why));
     }
     interrupt.ends_by_itself(|| ());
-    let state = start.state(system).map_err(|fault| CommandError::CouldNot(fault.to_string()))?;
+    let state = start.state(system).map_err(|error| CommandError::CouldNot(error.to_string()))?;
     let flow = SystemFlow {
         system: system.clone(),
         method: (*method, *settings),

@@ -7,7 +7,7 @@ use std::str::FromStr;
 
 use super::assignment::{self, Assignment, number};
 use super::decimal::divisions;
-use super::failure::CommandError;
+use super::error::CommandError;
 use crate::ensemble::Start;
 use crate::file;
 use crate::model::Model;

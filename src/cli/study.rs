@@ -12,7 +12,7 @@ use clap::ValueEnum;
 use serde_json::{Map, Value};
 
 use super::assignment::{self, Assignment};
-use super::failure::CommandError;
+use super::error::CommandError;
 use super::interrupt::Interrupt;
 use super::motion_options::{Laid, MotionOptions};
 use super::output::{Output, OutputForm};
@@ -87,7 +87,7 @@ impl Study {
         let start = start
             .state(&system)
             .and_then(|state| space.state(&state))
-            .map_err(|fault| CommandError::CouldNot(fault.to_string()))?;
+            .map_err(|error| CommandError::CouldNot(error.to_string()))?;
         Ok(Study { model, equations, space, start, method, settings })
     }
 
@@ -156,10 +156,10 @@ pub(super) fn failed(error: DynamicsError) -> CommandError {
 }
 
 /// The status of a result in its JSON.
-pub(super) fn status(failure: Option<&DynamicsError>) -> &'static str {
-    match failure {
+pub(super) fn status(error: Option<&DynamicsError>) -> &'static str {
+    match error {
         None => "completed",
-        Some(failure) if failure.is_cancelled() => "stopped",
+        Some(error) if error.is_cancelled() => "stopped",
         Some(_) => "faulted",
     }
 }
@@ -168,7 +168,7 @@ pub(super) fn status(failure: Option<&DynamicsError>) -> &'static str {
 pub(super) fn write(
     arguments: &StudyArguments,
     (object, text): (Map<String, Value>, String),
-    failure: Option<DynamicsError>,
+    error: Option<DynamicsError>,
     interrupt: &Interrupt,
 ) -> Result<(), CommandError> {
     let (form, text) = match arguments.format {
@@ -181,9 +181,9 @@ pub(super) fn write(
         interrupt.saves();
     }
     out.finish()?;
-    match (interrupt.signal(), failure) {
+    match (interrupt.signal(), error) {
         (Some(signal), _) => Err(CommandError::Signal(signal)),
-        (None, Some(failure)) => Err(failed(failure)),
+        (None, Some(error)) => Err(failed(error)),
         (None, None) => Ok(()),
     }
 }

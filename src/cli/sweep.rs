@@ -17,7 +17,7 @@ use super::advice::size;
 use super::assignment::number;
 use super::cells::{self, TableCell, TableFormat};
 use super::count_bar::CountBar;
-use super::failure::CommandError;
+use super::error::CommandError;
 use super::interrupt::Interrupt;
 use super::motion_options::MotionOptions;
 use super::output::{Output, OutputForm};

@@ -11,7 +11,7 @@ use serde_json::{Map, Value, json};
 
 use self::similar::Others;
 use super::assignment::{self, Assignment, seconds};
-use super::failure::CommandError;
+use super::error::CommandError;
 use super::format::Format;
 use super::open;
 use super::output::Output;

@@ -4,7 +4,7 @@ use std::io::IsTerminal;
 
 use ratatui::style::{Color, Style};
 
-use super::failure::CommandError;
+use super::error::CommandError;
 use super::output::{Output, OutputForm};
 use crate::view::colour::ColourDepth;
 use crate::view::sgr;

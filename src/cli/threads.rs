@@ -7,7 +7,7 @@ use std::ops::{ControlFlow, Range};
 use std::thread;
 
 use super::count_bar::CountBar;
-use super::failure::CommandError;
+use super::error::CommandError;
 use super::interrupt::Interrupt;
 use crate::ensemble::in_order;
 

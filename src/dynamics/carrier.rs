@@ -184,7 +184,7 @@ impl Carrier {
     pub fn step(&mut self, limit: f64) -> Result<(), MotionError> {
         if self.system.cancel().is_cancelled() {
             let state = self.stepper.state();
-            return Err(self.system.fault(MotionErrorKind::Cancelled, state.time, &state.values));
+            return Err(self.system.error(MotionErrorKind::Cancelled, state.time, &state.values));
         }
         self.steps += 1;
         let outcome = match &mut self.jumping {
@@ -193,28 +193,28 @@ impl Carrier {
         };
         match outcome {
             Ok(()) => self.check_vectors(limit),
-            Err(fault) => Err(self.explained(fault)),
+            Err(error) => Err(self.explained(error)),
         }
     }
 
     /// An error where a motion stops: one whose vectors alone stop it is reported as such, and one that reaches infinity.
-    fn explained(&mut self, fault: MotionError) -> MotionError {
+    fn explained(&mut self, error: MotionError) -> MotionError {
         let is_vanishing = matches!(
-            fault.kind,
+            error.kind,
             MotionErrorKind::StepUnderflow(_) | MotionErrorKind::ClockStands(_)
         );
-        if is_vanishing && let Some(step) = self.bare().and_then(|bare| bare.step_over(fault.time))
+        if is_vanishing && let Some(step) = self.bare().and_then(|bare| bare.step_over(error.time))
         {
-            let digits = spacing(fault.time);
+            let digits = spacing(error.time);
             let kind = if step <= COARSE * digits {
                 MotionErrorKind::ClockStands(digits)
             } else {
                 MotionErrorKind::NoDerivative
             };
-            return MotionError { kind, ..fault };
+            return MotionError { kind, ..error };
         }
         if let Some(jumping) = &mut self.jumping {
-            return jumping.motion.explained(fault);
+            return jumping.motion.explained(error);
         }
         let stopped = StoppedMotion {
             system: &self.system,
@@ -223,8 +223,8 @@ impl Carrier {
             parameters: self.space.parameters(),
             begun: self.begun.as_ref(),
         };
-        let cause = stopped.blow_up(&fault).or_else(|| stopped.beyond_the_clock(&fault));
-        cause.unwrap_or(fault)
+        let cause = stopped.blow_up(&error).or_else(|| stopped.beyond_the_clock(&error));
+        cause.unwrap_or(error)
     }
 
     /// Returns an error if the last step has led over a place where the vectors have no limit, as a pole of spherical
@@ -249,7 +249,7 @@ impl Carrier {
         let over = self.bare().and_then(|bare| bare.step_over(begin));
         if over.is_some_and(|over| over > LONGER * step) {
             let state = self.inside(begin)?;
-            return Err(self.system.fault(MotionErrorKind::NoDerivative, begin, &state.values));
+            return Err(self.system.error(MotionErrorKind::NoDerivative, begin, &state.values));
         }
         self.is_singular = true;
         Ok(())
@@ -389,7 +389,7 @@ impl Jumping {
         self.pending = reached != Reached::Arrived;
         self.is_cut = matches!(reached, Reached::Occurred(_));
         let ended = |name: String, state: &State| {
-            Err(system.fault(MotionErrorKind::Ended(name), state.time, &state.values))
+            Err(system.error(MotionErrorKind::Ended(name), state.time, &state.values))
         };
         match reached {
             Reached::Arrived | Reached::OutOfBudget => self.step = self.motion.step_size(),
@@ -418,7 +418,7 @@ impl Jumping {
         let caused = impulse.1.is_some();
         if self.last.is_some_and(|(time, by_event)| time == after.time && (by_event || caused)) {
             let kind = MotionErrorKind::Coincides(name.to_owned());
-            return Err(system.fault(kind, after.time, &after.values));
+            return Err(system.error(kind, after.time, &after.values));
         }
         self.last = Some((after.time, caused));
         let plain = space.system();

@@ -67,7 +67,7 @@ pub fn nearest_driven_orbit(
             Ok(Err(_)) | Err(DynamicsError::Unsuited(_) | DynamicsError::Unclosed(_)) => {}
             Err(error @ DynamicsError::Singular(_)) => singular = Some(error),
             Ok(Ok(orbit)) => return shortest(space, method, orbit, (*count, drive)),
-            Err(fault) => return Err(fault),
+            Err(error) => return Err(error),
         }
     }
     if let Some(error) = singular {

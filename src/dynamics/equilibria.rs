@@ -188,7 +188,7 @@ impl EquilibriumSearch<'_> {
         };
         let energy = match self.space.system().energy(&state, self.space.parameters()) {
             Ok(energy) => energy,
-            Err(fault) if fault.kind == MotionErrorKind::Cancelled => return Err(fault.into()),
+            Err(error) if error.kind == MotionErrorKind::Cancelled => return Err(error.into()),
             Err(_) => return Ok(None),
         };
         let found = match &mut self.law {

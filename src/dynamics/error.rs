@@ -32,6 +32,6 @@ pub enum DynamicsError {
 impl DynamicsError {
     /// Whether the computation was cancelled.
     pub fn is_cancelled(&self) -> bool {
-        matches!(self, DynamicsError::Motion(fault) if fault.kind == MotionErrorKind::Cancelled)
+        matches!(self, DynamicsError::Motion(error) if error.kind == MotionErrorKind::Cancelled)
     }
 }

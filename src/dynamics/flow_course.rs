@@ -64,8 +64,8 @@ pub fn flow_course(
     let mut waiting = times;
     while let Some(&last) = waiting.last() {
         let jumped = carrier.jump_determinant();
-        if let Err(fault) = carrier.step(last) {
-            return Ok((moments, Some(fault)));
+        if let Err(error) = carrier.step(last) {
+            return Ok((moments, Some(error)));
         }
         let (_, end) = carrier.interval();
         let passed = waiting.partition_point(|&time| time <= end);

@@ -55,7 +55,7 @@ pub struct FlowMap {
     /// The step or tolerance used.
     pub settings: Settings,
     /// Why the motion ended early.
-    pub failure: Option<MotionError>,
+    pub error: Option<MotionError>,
 }
 
 /// Follows a motion from a state of the space until a time, and `report`s the time after each step.
@@ -115,10 +115,10 @@ fn followed(
     let canonical = free && space.form() == crate::system::Form::Momentum;
     let mut rounding = free.then(|| AmplifiedRounding::new(n));
     let forwards = until >= start.time;
-    let (mut logarithm, mut failure, mut time) = (0.0, None, start.time);
+    let (mut logarithm, mut error, mut time) = (0.0, None, start.time);
     while carrier.is_before(until, forwards) {
-        if let Err(fault) = carrier.step(until) {
-            failure = Some(fault);
+        if let Err(why) = carrier.step(until) {
+            error = Some(why);
             break;
         }
         let (begin, end) = carrier.interval();
@@ -149,12 +149,12 @@ fn followed(
             state,
             matrix,
             settings: carrier.settings(),
-            failure,
+            error,
         });
     }
     // next to where M has no limit it is known to no digits that rounding alone would leave
-    let no_limit = |fault: &MotionError| matches!(fault.kind, MotionErrorKind::NoDerivative);
-    let has_limit = !failure.as_ref().is_some_and(no_limit);
+    let no_limit = |error: &MotionError| matches!(error.kind, MotionErrorKind::NoDerivative);
+    let has_limit = !error.as_ref().is_some_and(no_limit);
     let hamiltonian = canonical && space.is_hamiltonian();
     let inverse = |m: &DMatrix<f64>| {
         if hamiltonian { Some(PhaseSpace::symplectic_inverse(m)) } else { m.clone().try_inverse() }
@@ -174,7 +174,7 @@ fn followed(
         state,
         matrix,
         settings: carrier.settings(),
-        failure,
+        error,
     })
 }
 

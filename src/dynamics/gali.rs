@@ -32,7 +32,7 @@ pub struct Gali {
     /// At each time ln GALI₂, ln GALI₃, …
     pub logarithms: Vec<Vec<f64>>,
     /// Why the motion ended early.
-    pub failure: Option<DynamicsError>,
+    pub error: Option<DynamicsError>,
 }
 
 impl Gali {
@@ -80,11 +80,11 @@ pub fn gali(
     carrier.start(start, &scaled(&vectors, &units))?;
     let mut unit = DMatrix::<f64>::identity(count, count);
     let mut diagonal = vec![0.0; count];
-    let mut found = Gali { times: Vec::new(), logarithms: Vec::new(), failure: None };
+    let mut found = Gali { times: Vec::new(), logarithms: Vec::new(), error: None };
     let (round, mut last) = ((until - start.time) / LEAST_ROUNDS, start.time);
     while carrier.is_before(until, true) {
-        if let Err(fault) = carrier.step(until) {
-            found.failure = Some(DynamicsError::Motion(fault));
+        if let Err(error) = carrier.step(until) {
+            found.error = Some(DynamicsError::Motion(error));
             break;
         }
         let (_, end) = carrier.interval();

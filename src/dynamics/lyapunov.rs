@@ -54,7 +54,7 @@ pub struct Lyapunov {
     /// The step or tolerance used.
     pub settings: Settings,
     /// Why the motion ended early.
-    pub failure: Option<DynamicsError>,
+    pub error: Option<DynamicsError>,
 }
 
 /// Follows a motion from a state of the space until a time, and `report`s the time after each step.
@@ -70,22 +70,22 @@ pub fn lyapunov(
     report: &mut dyn FnMut(f64),
 ) -> Result<Lyapunov, DynamicsError> {
     let by = (method, settings);
-    let (mut course, motion, failure) = followed(space, by, (start, until, false), report)?;
-    let (departs, failure) = match failure {
+    let (mut course, motion, error) = followed(space, by, (start, until, false), report)?;
+    let (departs, error) = match error {
         None => match departure(space, by, &mut course) {
             Ok(departs) => (departs, None),
             // what was followed until then is the result
             Err(error) => (None, Some(error)),
         },
-        Some(_) => (None, failure),
+        Some(_) => (None, error),
     };
     let Some(departure) = departs else {
-        return exponents(space, method, &course, &motion, failure);
+        return exponents(space, method, &course, &motion, error);
     };
     // the directions of the flow and of the energy have exponents of their own
     let end = if let Departure::Separatrix(time) = departure { time } else { until };
-    let (course, motion, failure) = followed(space, by, (start, end, true), report)?;
-    departing(space, method, (&course, departure), &motion, failure)
+    let (course, motion, error) = followed(space, by, (start, end, true), report)?;
+    departing(space, method, (&course, departure), &motion, error)
 }
 
 /// How a motion whose directions of the flow and of the energy were taken out departs from one for which their exponents are 0.
@@ -117,10 +117,10 @@ fn followed(
     let (mut course, vectors) = LyapunovCourse::begin(space, start, until, all)?;
     let mut carrier = Carrier::new(space, method, settings, course.vectors())?;
     carrier.start(start, &vectors)?;
-    let mut failure = None;
+    let mut error = None;
     while carrier.is_before(until, true) {
-        if let Err(fault) = carrier.step(until) {
-            failure = Some(DynamicsError::Motion(fault));
+        if let Err(why) = carrier.step(until) {
+            error = Some(DynamicsError::Motion(why));
             break;
         }
         let renewed = course.observe(space, &mut carrier)?;
@@ -134,7 +134,7 @@ fn followed(
         fixed: carrier.is_fixed(),
         steps: carrier.steps(),
     };
-    Ok((course, motion, failure))
+    Ok((course, motion, error))
 }
 
 /// The exponents of a motion that has been followed to its end, or to a failure.
@@ -146,9 +146,9 @@ pub(super) fn exponents(
     method: &'static Method,
     course: &LyapunovCourse,
     motion: &CarriedMotion,
-    failure: Option<DynamicsError>,
+    error: Option<DynamicsError>,
 ) -> Result<Lyapunov, DynamicsError> {
-    let mut found = measured(space, course, motion, failure)?;
+    let mut found = measured(space, course, motion, error)?;
     if found.verdict != Chaos::Chaotic {
         return Ok(found);
     }
@@ -167,8 +167,8 @@ pub(super) fn exponents(
             Ok(closes) => closes,
             Err(error) => {
                 let reason = "whether the motion closes was not found out".to_owned();
-                let failure = Some(found.failure.unwrap_or(error));
-                return Ok(Lyapunov { verdict: Chaos::Undecided, reason, failure, ..found });
+                let error = Some(found.error.unwrap_or(error));
+                return Ok(Lyapunov { verdict: Chaos::Undecided, reason, error, ..found });
             }
         };
         match closes {
@@ -197,14 +197,14 @@ fn departing(
     method: &'static Method,
     (course, departure): (&LyapunovCourse, Departure),
     motion: &CarriedMotion,
-    failure: Option<DynamicsError>,
+    error: Option<DynamicsError>,
 ) -> Result<Lyapunov, DynamicsError> {
-    let mut found = exponents(space, method, course, motion, failure)?;
+    let mut found = exponents(space, method, course, motion, error)?;
     let growth = course.growth();
     // the first vector may lie along the flow, which contracts as it comes to rest
     let vectors = 0..growth.logarithms[0].len();
     let grown = vectors.map(|i| growth.at(i, growth.end())).fold(0.0, f64::max);
-    let known = found.failure.is_none() && found.exponents[0] > 2.0 * found.uncertainty[0];
+    let known = found.error.is_none() && found.exponents[0] > 2.0 * found.uncertainty[0];
     let why = match departure {
         Departure::Separatrix(time) => format!(
             "at t = {} the motion is at an unstable equilibrium, to rounding, which decides what comes after: it is on a separatrix",
@@ -238,21 +238,21 @@ fn measured(
     space: &PhaseSpace,
     course: &LyapunovCourse,
     motion: &CarriedMotion,
-    failure: Option<DynamicsError>,
+    error: Option<DynamicsError>,
 ) -> Result<Lyapunov, DynamicsError> {
     if course.growth().times.len() < 2 {
-        return Err(failure.unwrap_or_else(|| {
+        return Err(error.unwrap_or_else(|| {
             DynamicsError::Unsuited("the motion is too short for any exponent".to_owned())
         }));
     }
-    Ok(result(space, course, motion, failure))
+    Ok(result(space, course, motion, error))
 }
 
 fn result(
     space: &PhaseSpace,
     course: &LyapunovCourse,
     motion: &CarriedMotion,
-    failure: Option<DynamicsError>,
+    error: Option<DynamicsError>,
 ) -> Lyapunov {
     let (what, growth, megno) = (course.removed(), course.growth(), course.megno());
     let (begin, end) = (growth.begin(), growth.end());
@@ -293,9 +293,9 @@ fn result(
         judged(&followed, (&exponents, &uncertainty), megno)
     };
     // what ends is not followed for as long as one wishes
-    let (verdict, reason) = match (&failure, judged) {
+    let (verdict, reason) = match (&error, judged) {
         // neighbours that part next to a pole of the coordinates tell nothing of the motion, which continues
-        (Some(DynamicsError::Motion(fault)), _) if fault.kind == MotionErrorKind::NoDerivative => {
+        (Some(DynamicsError::Motion(error)), _) if error.kind == MotionErrorKind::NoDerivative => {
             let reason = format!(
                 "the tangent vectors have no limit after {}, which is too short to tell",
                 short(end - begin)
@@ -327,7 +327,7 @@ fn result(
         pairing_residual: pairing,
         curve,
         settings: motion.settings,
-        failure,
+        error,
     }
 }
 

@@ -143,11 +143,11 @@ impl Newton<'_> {
             return Err(ended);
         }
         let map = flow_map_while(space, method, state, until, &mut count)?;
-        if let Some(ended) = ended().filter(|_| map.failure.is_none() && map.time != until) {
+        if let Some(ended) = ended().filter(|_| map.error.is_none() && map.time != until) {
             return Err(ended);
         }
-        if let Some(fault) = map.failure {
-            return Err(fault.into());
+        if let Some(error) = map.error {
+            return Err(error.into());
         }
         let mut direction = FlowDirection::new(space);
         let rates = [direction.at(state)?, direction.at(&map.state)?];

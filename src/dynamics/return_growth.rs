@@ -60,7 +60,7 @@ pub fn return_growth(
             if k == PARTS { start } else { turned.time + way * f64::from(k) / f64::from(PARTS) };
         since.push(DMatrix::identity(space.dimension(), space.dimension()));
         let part = flow_map(space, method, &state, end, &mut |_| {}).ok()?;
-        if part.failure.is_some() {
+        if part.error.is_some() {
             return None;
         }
         norms.clear();

@@ -73,8 +73,8 @@ fn character(
     report(1, WORK);
     let part = |time: f64| (PART as f64 * (time - start.time) / (end - start.time)) as u64;
     let found = lyapunov(space, method, start, end, &mut |time| report(1 + part(time), WORK))?;
-    if let Some(failure) = found.failure {
-        return if failure.is_cancelled() { Err(failure) } else { Ok(None) };
+    if let Some(error) = found.error {
+        return if error.is_cancelled() { Err(error) } else { Ok(None) };
     }
     let reason = &found.reason;
     Ok(Some(match found.verdict {
@@ -105,9 +105,9 @@ fn end(
         if carrier.time() >= last {
             break;
         }
-        if let Err(fault) = carrier.step(last) {
-            let fault = DynamicsError::from(fault);
-            return if fault.is_cancelled() { Err(fault) } else { Ok(None) };
+        if let Err(error) = carrier.step(last) {
+            let error = DynamicsError::from(error);
+            return if error.is_cancelled() { Err(error) } else { Ok(None) };
         }
     }
     let end = carrier.time();

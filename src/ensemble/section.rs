@@ -36,7 +36,7 @@ pub enum OrbitStatus {
     /// An event of the system or the user ended it, or it crosses no more.
     Stopped,
     /// The motion could not continue.
-    Faulted,
+    Failed,
     /// It could not begin.
     Refused,
 }
@@ -47,7 +47,7 @@ impl OrbitStatus {
         match self {
             OrbitStatus::Completed => "completed",
             OrbitStatus::Stopped => "stopped",
-            OrbitStatus::Faulted => "faulted",
+            OrbitStatus::Failed => "faulted",
             OrbitStatus::Refused => "refused",
         }
     }
@@ -256,13 +256,13 @@ impl SectionOrbit<'_> {
                 is_first = false;
                 let time = self.motion.computed().time;
                 if let Some(why) = too_coarse(time, step) {
-                    return (OrbitStatus::Faulted, Some(why));
+                    return (OrbitStatus::Failed, Some(why));
                 }
             }
             match reached {
-                // a step that a signal has cancelled is not a fault of the motion
+                // a step that a signal has cancelled is not an error of the motion
                 Err(_) if cancel.is_cancelled() => return stopped(),
-                Err(fault) => return (OrbitStatus::Faulted, Some(fault.to_string())),
+                Err(error) => return (OrbitStatus::Failed, Some(error.to_string())),
                 Ok(Reached::Arrived) if self.plan.until.is_some() => {
                     return (OrbitStatus::Completed, None);
                 }
@@ -273,8 +273,8 @@ impl SectionOrbit<'_> {
                 Ok(Reached::Occurred(occurrence)) => {
                     if occurrence.name == self.plan.event {
                         last = self.motion.steps();
-                        if let Err(fault) = self.record(occurrence.time) {
-                            return (OrbitStatus::Faulted, Some(fault.to_string()));
+                        if let Err(error) = self.record(occurrence.time) {
+                            return (OrbitStatus::Failed, Some(error.to_string()));
                         }
                     } else if occurrence.kind == OccurrenceKind::Stop {
                         return (

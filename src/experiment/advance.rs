@@ -48,7 +48,7 @@ impl Experiment {
 
     /// The same for this motion alone.
     pub(super) fn advance_main(&mut self, time: f64, mut budget: u64) -> AdvanceOutcome {
-        if self.run.fault.is_some() {
+        if self.run.error.is_some() {
             return AdvanceOutcome::Stuck;
         }
         if self.run.ended.is_some() {
@@ -98,7 +98,7 @@ impl Experiment {
                     let name = occurrence.name.clone();
                     match self.note(occurrence) {
                         Ok(sentence) => self.notices.push_once(name, sentence),
-                        Err(fault) => break Err(fault),
+                        Err(error) => break Err(error),
                     }
                 }
                 other => break other,
@@ -126,10 +126,10 @@ impl Experiment {
             Ok(Reached::Arrived | Reached::Occurred(_)) => AdvanceOutcome::Arrived,
             Ok(Reached::OutOfBudget) => AdvanceOutcome::Underway,
             Ok(Reached::Ended) => AdvanceOutcome::Ended,
-            Err(fault) => {
-                // show what was computed before the fault, as far as possible
+            Err(error) => {
+                // show what was computed before the error, as far as possible
                 let _ = self.motion.reach_end();
-                self.run.fault = Some(self.motion.dated(fault).into());
+                self.run.error = Some(self.motion.dated(error).into());
                 AdvanceOutcome::Stuck
             }
         }

@@ -69,7 +69,7 @@ impl Experiment {
 
     /// Keeps the current run, with all its values, beside whatever follows.
     pub(super) fn pin(&mut self) {
-        if !self.motion.has_begun() || self.run.fault.is_some() {
+        if !self.motion.has_begun() || self.run.error.is_some() {
             return self.notify("there is no motion to pin".to_owned());
         }
         let Some(mut one) = self.companion(CompanionOrigin::Pinned(self.setup.overrides.clone()))

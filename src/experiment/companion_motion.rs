@@ -123,7 +123,7 @@ impl CompanionMotion {
 
     fn note_begun(&mut self, begun: Result<(), MotionError>) {
         self.take_observer();
-        self.message = begun.and_then(|()| self.observe()).err().map(|fault| fault.to_string());
+        self.message = begun.and_then(|()| self.observe()).err().map(|error| error.to_string());
         self.log_state();
     }
 

@@ -81,7 +81,7 @@ impl Experiment {
             recorder: Recorder::new(system.channels().len(), setup.spacing)
                 .with_hulls(Hulls::of(model, system)),
             gauges: Gauges::new(model, equations, system),
-            run: RunState { running: true, fault: None, ended: None, restored: false },
+            run: RunState { running: true, error: None, ended: None, restored: false },
             epoch: 0,
             notices: Notices::default(),
             log: RunLog::new(model.sections.len()),
@@ -317,7 +317,7 @@ impl Experiment {
         self.scrubbed = None;
         self.reversal.began = self.setup.start;
         self.changes = LawChanges::default();
-        self.run.fault = None;
+        self.run.error = None;
         self.run.ended = None;
         self.log.clear();
         self.notices = Notices::default();
@@ -331,7 +331,7 @@ impl Experiment {
                 self.gauge(Gauges::refer);
                 self.record();
             }
-            Err(fault) => self.run.fault = Some(fault.into()),
+            Err(error) => self.run.error = Some(error.into()),
         }
         self.restart_companions();
     }

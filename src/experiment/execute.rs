@@ -93,7 +93,7 @@ impl Experiment {
         let known = index < self.system().discontinuities().impulses.len();
         if !known
             || !self.motion.has_begun()
-            || self.run.fault.is_some()
+            || self.run.error.is_some()
             || self.run.ended.is_some()
         {
             return;
@@ -103,7 +103,7 @@ impl Experiment {
                 self.changed_here("the momentum".to_owned());
                 self.notify(sentence);
             }
-            Err(fault) => self.run.fault = Some(self.motion.dated(fault).into()),
+            Err(error) => self.run.error = Some(self.motion.dated(error).into()),
         }
     }
 
@@ -271,6 +271,6 @@ impl Experiment {
     fn continue_from(&mut self, state: Result<State, system::MotionError>) {
         let begun =
             state.and_then(|state| self.motion.continue_from(&state, &self.setup.parameters));
-        self.run.fault = begun.err().map(|fault| self.motion.dated(fault).into());
+        self.run.error = begun.err().map(|error| self.motion.dated(error).into());
     }
 }

@@ -201,7 +201,7 @@ impl ObservedMotion {
         }
         let outcome = self.observer.observe(self.inner.state(), &mut self.values);
         mark_lost(&mut self.lost, &self.values);
-        outcome.map_err(|fault| self.inner.explained(fault))
+        outcome.map_err(|error| self.inner.explained(error))
     }
 
     /// The current values but for those of channels that had none at some state since this was last asked: a row that
@@ -217,8 +217,8 @@ impl ObservedMotion {
     }
 
     /// An error of this motion at its time.
-    pub(super) fn dated(&self, fault: MotionError) -> MotionError {
-        MotionError { time: self.sign * fault.time, ..fault }
+    pub(super) fn dated(&self, error: MotionError) -> MotionError {
+        MotionError { time: self.sign * error.time, ..error }
     }
 
     /// The value of every channel just before the last impulse.

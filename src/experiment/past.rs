@@ -78,14 +78,14 @@ impl Experiment {
         }
         let row = past.row(self.motion.system().channels(), time);
         self.recorder.precede(&past.trail, row);
-        if self.run.fault.is_some() {
+        if self.run.error.is_some() {
             return;
         }
         let limit = time + HORIZON * self.setup.spacing;
         match self.motion.resume(&past.run, (time, limit), self.setup.start) {
             Ok(true) => self.log = past.log.clone(),
             Ok(false) => {}
-            Err(fault) => self.run.fault = Some(self.motion.dated(fault).into()),
+            Err(error) => self.run.error = Some(self.motion.dated(error).into()),
         }
     }
 }

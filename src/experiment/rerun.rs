@@ -41,7 +41,7 @@ pub(super) struct RerunPast {
 impl Experiment {
     /// Runs from the start, where the experiment is, or from the last change of its law to where a checkpoint is.
     pub(super) fn rerun(&mut self, checkpoint: &Checkpoint, present: &MotionState) -> Rerun {
-        if self.run.fault.is_some() || !self.begin_after_change(present) {
+        if self.run.error.is_some() || !self.begin_after_change(present) {
             return Rerun::Lost;
         }
         let variables = self.system().state_len() as u64;

@@ -148,7 +148,7 @@ impl Experiment {
             let state = self.state_of(present)?;
             self.motion.begin(&state, &self.setup.parameters)?;
         }
-        self.run.fault = None;
+        self.run.error = None;
         self.motion.set_steps(present.steps);
         self.recorder.restart(present.time);
         self.gauge(Gauges::refer);

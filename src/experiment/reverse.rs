@@ -52,7 +52,7 @@ impl Experiment {
 
     /// Why time cannot be reversed, in a sentence.
     fn no_way_back(&self) -> Option<String> {
-        if !self.motion.has_begun() || self.run.fault.is_some() {
+        if !self.motion.has_begun() || self.run.error.is_some() {
             return Some("there is no motion to reverse".to_owned());
         }
         let happens = self.system().discontinuities();
@@ -84,7 +84,7 @@ impl Experiment {
     /// Equal steps are taken to their end first, so that the way back takes the same ones.
     pub(super) fn turn(&mut self) -> Result<ObservedMotion, String> {
         if self.motion.method().stepping == Stepping::Fixed {
-            self.motion.reach_end().map_err(|fault| self.motion.dated(fault).to_string())?;
+            self.motion.reach_end().map_err(|error| self.motion.dated(error).to_string())?;
         }
         let system = match self.reversal.other_way.take() {
             Some(system) => system,
@@ -103,10 +103,10 @@ impl Experiment {
         (state.time, state.time_carry) = (sign * state.time, sign * state.time_carry);
         let step = self.motion.step_size().abs();
         let begun = motion.begin_turned(&state, step, &self.motion.released());
-        if let Err(fault) = begun {
-            let fault = motion.dated(fault);
+        if let Err(error) = begun {
+            let error = motion.dated(error);
             self.reversal.other_way = Some(system);
-            return Err(fault.to_string());
+            return Err(error.to_string());
         }
         motion.set_steps(self.motion.steps());
         self.reversal.other_way = Some(self.motion.whole().clone());

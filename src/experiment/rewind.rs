@@ -38,8 +38,8 @@ impl Experiment {
         // no step ends early that did not when it was first taken
         let limit = time + HORIZON * self.setup.spacing;
         match self.motion.back_to((time, limit), self.setup.start) {
-            Err(fault) => {
-                self.run.fault = Some(self.motion.dated(fault).into());
+            Err(error) => {
+                self.run.error = Some(self.motion.dated(error).into());
                 return;
             }
             Ok(Some(first)) if first.is_finite() => {
@@ -53,7 +53,7 @@ impl Experiment {
             }
             Ok(None) => {}
         }
-        self.run.fault = None;
+        self.run.error = None;
         self.run.ended = None;
         self.recorder.rewind(time);
         if sign > 0.0 {

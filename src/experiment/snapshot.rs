@@ -116,12 +116,12 @@ pub enum Status {
     /// Ended by the event of this name.
     Ended(String),
     /// The motion cannot continue.
-    Failed(Failure),
+    Failed(RunError),
 }
 
 /// Why a motion cannot continue.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Failure {
+pub struct RunError {
     /// The time of the failure.
     pub time: f64,
     /// What happened, where, and what may help, in a sentence or two.
@@ -213,10 +213,10 @@ pub struct MethodFact {
     pub tolerance: Option<f64>,
 }
 
-impl From<crate::system::MotionError> for Failure {
-    fn from(fault: crate::system::MotionError) -> Failure {
-        let ends_motion = fault.kind.ends_motion();
-        Failure { time: fault.time, message: fault.to_string(), ends_motion }
+impl From<crate::system::MotionError> for RunError {
+    fn from(error: crate::system::MotionError) -> RunError {
+        let ends_motion = error.kind.ends_motion();
+        RunError { time: error.time, message: error.to_string(), ends_motion }
     }
 }
 

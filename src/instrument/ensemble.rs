@@ -203,7 +203,7 @@ impl Instrument for Ensemble {
     }
 
     fn known_until(&self, answer: &Answer) -> Option<f64> {
-        let cloud = answer.of::<Cloud>().filter(|cloud| cloud.failure.is_none())?;
+        let cloud = answer.of::<Cloud>().filter(|cloud| cloud.error.is_none())?;
         cloud.frames.last().map(|frame| frame.time)
     }
 
@@ -313,7 +313,7 @@ fn off(context: PlotContext<'_>) -> Option<f64> {
 /// The integral in words, beside what is expected.
 fn sentence(context: PlotContext<'_>) -> String {
     let Some(cloud) = cloud(context.answer) else { return String::new() };
-    if let Some(why) = &cloud.failure {
+    if let Some(why) = &cloud.error {
         return why.clone();
     }
     let short = |x: f64| significant(x, 4, 1e-3..1e5).replace('-', "−");

@@ -49,7 +49,7 @@ pub fn equilibria_search(
         let space = PhaseSpace::without_impulses(&model, &equations, &system, &start.parameters);
         let space = space.map_err(|why| why.to_string())?;
         let state = start.state(&system).and_then(|state| space.state(&state));
-        let state = state.map_err(|fault| fault.to_string())?;
+        let state = state.map_err(|error| error.to_string())?;
         let mut report = |done: usize, all: usize| {
             progress.expect(all as u64);
             progress.reach(done as u64);

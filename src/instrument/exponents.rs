@@ -193,7 +193,7 @@ fn state(
     start: f64,
 ) -> Result<crate::system::State, String> {
     let state = conditions.state(space.system(), start).and_then(|state| space.state(&state));
-    state.map_err(|fault| fault.to_string())
+    state.map_err(|error| error.to_string())
 }
 
 /// Measures until a time.

@@ -63,7 +63,7 @@ struct Courses {
     /// Whether nothing but H acts.
     is_hamiltonian: bool,
     /// When one of them ends early, and why.
-    failures: Vec<(f64, String)>,
+    errors: Vec<(f64, String)>,
 }
 
 impl Instrument for FlowPlot {
@@ -162,7 +162,7 @@ impl Instrument for FlowPlot {
         if let Some(known) = known
             && (present.time <= known.end
                 || known.doublings >= DOUBLINGS
-                || !known.outcome.as_ref().is_ok_and(|courses| courses.failures.is_empty()))
+                || !known.outcome.as_ref().is_ok_and(|courses| courses.errors.is_empty()))
         {
             return Need::Valid;
         }
@@ -246,23 +246,23 @@ fn follow(
     let part = |time: f64| share * ((time - begin) / (end - begin)).min(1.0) * PARTS;
     let mut report = |time: f64| progress.reach(part(time) as u64);
     let own = flow_course(space, (method, settings), state, &times, &mut report);
-    let (own, fault) = own.map_err(|why| why.to_string())?;
-    let mut failures: Vec<(f64, String)> =
-        fault.into_iter().map(|fault| (fault.time, fault.to_string())).collect();
+    let (own, error) = own.map_err(|why| why.to_string())?;
+    let mut errors: Vec<(f64, String)> =
+        error.into_iter().map(|error| (error.time, error.to_string())).collect();
     let mut report = |time: f64| progress.reach((part(time) + share * PARTS) as u64);
     let exact = exact.and_then(|exact| {
         let settings = Settings { step: None, tolerance: None };
-        let (found, fault) = match flow_course(space, (exact, settings), state, &times, &mut report)
+        let (found, error) = match flow_course(space, (exact, settings), state, &times, &mut report)
         {
-            Ok((found, fault)) => (Some(found), fault.map(|fault| (fault.time, fault.to_string()))),
+            Ok((found, error)) => (Some(found), error.map(|error| (error.time, error.to_string()))),
             Err(why) => (None, Some((begin, why.to_string()))),
         };
         // where both end for one reason it is said once
-        let fault = fault.filter(|(_, why)| failures.iter().all(|(_, own)| own != why));
-        failures.extend(fault.map(|(time, why)| (time, format!("the exact flow: {why}"))));
+        let error = error.filter(|(_, why)| errors.iter().all(|(_, own)| own != why));
+        errors.extend(error.map(|(time, why)| (time, format!("the exact flow: {why}"))));
         found
     });
-    Ok(Courses { own, exact, is_hamiltonian, failures })
+    Ok(Courses { own, exact, is_hamiltonian, errors })
 }
 
 /// What is said of the map as it is now.
@@ -314,7 +314,7 @@ fn sentences(PlotContext { present, answer, .. }: PlotContext<'_>) -> Vec<String
     if own.matrix.len() <= ENTRIES {
         lines.push(format!("M = ({})", rows(&own.matrix, &|x| short(x, 4))));
     }
-    let failed = courses.failures.iter().filter(|(time, _)| *time <= present.time);
+    let failed = courses.errors.iter().filter(|(time, _)| *time <= present.time);
     lines.extend(failed.map(|(_, why)| why.clone()));
     lines.extend(since);
     lines

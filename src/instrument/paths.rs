@@ -306,7 +306,7 @@ fn motion(
     (method, conditions, (begin, start)): (&'static Method, &PlotConditions, (f64, f64)),
     duration: f64,
 ) -> Result<(Vec<Vec<f64>>, f64), String> {
-    let first = conditions.state(system, begin).map_err(|fault| fault.to_string())?;
+    let first = conditions.state(system, begin).map_err(|error| error.to_string())?;
     let (parameters, method) = (conditions.parameters.clone(), (method, conditions.settings));
     let flow = SystemFlow { system: system.clone(), method, parameters, start, effort: None };
     let position = |i| system.channels().iter().position(|c| c.kind == ChannelKind::Position(i));

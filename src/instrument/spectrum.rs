@@ -171,7 +171,7 @@ impl Instrument for SpectrumPlot {
                 lines: (MOST, fundamentals),
                 drive,
             };
-            let start = conditions.state(&system, begin).map_err(|fault| fault.to_string());
+            let start = conditions.state(&system, begin).map_err(|error| error.to_string());
             let outcome = start.and_then(|start| {
                 progress.expect(MOST as u64);
                 let mut report = |count: usize| {

@@ -146,7 +146,7 @@ impl BatchEvents {
                 && search.accumulation[event].record(time, search.start)
             {
                 let kind = MotionErrorKind::EventsAccumulate(happened.name.clone());
-                return Err(self.system.fault(kind, time, &out.values));
+                return Err(self.system.error(kind, time, &out.values));
             }
             return Ok(Some(LaneEvent { event, time }));
         }

@@ -62,9 +62,9 @@ pub struct StoppedMotion<'a> {
 
 impl StoppedMotion<'_> {
     /// The error of a motion that reaches infinity where it stopped, in place of the one that its method met there.
-    pub fn blow_up(&self, fault: &MotionError) -> Option<MotionError> {
+    pub fn blow_up(&self, error: &MotionError) -> Option<MotionError> {
         let (begin, end) = self.stepper.interval();
-        let found = match (&fault.kind, self.method.stepping) {
+        let found = match (&error.kind, self.method.stepping) {
             (MotionErrorKind::StepUnderflow(step), Stepping::Adaptive) => {
                 let step = if end < begin { -step.abs() } else { step.abs() };
                 self.blow_up_from(self.stepper.state(), step)
@@ -77,7 +77,7 @@ impl StoppedMotion<'_> {
             (
                 MotionErrorKind::NotFinite(_) | MotionErrorKind::NoConvergence(_),
                 Stepping::Fixed,
-            ) => self.blow_up_before(fault.time),
+            ) => self.blow_up_before(error.time),
             _ => None,
         }?;
         let name = self.system.channels().get(found.coordinate)?.shown.clone();
@@ -91,14 +91,14 @@ impl StoppedMotion<'_> {
 
     /// The error of a motion that begins at a time with too few digits for its first step, in place of the one that a singular place
     /// gives, towards which steps vanish.
-    pub fn beyond_the_clock(&self, fault: &MotionError) -> Option<MotionError> {
-        let MotionErrorKind::StepUnderflow(step) = fault.kind else { return None };
-        let digits = spacing(fault.time);
-        let begins = self.begun.is_some_and(|begun| begun.time == fault.time);
+    pub fn beyond_the_clock(&self, error: &MotionError) -> Option<MotionError> {
+        let MotionErrorKind::StepUnderflow(step) = error.kind else { return None };
+        let digits = spacing(error.time);
+        let begins = self.begun.is_some_and(|begun| begun.time == error.time);
         (begins && is_ordinary(step, digits)).then(|| MotionError {
             kind: MotionErrorKind::ClockStands(digits),
             place: Vec::new(),
-            time: fault.time,
+            time: error.time,
         })
     }
 
@@ -113,8 +113,8 @@ impl StoppedMotion<'_> {
             if stepper.time() == until {
                 return None;
             }
-            if let Err(fault) = stepper.step(until) {
-                let MotionErrorKind::StepUnderflow(step) = fault.kind else { return None };
+            if let Err(error) = stepper.step(until) {
+                let MotionErrorKind::StepUnderflow(step) = error.kind else { return None };
                 return self.blow_up_from(stepper.state(), step.abs().copysign(until - from.time));
             }
         }

@@ -259,7 +259,7 @@ impl DormandPrince {
         } else {
             return Ok(());
         };
-        Err(self.system.fault(kind, self.state.time, &self.state.values))
+        Err(self.system.error(kind, self.state.time, &self.state.values))
     }
 
     /// Computes the slopes that only the interpolant needs.
@@ -342,12 +342,12 @@ impl Stepper for DormandPrince {
             return self.step_along_kink(limit);
         }
         match self.controlled_step(limit) {
-            Err(fault) if fault.kind == MotionErrorKind::Sticks => {
+            Err(error) if error.kind == MotionErrorKind::Sticks => {
                 self.follow_kink()?;
                 self.step_along_kink(limit)
             }
-            Err(fault) if matches!(fault.kind, MotionErrorKind::StepUnderflow(_)) => {
-                if self.goes_to_kink(limit) { self.step_along_kink(limit) } else { Err(fault) }
+            Err(error) if matches!(error.kind, MotionErrorKind::StepUnderflow(_)) => {
+                if self.goes_to_kink(limit) { self.step_along_kink(limit) } else { Err(error) }
             }
             outcome => outcome,
         }

@@ -216,7 +216,7 @@ impl<S: Scheme> FixedStep<S> {
         } else {
             return Ok(());
         };
-        Err(self.system.fault(kind, self.state.time, &self.state.values))
+        Err(self.system.error(kind, self.state.time, &self.state.values))
     }
 }
 
@@ -260,7 +260,7 @@ impl<S: Scheme> Stepper for FixedStep<S> {
         self.next.set_time(time);
         if time.high == self.state.time {
             let kind = MotionErrorKind::StepUnderflow(self.steps.step.high);
-            return Err(self.system.fault(kind, time.high, &self.state.values));
+            return Err(self.system.error(kind, time.high, &self.state.values));
         }
         self.system.check_finite(&self.next)?;
         self.steps.take(1);

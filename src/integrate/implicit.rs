@@ -217,7 +217,7 @@ impl Implicit {
     fn check_cancelled(&self, state: &State) -> Result<(), MotionError> {
         if self.rates.system().cancel().is_cancelled() {
             let kind = MotionErrorKind::Cancelled;
-            return Err(self.rates.system().fault(kind, state.time, &state.values));
+            return Err(self.rates.system().error(kind, state.time, &state.values));
         }
         Ok(())
     }
@@ -234,7 +234,7 @@ impl Implicit {
                 Ok(false) => {}
                 // a distant stage may lie where there are no rates
                 Err(_) if count > 1 => break,
-                Err(fault) => return Err(fault),
+                Err(error) => return Err(error),
             }
             if count % PATIENCE == 0 {
                 self.estimate_roundoff(step, state);
@@ -249,7 +249,7 @@ impl Implicit {
         let mut here = state.clone();
         here.values.copy_from_slice(&self.slopes[..n]);
         system.check_finite(&here)?;
-        Err(system.fault(MotionErrorKind::NoConvergence(step), state.time, &state.values))
+        Err(system.error(MotionErrorKind::NoConvergence(step), state.time, &state.values))
     }
 }
 

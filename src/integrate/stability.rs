@@ -202,7 +202,7 @@ mod tests {
     }
 
     #[test]
-    fn a_mode_that_grows_by_itself_is_no_fault_of_the_step() {
+    fn a_mode_that_grows_by_itself_is_not_caused_by_the_step() {
         // |1 + z| exceeds e^(re z) where im is large beside re
         assert!(EULER.limit(&[[0.9e-3, 1.0]], 1.0).is_some());
         assert_eq!(EULER.limit(&[[1.1e-3, 1.0]], 1.0), None);

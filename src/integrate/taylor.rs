@@ -237,16 +237,16 @@ impl Taylor {
             }
             return Err(match self.evaluate_rates() {
                 // no kink, but a mass that vanishes there
-                Err(fault) if fault.kind == MotionErrorKind::SingularMass => fault,
-                _ => self.system.fault(MotionErrorKind::Rough, time.high, &self.state.values),
+                Err(error) if error.kind == MotionErrorKind::SingularMass => error,
+                _ => self.system.error(MotionErrorKind::Rough, time.high, &self.state.values),
             });
         }
         let longest = match self.kinks.undecided(&self.series) {
             Some(sides) => self.decide(&sides, left.high)?,
             None => match self.expand(left.high) {
                 Ok(step) => Some(step),
-                Err(fault) if fault.kind == MotionErrorKind::Cancelled => return Err(fault),
-                Err(fault) => return if self.leap(left.high, 0.0)? { Ok(()) } else { Err(fault) },
+                Err(error) if error.kind == MotionErrorKind::Cancelled => return Err(error),
+                Err(error) => return if self.leap(left.high, 0.0)? { Ok(()) } else { Err(error) },
             },
         };
         let Some(step) = longest else { return Ok(()) };
@@ -288,7 +288,7 @@ impl Stepper for Taylor {
     fn step(&mut self, limit: f64) -> Result<(), MotionError> {
         self.end_passage(false);
         match self.step_to(limit) {
-            Err(fault) if self.wants_digits(&fault) => {
+            Err(error) if self.wants_digits(&error) => {
                 self.begin_passage()?;
                 self.step_to(limit)
             }

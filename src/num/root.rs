@@ -41,7 +41,7 @@ pub fn false_position<E>(
     let mut stays = None;
     for round in 0..rounds {
         let middle = f64::midpoint(first.0, last.0);
-        if middle <= first.0 || middle >= last.0 || last.0 - first.0 <= close * last.0 {
+        if middle <= first.0 || middle >= last.0 || last.0 - first.0 <= close * last.0.abs() {
             break;
         }
         let secant = first.0 - first.1 * (last.0 - first.0) / (last.1 - first.1);

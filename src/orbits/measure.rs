@@ -91,7 +91,7 @@ impl MeasuredOrbits<'_> {
         let (places, orbits): (Vec<usize>, Vec<LyapunovOrbit>) = begun.unzip();
         let found = lyapunov_of_all(&orbits, (self.method, self.settings));
         for (place, found) in places.into_iter().zip(found) {
-            let reached = found.ok().filter(|found| found.failure.is_none());
+            let reached = found.ok().filter(|found| found.error.is_none());
             if let Some(&largest) = reached.as_ref().and_then(|found| found.exponents.first()) {
                 exponents[place] = largest;
             }

@@ -137,9 +137,9 @@ impl RunPlan {
             Ok(experiment) => experiment,
             Err(why) => return Some(RunOutcome::refused(&why, columns)),
         };
-        if let Status::Failed(failure) = experiment.status() {
+        if let Status::Failed(error) = experiment.status() {
             let cancelled = self.system.cancel().is_cancelled();
-            return (!cancelled).then(|| RunOutcome::refused(&failure.message, columns));
+            return (!cancelled).then(|| RunOutcome::refused(&error.message, columns));
         }
         experiment.only_count_occurrences();
         experiment.forget_past();
@@ -149,7 +149,7 @@ impl RunPlan {
                 return None;
             }
             match experiment.status() {
-                Status::Failed(failure) => break (OrbitStatus::Faulted, Some(failure.message)),
+                Status::Failed(error) => break (OrbitStatus::Failed, Some(error.message)),
                 Status::Ended(name) => {
                     let time = short(experiment.time());
                     let message = format!("`{name}` ended the motion at t = {time}");

@@ -139,7 +139,7 @@ pub fn run_screen(page: &mut impl Screen, pace: FramePace) -> Result<Ending, Lab
         size: None,
         governor: Governor::new(pace.frames, pace.bytes, Instant::now()),
         mouse: pace.mouse,
-        failures: 0,
+        errors: 0,
         keyboard: false,
         asked: None,
     };
@@ -174,7 +174,7 @@ struct FrameLoop<'a, E> {
     mouse: bool,
     /// Whether the terminal knows the keyboard protocol.
     keyboard: bool,
-    failures: u32,
+    errors: u32,
     /// When the terminal was asked.
     asked: Option<Instant>,
 }
@@ -353,10 +353,10 @@ impl<E: EventSource> FrameLoop<'_, E> {
     /// Sends what the terminal accepts. After a failed write, the terminal is set up and painted again.
     fn send(&mut self) -> io::Result<()> {
         match self.queue.send(|bytes| self.terminal.write(bytes)) {
-            Ok(()) => self.failures = 0,
-            Err(error) if self.failures == FAILURES => return Err(error),
+            Ok(()) => self.errors = 0,
+            Err(error) if self.errors == FAILURES => return Err(error),
             Err(_) => {
-                self.failures += 1;
+                self.errors += 1;
                 self.enter()?;
             }
         }

@@ -61,7 +61,7 @@ pub(super) struct Session {
     /// A warning to repeat when the first system is loaded, since loading clears notifications.
     warning: Option<String>,
     /// The last error logged.
-    fault: Option<String>,
+    error: Option<String>,
     /// The lesson or demo that has the screen.
     guided: Option<Guided>,
     /// The recording under way, if there is one.
@@ -157,7 +157,7 @@ impl Session {
             writer: Writer::new(),
             sides: HashMap::new(),
             warning: None,
-            fault: None,
+            error: None,
             guided: None,
             recorder: None,
             painter: Painter::default(),
@@ -326,7 +326,7 @@ impl Screen for Session {
         if let Some(guided) = &mut self.guided {
             return guided.advance(elapsed);
         }
-        self.report_faults();
+        self.report_errors();
         self.save_periodically(elapsed);
         let noticed = self.app.notifications.shown.is_some();
         self.update(AppEvent::Tick(elapsed));
@@ -334,13 +334,13 @@ impl Screen for Session {
         if let Some(outcome) = self.loader.take() {
             match &outcome {
                 Ok((name, _)) => info!("loaded {name}"),
-                Err(failure) => {
-                    error!("cannot load {}: {}", failure.name, failure.message);
+                Err(error) => {
+                    error!("cannot load {}: {}", error.name, error.message);
                 }
             }
             let loaded = outcome
                 .map(|(name, ready)| self.begin(name, *ready))
-                .map_err(|failure| self.with_text_kept(failure));
+                .map_err(|error| self.with_text_kept(error));
             self.update(AppEvent::Loaded(loaded));
             if let Some(warning) = self.warning.take() {
                 self.app.notifications.show(Notification::error(warning));

@@ -333,7 +333,7 @@ impl System {
             return Ok(());
         }
         let kind = MotionErrorKind::NotFinite("the energy".to_owned());
-        Err(self.fault(kind, state.time, &state.values))
+        Err(self.error(kind, state.time, &state.values))
     }
 
     /// The events and impulses of the system.

@@ -137,7 +137,7 @@ impl System {
         let Some(conditions) = self.conditions(parameters, &state) else { return Ok(state) };
         let missed = |k: usize, part: f64| {
             let kind = MotionErrorKind::ConstraintMissed(constrained.names[k].clone(), part);
-            self.fault(kind, state.time, &state.values)
+            self.error(kind, state.time, &state.values)
         };
         for k in 0..self.constraints() {
             let part = conditions.position(k).missed();
@@ -178,7 +178,7 @@ impl System {
                 MotionError { time: state.time, kind, place: Vec::new() }
             }
             InconsistentStart::Contradiction => {
-                self.fault(MotionErrorKind::Contradiction, state.time, &state.values)
+                self.error(MotionErrorKind::Contradiction, state.time, &state.values)
             }
             InconsistentStart::LegendreError(why) => self.unsolved(why, state.time, &numbers),
         })?;

@@ -114,7 +114,7 @@ impl System {
         if let Some(name) = too_small {
             let kind = MotionErrorKind::TooSmall(name);
             let values: Vec<f64> = state.iter().map(|x| x.high).collect();
-            return Err(self.fault(kind, start, &values));
+            return Err(self.error(kind, start, &values));
         }
         if self.constraints() > 0 {
             let state = self.state_of(time, self.form(), &state);

@@ -15,7 +15,7 @@ impl System {
             None => Ok(()),
             Some(i) => {
                 let name = MotionErrorKind::NotFinite(self.name_of(i, state.form));
-                Err(self.fault(name, state.time, &state.values))
+                Err(self.error(name, state.time, &state.values))
             }
         }
     }
@@ -37,7 +37,7 @@ impl System {
     }
 
     /// An error at a state, reported with its coordinates.
-    pub fn fault(&self, kind: MotionErrorKind, time: f64, values: &[f64]) -> MotionError {
+    pub fn error(&self, kind: MotionErrorKind, time: f64, values: &[f64]) -> MotionError {
         let named = self.channels().iter().zip(values).take(self.degrees().min(4));
         let place = named.map(|(c, &x)| (c.shown.clone(), x)).filter(|(_, x)| x.is_finite());
         MotionError { time, kind, place: place.collect() }
@@ -99,6 +99,6 @@ impl System {
             LegendreError::NotConverging => MotionErrorKind::NoVelocities,
         };
         let values: Vec<f64> = numbers.iter().map(|x| x.high).collect();
-        self.fault(kind, time, &values)
+        self.error(kind, time, &values)
     }
 }

@@ -108,7 +108,7 @@ impl System {
         let impulse: Vec<DoubleDouble> = (0..n).map(|i| values.output(impulse * n + i)).collect();
         let not_finite = || {
             let kind = MotionErrorKind::ImpulseNotFinite(name.clone());
-            self.fault(kind, state.time, &state.values)
+            self.error(kind, state.time, &state.values)
         };
         if !impulse.iter().all(|x| x.is_finite()) {
             return Err(not_finite());

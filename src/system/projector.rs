@@ -182,6 +182,6 @@ impl System {
                 MotionErrorKind::SingularConstraints(None)
             }
         };
-        self.fault(kind, state.time, &state.values)
+        self.error(kind, state.time, &state.values)
     }
 }

@@ -115,7 +115,7 @@ impl Saltation {
         if self.grazes((event, rate), &columns, &motion, before, scale)? {
             let name = self.system.discontinuities().events[event].name.clone();
             let kind = MotionErrorKind::Grazes(name);
-            return Err(self.system.fault(kind, before.time, &before.values));
+            return Err(self.system.error(kind, before.time, &before.values));
         }
         for i in 0..d {
             rates_before[first + i] += jump(i, n);

@@ -154,10 +154,10 @@ impl Series {
                 Err(self.system.singular(program, singular, state.time, &state.values))
             }
             Err(Halt::Sticks) => {
-                Err(self.system.fault(MotionErrorKind::Sticks, state.time, &state.values))
+                Err(self.system.error(MotionErrorKind::Sticks, state.time, &state.values))
             }
             Err(Halt::Cancelled) => {
-                Err(self.system.fault(MotionErrorKind::Cancelled, state.time, &state.values))
+                Err(self.system.error(MotionErrorKind::Cancelled, state.time, &state.values))
             }
         }
     }

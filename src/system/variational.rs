@@ -170,7 +170,7 @@ impl TangentConversion {
             }
             let mut rates: Vec<DoubleDouble> = (0..n).map(along).collect();
             if !factored.factor(|i, j| values.output(n + i * n + j)) {
-                return Err(system.fault(system.without_momenta(), from.time, &from.values));
+                return Err(system.error(system.without_momenta(), from.time, &from.values));
             }
             for (i, rate) in rates.iter_mut().enumerate() {
                 *rate = from.exact(first + n + i) - *rate;

@@ -186,7 +186,7 @@ pub(super) fn status_words(q: &Quantities<'_>) -> String {
         Status::Running => "running".to_owned(),
         Status::Paused => "paused".to_owned(),
         Status::Ended(event) => format!("ended by {event}"),
-        Status::Failed(fault) => format!("stopped: {}", fault.message),
+        Status::Failed(error) => format!("stopped: {}", error.message),
     };
     let unit = q.lab.loaded.model.time_unit();
     let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };

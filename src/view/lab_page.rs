@@ -20,7 +20,7 @@ use crate::app::{
     App, DrawnPanes, HitTarget, InputField, Lab, LawInView, Overlay, Pane, PanesInView, UnderWay,
     ValueId,
 };
-use crate::experiment::{Failure, Status};
+use crate::experiment::{RunError, Status};
 
 /// Draws all panes of the layout, and returns what that has determined.
 pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App, lab: &Lab) -> DrawnPanes {
@@ -72,8 +72,8 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App, lab: &Lab) ->
             }
         }
     }
-    if let Some(Status::Failed(fault)) = lab.snapshot.as_ref().map(|s| &s.status) {
-        stopped(canvas, area, fault);
+    if let Some(Status::Failed(error)) = lab.snapshot.as_ref().map(|s| &s.status) {
+        stopped(canvas, area, error);
     }
     DrawnPanes { single: is_single(area), law: in_view, in_view: in_sight }
 }
@@ -81,8 +81,8 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App, lab: &Lab) ->
 /// Draws only the view of the motion, or the first view there is; over it the reason why the motion stopped.
 pub(super) fn draw_motion(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab) {
     plot(canvas, area, lab, (view_of_motion(lab).unwrap_or(0), &[]));
-    if let Some(Status::Failed(fault)) = lab.snapshot.as_ref().map(|s| &s.status) {
-        stopped(canvas, area, fault);
+    if let Some(Status::Failed(error)) = lab.snapshot.as_ref().map(|s| &s.status) {
+        stopped(canvas, area, error);
     }
 }
 
@@ -230,9 +230,9 @@ fn plot(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, (index, sharing): (usize
 }
 
 /// Draws a box over the panes that explains why the motion cannot continue.
-fn stopped(canvas: &mut Canvas<'_>, area: Rect, fault: &Failure) {
+fn stopped(canvas: &mut Canvas<'_>, area: Rect, error: &RunError) {
     let width = area.width.saturating_sub(4).min(70);
-    let text = canvas.text(&capitalised(&fault.message));
+    let text = canvas.text(&capitalised(&error.message));
     let lines = words(&text, usize::from(width.saturating_sub(4)));
     let height = (lines.len() as u16 + 4).min(area.height);
     let title = canvas.span(Role::Bad, "The motion cannot continue");

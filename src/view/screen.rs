@@ -118,11 +118,11 @@ fn body(canvas: &mut Canvas<'_>, area: Rect, app: &App) -> Drawn {
             app.text.scroll,
         );
     }
-    if let Some(Overlay::Message(failure)) = over {
-        let title = [canvas.span(Role::Title, format!("{} has errors", failure.name))];
+    if let Some(Overlay::Message(error)) = over {
+        let title = [canvas.span(Role::Title, format!("{} has errors", error.name))];
         let inner = canvas.pane(area, &title, true);
         let mut page = TextPage::default();
-        let lines = failure.message.lines();
+        let lines = error.message.lines();
         let width = measure(inner.width);
         for line in lines.flat_map(|line| wrap::report_line(line, width.into())) {
             page.row(report::coloured(&line));

@@ -11,7 +11,7 @@ use arc_swap::ArcSwapOption;
 use super::Runnable;
 use super::pace::Pace;
 use super::slice::Slice;
-use crate::experiment::{AdvanceOutcome, Command, Failure, Snapshot, Status};
+use crate::experiment::{AdvanceOutcome, Command, RunError, Snapshot, Status};
 
 /// The least time between two snapshots that no command asked for.
 const BETWEEN_SNAPSHOTS: Duration = Duration::from_millis(16);
@@ -193,7 +193,7 @@ impl WorkerLoop<'_> {
         let message = format!(
             "the integrator was stopped by a bug in phaselab ({reason}); load the system again"
         );
-        let status = Status::Failed(Failure { time: last.time, message, ends_motion: false });
+        let status = Status::Failed(RunError { time: last.time, message, ends_motion: false });
         self.slot.store(Some(Arc::new(Snapshot { status, ..last })));
     }
 }

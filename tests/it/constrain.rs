@@ -296,7 +296,7 @@ fn a_mass_matrix_that_is_singular_alone_is_solved_with_its_constraint() {
 fn initial(model: &Model, given: &[InitialOverride]) -> Result<Vec<f64>, MotionErrorKind> {
     let parameters = model.parameter_values();
     let state = system(model).initial(0.0, &parameters, given);
-    state.map(|state| state.values).map_err(|fault: MotionError| fault.kind)
+    state.map(|state| state.values).map_err(|error: MotionError| error.kind)
 }
 
 #[test]
@@ -357,18 +357,18 @@ fn a_start_off_the_constraint_is_refused_and_one_by_rounding_is_put_right() {
 }
 
 #[test]
-fn a_place_where_constraints_coincide_is_a_fault_that_names_it() {
+fn a_place_where_constraints_coincide_is_an_error_that_names_it() {
     // where they touch they are equivalent, and just beside that point they have no common solution
     let mut model = lagrangian(&["x", "y"], &["g"], "1/2*(x'^2 + y'^2) - g*x");
     constrain(&mut model, &[("line", "y"), ("parabola", "y - x^2")]);
     start(&mut model, &[("0", Some("1")), ("0", None)]);
     let mut stuck = experiment(&model, |_| ());
     stuck.advance(1.0, 1000);
-    let Status::Failed(fault) = stuck.status() else { panic!("{:?}", stuck.status()) };
+    let Status::Failed(error) = stuck.status() else { panic!("{:?}", stuck.status()) };
     let right = "the constraint `parabola`, which repeated those before it where the motion began, \
                  contradicts them";
-    assert!(fault.message.contains(right), "{}", fault.message);
-    assert!(fault.message.contains("began at a singular configuration"), "{}", fault.message);
+    assert!(error.message.contains(right), "{}", error.message);
+    assert!(error.message.contains("began at a singular configuration"), "{}", error.message);
 }
 
 #[test]

@@ -21,7 +21,7 @@ fn under(constraint: &str, [x, y, u, v]: [f64; 4], method: &str) -> Experiment {
 fn end(mut motion: Experiment) -> (String, f64) {
     assert_ne!(motion.advance(5.0, PLENTY), AdvanceOutcome::Arrived);
     match motion.status() {
-        Status::Failed(fault) => (fault.message, fault.time),
+        Status::Failed(error) => (error.message, error.time),
         other => panic!("{other:?}"),
     }
 }

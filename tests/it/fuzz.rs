@@ -39,7 +39,7 @@ fn check(name: &str) {
     let seed = number("PHASELAB_FUZZ_SEED").unwrap_or(SEED);
     let seconds = number("PHASELAB_FUZZ_SECONDS").map(|s| Length::Time(Duration::from_secs(s)));
     let length = seconds.unwrap_or(Length::Cases(target.cases));
-    let cases = hunt(target, seed, length).unwrap_or_else(|failure| panic!("{failure}"));
+    let cases = hunt(target, seed, length).unwrap_or_else(|error| panic!("{error}"));
     assert!(cases > 0);
     println!("{name}: {cases} cases of seed {seed}");
 }

@@ -17,10 +17,10 @@ fn by(method: &str, step: Option<f64>, text: &str) -> Experiment {
 }
 
 /// The message of the failure on the way to a time.
-fn fault(mut experiment: Experiment, time: f64) -> String {
+fn error(mut experiment: Experiment, time: f64) -> String {
     assert_ne!(experiment.advance(time, PLENTY), AdvanceOutcome::Arrived);
     match experiment.status() {
-        Status::Failed(fault) => fault.message.clone(),
+        Status::Failed(error) => error.message.clone(),
         other => panic!("{other:?}"),
     }
 }
@@ -181,7 +181,7 @@ fn a_motion_that_leaves_the_range_of_numbers_ends() {
 
 /// A method that stops names one that can continue.
 #[test]
-fn a_fault_names_the_method_that_passes() {
+fn an_error_names_the_method_that_passes() {
     let message = said(IN_MOMENTA, &["--method", "dop853", "--until", "12"]);
     assert!(message.contains("; --method taylor passes it"), "{message}");
     let root = "[coordinates]\nx = { initial = 1.0 }\n[lagrangian]\n\
@@ -230,7 +230,7 @@ fn a_constraint_whose_row_vanishes_is_singular_and_no_other_is_lost() {
                 [[constraints]]\nname = 'circle'\nexpression = 'x^2 + y^2 - 1'\n\
                 [[constraints]]\nname = 'again'\nexpression = \"2*x*x' + 2*y*y'\"\n\
                 [[constraints]]\nname = 'row'\nexpression = \"x*z' - 0.1*x'*z - 0.2*x\"\n";
-    let why = fault(file(text), 1.0);
+    let why = error(file(text), 1.0);
     assert!(why.contains("singular configuration") && why.contains("t = 0.672"), "{why}");
 }
 
@@ -273,7 +273,7 @@ fn a_fixed_step_does_not_jump_to_another_branch() {
     let branched = "[coordinates]\nx = { initial = 0.3, velocity = 1.5 }\n[lagrangian]\n\
                     L = \"1/4*x'^4 - 1/2*x'^2 - 1/2*x^2\"";
     for step in [0.3, 0.01] {
-        let message = fault(by("rk4", Some(step), branched), 10.0);
+        let message = error(by("rk4", Some(step), branched), 10.0);
         assert!(message.starts_with("the branch of the velocities ends after t = 1."), "{message}");
     }
 }
@@ -316,7 +316,7 @@ fn a_single_momentum_is_solved_for_however_far_its_velocity() {
         let (model, system) = crate::system::compile(&text);
         let given = [phaselab::system::InitialOverride::Momentum(0, momentum)];
         let state = system.initial(0.0, &model.parameter_values(), &given);
-        let state = state.unwrap_or_else(|fault| panic!("{kinetic}: {fault}"));
+        let state = state.unwrap_or_else(|error| panic!("{kinetic}: {error}"));
         let error = (state.values[1] - velocity).abs() / velocity.abs();
         assert!(error < 1e-11, "{kinetic}: {} for {velocity}", state.values[1]);
     }
@@ -430,7 +430,7 @@ fn a_power_of_a_parameter_leaves_the_range_and_no_gauge_drifts() {
 fn an_event_that_swings_beyond_a_step_is_told() {
     let text = "[coordinates]\nx = { initial = 1.0, velocity = 0.0 }\n[lagrangian]\nL = \"1/2*x'^2 - 1/2*x^2\"\n\
                 [[events]]\nname = \"hit\"\nwhen = \"2 + sin(1e8*x)\"\naction = \"stop\"\n";
-    let message = fault(by("rk4", Some(0.1), text), 1.0);
+    let message = error(by("rk4", Some(0.1), text), 1.0);
     assert!(message.contains("swings too often within one step"), "{message}");
     assert!(message.contains("try a smaller step"), "{message}");
     // negative: a thousand swings are followed
@@ -466,7 +466,7 @@ fn a_constraint_that_is_lost_in_a_long_step_asks_for_a_smaller_one() {
                 v = { initial = 0.9463000876874145, velocity = -0.3572349713841712 }\n[lagrangian]\n\
                 L = \"0.5*u'^2 + 0.5*v'^2 - 3.0*exp(5.0*(v + 5.0))\"\n\
                 [[constraints]]\nname = \"held\"\nexpression = \"u^2 + v^2 - 1\"\n";
-    let message = fault(by("rk4", Some(0.01), text), 1.0);
+    let message = error(by("rk4", Some(0.01), text), 1.0);
     assert!(message.contains("the constraint `held` cannot be kept at t = 0.01"), "{message}");
     assert!(message.contains("try a smaller step"), "{message}");
     let mut adaptive = file(text);
@@ -578,7 +578,7 @@ fn a_collision_that_others_step_over_names_none_of_them() {
                 [[constraints]]\nname = \"held\"\nexpression = \"theta - 0.879*r\"\n";
     let free = "[coordinates]\nx = { initial = 1, velocity = -1e6 }\n[lagrangian]\nL = \"1/2*x'^2 + 1/abs(x)\"\n";
     for text in [text, free] {
-        let message = fault(file(text), 0.25);
+        let message = error(file(text), 0.25);
         assert!(message.contains("collision") && !message.contains("passes it"), "{message}");
     }
 }
@@ -591,8 +591,8 @@ fn a_motion_ends_where_a_logarithm_of_its_energy_does() {
     for (method, step) in steps.into_iter().chain([("dop853", None), ("taylor", None)]) {
         let mut fall = by(method, step, text);
         assert_ne!(fall.advance(5.0, PLENTY), AdvanceOutcome::Arrived, "{method}");
-        let Status::Failed(fault) = fall.status() else { panic!("{method}: {:?}", fall.status()) };
-        let message = fault.message.clone();
+        let Status::Failed(error) = fall.status() else { panic!("{method}: {:?}", fall.status()) };
+        let message = error.message.clone();
         assert!(!message.contains("passes it"), "{method}: {message}");
         assert!(value(&fall, "x") > 0.0, "{method}: {message}");
         // ½v² = ⅛ − ln x: it falls in after ∫ dx/√(¼ − 2 ln x) = 0.876
@@ -643,7 +643,7 @@ fn no_method_is_named_where_all_collide() {
         let text = format!(
             "[coordinates]\nx = {{ initial = 1.0, velocity = -1.0 }}\n[lagrangian]\nL = \"1/2*x'^2 - ({potential})\""
         );
-        let message = fault(by("dop853", None, &text), 9.0);
+        let message = error(by("dop853", None, &text), 9.0);
         assert!(!message.contains("passes it"), "{potential}: {message}");
     }
 }
@@ -656,10 +656,10 @@ fn a_force_without_bound_is_no_collision() {
             "[coordinates]\nx = {{ initial = 1 }}\n[lagrangian]\nL = \"1/2*x'^2 - ({potential})\"\n"
         )
     };
-    let message = fault(file(&line("abs(x)^0.1")), 10.0);
+    let message = error(file(&line("abs(x)^0.1")), 10.0);
     assert!(message.contains("the force grows without bound there"), "{message}");
     assert!(!message.contains("collision"), "{message}");
-    let message = fault(file(&line("-1/abs(x)")), 10.0);
+    let message = error(file(&line("-1/abs(x)")), 10.0);
     assert!(message.contains("collision"), "{message}");
 }
 
@@ -688,10 +688,10 @@ fn a_motion_that_reaches_infinity_is_said_to() {
         for (method, step) in steps {
             let mut motion = by(method, step, &law);
             assert_ne!(motion.advance(3.0, PLENTY), AdvanceOutcome::Arrived, "{method} {law}");
-            let Status::Failed(fault) = motion.status() else { panic!("{:?}", motion.status()) };
+            let Status::Failed(error) = motion.status() else { panic!("{:?}", motion.status()) };
             let said = "the motion grows without bound: x reaches infinity at t = ";
-            let Some(at) = fault.message.strip_prefix(said) else {
-                panic!("{method} {law}: {}", fault.message)
+            let Some(at) = error.message.strip_prefix(said) else {
+                panic!("{method} {law}: {}", error.message)
             };
             let at: f64 = at.parse().expect("a time and nothing more");
             let within = if law.contains("e-9") { 1e-8 } else { 1e-10 };
@@ -725,13 +725,13 @@ fn collisions_and_exponential_growth_reach_no_infinity() {
         line("ln(x)", 0.0),
     ] {
         for method in ["taylor", "dop853"] {
-            let message = fault(by(method, None, &law), 9.0);
+            let message = error(by(method, None, &law), 9.0);
             assert!(!message.contains("infinity"), "{method} {law}: {message}");
             assert!(message.contains("collision"), "{method} {law}: {message}");
         }
     }
     for (method, step) in [("taylor", None), ("dop853", None), ("rk4", Some(0.1))] {
-        let message = fault(by(method, step, &line("-1/2*x^2", 1.0)), 2000.0);
+        let message = error(by(method, step, &line("-1/2*x^2", 1.0)), 2000.0);
         assert!(message.contains("grows beyond the range of numbers"), "{method}: {message}");
     }
 }
@@ -767,7 +767,7 @@ fn what_follows_a_kink_is_told_by_the_forces_on_its_sides() {
 }
 
 /// The time in a message.
-fn fault_time(message: &str) -> f64 {
+fn error_time(message: &str) -> f64 {
     let (_, rest) = message.split_once(" t = ").expect("a time");
     rest.split([',', ':']).next().expect("a number").parse().expect("a number")
 }
@@ -778,8 +778,8 @@ fn fault_time(message: &str) -> f64 {
 fn a_pole_of_friction_ends_the_motion() {
     let text = "[coordinates]\nx = { initial = 0.0, velocity = 1.0 }\n[lagrangian]\nL = \"1/2*x'^2\"\nforces = { x = \"-1/x'\" }";
     for method in ["taylor", "dop853"] {
-        let message = fault(by(method, None, text), 3.0);
-        assert!((fault_time(&message) - 0.5).abs() < 1e-10, "{method}: {message}");
+        let message = error(by(method, None, text), 3.0);
+        assert!((error_time(&message) - 0.5).abs() < 1e-10, "{method}: {message}");
         assert!(!message.contains("passes it"), "{method}: {message}");
     }
 }
@@ -854,9 +854,9 @@ fn a_singular_configuration_of_the_comparison_motion_is_called_its_own() {
     let smooth = "[coordinates]\nx = { initial = 0, momentum = \"0.5/cos(0.3)^2\" }\ny = { initial = 0, momentum = 0 }\n\
                   f = { initial = 0.3, momentum = 0.33 }\n\
                   [hamiltonian]\nH = \"1/2*(p_x*cos(f) + p_y*sin(f))^2 + p_f^2/0.6 + 1/2*y\"\n";
-    let message = fault(file(&both), 1.1);
+    let message = error(file(&both), 1.1);
     assert!(message.starts_with("the motion of [comparison]: "), "{message}");
-    let time = fault_time(&message);
+    let time = error_time(&message);
     let mut other = file(smooth);
     run(&mut other, time);
     assert!((value(&other, "f") - std::f64::consts::FRAC_PI_2).abs() < 1e-9, "{message}");
@@ -872,7 +872,7 @@ fn a_singular_configuration_of_the_comparison_motion_is_called_its_own() {
         assert!(!until("1").contains("comparison"), "{method}: {}", until("1"));
     }
     // the motion itself comes to its own at t = (π/2 − 0.3)/1.1
-    let message = fault(file(sleigh), 1.3);
-    assert!((fault_time(&message) - (std::f64::consts::FRAC_PI_2 - 0.3) / 1.1).abs() < 1e-9);
+    let message = error(file(sleigh), 1.3);
+    assert!((error_time(&message) - (std::f64::consts::FRAC_PI_2 - 0.3) / 1.1).abs() < 1e-9);
     assert!(!message.contains("comparison"), "{message}");
 }

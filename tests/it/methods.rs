@@ -2,7 +2,7 @@
 
 mod batches;
 mod branches;
-mod faults;
+mod errors;
 mod kepler;
 mod order;
 mod presets;

@@ -185,9 +185,9 @@ fn a_ball_bounces_at_the_times_of_its_parabolas() {
     // Σ ends at t = 1 + 2 e/(1 − e) = 9, and the motion cannot continue beyond
     let progress = ball.advance(10.0, PLENTY);
     assert_eq!(progress, AdvanceOutcome::Stuck);
-    let Status::Failed(fault) = ball.status() else { panic!("it went on") };
-    assert!((fault.time - 9.0).abs() < 1e-6, "{}", fault.time);
-    assert!(fault.message.contains("piles up"), "{}", fault.message);
+    let Status::Failed(error) = ball.status() else { panic!("it went on") };
+    assert!((error.time - 9.0).abs() < 1e-6, "{}", error.time);
+    assert!(error.message.contains("piles up"), "{}", error.message);
     assert!(value(&ball, "x").abs() < 1e-9, "it did not fall through the floor");
 }
 
@@ -407,7 +407,7 @@ fn a_pole_is_no_crossing() {
 }
 
 #[test]
-fn a_function_faster_than_the_clock_is_a_fault() {
+fn a_function_faster_than_the_clock_is_an_error() {
     // at t = 10⁴ the digits of the clock are 1.8e-12 apart
     for (speed, told) in [("1e10", false), ("1e13", true)] {
         let text = format!(

@@ -247,8 +247,8 @@ fn worst(file: &Path) -> Result<Worst, String> {
     let degrees = experiment.model().coordinates.len();
     for known in &expected.reference {
         while experiment.advance(known.at, 1_000_000) == AdvanceOutcome::Underway {}
-        if let Status::Failed(fault) = experiment.status() {
-            return Err(fault.message);
+        if let Status::Failed(error) = experiment.status() {
+            return Err(error.message);
         }
         if experiment.time() != known.at {
             return Err(format!("it ended at {}", experiment.time()));
@@ -345,7 +345,7 @@ fn every_motion_is_right_to_the_last_digits() {
     let files = systems();
     assert!(files.len() >= 100, "{} systems", files.len());
     let mut table = String::new();
-    let mut failures = 0;
+    let mut errors = 0;
     let mut results: Vec<Result<Worst, String>> = files.iter().map(|f| worst(f)).collect();
     results.sort_by_key(|result| match result {
         Ok(worst) => (worst.error / allowed(worst.condition) * -1e6) as i64,
@@ -362,9 +362,9 @@ fn every_motion_is_right_to_the_last_digits() {
             }
         };
         let right = result.is_ok_and(|worst| worst.error <= allowed(worst.condition));
-        failures += usize::from(!right);
+        errors += usize::from(!right);
         let mark = if right { ' ' } else { '!' };
         writeln!(table, "{mark} {line}").expect("a string takes all");
     }
-    assert_eq!(failures, 0, "errors in units of the last place of the sizes\n{table}");
+    assert_eq!(errors, 0, "errors in units of the last place of the sizes\n{table}");
 }

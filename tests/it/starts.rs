@@ -15,15 +15,15 @@ fn pin(x: &str, w: &str, expression: &str) -> String {
     )
 }
 
-fn fault(experiment: &Experiment) -> Option<String> {
+fn error(experiment: &Experiment) -> Option<String> {
     match experiment.status() {
-        Status::Failed(fault) => Some(fault.message),
+        Status::Failed(error) => Some(error.message),
         _ => None,
     }
 }
 
 fn begins(text: &str) -> bool {
-    let refused = fault(&build(text, |_| ()));
+    let refused = error(&build(text, |_| ()));
     let off = |why: &String| why.contains("do not keep the constraint `pin`");
     assert!(refused.as_ref().is_none_or(off), "{refused:?}");
     refused.is_none()
@@ -109,7 +109,7 @@ fn a_singular_configuration_that_is_passed_is_reported_each_time() {
         bars.advance(6.0, 100_000);
         let Some(told) = bars.singular_passages() else { panic!("{method}: {:?}", bars.status()) };
         assert!(told.contains("t = 1") || told.contains("t = 0.99"), "{method}: {told}");
-        if fault(&bars).is_none() {
+        if error(&bars).is_none() {
             assert!(told.contains("and 1 more"), "{method}: {told}");
         }
     }
@@ -160,26 +160,26 @@ fn which_constraints_repeat_others_does_not_depend_on_units() {
 }
 
 #[test]
-fn an_interval_that_a_parameter_makes_none_is_a_fault() {
+fn an_interval_that_a_parameter_makes_none_is_an_error() {
     let text = "title = 'kicked'\n[coordinates]\nx = { initial = 0 }\n[parameters]\n\
                 T = { value = 1, min = -1 }\n[lagrangian]\nL = \"1/2*x'^2\"\n[[impulses]]\nname = 'kick'\n\
                 every = 'T'\nchange = { p_x = 1 }\n";
     for (interval, stops) in [(1e-3, false), (0.0, true), (-1.0, true)] {
         let mut kicked = build(text, |setup| setup.parameters[0] = interval);
         kicked.advance(0.0105, 100_000);
-        let why = fault(&kicked);
+        let why = error(&kicked);
         assert_eq!(why.is_some(), stops, "{interval}: {why:?}");
         assert!(why.is_none_or(|why| why.contains("the impulse `kick` cannot act every")));
     }
 }
 
 #[test]
-fn a_clock_without_digits_is_a_fault_and_no_endless_loop() {
+fn a_clock_without_digits_is_an_error_and_no_endless_loop() {
     let text = "title = 'late'\n[coordinates]\nx = { initial = 1 }\n[lagrangian]\n\
                 L = \"1/2*x'^2 - 1/2*x^2\"\n[run]\nstart = 1e19\n";
     let mut late = build(text, |_| ());
     late.advance(1e19 + 1e7, 10_000);
-    assert!(fault(&late).is_some(), "{:?} at {}", late.status(), late.time());
+    assert!(error(&late).is_some(), "{:?} at {}", late.status(), late.time());
     // equal steps can be counted beyond the digits of the time: at the least, the run is bounded
     for method in ["rk4", "leapfrog"] {
         let mut late = build(text, by(method));

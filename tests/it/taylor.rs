@@ -50,7 +50,7 @@ impl Run {
 
     /// The state at a time, reached by steps.
     pub(crate) fn to(&mut self, time: f64) -> Vec<f64> {
-        self.try_to(time).unwrap_or_else(|fault| panic!("{fault}")).values.clone()
+        self.try_to(time).unwrap_or_else(|error| panic!("{error}")).values.clone()
     }
 
     /// The columns of the current state.

@@ -11,7 +11,7 @@ use crate::action_angle::{AngleAtTime, FrozenSystem};
 use crate::cli::cells::{self, TableCell, TableFormat};
 use crate::cli::count_bar::CountBar;
 use crate::cli::decimal::divisions;
-use crate::cli::failure::CommandError;
+use crate::cli::error::CommandError;
 use crate::cli::interrupt::Interrupt;
 use crate::cli::motion_options::{Laid, ModelReading};
 use crate::cli::output::Output;

@@ -8,7 +8,7 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use super::super::assignment;
-use super::super::failure::CommandError;
+use super::super::error::CommandError;
 use super::super::open;
 use super::super::script::MathScript;
 use crate::experiment::Derived;

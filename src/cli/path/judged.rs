@@ -4,7 +4,7 @@
 
 use crate::cli::assignment::Assignment;
 use crate::cli::decimal::divisions;
-use crate::cli::failure::CommandError;
+use crate::cli::error::CommandError;
 use crate::cli::motion_options::Laid;
 use crate::cli::path_function::PathFunctions;
 use crate::cli::{stderr, study};

@@ -5,7 +5,7 @@
 //! rows.
 
 use super::times::Times;
-use crate::cli::failure::CommandError;
+use crate::cli::error::CommandError;
 use crate::experiment::{Experiment, Status};
 use crate::integrate::{Method, Propagator, Reached, Stepping, spacing};
 use crate::system::System;

@@ -5,8 +5,8 @@
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
+use super::super::error::CommandError;
 use super::super::events::Events;
-use super::super::failure::CommandError;
 use super::super::interrupt::Interrupt;
 use super::super::output::Output;
 use super::super::report::{Closing, Header, RunStatus};
@@ -51,7 +51,7 @@ pub(super) struct Run<'i> {
 
 /// Why a run ended early.
 enum EarlyEnd {
-    Fault(experiment::Failure),
+    Error(experiment::RunError),
     Event,
     Signal(i32),
     Write(std::io::Error),
@@ -102,11 +102,11 @@ impl Run<'_> {
         self.interrupt.ends_by_itself(move || stuck.end_within_a_step(&interrupt));
         *table.rows() = Some(Rows::begin(format, out, header).map_err(|error| failed(&error))?);
         let mut end = self.rows(&table).err();
-        if let Some(EarlyEnd::Fault(fault)) = &mut end
-            && fault.time == self.times.start()
+        if let Some(EarlyEnd::Error(error)) = &mut end
+            && error.time == self.times.start()
             && let Some(cause) = (self.cannot_start)()
         {
-            fault.message = cause;
+            error.message = cause;
         }
         if let Some(EarlyEnd::Write(error)) = &end {
             return Err(failed(error));
@@ -145,7 +145,7 @@ impl Run<'_> {
         let refused = self.strict && departure.as_ref().is_some_and(|departure| departure.proved);
         let (drift, line) =
             departure.map(|departure| (departure.drift, departure.line)).unwrap_or_default();
-        let cut_short = matches!(end, Some(EarlyEnd::Fault(_) | EarlyEnd::Signal(_)));
+        let cut_short = matches!(end, Some(EarlyEnd::Error(_) | EarlyEnd::Signal(_)));
         // a small drift is the error of steps that are chosen by theirs
         let by_error = method_named(snapshot.method.name)
             .is_some_and(|method| method.stepping == Stepping::Adaptive);
@@ -187,7 +187,7 @@ impl Run<'_> {
             None => {}
         }
         match end {
-            Some(EarlyEnd::Fault(fault)) => Err(CommandError::CouldNot(fault.message)),
+            Some(EarlyEnd::Error(error)) => Err(CommandError::CouldNot(error.message)),
             Some(EarlyEnd::Signal(signal)) => Err(CommandError::Signal(signal)),
             _ => Ok(()),
         }
@@ -255,10 +255,10 @@ impl Run<'_> {
                 (self.steps * 2).min(STEPS_PER_CHECK)
             };
             bar.show(self.experiment.time());
-            // a step that a signal has cancelled is not a fault of the motion
+            // a step that a signal has cancelled is not an error of the motion
             self.interrupted()?;
-            if let experiment::Status::Failed(fault) = self.experiment.status() {
-                return Err(EarlyEnd::Fault(fault));
+            if let experiment::Status::Failed(error) = self.experiment.status() {
+                return Err(EarlyEnd::Error(error));
             }
             // the final instant still has its row
             if progress == AdvanceOutcome::Ended && self.experiment.time() != time {
@@ -271,15 +271,15 @@ impl Run<'_> {
             if self.gives_up
                 && let Some(message) = outlook.see(time, steps)
             {
-                let fault = experiment::Failure { time, message, ends_motion: false };
-                return Err(EarlyEnd::Fault(fault));
+                let error = experiment::RunError { time, message, ends_motion: false };
+                return Err(EarlyEnd::Error(error));
             }
         }
     }
 
     fn closing(&self, end: Option<&EarlyEnd>) -> Closing {
         let (status, message) = match end {
-            Some(EarlyEnd::Fault(fault)) => (RunStatus::Failed, Some(fault.message.clone())),
+            Some(EarlyEnd::Error(error)) => (RunStatus::Failed, Some(error.message.clone())),
             Some(EarlyEnd::Signal(_) | EarlyEnd::Write(_)) => {
                 (RunStatus::Stopped, Some("stopped by a signal".to_owned()))
             }
@@ -294,7 +294,7 @@ impl Run<'_> {
         };
         let snapshot = self.experiment.snapshot();
         let mut invariants = invariants::of(&snapshot.gauges);
-        // what a signal or a fault has ended is not followed any further
+        // what a signal or an error has ended is not followed any further
         let is_whole = matches!(end, None | Some(EarlyEnd::Event));
         if let Some((known, first, system)) = self.adiabatic.as_ref().filter(|_| is_whole) {
             invariants.extend(known.invariant(system, first, &snapshot.state));

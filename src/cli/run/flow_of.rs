@@ -4,7 +4,7 @@
 //! Never here: rows.
 
 use crate::cli::assignment;
-use crate::cli::failure::CommandError;
+use crate::cli::error::CommandError;
 use crate::cli::stderr;
 use crate::experiment::Derived;
 use crate::mechanics::{GeneratorFlow, flow_of};

@@ -43,7 +43,7 @@ pub(super) fn end_of_motion(
         return None;
     }
     match motion.status() {
-        Status::Failed(fault) if fault.time < end && fault.ends_motion => Some(fault.message),
+        Status::Failed(error) if error.time < end && error.ends_motion => Some(error.message),
         _ => None,
     }
 }

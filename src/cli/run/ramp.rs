@@ -5,7 +5,7 @@
 use std::str::FromStr;
 
 use crate::cli::assignment::{self, Assignment, number};
-use crate::cli::failure::CommandError;
+use crate::cli::error::CommandError;
 use crate::model::{Model, Ramp, RampForm};
 use crate::printable;
 

@@ -1,7 +1,7 @@
 //! The start and end of a run, and the times of its rows.
 
 use crate::cli::decimal::{divisions, multiples};
-use crate::cli::failure::CommandError;
+use crate::cli::error::CommandError;
 use crate::integrate::spacing;
 use crate::model::RunSettings;
 use crate::printable;

@@ -8,7 +8,7 @@ use std::iter::{once, once_with};
 use serde_json::{Map, Value, json};
 
 use super::super::cells::{self, TableCell, TableFormat};
-use super::super::failure::CommandError;
+use super::super::error::CommandError;
 use super::super::interrupt::Interrupt;
 use super::super::motion_options::Laid;
 use super::super::output::Output;
@@ -131,9 +131,8 @@ impl SectionReport<'_> {
         if let Some(signal) = interrupt.signal() {
             return Err(CommandError::Signal(signal));
         }
-        let failed = |orbit: &&Crossings| {
-            matches!(orbit.status, OrbitStatus::Faulted | OrbitStatus::Refused)
-        };
+        let failed =
+            |orbit: &&Crossings| matches!(orbit.status, OrbitStatus::Failed | OrbitStatus::Refused);
         let all = self.orbits.iter().filter(failed).collect::<Vec<_>>();
         let Some(first) = all.first() else { return Ok(()) };
         let why = first.message.clone().unwrap_or_default();

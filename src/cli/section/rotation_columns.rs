@@ -2,7 +2,7 @@
 //!
 //! In: the names of one or two columns, rows. Out: the rotation number. Never here: how crossings are found.
 
-use super::super::failure::CommandError;
+use super::super::error::CommandError;
 use super::super::motion_options::Laid;
 use crate::dynamics::{NoRotation, Rotation, angle_rotation, rotation};
 use crate::printable;

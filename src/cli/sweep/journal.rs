@@ -13,7 +13,7 @@ use rustix::fs::{FlockOperation, flock};
 use serde_json::Value;
 
 use super::identity::Identity;
-use crate::cli::failure::CommandError;
+use crate::cli::error::CommandError;
 use crate::file::check_regular;
 use crate::printable;
 

@@ -6,7 +6,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use super::identity::{Identity, Shard};
-use crate::cli::failure::CommandError;
+use crate::cli::error::CommandError;
 use crate::cli::output::{Output, OutputForm};
 use crate::file;
 use crate::printable;

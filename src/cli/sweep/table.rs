@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use super::super::advice::advice;
 use super::super::assignment;
 use super::super::cells::TableCell;
-use super::super::failure::CommandError;
+use super::super::error::CommandError;
 use super::super::interrupt::Interrupt;
 use super::super::motion_options::{Laid, ModelReading, MotionOptions};
 use super::super::report::Header;
@@ -283,7 +283,7 @@ impl SweepTable {
         cells.extend(outcome.values.iter().map(|&x| TableCell::Number(x)));
         cells.push(TableCell::Number(outcome.energy_drift));
         cells.extend(measured.iter().map(|&x| TableCell::Number(x)));
-        let failed = matches!(outcome.status, OrbitStatus::Faulted | OrbitStatus::Refused);
+        let failed = matches!(outcome.status, OrbitStatus::Failed | OrbitStatus::Refused);
         let message = outcome.message.filter(|_| failed);
         let remark = RowRemark { message, departed: outcome.departed };
         let remark = (remark.message.is_some() || remark.departed.is_some()).then_some(remark);

@@ -65,7 +65,7 @@ pub(super) fn beside(
     duration: f64,
 ) -> Result<ActionAlongMotion, String> {
     let system = space.system();
-    let first = conditions.state(system, begin).map_err(|fault| fault.to_string())?;
+    let first = conditions.state(system, begin).map_err(|error| error.to_string())?;
     let (parameters, method) = (conditions.parameters.clone(), (method, conditions.settings));
     let flow = SystemFlow { system: system.clone(), method, parameters, start, effort: None };
     let channel = |kind: ChannelKind| system.channels().iter().position(|c| c.kind == kind);
@@ -107,7 +107,7 @@ pub(super) fn beside(
         }
     };
     let foci = if space.is_hamiltonian() {
-        let state = space.state(&first).map_err(|fault| fault.to_string())?;
+        let state = space.state(&first).map_err(|error| error.to_string())?;
         let foci = match principle {
             Principle::Maupertuis => conjugate_points_at_energy(space, method, &state, duration),
             _ => conjugate_points(space, method, &state, duration),

@@ -52,7 +52,7 @@ pub(super) struct Cloud {
     pub(super) rate: Option<f64>,
     /// The extent of the bulk in all that was seen.
     pub(super) extent: [[f64; 2]; 2],
-    pub(super) failure: Option<String>,
+    pub(super) error: Option<String>,
     /// The methods by which it was carried before that of now.
     pub(super) legs: Vec<CloudLeg>,
 }
@@ -70,7 +70,7 @@ impl Cloud {
     /// Whether the motion at this time has all that a picture needs for some time.
     pub(super) fn holds(&self, now: f64) -> bool {
         let beyond = self.end - now;
-        self.failure.is_some() || self.began(now) && beyond > 0.5 * (self.end - self.asked)
+        self.error.is_some() || self.began(now) && beyond > 0.5 * (self.end - self.asked)
     }
 
     /// Whether it is known from this time on.
@@ -80,7 +80,7 @@ impl Cloud {
 
     /// Whether there is a frame at this very time.
     pub(super) fn is_at(&self, now: f64) -> bool {
-        self.failure.is_some() || self.frames.iter().any(|frame| frame.time == now)
+        self.error.is_some() || self.frames.iter().any(|frame| frame.time == now)
     }
 
     /// The closed curve at the end, if there is one.
@@ -140,7 +140,7 @@ impl CloudTask {
             first: known.first,
             rate: known.rate,
             extent: known.extent,
-            failure: None,
+            error: None,
             legs: self.legs.clone(),
         }
     }
@@ -187,7 +187,7 @@ impl CloudTask {
         if stages.is_empty() {
             stages.push(Arc::clone(&begin));
         }
-        let (end, new, failure) = self.carry(&begin, &times, progress);
+        let (end, new, error) = self.carry(&begin, &times, progress);
         let known_frames = known.map_or(&[][..], |known| &known.frames);
         let seen = known_frames.iter().rposition(|frame| frame.time <= self.shown).unwrap_or(0);
         let old = known_frames.iter().skip(seen).filter(|frame| frame.time < first).cloned();
@@ -214,7 +214,7 @@ impl CloudTask {
             rate: known.map_or_else(|| self.rate(&begin.points), |known| known.rate),
             stages,
             extent,
-            failure,
+            error,
             legs: self.legs.clone(),
         }
     }
@@ -223,7 +223,7 @@ impl CloudTask {
     fn exact(&self, known: &Cloud, progress: &Progress) -> Cloud {
         let before = known.stages.iter().rfind(|stage| stage.time <= self.now);
         let begin = before.map_or_else(|| Arc::new(self.beginning()), Arc::clone);
-        let (_, new, failure) = self.carry(&begin, &[self.now], progress);
+        let (_, new, error) = self.carry(&begin, &[self.now], progress);
         let mut frames = known.frames.clone();
         frames.extend(new);
         frames.sort_by(|a, b| a.time.total_cmp(&b.time));
@@ -238,7 +238,7 @@ impl CloudTask {
             stages: known.stages.clone(),
             first: known.first,
             rate: known.rate,
-            failure,
+            error,
             legs: self.legs.clone(),
         }
     }
@@ -276,11 +276,11 @@ impl CloudTask {
             if part.is_empty() {
                 continue;
             }
-            let (end, new, failure) = self.carry_by((number, leg), &here, &part, progress);
+            let (end, new, error) = self.carry_by((number, leg), &here, &part, progress);
             here = Arc::new(end);
             frames.extend(new.into_iter().take(count));
-            if failure.is_some() {
-                return (here, frames, failure);
+            if error.is_some() {
+                return (here, frames, error);
             }
         }
         (here, frames, None)
@@ -315,7 +315,7 @@ impl CloudTask {
         progress.expect(count + on_curve + 1);
         let from: Vec<Option<&State>> = begin.points.iter().map(Option::as_ref).collect();
         let outcome = flow.carry_all(&from, times, &self.axes(), |done| progress.reach(done));
-        let (carried, mut failure) = match outcome {
+        let (carried, mut error) = match outcome {
             Ok(carried) => (carried, None),
             Err(why) => (Vec::new(), Some(why.to_string())),
         };
@@ -332,7 +332,7 @@ impl CloudTask {
         if let Some(curve) = &mut curve
             && let Err(why) = curve.carry_reporting(&flow, times, &start, &mut report)
         {
-            failure = Some(why.to_string());
+            error = Some(why.to_string());
         }
         let frame = |(k, &time): (usize, &f64)| {
             let at = |one: &Carried| match one.seen.get(k).map(Vec::as_slice) {
@@ -349,7 +349,7 @@ impl CloudTask {
         };
         let frames = times.iter().enumerate().map(frame).collect();
         let points = carried.into_iter().map(|one| one.end).collect();
-        (CloudStage { time: end, points, own: own.end, curve }, frames, failure)
+        (CloudStage { time: end, points, own: own.end, curve }, frames, error)
     }
 
     fn state(&self, at: [f64; 2]) -> Option<State> {

@@ -86,7 +86,7 @@ impl DormandPrince {
     }
 
     fn sticks(&self) -> MotionError {
-        self.system.fault(MotionErrorKind::Sticks, self.state.time, &self.state.values)
+        self.system.error(MotionErrorKind::Sticks, self.state.time, &self.state.values)
     }
 
     /// Whether each of the kinks that the attempted step seems to cross lies between its ends: a switch has another sign there, and

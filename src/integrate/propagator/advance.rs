@@ -25,7 +25,7 @@ impl Propagator {
         limit: f64,
         budget: &mut u64,
     ) -> Result<Reached, MotionError> {
-        self.reach_unexplained(time, limit, budget).map_err(|fault| self.explained(fault))
+        self.reach_unexplained(time, limit, budget).map_err(|error| self.explained(error))
     }
 
     /// The same, but the cause of an error is not searched for: what could pass it takes more than most motions to find out, and of
@@ -94,9 +94,9 @@ impl Propagator {
                 *budget -= 1;
                 self.step(limit)
             };
-            if let Err(fault) = outcome {
+            if let Err(error) = outcome {
                 self.note_passages(self.search.clear);
-                return Err(fault);
+                return Err(error);
             }
             self.search.scan(self.stepper.as_mut())?;
             self.end_before_step_in_time()?;
@@ -243,7 +243,7 @@ impl Propagator {
         }
         let (begin, _) = self.stepper.interval();
         let state = self.stepper.state();
-        Err(self.system.fault(MotionErrorKind::BranchLeft, begin, &state.values))
+        Err(self.system.error(MotionErrorKind::BranchLeft, begin, &state.values))
     }
 
     /// Whether the logarithms of the energy have values in the current state, or at the end of the last step.
@@ -256,7 +256,7 @@ impl Propagator {
         let (begin, _) = self.stepper.interval();
         self.search.clear = begin.max(reached);
         let state = self.stepper.state();
-        self.system.fault(MotionErrorKind::LogarithmLeft, begin, &state.values)
+        self.system.error(MotionErrorKind::LogarithmLeft, begin, &state.values)
     }
 
     /// Enforces those of redundant constraints that are most independent.

@@ -79,24 +79,24 @@ impl Propagator {
 
     /// Explains an error: one caused by a singular configuration is reported as such, one at a place that another method passes
     /// with that method, and one of the comparison motion alone with the place of that motion.
-    pub fn explained(&mut self, fault: MotionError) -> MotionError {
-        let alone = self.place_of_comparison_alone(&fault);
-        let fault = self.with_cause(fault);
+    pub fn explained(&mut self, error: MotionError) -> MotionError {
+        let alone = self.place_of_comparison_alone(&error);
+        let error = self.with_cause(error);
         match alone {
             Some(place) => {
-                let kind = MotionErrorKind::OfComparison(Box::new(fault.kind));
-                MotionError { kind, place, ..fault }
+                let kind = MotionErrorKind::OfComparison(Box::new(error.kind));
+                MotionError { kind, place, ..error }
             }
-            None => fault,
+            None => error,
         }
     }
 
     /// Where the comparison motion is, if it alone stops the motion: with it begun anew nearby, where the motion itself is, the
     /// same method continues.
-    fn place_of_comparison_alone(&mut self, fault: &MotionError) -> Option<Vec<(String, f64)>> {
+    fn place_of_comparison_alone(&mut self, error: &MotionError) -> Option<Vec<(String, f64)>> {
         let first = self.system.comparison_place()?;
         let may_be = matches!(
-            fault.kind,
+            error.kind,
             MotionErrorKind::SingularConstraints(None)
                 | MotionErrorKind::NotFinite(_)
                 | MotionErrorKind::StepUnderflow(_)
@@ -106,12 +106,12 @@ impl Propagator {
         );
         let other = self.stepper.state().values.get(first..first + self.system.degrees())?.to_vec();
         let mut from = self.watch.regular.clone().filter(|_| may_be)?;
-        if from.form != self.system.form() || fault.time < from.time {
+        if from.form != self.system.form() || error.time < from.time {
             return None;
         }
         // no farther, since the motion itself may come to such a place soon
-        let beyond = trial_length(fault.time - from.time, self.stepper.step_size().abs());
-        let until = fault.time + beyond;
+        let beyond = trial_length(error.time - from.time, self.stepper.step_size().abs());
+        let until = error.time + beyond;
         self.system.begin_auxiliary(&mut from, &self.parameters).ok()?;
         match self.trial(self.method, self.settings, &from, until) {
             Trial::Passed(_) => Some(self.of_comparison(&other)),
@@ -127,7 +127,7 @@ impl Propagator {
     }
 }
 
-/// How far a motion is tried beyond a fault, so long after its last regular step and with steps of this size.
+/// How far a motion is tried beyond an error, so long after its last regular step and with steps of this size.
 fn trial_length(since: f64, step: f64) -> f64 {
     (BEYOND * since).max(step)
 }

@@ -104,7 +104,7 @@ impl Propagator {
             && is_felt(&self.system, (&*was, state), (fastest, &self.parameters))
         {
             let kind = MotionErrorKind::SingularConstraints(None);
-            return Err(self.system.fault(kind, begin, &was.values));
+            return Err(self.system.error(kind, begin, &was.values));
         }
         was.copy_from(state);
         Ok(())
@@ -155,7 +155,7 @@ impl Propagator {
 
     /// Explains an error: one caused by a singular configuration is reported as such, and one at a
     /// place that another method passes is reported with that method.
-    pub(super) fn with_cause(&mut self, fault: MotionError) -> MotionError {
+    pub(super) fn with_cause(&mut self, error: MotionError) -> MotionError {
         let stopped = StoppedMotion {
             system: &self.system,
             method: self.method,
@@ -163,17 +163,17 @@ impl Propagator {
             parameters: &self.parameters,
             begun: self.watch.begun.as_ref(),
         };
-        if let Some(known) = stopped.blow_up(&fault).or_else(|| stopped.beyond_the_clock(&fault)) {
+        if let Some(known) = stopped.blow_up(&error).or_else(|| stopped.beyond_the_clock(&error)) {
             return known;
         }
-        if let Some(kind) = self.out_of_range(&fault) {
-            return MotionError { kind, place: Vec::new(), ..fault };
+        if let Some(kind) = self.out_of_range(&error) {
+            return MotionError { kind, place: Vec::new(), ..error };
         }
-        if let MotionErrorKind::ConstraintParted(_) = fault.kind {
-            return self.at_the_beginning_of_the_step(fault);
+        if let MotionErrorKind::ConstraintParted(_) = error.kind {
+            return self.at_the_beginning_of_the_step(error);
         }
         let may_be_passed = matches!(
-            fault.kind,
+            error.kind,
             MotionErrorKind::SingularConstraints(None)
                 | MotionErrorKind::SingularMass
                 | MotionErrorKind::ConstraintLost(_)
@@ -187,16 +187,16 @@ impl Propagator {
                 | MotionErrorKind::Sticks
         );
         // trials leave impulses out
-        let of_impulse = matches!(fault.kind, MotionErrorKind::NoVelocities)
+        let of_impulse = matches!(error.kind, MotionErrorKind::NoVelocities)
             && !self.system.discontinuities().impulses.is_empty();
         if !may_be_passed || of_impulse || self.system.cancel().is_cancelled() {
-            return fault;
+            return error;
         }
         let is_singular = self.projector.as_mut().is_some_and(|projector| {
             let state = self.stepper.state();
             // steps follow a row that vanishes slowly
-            let is_lost = matches!(fault.kind, MotionErrorKind::ConstraintLost(_));
-            matches!(fault.kind, MotionErrorKind::SingularConstraints(_))
+            let is_lost = matches!(error.kind, MotionErrorKind::ConstraintLost(_));
+            matches!(error.kind, MotionErrorKind::SingularConstraints(_))
                 || projector.is_nearly_singular(state, self.watch.regular.as_ref())
                 || is_lost && projector.is_nearly_singular(state, self.watch.begun.as_ref())
         });
@@ -204,20 +204,20 @@ impl Propagator {
             let passage = if self.method.stepping == Stepping::Fixed {
                 None
             } else {
-                self.fixed_past(fault.time)
+                self.fixed_past(error.time)
             };
-            return MotionError { kind: MotionErrorKind::SingularConstraints(passage), ..fault };
+            return MotionError { kind: MotionErrorKind::SingularConstraints(passage), ..error };
         }
         // a method that does not locate kinks may stop so at one
-        let steep = self.method.locates_kinks && self.is_steep(&fault.kind);
-        let passage = if steep { None } else { self.way_past(fault.time) };
+        let steep = self.method.locates_kinks && self.is_steep(&error.kind);
+        let passage = if steep { None } else { self.way_past(error.time) };
         match passage {
             Some(passage) => MotionError {
-                kind: MotionErrorKind::Passable(Box::new(fault.kind), passage),
-                ..fault
+                kind: MotionErrorKind::Passable(Box::new(error.kind), passage),
+                ..error
             },
             None if self.method.stepping == Stepping::Fixed => {
-                let kind = match fault.kind {
+                let kind = match error.kind {
                     MotionErrorKind::NotFinite(name) => MotionErrorKind::NotFiniteInStep(name),
                     MotionErrorKind::NoVelocities => MotionErrorKind::NoVelocitiesInStep,
                     MotionErrorKind::ConstraintLost(name) => {
@@ -225,32 +225,32 @@ impl Propagator {
                     }
                     kind => kind,
                 };
-                MotionError { kind, ..fault }
+                MotionError { kind, ..error }
             }
-            None if !steep && self.has_unbounded_force(&fault.kind) => match fault.kind {
+            None if !steep && self.has_unbounded_force(&error.kind) => match error.kind {
                 MotionErrorKind::StepUnderflow(step) => {
-                    MotionError { kind: MotionErrorKind::ForceUnbounded(step), ..fault }
+                    MotionError { kind: MotionErrorKind::ForceUnbounded(step), ..error }
                 }
-                _ => fault,
+                _ => error,
             },
-            None => self.with_singular_mass(fault),
+            None => self.with_singular_mass(error),
         }
     }
 
     /// The same error at the beginning of the step, where all constraints were still satisfied.
-    fn at_the_beginning_of_the_step(&mut self, fault: MotionError) -> MotionError {
+    fn at_the_beginning_of_the_step(&mut self, error: MotionError) -> MotionError {
         let (begin, _) = self.stepper.interval();
         let mut state = self.state.clone();
         match self.stepper.at(begin, &mut state) {
-            Ok(()) => self.system.fault(fault.kind, begin, &state.values),
-            Err(_) => fault,
+            Ok(()) => self.system.error(error.kind, begin, &state.values),
+            Err(_) => error,
         }
     }
 
     /// Whether a number that is not finite has only grown beyond the range of numbers, far from all singularities.
-    fn out_of_range(&mut self, fault: &MotionError) -> Option<MotionErrorKind> {
-        let MotionErrorKind::NotFinite(name) = &fault.kind else { return None };
-        if fault.time.abs() > VAST {
+    fn out_of_range(&mut self, error: &MotionError) -> Option<MotionErrorKind> {
+        let MotionErrorKind::NotFinite(name) = &error.kind else { return None };
+        if error.time.abs() > VAST {
             return Some(MotionErrorKind::OutOfRange(None));
         }
         let is_vast = |state: &State| {

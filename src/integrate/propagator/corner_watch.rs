@@ -32,12 +32,12 @@ impl Propagator {
         let beside = |time: f64| {
             (BESIDE * (end - begin).abs()).max(DIGITS * spacing(time)).copysign(end - begin)
         };
-        let fault = |name: String, time: f64, state: &crate::system::State| {
-            self.system.fault(MotionErrorKind::ConstraintCorner(name), time, &state.values)
+        let error = |name: String, time: f64, state: &crate::system::State| {
+            self.system.error(MotionErrorKind::ConstraintCorner(name), time, &state.values)
         };
         let after = beside(end);
         if let Some(name) = projector.corner(&state, [-after, after]) {
-            self.watch.corner = Some(fault(name, end, &state));
+            self.watch.corner = Some(error(name, end, &state));
             return Ok(());
         }
         self.stepper.at(begin, &mut self.before)?;
@@ -52,7 +52,7 @@ impl Propagator {
         self.stepper.at(low, &mut self.before)?;
         let after = beside(low);
         match projector.corner(&self.before, [-after, high - low + after]) {
-            Some(name) => Err(fault(name, high, &self.before)),
+            Some(name) => Err(error(name, high, &self.before)),
             None => Ok(()),
         }
     }

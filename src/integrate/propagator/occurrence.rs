@@ -158,6 +158,6 @@ impl Propagator {
             return Ok(());
         }
         let name = self.system.discontinuities().events[found.event].name.clone();
-        Err(self.system.fault(MotionErrorKind::EventsAccumulate(name), time, &self.state.values))
+        Err(self.system.error(MotionErrorKind::EventsAccumulate(name), time, &self.state.values))
     }
 }

@@ -11,14 +11,14 @@ const SINGULAR: f64 = 1e-6;
 
 impl Propagator {
     /// Names a singular mass matrix in place of steps that became too small.
-    pub(super) fn with_singular_mass(&self, fault: MotionError) -> MotionError {
-        let is_singular = matches!(fault.kind, MotionErrorKind::StepUnderflow(_))
+    pub(super) fn with_singular_mass(&self, error: MotionError) -> MotionError {
+        let is_singular = matches!(error.kind, MotionErrorKind::StepUnderflow(_))
             && self.mass_left().is_some_and(is_singular);
         if is_singular {
             let values = &self.stepper.state().values;
-            return self.system.fault(MotionErrorKind::SingularMass, fault.time, values);
+            return self.system.error(MotionErrorKind::SingularMass, error.time, values);
         }
-        fault
+        error
     }
 
     /// The determinant of the mass matrix, as a part of that at the same place with the velocities and the time at which the

@@ -347,7 +347,7 @@ impl CollocationStep {
                 }
                 match rates.evaluate(times[s], &self.numbers) {
                     Ok(()) => {}
-                    Err(fault) if fault.kind == MotionErrorKind::Cancelled => return Err(fault),
+                    Err(error) if error.kind == MotionErrorKind::Cancelled => return Err(error),
                     Err(_) => return Ok(false),
                 }
                 for i in 0..start.len() {

@@ -37,12 +37,12 @@ impl Taylor {
                     return Ok(Some(step));
                 }
                 Ok(_) => {}
-                Err(fault) if fault.kind == MotionErrorKind::Sticks => {}
-                Err(fault) if fault.kind == MotionErrorKind::Cancelled => return Err(fault),
+                Err(error) if error.kind == MotionErrorKind::Sticks => {}
+                Err(error) if error.kind == MotionErrorKind::Cancelled => return Err(error),
                 Err(_) if rough => {}
-                Err(fault) => {
+                Err(error) => {
                     rough = true;
-                    massless = fault.kind == MotionErrorKind::SingularMass;
+                    massless = error.kind == MotionErrorKind::SingularMass;
                     if self.leap(left, 0.0)? {
                         return Ok(None);
                     }
@@ -58,7 +58,7 @@ impl Taylor {
             (true, false) => MotionErrorKind::Rough,
             _ => MotionErrorKind::NoSide,
         };
-        Err(self.system.fault(kind, self.state.time, &self.state.values))
+        Err(self.system.error(kind, self.state.time, &self.state.values))
     }
 
     /// Comes to rest where friction holds a motion that is next to rest, whose steps are so short that it would take ever so many of
@@ -102,9 +102,9 @@ impl Taylor {
             // a motion on a surface is on neither side of it, and there may be no law beside it
             let slides = opposite.iter().all(|&(i, _)| sides[i] == Side::Between);
             let back: Vec<usize> = match tried {
-                Err(fault) if fault.kind == MotionErrorKind::Cancelled => return Err(fault),
+                Err(error) if error.kind == MotionErrorKind::Cancelled => return Err(error),
                 Err(_) if slides => opposite.iter().map(|&(i, _)| i).collect(),
-                Err(fault) => return Err(fault),
+                Err(error) => return Err(error),
                 Ok(longest) => {
                     step = longest;
                     let is_off = |i: usize| {
@@ -134,7 +134,7 @@ impl Taylor {
             let here = self.kinks.on_surface(&self.series);
             let beside = start_slope::beside(&self.state, &self.sizes);
             let known = match self.series.build(&beside) {
-                Err(fault) if fault.kind == MotionErrorKind::Cancelled => return Err(fault),
+                Err(error) if error.kind == MotionErrorKind::Cancelled => return Err(error),
                 outcome => outcome.is_ok(),
             };
             let beside = if known { self.kinks.on_surface(&self.series) } else { Vec::new() };

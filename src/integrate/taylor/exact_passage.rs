@@ -8,9 +8,9 @@ use crate::system::{MotionError, MotionErrorKind};
 
 impl Taylor {
     /// Whether the place where a step could not be taken may be passed with more digits.
-    pub(super) fn wants_digits(&self, fault: &MotionError) -> bool {
+    pub(super) fn wants_digits(&self, error: &MotionError) -> bool {
         !self.exact
-            && matches!(fault.kind, MotionErrorKind::StepUnderflow(_) | MotionErrorKind::Rough)
+            && matches!(error.kind, MotionErrorKind::StepUnderflow(_) | MotionErrorKind::Rough)
     }
 
     /// Goes on with the lowest orders in double-double.

@@ -77,7 +77,7 @@ impl Taylor {
             Some(i) => format!("the force on {}", names[i - n].shown),
             None => "the motion".to_owned(),
         };
-        self.system.fault(MotionErrorKind::NotFinite(name), self.state.time, &self.state.values)
+        self.system.error(MotionErrorKind::NotFinite(name), self.state.time, &self.state.values)
     }
 }
 

@@ -264,7 +264,7 @@ fn evaluate(
 ) -> Result<bool, MotionError> {
     match rates.evaluate(time, numbers) {
         Ok(()) => Ok(true),
-        Err(fault) if fault.kind == MotionErrorKind::Cancelled => Err(fault),
+        Err(error) if error.kind == MotionErrorKind::Cancelled => Err(error),
         Err(_) => Ok(false),
     }
 }

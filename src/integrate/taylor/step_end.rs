@@ -146,7 +146,7 @@ impl Taylor {
         let short = step <= SMALLEST * time && !approaching && !leaving;
         if short || (nearest && crossing.is_none() && zero.is_none()) {
             let kind = MotionErrorKind::StepUnderflow(step);
-            return Err(self.system.fault(kind, self.state.time, &self.state.values));
+            return Err(self.system.error(kind, self.state.time, &self.state.values));
         }
         self.begin = self.state.time;
         let mut end_of_step = match crossing {
@@ -260,7 +260,7 @@ impl Taylor {
         }
         hold_on_kinks(&self.series, &mut self.state);
         if !self.kinks.arrive(end.crossing, &self.series, &mut self.state) {
-            return Err(self.system.fault(MotionErrorKind::Sticks, begin, &self.state.values));
+            return Err(self.system.error(MotionErrorKind::Sticks, begin, &self.state.values));
         }
         self.system.check_finite(&self.state)
     }
@@ -299,7 +299,7 @@ impl Taylor {
         }
         self.state = from;
         let kind = MotionErrorKind::StepUnderflow(after.high * part);
-        Err(self.system.fault(kind, self.state.time, &self.state.values))
+        Err(self.system.error(kind, self.state.time, &self.state.values))
     }
 
     /// Whether the rates within a step, up to near its end, where kinks are, are not those of the series.
@@ -308,7 +308,7 @@ impl Taylor {
             let within = after * part;
             self.series.state_after(within, &mut self.state);
             match self.evaluate_rates() {
-                Err(fault) if fault.kind == MotionErrorKind::Cancelled => return Err(fault),
+                Err(error) if error.kind == MotionErrorKind::Cancelled => return Err(error),
                 Err(_) => return Ok(true),
                 Ok(()) => {}
             }

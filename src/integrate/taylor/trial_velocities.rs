@@ -69,7 +69,7 @@ impl TrialVelocities<'_> {
         let numbers: Vec<DoubleDouble> = (0..state.values.len()).map(|i| state.exact(i)).collect();
         match self.rates.evaluate(state.exact_time(), &numbers) {
             Ok(()) => {}
-            Err(fault) if fault.kind == MotionErrorKind::Cancelled => return Err(fault),
+            Err(error) if error.kind == MotionErrorKind::Cancelled => return Err(error),
             Err(_) => return Ok(None),
         }
         let found: Vec<DoubleDouble> = (self.n..2 * self.n).map(|i| self.rates.rate(i)).collect();

@@ -88,18 +88,18 @@ impl Session {
     }
 
     /// Logs each error of the motion once.
-    pub(super) fn report_faults(&mut self) {
-        let fault = match self.app.snapshot().map(|snapshot| &snapshot.status) {
-            Some(Status::Failed(fault)) => {
-                Some(format!("at t = {}: {}", fault.time, fault.message))
+    pub(super) fn report_errors(&mut self) {
+        let error = match self.app.snapshot().map(|snapshot| &snapshot.status) {
+            Some(Status::Failed(error)) => {
+                Some(format!("at t = {}: {}", error.time, error.message))
             }
             _ => None,
         };
-        if fault != self.fault {
-            if let Some(fault) = &fault {
-                error!("{fault}");
+        if error != self.error {
+            if let Some(error) = &error {
+                error!("{error}");
             }
-            self.fault = fault;
+            self.error = error;
         }
     }
 }

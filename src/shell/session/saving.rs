@@ -171,14 +171,14 @@ impl Session {
     }
 
     /// Adds the location of an unsaved text to the message about a system that cannot be loaded.
-    pub(super) fn with_text_kept(&self, mut failure: LoadError) -> LoadError {
+    pub(super) fn with_text_kept(&self, mut error: LoadError) -> LoadError {
         let place = self.saving.store.as_ref().and_then(Store::place_of_texts);
-        let unsaved = self.app.unsaved().iter().any(|text| text.name == failure.name);
+        let unsaved = self.app.unsaved().iter().any(|text| text.name == error.name);
         if let Some(place) = place.filter(|_| unsaved) {
             let place = place.display();
-            failure.message += &format!("\n\nIts unsaved text is in {place}.\n");
+            error.message += &format!("\n\nIts unsaved text is in {place}.\n");
         }
-        failure
+        error
     }
 }
 

@@ -158,7 +158,7 @@ fn facts(app: &App) -> Vec<(String, String)> {
             let search = search.as_ref().map(tui_input::Input::value);
             format!("the keys, search {search:?} typing {typing}")
         }
-        Some(Overlay::Message(failure)) => failure.message.clone(),
+        Some(Overlay::Message(error)) => error.message.clone(),
         Some(Overlay::Menu(menu)) => {
             format!("list {:?} line {} marked {:?}", menu.title, menu.selected, menu.marked)
         }
@@ -539,15 +539,15 @@ fn a_notice_goes_by_itself() {
 }
 
 #[test]
-fn a_fault_is_answered_by_a_reset_and_not_by_play() {
+fn an_error_is_answered_by_a_reset_and_not_by_play() {
     let mut app = in_lab();
     let mut faulted = snapshot(&pendulum(), 2.0);
-    let fault = phaselab::experiment::Failure {
+    let error = phaselab::experiment::RunError {
         time: 2.0,
         message: "collision".to_owned(),
         ends_motion: true,
     };
-    faulted.status = Status::Failed(fault);
+    faulted.status = Status::Failed(error);
     app.update(AppEvent::Snapshot(Arc::new(faulted)));
     assert!(press(&mut app, "Space").is_empty());
     assert!(app.notifications.shown.is_some_and(|notice| notice.text.contains("reset")));

@@ -87,13 +87,13 @@ fn a_wrong_file_that_is_left_leads_back_to_its_errors_and_then_to_the_systems() 
     let name = "./wrong.toml";
     let (mut app, _) = App::new(catalog(), Some(name));
     let message = "error: a wrong line".to_owned();
-    let failure = LoadError { name: name.to_owned(), message };
-    app.update(AppEvent::Loaded(Err(failure.clone())));
+    let error = LoadError { name: name.to_owned(), message };
+    app.update(AppEvent::Loaded(Err(error.clone())));
     press(&mut app, "E");
     app.update(AppEvent::FileRead { text: wrong(), asked: true });
     rest(&mut app);
     assert_eq!(press(&mut app, "Esc"), [Effect::Load(name.to_owned())]);
-    app.update(AppEvent::Loaded(Err(failure)));
+    app.update(AppEvent::Loaded(Err(error)));
     assert!(matches!(app.overlay, Some(Overlay::Message(_))), "the page from which it was opened");
     press(&mut app, "Esc");
     assert!(app.page == Page::Picker && app.overlay.is_none());

@@ -221,9 +221,9 @@ fn a_system_opened_before_it_is_there_opens_when_it_comes() {
 fn what_cannot_be_loaded_is_reported_and_the_rest_goes_on() {
     let (mut app, effects) = App::new(catalog(), Some("own.toml"));
     assert_eq!(effects, [Effect::Load("own.toml".into())]);
-    let failure = LoadError { name: "own.toml".into(), message: "line 1\nline 2".into() };
-    app.update(AppEvent::Loaded(Err(failure.clone())));
-    assert!(matches!(&app.overlay, Some(Overlay::Message(f)) if *f == failure));
+    let error = LoadError { name: "own.toml".into(), message: "line 1\nline 2".into() };
+    app.update(AppEvent::Loaded(Err(error.clone())));
+    assert!(matches!(&app.overlay, Some(Overlay::Message(f)) if *f == error));
     press(&mut app, "Esc");
     assert!(app.overlay.is_none());
     assert_eq!(app.page, Page::Picker);

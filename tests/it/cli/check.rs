@@ -92,7 +92,7 @@ fn a_wrong_number_is_an_error_and_a_right_one_is_not() {
 }
 
 #[test]
-fn a_claim_beyond_a_fault_cannot_be_checked() {
+fn a_claim_beyond_an_error_cannot_be_checked() {
     let file = "title = \"T\"\n[coordinates]\nx = { initial = 1 }\n[lagrangian]\n\
                 L = \"1/2*x'^2 + 1/x\"\n[expect]\nvalues = [\n  \
                 { name = \"after the fall\", expression = \"x\", at = 9.0, is = 1.0 },\n]\n";

@@ -315,7 +315,7 @@ fn friction_breaks_the_energy_and_the_ledger_keeps_it() {
 }
 
 #[test]
-fn a_fault_on_the_way_keeps_the_rows_before_it() {
+fn an_error_on_the_way_keeps_the_rows_before_it() {
     // reaches the centre at π/(2√2) = 1.1107…
     let file = "title = \"T\"\n[coordinates]\nx = { initial = 1 }\n[lagrangian]\n\
                 L = \"1/2*x'^2 + 1/x\"\n";
@@ -336,7 +336,7 @@ fn a_fault_on_the_way_keeps_the_rows_before_it() {
 }
 
 #[test]
-fn a_motion_that_cannot_begin_is_a_fault() {
+fn a_motion_that_cannot_begin_is_an_error() {
     let file = "title = \"T\"\n[coordinates]\nx = { initial = 0 }\n[lagrangian]\n\
                 L = \"1/2*x^2*x'^2 - x\"\n";
     let run = |arguments: &[&str]| {
@@ -1115,7 +1115,7 @@ fn a_start_without_a_value_is_refused_as_by_check() {
 }
 
 #[test]
-fn a_coordinate_without_inertia_is_named_and_a_start_without_a_state_is_a_fault() {
+fn a_coordinate_without_inertia_is_named_and_a_start_without_a_state_is_an_error() {
     let file = |l: &str, rest: &str| {
         format!(
             "title = \"Massless\"\n[coordinates]\nx = {{ initial = 0, velocity = 1 }}\ns = {{ initial = 0 }}\n\

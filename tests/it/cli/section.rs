@@ -326,7 +326,7 @@ fn the_bytes_are_the_same_whatever_the_number_of_threads() {
 
 /// Above the energy 1/6 a star escapes to infinity in a finite time; the others are not disturbed.
 #[test]
-fn a_fault_of_one_orbit_does_not_end_the_others() {
+fn an_error_of_one_orbit_does_not_end_the_others() {
     let table = "y,p_y\n0.1,0\n1.2,0.5\n0.2,0\n";
     let found = with_starts(table, &["--init=p_x=0.1", "--until=40", "--format=json"]);
     assert_eq!(found.code, 0, "{}", found.stderr);

@@ -60,7 +60,7 @@ fn a_file_that_describes_a_system_is_not_replaced() {
 }
 
 #[test]
-fn a_fault_still_brings_its_rows_to_the_file() {
+fn an_error_still_brings_its_rows_to_the_file() {
     let home = folder();
     let falling = PENDULUM.replace("m*cos(theta)", "1/(theta + 1)").replace("\"w\"", "-1.0");
     fs::write(home.path().join("fall.toml"), falling).expect("a file can be written there");

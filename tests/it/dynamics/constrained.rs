@@ -15,7 +15,7 @@ fn held(text: &str) -> Case {
 
 fn map(case: &Case, until: f64) -> FlowMap {
     let found = flow_map(&case.space, taylor(), &case.start, until, &mut |_| {}).unwrap();
-    assert!(found.failure.is_none(), "{:?}", found.failure);
+    assert!(found.error.is_none(), "{:?}", found.error);
     found
 }
 

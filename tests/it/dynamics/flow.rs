@@ -131,7 +131,7 @@ fn a_motion_that_ends_early_has_the_map_so_far() {
                 [hamiltonian]\nH = \"1/2*p_r^2 - 1/r\"\n";
     let case = file(text, &[]);
     let found = flow_map(&case.space, taylor(), &case.start, 3.0, &mut |_| {}).unwrap();
-    assert!(found.failure.is_some() && found.time > 1.0 && found.time < 1.2, "{}", found.time);
+    assert!(found.error.is_some() && found.time > 1.0 && found.time < 1.2, "{}", found.time);
 }
 
 /// The map at several times of one motion is the map at each of them, and that of the forced damped pendulum is heyoka's.

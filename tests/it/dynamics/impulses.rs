@@ -32,7 +32,7 @@ pub(super) fn file(text: &str) -> Case {
 
 fn map(case: &Case, until: f64) -> FlowMap {
     let found = flow_map(&case.space, taylor(), &case.start, until, &mut |_| {}).unwrap();
-    assert_eq!(found.failure, None);
+    assert_eq!(found.error, None);
     found
 }
 
@@ -190,7 +190,7 @@ fn every_method_carries_vectors_through_the_same_impulses() {
     {
         let method = method(name, step);
         let found = flow_map(&case.space, method, &case.start, 1.5, &mut |_| {}).unwrap();
-        assert_eq!(found.failure, None, "{name}");
+        assert_eq!(found.error, None, "{name}");
         let off = (&found.matrix - &exact).amax() / exact.amax();
         assert!(off < within, "{name}: {off:e}");
     }
@@ -243,19 +243,19 @@ fn exponents_are_those_of_the_motion_with_its_events() {
     for (text, end, within) in [(landing, 4.0, 1e-12), (BALL, rests, 1e-3)] {
         let case = file(text);
         let found = lyapunov(&case.space, taylor(), &case.start, 50.0, &mut |_| {});
-        let failure = match found {
+        let error = match found {
             Ok(found) => {
                 assert_eq!(found.verdict, Chaos::Undecided, "{}", found.reason);
-                found.failure.unwrap_or_else(|| panic!("{text}\ngoes on to {}", found.time))
+                found.error.unwrap_or_else(|| panic!("{text}\ngoes on to {}", found.time))
             }
             // the stone is followed in one step, which is too short for any exponent
-            Err(failure) => failure,
+            Err(error) => error,
         };
-        let DynamicsError::Motion(failure) = failure else { panic!("{failure}") };
-        assert!((failure.time - end).abs() < within, "{failure} is not {end}");
+        let DynamicsError::Motion(error) = error else { panic!("{error}") };
+        assert!((error.time - end).abs() < within, "{error} is not {end}");
     }
     let found = gali(&file(landing).space, taylor(), (&file(landing).start, 50.0), 2, &mut |_| {});
-    assert!(found.unwrap().failure.is_some());
+    assert!(found.unwrap().error.is_some());
 }
 
 /// For strong kicks λ ≈ ln(K/2) (B. V. Chirikov, Physics Reports 52, 263 (1979)); what the map itself has by 10⁷ kicks is
@@ -276,17 +276,17 @@ fn the_standard_map_has_its_exponents_at_strong_kicks() {
     }
 }
 
-fn failure(text: &str, until: f64) -> MotionErrorKind {
+fn error(text: &str, until: f64) -> MotionErrorKind {
     let case = file(text);
     let found = flow_map(&case.space, taylor(), &case.start, until, &mut |_| {}).unwrap();
-    let Some(failure) = found.failure else {
+    let Some(error) = found.error else {
         panic!(
             "{text}\nhas a derivative: {} with det {}",
             found.matrix,
             found.determinant_expected.unwrap()
         )
     };
-    failure.kind
+    error.kind
 }
 
 const FREE: &str = "title = \"t\"\n[coordinates]\nx = { initial = -1, momentum = 1 }\n\
@@ -301,13 +301,13 @@ fn event(name: &str, when: &str, action: &str) -> String {
 fn what_has_no_derivative_is_said() {
     // along the tangent of the curve y = x + x³ at its point of inflection, which it crosses there
     let grazing = format!("{FREE}{}", event("touch", "y - x - x^3", "impulse:back"));
-    assert_eq!(failure(&grazing, 2.0), MotionErrorKind::Grazes("touch".to_owned()));
+    assert_eq!(error(&grazing, 2.0), MotionErrorKind::Grazes("touch".to_owned()));
     // a corner: both walls at once
     let walls = [event("right", "x", "impulse:back"), event("top", "y", "impulse:back")].concat();
-    let corner = failure(&format!("{FREE}{walls}"), 2.0);
+    let corner = error(&format!("{FREE}{walls}"), 2.0);
     assert!(matches!(corner, MotionErrorKind::Coincides(_)), "{corner:?}");
     let stop = format!("{FREE}{}", event("end", "x", "stop"));
-    assert_eq!(failure(&stop, 2.0), MotionErrorKind::Ended("end".to_owned()));
+    assert_eq!(error(&stop, 2.0), MotionErrorKind::Ended("end".to_owned()));
     // before it, all is well
     assert_eq!(map(&file(&stop), 0.9).matrix[(0, 2)], 0.9);
 }

@@ -19,9 +19,9 @@ fn told(found: &Result<Lyapunov, DynamicsError>) -> String {
             let curve = found.curve.iter().flat_map(|(t, x)| [*t, *x]);
             let bits: Vec<u64> = numbers.into_iter().chain(curve).map(f64::to_bits).collect();
             let words = (&found.settled, found.removed, found.verdict, &found.reason);
-            let failure = found.failure.as_ref().map(ToString::to_string);
+            let error = found.error.as_ref().map(ToString::to_string);
             format!(
-                "{bits:?} {words:?} {:?} {:?} {failure:?}",
+                "{bits:?} {words:?} {:?} {:?} {error:?}",
                 found.pairing_residual, found.settings
             )
         }

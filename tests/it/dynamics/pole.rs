@@ -38,8 +38,8 @@ fn a_pole_is_found_on_whichever_side_a_step_ends() {
     for (name, tolerance, theta, velocity, until) in cases {
         let case = file(&sphere(theta, velocity, ""), &[]);
         let found = map(&case, by(name, tolerance), until);
-        let failure = found.failure.unwrap_or_else(|| panic!("{name} {theta}: {}", found.matrix));
-        assert_eq!(failure.kind, MotionErrorKind::NoDerivative, "{name} {theta}");
+        let error = found.error.unwrap_or_else(|| panic!("{name} {theta}: {}", found.matrix));
+        assert_eq!(error.kind, MotionErrorKind::NoDerivative, "{name} {theta}");
         let angle = case.space.variables(&found.state)[0];
         assert!(angle.sin().abs() < 1e-11, "{name} {theta}: {angle}");
     }
@@ -52,7 +52,7 @@ fn a_pole_behind_an_impulse_is_none_of_the_motion() {
         for (theta, velocity) in [(2.0, 1.0), (1.8, 1.0), (2.678, -1.0), (1.0, -2.0)] {
             let case = impulses::file(&sphere(theta, velocity, kick));
             let found = map(&case, by(name, None), 6.0);
-            let kind = found.failure.map(|failure| failure.kind);
+            let kind = found.error.map(|error| error.kind);
             assert_eq!(kind, Some(MotionErrorKind::NoDerivative), "{name} {theta}");
         }
     }
@@ -90,7 +90,7 @@ fn what_is_only_narrow_has_its_derivative() {
         let case = file(&text, &[]);
         for name in ["taylor", "dop853"] {
             let found = map(&case, by(name, Some(1e-12)), 2.0);
-            assert_eq!(found.failure, None, "{name} {width}");
+            assert_eq!(found.error, None, "{name} {width}");
             let exact = ((1.3_f64 / width).atan() + (0.7_f64 / width).atan()) / width;
             let off = (found.matrix[(1, 3)] / exact - 1.0).abs();
             // x has as many digits there as 0.7
@@ -110,7 +110,7 @@ fn a_motion_close_by_a_pole_has_its_derivative() {
         let case = file(&text, &[]);
         for name in ["taylor", "dop853"] {
             let found = map(&case, by(name, Some(1e-12)), 1.0);
-            assert_eq!(found.failure, None, "{name} {momentum}");
+            assert_eq!(found.error, None, "{name} {momentum}");
             // the azimuth turns by half a turn there
             let turned = case.space.variables(&found.state)[1];
             assert!((turned - std::f64::consts::PI).abs() < 1e-3, "{name} {momentum}: {turned}");
@@ -124,7 +124,7 @@ fn a_clock_that_stands_is_no_pole() {
     for name in ["taylor", "dop853"] {
         let late = file(&sphere(1.0, -1.0, "[run]\nstart = 1e15\n"), &[]);
         let found = map(&late, by(name, None), 1e15 + 100.0);
-        let kind = found.failure.map(|failure| failure.kind);
+        let kind = found.error.map(|error| error.kind);
         assert_eq!(kind, Some(MotionErrorKind::ClockStands(0.125)), "{name}");
     }
 }

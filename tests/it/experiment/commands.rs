@@ -225,40 +225,40 @@ h = 1.0
 L = "1/2*x'^2 + k/x"
 "#;
 
-fn fault(experiment: &Experiment) -> Option<f64> {
+fn error(experiment: &Experiment) -> Option<f64> {
     match experiment.status() {
-        Status::Failed(fault) => {
-            assert!(!fault.message.is_empty());
-            Some(fault.time)
+        Status::Failed(error) => {
+            assert!(!error.message.is_empty());
+            Some(error.time)
         }
         _ => None,
     }
 }
 
 #[test]
-fn a_fault_is_data_and_a_reset_goes_on() {
+fn an_error_is_data_and_a_reset_goes_on() {
     let mut fall = build(FALL, |_| ());
     assert_ne!(fall.advance(3.0, u64::MAX), phaselab::experiment::AdvanceOutcome::Arrived);
-    let time = fault(&fall).expect("it falls into the centre");
+    let time = error(&fall).expect("it falls into the centre");
     assert!((time - std::f64::consts::PI / 8.0_f64.sqrt()).abs() < 1e-6, "{time}");
     let snapshot = fall.snapshot();
     assert!(snapshot.values.iter().take(4).all(|x| x.is_finite()), "the last good state is shown");
     assert!(snapshot.trail.len() > 50, "and the way there");
     fall.execute(Command::Reset);
-    assert_eq!((fault(&fall), fall.time()), (None, 0.0));
+    assert_eq!((error(&fall), fall.time()), (None, 0.0));
     run(&mut fall, 0.5);
 }
 
 #[test]
-fn a_parameter_can_lead_out_of_a_fault() {
+fn a_parameter_can_lead_out_of_an_error() {
     // pushed ever harder towards x = k, beyond which the force is undefined
     let mut system = build(&FALL.replace("+ k/x", "- sqrt(k - x/2)"), |_| ());
     system.advance(9.0, u64::MAX);
-    let time = fault(&system).expect("it comes to the wall");
+    let time = error(&system).expect("it comes to the wall");
     let (x, p) = (value(&system, "x"), value(&system, "p_x"));
     assert!((x - 2.0).abs() < 1e-6, "{x}");
     set(&mut system, "k", 10.0);
-    assert_eq!((fault(&system), value(&system, "x"), value(&system, "p_x")), (None, x, p));
+    assert_eq!((error(&system), value(&system, "x"), value(&system, "p_x")), (None, x, p));
     run(&mut system, time + 1.0);
 }
 
@@ -267,25 +267,25 @@ fn a_motion_that_cannot_begin_waits_for_better_values() {
     let text = FALL.replace("1/2*x'^2", "1/2*k*x'^2").replace("k = 1.0", "k = 0.0");
     let given = InitialOverride::Momentum(0, 3.0);
     let mut system = build(&text, |setup| setup.overrides.push(given));
-    assert!(fault(&system).is_some());
+    assert!(error(&system).is_some());
     assert!(system.snapshot().values.iter().all(|x| x.is_nan()));
     assert!(system.snapshot().trail.is_empty());
     set(&mut system, "k", 2.0);
-    assert_eq!((fault(&system), value(&system, "x'"), value(&system, "p_x")), (None, 1.5, 3.0));
+    assert_eq!((error(&system), value(&system, "x'"), value(&system, "p_x")), (None, 1.5, 3.0));
     assert_eq!(system.snapshot().initial[..], [1.0, 1.5]);
     run(&mut system, 0.5);
 }
 
 #[test]
-fn a_reset_into_a_fault_is_not_mistaken_for_the_motion_before() {
+fn a_reset_into_an_error_is_not_mistaken_for_the_motion_before() {
     let mut system = build(&FALL.replace("\"h\"", "\"sqrt(h)\""), |_| ());
     run(&mut system, 0.5);
     set(&mut system, "h", -1.0);
-    assert_eq!(fault(&system), None, "the motion goes on");
+    assert_eq!(error(&system), None, "the motion goes on");
     system.execute(Command::Reset);
-    assert!(fault(&system).is_some());
+    assert!(error(&system).is_some());
     set(&mut system, "k", 2.0);
-    assert!(fault(&system).is_some(), "there is still nothing to begin with");
+    assert!(error(&system).is_some(), "there is still nothing to begin with");
     set(&mut system, "h", 1.0);
-    assert_eq!((fault(&system), system.time(), value(&system, "x")), (None, 0.0, 1.0));
+    assert_eq!((error(&system), system.time(), value(&system, "x")), (None, 0.0, 1.0));
 }

@@ -168,12 +168,12 @@ fn a_budget_ends_a_batch_and_a_motion_that_breaks_off_is_told_as_by_single_steps
         let (mut single, mut many) =
             (escaping.stepper(named(name), 0.003), escaping.stepper(named(name), 0.003));
         let alone = loop {
-            if let Err(fault) = single.step(1e9) {
-                break fault;
+            if let Err(error) = single.step(1e9) {
+                break error;
             }
         };
-        let fault = many.steps(1e9, 1e9, &mut u64::MAX.clone()).expect_err("escapes");
-        assert_eq!(fault, alone, "{name}");
+        let error = many.steps(1e9, 1e9, &mut u64::MAX.clone()).expect_err("escapes");
+        assert_eq!(error, alone, "{name}");
         assert_eq!(many.state(), single.state(), "{name}");
     }
 }

@@ -41,14 +41,14 @@ fn where_the_branch_ends_the_motion_does() {
     let case = branched(1.1);
     for name in ["gauss4", "gauss6"] {
         let mut stepper = case.stepper(named(name), 0.01);
-        let fault = loop {
-            if let Err(fault) = stepper.step(2.0) {
-                break fault;
+        let error = loop {
+            if let Err(error) = stepper.step(2.0) {
+                break error;
             }
             assert!(stepper.time() < 0.9, "{name} went on");
         };
         // the velocity falls to 1/√3 there, as the series finds it
-        assert!((fault.time - 0.839).abs() < 0.02, "{name}: {fault}");
+        assert!((error.time - 0.839).abs() < 0.02, "{name}: {error}");
     }
 }
 
@@ -70,7 +70,7 @@ fn momenta_that_belong_to_several_velocities_are_refused() {
             assert!((v * v * v - v - 0.386).abs() < 1e-15, "{v}");
         }
         // from rest the iteration is trapped where the branches end, and reports that it found nothing
-        Err(fault) => assert_eq!(fault.kind, MotionErrorKind::NoVelocities),
+        Err(error) => assert_eq!(error.kind, MotionErrorKind::NoVelocities),
     }
 }
 

@@ -97,10 +97,10 @@ fn by(
     let settings = Settings { step: None, tolerance };
     let mut motion = Propagator::new(system, method, settings, &setup.parameters)
         .map_err(|why| why.to_string())?;
-    motion.begin(start, &setup.parameters).map_err(|fault| fault.to_string())?;
+    motion.begin(start, &setup.parameters).map_err(|error| error.to_string())?;
     let mut budget = 200_000;
     loop {
-        match motion.reach(end, end, &mut budget).map_err(|fault| fault.to_string())? {
+        match motion.reach(end, end, &mut budget).map_err(|error| error.to_string())? {
             Reached::Arrived | Reached::Ended => return Ok(motion.state().clone()),
             Reached::Occurred(_) => {}
             Reached::OutOfBudget => return Err("it takes too many steps".to_owned()),

@@ -76,7 +76,7 @@ fn units_do_not_matter() {
 }
 
 #[test]
-fn what_grows_by_itself_is_not_the_methods_fault() {
+fn what_grows_by_itself_is_not_caused_by_the_method() {
     let saddle = case(hamiltonian(&["q"], &[], "p_q^2/2 - q^2/2"), Form::Momentum, &[1.0, 0.2]);
     let growing = lagrangian(&["x"], &[], "exp(-t/50)*(x'^2 - x^2)/2");
     let growing = case(growing, Form::Velocity, &[1.0, 0.0]);

@@ -180,7 +180,7 @@ enum End {
     Completed,
     Stopped,
     OutOfBudget,
-    Fault(String),
+    Error(String),
 }
 
 /// Runs a case; a refusal is an outcome.
@@ -219,13 +219,13 @@ fn run(case: &Case, budget: Budget, cancel: &Cancel) -> Result<Told, Outcome> {
         match experiment.advance(end, part) {
             AdvanceOutcome::Arrived => break End::Completed,
             AdvanceOutcome::Ended => break End::Stopped,
-            AdvanceOutcome::Stuck => break End::Fault(String::new()),
+            AdvanceOutcome::Stuck => break End::Error(String::new()),
             AdvanceOutcome::Underway if left == 0 => break End::OutOfBudget,
             AdvanceOutcome::Underway => {}
         }
     };
     let reached = match experiment.status() {
-        Status::Failed(fault) => End::Fault(fault.message),
+        Status::Failed(error) => End::Error(error.message),
         _ => reached,
     };
     let snapshot = experiment.snapshot();
@@ -338,7 +338,7 @@ fn judge(
         Ok(told) => told,
         Err(outcome) => return outcome,
     };
-    if let End::Fault(message) = &told.end {
+    if let End::Error(message) = &told.end {
         let has_place = [" at t = ", " after t = "].iter().any(|place| message.contains(place));
         if !has_place && told.time > 0.0 || message.is_empty() {
             return failed(Kind::NoPlace, message);
@@ -357,7 +357,7 @@ fn judge(
             return failed(Kind::DoesNotStart, format!("`check` is silent; {message}"));
         }
     }
-    if let (End::Fault(_), true) = (&told.end, told.time == 0.0 && !told.check.is_empty())
+    if let (End::Error(_), true) = (&told.end, told.time == 0.0 && !told.check.is_empty())
         && !energy(case, 0.0, &case.start).0.is_finite()
     {
         // a pole, as `check` says
@@ -367,13 +367,13 @@ fn judge(
         Ok(known) => known,
         Err(Lost::AtStart) => {
             return match told.end {
-                End::Fault(_) => Outcome::Stopped,
+                End::Error(_) => Outcome::Stopped,
                 _ => failed(Kind::Wrong, "it runs from where nothing is finite"),
             };
         }
         Err(why) => {
             return match (told.end, why) {
-                (End::Fault(_), _) => Outcome::Stopped,
+                (End::Error(_), _) => Outcome::Stopped,
                 (_, Lost::NotFinite) => Outcome::Undecided("a pole"),
                 (_, Lost::TooLong) => Outcome::Undecided("too long"),
                 (_, Lost::Inaccurate) => Outcome::Undecided("the judge's own energy"),
@@ -384,15 +384,15 @@ fn judge(
     let adaptive = ["auto", "taylor", "dop853"].contains(&case.method.as_str());
     let default = case.method == "auto";
     match &told.end {
-        End::Fault(message) if default => {
+        End::Error(message) if default => {
             return failed(Kind::GivesUp, message);
         }
-        End::Fault(message)
+        End::Error(message)
             if !message.contains("passes it") && !message.contains("try a smaller step") =>
         {
             return failed(Kind::Unhelpful, message);
         }
-        End::Fault(_) => return Outcome::Stopped,
+        End::Error(_) => return Outcome::Stopped,
         End::OutOfBudget if adaptive && known.arrival.way.len() < 1000 => {
             let message = format!("{} steps to t = {}", told.steps, told.time);
             return failed(Kind::Slow, message);

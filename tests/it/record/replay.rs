@@ -18,7 +18,7 @@ pub(super) struct Read {
 pub(super) fn read(recording: &Recording, version: Version) -> Read {
     let text = cast_writer::write(recording, version, Vec::new()).expect("written to memory");
     let text = String::from_utf8(text).expect("UTF-8");
-    assert_eq!(schema::fault(&text, version), None);
+    assert_eq!(schema::error(&text, version), None);
     let mut lines = text.lines();
     let head = serde_json::from_str(lines.next().expect("a head")).expect("JSON");
     let event = |line: &str| {

@@ -85,7 +85,7 @@ fn holds(value: &Value, rules: &[Rule]) -> bool {
 }
 
 /// The first line of a cast that violates its format, and the violation.
-pub(super) fn fault(text: &str, version: Version) -> Option<String> {
+pub(super) fn error(text: &str, version: Version) -> Option<String> {
     if !text.ends_with('\n') || text.contains('\r') {
         return Some("lines end in a line feed".to_owned());
     }
@@ -154,10 +154,10 @@ fn the_checker_takes_the_examples_of_the_format_and_refuses_what_is_not() {
          \"bg\":\"#212121\",\"palette\":\"{palette}\"}}}},\"tags\":[\"a\"]}}\n# words\n[0.5, \"o\", \"a\"]\n\
          [0.1, \"r\", \"90x30\"]\n[3, \"m\", \"x\"]\n[0.8, \"x\", \"0\"]\n"
     );
-    assert_eq!((fault(&two, Two), fault(&three, Three)), (None, None));
+    assert_eq!((error(&two, Two), error(&three, Three)), (None, None));
     let refused = |text: &str, version, from: &str, to: &str| {
         assert!(text.contains(from), "{from}");
-        assert!(fault(&text.replace(from, to), version).is_some(), "{from} → {to}");
+        assert!(error(&text.replace(from, to), version).is_some(), "{from} → {to}");
     };
     for (from, to) in [
         ("\"width\":80", "\"width\":0"),

@@ -338,7 +338,7 @@ fn an_error_in_a_field_is_read_beside_it() {
 }
 
 #[test]
-fn status_and_fault_are_reported() {
+fn status_and_error_are_reported() {
     let mut app = in_lab();
     let mut seen = snapshot(&pendulum(), 2.0);
     seen.status = Status::Paused;
@@ -346,7 +346,7 @@ fn status_and_fault_are_reported() {
     assert!(find(&screen(&app, &rich(), (120, 40)), "paused").is_some());
     let message = "the bob left the world".to_owned();
     seen.status =
-        Status::Failed(phaselab::experiment::Failure { time: 2.0, message, ends_motion: true });
+        Status::Failed(phaselab::experiment::RunError { time: 2.0, message, ends_motion: true });
     app.update(AppEvent::Snapshot(Arc::new(seen)));
     let buffer = screen(&app, &rich(), (120, 40));
     for text in

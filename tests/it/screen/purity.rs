@@ -3,7 +3,7 @@
 use std::sync::{Arc, OnceLock};
 
 use phaselab::app::{App, AppEvent, LoadError};
-use phaselab::experiment::{Failure, Snapshot, Status, Trail, Verdict};
+use phaselab::experiment::{RunError, Snapshot, Status, Trail, Verdict};
 use phaselab::view::RenderStyle;
 use phaselab::view::colour::ColourDepth;
 use phaselab::view::glyphs::Glyphs;
@@ -69,7 +69,7 @@ fn all_states() -> Vec<App> {
 fn stopped() -> App {
     let mut app = in_lab();
     let mut odd = snapshot(&pendulum(), 2.0);
-    odd.status = Status::Failed(Failure {
+    odd.status = Status::Failed(RunError {
         time: 2.0,
         message: "the step became too small".into(),
         ends_motion: true,

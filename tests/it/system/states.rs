@@ -133,9 +133,9 @@ L = "1/2*(theta'^2 + sin(theta)^2*phi'^2) + cos(theta)"
     let state = system.initial(3.5, &p, &[]).expect("a state is a state");
     let mut stepper = (METHODS[0].make)(&system, &Settings::default()).expect("it fits");
     let outcome = stepper.start(&state, &p).and_then(|()| stepper.step(4.0));
-    let fault = outcome.expect_err("θ = 0 is a singularity of the chart");
+    let error = outcome.expect_err("θ = 0 is a singularity of the chart");
     assert_eq!(
-        fault.to_string(),
+        error.to_string(),
         "the mass matrix is singular at t = 3.5, θ = 0: a chart singularity or a degenerate Lagrangian"
     );
 }
@@ -172,10 +172,10 @@ L = "x'*atan(x') - 1/2*ln(1 + x'^2)"
     );
     // p = atan(x') stays below π/2
     let outcome = system.initial(0.0, &parameters(&model), &[InitialOverride::Momentum(0, 2.0)]);
-    let fault = outcome.expect_err("there is no such velocity");
+    let error = outcome.expect_err("there is no such velocity");
     assert!(
-        matches!(fault.kind, MotionErrorKind::NoVelocities | MotionErrorKind::SingularMass),
-        "{fault}"
+        matches!(error.kind, MotionErrorKind::NoVelocities | MotionErrorKind::SingularMass),
+        "{error}"
     );
     let state =
         system.initial(0.0, &parameters(&model), &[InitialOverride::Momentum(0, 1.5)]).expect("is");
@@ -186,8 +186,8 @@ L = "x'*atan(x') - 1/2*ln(1 + x'^2)"
 fn a_first_state_has_to_be_finite() {
     let (_, system) =
         compile(RELATIVISTIC.replace("initial = \"b\"", "initial = \"ln(b)\"").as_str());
-    let fault = system.initial(0.0, &[-1.0, 1.5], &[]).expect_err("ln(−1)");
-    assert_eq!(fault.kind, MotionErrorKind::NotFinite("y".to_owned()));
+    let error = system.initial(0.0, &[-1.0, 1.5], &[]).expect_err("ln(−1)");
+    assert_eq!(error.kind, MotionErrorKind::NotFinite("y".to_owned()));
 }
 
 #[test]

@@ -237,12 +237,12 @@ fn a_tip_that_is_only_touched_is_not_met_again_later() {
 #[test]
 fn a_place_without_a_limit_is_reported() {
     let mut run = potential("1.0", "0.0", "ln(abs(x))");
-    let fault = run.try_to(10.0).expect_err("the velocity grows beyond all bounds");
+    let error = run.try_to(10.0).expect_err("the velocity grows beyond all bounds");
     assert!(
-        matches!(fault.kind, MotionErrorKind::Rough | MotionErrorKind::StepUnderflow(_)),
-        "{fault}"
+        matches!(error.kind, MotionErrorKind::Rough | MotionErrorKind::StepUnderflow(_)),
+        "{error}"
     );
-    assert!(fault.place[0].1.abs() < 1e-9 && run.steps < 500, "{fault}");
+    assert!(error.place[0].1.abs() < 1e-9 && run.steps < 500, "{error}");
 }
 
 #[test]

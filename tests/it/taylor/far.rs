@@ -212,8 +212,8 @@ fn a_step_ends_when_it_is_asked_to() {
     let mut run = potential("1.0", "0.0", "x^2/2 + sin(x)");
     run.to(1.0);
     run.system.cancel().cancel();
-    let fault = run.try_to(2.0).expect_err("stopped");
-    assert_eq!(fault.kind, MotionErrorKind::Cancelled);
+    let error = run.try_to(2.0).expect_err("stopped");
+    assert_eq!(error.kind, MotionErrorKind::Cancelled);
     assert_eq!(run.stepper.time(), 1.0);
 }
 

@@ -451,7 +451,7 @@ fn a_kink_is_passed_in_any_long_step() {
     for far in [1e3, 1e8, 1e12, 1e20, 1e40, 1e88, 1e140] {
         let mut run = Run::new(text);
         for passage in 0..4 {
-            run.stepper.step(far).unwrap_or_else(|fault| panic!("to {far:e}: {fault}"));
+            run.stepper.step(far).unwrap_or_else(|error| panic!("to {far:e}: {error}"));
             let turned = if passage % 2 == 0 { -root } else { root };
             let time = root * f64::from(1 + 2 * passage);
             near(&run.stepper.state().values, &[0.0, turned], 1e-13);
@@ -507,7 +507,7 @@ fn a_motion_that_begins_on_a_kink_leaves_it_to_the_side_of_its_velocity() {
             // up the side of a wedge, and back at its bottom
             if 2.0 * speed < far {
                 let mut run = one("0.0", &format!("{v:e}"), "1/2*x'^2 - abs(x)", "0", "0");
-                run.stepper.step(far).unwrap_or_else(|fault| panic!("to {far:e}: {fault}"));
+                run.stepper.step(far).unwrap_or_else(|error| panic!("to {far:e}: {error}"));
                 let t = run.stepper.time();
                 assert!((t / (2.0 * speed) - 1.0).abs() < 1e-15, "from {v:e} to {far:e}: {t:e}");
                 let back = run.stepper.state().values[1];

@@ -136,32 +136,32 @@ fn tolerances_out_of_range_are_refused() {
 }
 
 #[test]
-fn a_collision_is_a_fault_and_not_an_endless_loop() {
+fn a_collision_is_an_error_and_not_an_endless_loop() {
     let mut run = Run::new(
         "title = \"Fall into a centre\"\n[coordinates]\nr = { initial = 1.0, velocity = 0.0 }\n[lagrangian]\nL = \"1/2*r'^2 + 1/r\"\n",
     );
-    let fault = run.try_to(2.0).expect_err("it falls in");
+    let error = run.try_to(2.0).expect_err("it falls in");
     // the time of fall from rest: π/2 · √(r³/2)
     let fall = std::f64::consts::FRAC_PI_2 / 2.0_f64.sqrt();
-    assert!((fault.time - fall).abs() < 1e-9, "{fault}");
+    assert!((error.time - fall).abs() < 1e-9, "{error}");
     assert!(
-        matches!(fault.kind, MotionErrorKind::StepUnderflow(_) | MotionErrorKind::NotFinite(_)),
-        "{fault}"
+        matches!(error.kind, MotionErrorKind::StepUnderflow(_) | MotionErrorKind::NotFinite(_)),
+        "{error}"
     );
     assert!(run.steps < 2000);
 }
 
 #[test]
-fn leaving_the_domain_of_a_function_is_a_fault() {
+fn leaving_the_domain_of_a_function_is_an_error() {
     let mut run = Run::new(
         "title = \"To the edge of a logarithm\"\n[coordinates]\nx = { initial = 1.0, velocity = -1.0 }\n[hamiltonian]\nH = \"1/2*p_x^2 + x*ln(x)\"\n"
             .replace("velocity", "momentum")
             .as_str(),
     );
-    let fault = run.try_to(10.0).expect_err("the potential ends at x = 0");
+    let error = run.try_to(10.0).expect_err("the potential ends at x = 0");
     assert!(
-        matches!(fault.kind, MotionErrorKind::StepUnderflow(_) | MotionErrorKind::NotFinite(_)),
-        "{fault}"
+        matches!(error.kind, MotionErrorKind::StepUnderflow(_) | MotionErrorKind::NotFinite(_)),
+        "{error}"
     );
 }
 

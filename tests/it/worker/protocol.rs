@@ -173,12 +173,12 @@ fn an_idle_worker_waits_for_its_first_subject() {
 }
 
 #[test]
-fn a_panic_becomes_a_fault_and_the_worker_goes_on() {
+fn a_panic_becomes_an_error_and_the_worker_goes_on() {
     let broken = Counter { panics_at: Some(1e3), ..Counter::running(f64::INFINITY) };
     let mut worker = Worker::spawn(broken).expect("a thread");
     let snapshot = wait(&mut worker, |s| matches!(s.status, Status::Failed(_)));
-    let Status::Failed(fault) = &snapshot.status else { unreachable!("just looked") };
-    assert!(fault.message.contains("out of order"), "{}", fault.message);
+    let Status::Failed(error) = &snapshot.status else { unreachable!("just looked") };
+    assert!(error.message.contains("out of order"), "{}", error.message);
     assert_eq!(snapshot.epoch, 1);
     worker.load(Counter::running(f64::INFINITY));
     wait(&mut worker, |s| s.time > 1e3 && s.status == Status::Running);
@@ -189,8 +189,8 @@ fn a_command_that_panics_is_reported_as_well() {
     let mut worker = Worker::spawn(Counter::default()).expect("a thread");
     worker.execute(Command::Reference);
     let snapshot = wait(&mut worker, |s| matches!(s.status, Status::Failed(_)));
-    let Status::Failed(fault) = &snapshot.status else { unreachable!("just looked") };
-    assert!(fault.message.contains("this command panics"), "{}", fault.message);
+    let Status::Failed(error) = &snapshot.status else { unreachable!("just looked") };
+    assert!(error.message.contains("this command panics"), "{}", error.message);
 }
 
 #[test]

@@ -90,15 +90,15 @@ fn settings_without_sense_are_refused() {
 }
 
 /// The message of a method that cannot continue; the previous state is retained and finite.
-fn fault(case: &Case, name: &str, step: f64, until: f64) -> String {
+fn error(case: &Case, name: &str, step: f64, until: f64) -> String {
     let mut stepper = case.stepper(named(name), step);
     let mut steps = 0;
     loop {
         let before = stepper.state().clone();
-        if let Err(fault) = stepper.step(until) {
+        if let Err(error) = stepper.step(until) {
             assert_eq!(stepper.state(), &before, "{name}");
             assert!(stepper.state().is_finite());
-            return fault.to_string();
+            return error.to_string();
         }
         steps += 1;
         assert!(stepper.time() < until && steps < 100_000, "{name} arrived");
@@ -106,10 +106,10 @@ fn fault(case: &Case, name: &str, step: f64, until: f64) -> String {
 }
 
 #[test]
-fn an_implicit_step_too_long_to_be_solved_is_a_fault() {
+fn an_implicit_step_too_long_to_be_solved_is_an_error() {
     for name in ["gauss4", "gauss6"] {
         assert_eq!(
-            fault(&double_pendulum(), name, 5.0, 100.0),
+            error(&double_pendulum(), name, 5.0, 100.0),
             "the implicit step of size 5e0 was not solved at t = 0, x = 0.9, y = -0.4: try a \
              smaller step"
         );
@@ -117,16 +117,16 @@ fn an_implicit_step_too_long_to_be_solved_is_a_fault() {
 }
 
 #[test]
-fn a_pole_is_a_fault() {
+fn a_pole_is_an_error() {
     // x = t − 1 arrives at a pole
     let h = "p_x + 1/x";
     let case = case(hamiltonian(&["x"], &[], h), Form::Momentum, &[-1.0, 0.0]);
     assert_eq!(
-        fault(&case, "rk4", 0.125, 2.0),
+        error(&case, "rk4", 0.125, 2.0),
         "p_x is no longer finite at t = 1, x = 0: a collision, a pole, or a value \
          outside a function"
     );
-    let message = fault(&case, "dop853", 0.0, 2.0);
+    let message = error(&case, "dop853", 0.0, 2.0);
     assert!(
         message.starts_with("the step became too small to move the clock at t = "),
         "{message}"
@@ -134,7 +134,7 @@ fn a_pole_is_a_fault() {
 }
 
 #[test]
-fn a_singular_mass_matrix_is_a_fault() {
+fn a_singular_mass_matrix_is_an_error() {
     let l = "1/2*x^2*x'^2 + 1/2*y'^2 + x";
     let case = case(lagrangian(&["x", "y"], &[], l), Form::Velocity, &[0.0, 0.0, 0.0, 0.0]);
     for method in METHODS.iter().filter(|method| (method.fits)(&case.system).is_ok()) {
@@ -144,7 +144,7 @@ fn a_singular_mass_matrix_is_a_fault() {
         };
         let mut stepper = (method.make)(&case.system, &settings).expect("fits");
         let outcome = stepper.start(&case.start, &[]).and_then(|()| stepper.step(1.0));
-        let message = outcome.expect_err("a fault").to_string();
+        let message = outcome.expect_err("an error").to_string();
         assert_eq!(
             message,
             "the mass matrix is singular at t = 0, x = 0: a chart singularity or a degenerate \
@@ -178,8 +178,8 @@ fn every_method_stops_where_somebody_asks() {
         let mut stepper = case.stepper(method, 0.01);
         stepper.step(1.0).expect("goes on");
         case.system.cancel().cancel();
-        let fault = stepper.step(1.0).expect_err("stops");
-        assert_eq!(fault.kind, MotionErrorKind::Cancelled, "{}", method.name);
+        let error = stepper.step(1.0).expect_err("stops");
+        assert_eq!(error.kind, MotionErrorKind::Cancelled, "{}", method.name);
     }
 }
 
