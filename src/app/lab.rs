@@ -12,7 +12,7 @@ use super::pane::Focus;
 use super::pending::PendingChanges;
 use super::restoration::Restoration;
 use super::steady_verdicts::SteadyVerdicts;
-use super::{DrawnPanes, LawInView, Loaded, Pane, Prediction, Selection, ValueId};
+use super::{DrawnPanes, LawInView, LeastRange, Loaded, Pane, Prediction, Selection, ValueId};
 use crate::experiment::{Snapshot, Status};
 use crate::expr::Zero;
 use crate::instrument::{CameraPose, MotionCurve, Plot, Present, Returned};
@@ -50,8 +50,8 @@ pub struct Lab {
     steady: SteadyVerdicts,
     /// What a person predicts on a picture.
     pub prediction: Option<Box<Prediction>>,
-    /// The least ranges of channels in the pictures, as a script sets them.
-    pub extents: Vec<(usize, [f64; 2])>,
+    /// The least ranges of quantities in the pictures, as a script sets them.
+    pub(super) least_ranges: Vec<LeastRange>,
     /// The times that are marked, in order.
     pub marks: Vec<f64>,
     /// The quantities that were typed for axes: they belong to the view, and are no part of the text.
@@ -120,7 +120,7 @@ impl Lab {
             history: UndoHistory::default(),
             steady: SteadyVerdicts::default(),
             prediction: None,
-            extents: Vec::new(),
+            least_ranges: Vec::new(),
             marks: Vec::new(),
             typed: Vec::new(),
             restoration: Restoration::default(),

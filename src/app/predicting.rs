@@ -10,12 +10,6 @@ impl Lab {
         let axes = &self.prediction.as_ref()?.axes;
         axes.iter().find(|axis| axis.channel == channel)?.range
     }
-
-    /// The range of a channel that pictures show at least: that of a prediction, or one that a script sets.
-    pub fn least_range(&self, channel: usize) -> Option<[f64; 2]> {
-        let set = self.extents.iter().find(|(of, _)| *of == channel).map(|(_, range)| *range);
-        self.predicted_range(Some(channel)).or(set)
-    }
 }
 
 impl App {

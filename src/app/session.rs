@@ -153,7 +153,7 @@ impl App {
 
     /// Replaces the system in the lab by one rebuilt from a changed file; the motion and its view continue.
     pub(super) fn rebuilt(&mut self, loaded: Loaded) -> Vec<Effect> {
-        let Some(old) = self.lab.take() else {
+        let Some(mut old) = self.lab.take() else {
             let alone = matches!(self.overlay, Some(Overlay::Workbench));
             return if alone { self.mended(loaded) } else { self.loaded(loaded) };
         };
@@ -165,6 +165,7 @@ impl App {
             saved.moment = checkpoint.with_past(&old.loaded.system, seen);
         }
         let mut lab = Lab::new(loaded);
+        lab.set_least_ranges(std::mem::take(&mut old.least_ranges));
         // A history refers to values, channels, views and frames by index.
         let places = |lab: &Lab| {
             let Loaded { model, system, .. } = &lab.loaded;

@@ -165,14 +165,8 @@ pub(super) fn column(app: &App, of: &LineText) -> Result<usize, Diagnostic> {
 /// The index of the channel of an expression that a picture shows.
 pub(super) fn shown_channel(app: &App, of: &LineText) -> Result<usize, Diagnostic> {
     let (lab, _) = seen(app, of)?;
-    let system = &lab.loaded.system;
-    if system.channels().iter().any(|c| c.name == of.text || c.shown == of.text) {
-        return column(app, of);
-    }
-    let mut pool = lab.loaded.equations.pool.clone();
-    let mut scope = Scope::new(&lab.loaded.model, Allowed::Observable, "a script");
-    let e = scope.read(&mut pool, &of.text).ok_or_else(|| unreadable(&scope, of))?;
-    system.channel_of(e).ok_or_else(|| {
+    let channel = lab.shown_channel(&of.text).map_err(|scope| unreadable(&scope, of))?;
+    channel.ok_or_else(|| {
         let message = format!("no picture shows `{}`", of.text);
         let help = "name what is on an axis, or a component of a point in a picture, as it is written there";
         Diagnostic::error(of.place.clone(), message).with_help(help)

@@ -377,7 +377,7 @@ impl Lesson {
     fn begin_anew(&mut self) {
         self.runner.lab = self.runner.lab.anew(self.runner.script.head.fps);
         self.runner.lab.app.footer.shown = self.runner.script.head.footer;
-        self.runner.keep_extents();
+        self.runner.set_least_ranges();
         self.runner.keys.clear();
         self.time = 0;
         self.personal = false;

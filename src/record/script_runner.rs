@@ -17,7 +17,7 @@ use super::headless_lab::{Budget, HeadlessLab};
 use super::plain::plain;
 use super::script::{Assert, LessonStep, LineText, PACE, Script, ScriptStep, SweepPath};
 use super::shown_keys::ShownKeys;
-use crate::app::{AppEvent, Drawn, ValueId, key};
+use crate::app::{AppEvent, Drawn, LeastRange, ValueId, key};
 use crate::diagnostic::{Diagnostic, Document};
 use crate::experiment::Command;
 use crate::view::caption::{self, Caption};
@@ -38,8 +38,8 @@ pub struct ScriptRunner {
     begun: bool,
     pace: Micros,
     caption: String,
-    /// The least ranges of channels in the pictures.
-    extents: Vec<(usize, [f64; 2])>,
+    /// The least ranges of quantities in the pictures.
+    least_ranges: Vec<LeastRange>,
     pub(super) keys: ShownKeys,
     /// The size of the screen when it was last drawn.
     pub(super) size: Size,
@@ -102,7 +102,7 @@ impl ScriptRunner {
             begun: false,
             pace: PACE,
             caption: String::new(),
-            extents: Vec::new(),
+            least_ranges: Vec::new(),
             keys: ShownKeys::default(),
             size,
             painter: Painter::default(),
@@ -264,11 +264,20 @@ impl ScriptRunner {
             }
             ScriptStep::Extent(written) => {
                 let app = &self.lab.app;
-                let range = |(of, ends): &(LineText, [LineText; 2])| {
-                    Ok((assertion::shown_channel(app, of)?, assertion::range(app, ends)?))
-                };
-                self.extents = written.iter().map(range).collect::<Result<_, _>>()?;
-                self.keep_extents();
+                let mut ranges: Vec<LeastRange> = Vec::new();
+                for (of, ends) in &written {
+                    let channel = Some(assertion::shown_channel(app, of)?);
+                    if let Some(first) = ranges.iter().position(|range| range.channel == channel) {
+                        let message = format!("`{}` has two ranges", of.text);
+                        let first = written[first].0.place.clone();
+                        return Err(Diagnostic::error(of.place.clone(), message)
+                            .with_also(first, "its range is given here already"));
+                    }
+                    let range = assertion::range(app, ends)?;
+                    ranges.push(LeastRange { of: of.text.clone(), range, channel });
+                }
+                self.least_ranges = ranges;
+                self.set_least_ranges();
                 let names: Vec<_> = written.iter().map(|(of, _)| of.text.as_str()).collect();
                 done("extent", names.join(", "))
             }
@@ -283,9 +292,9 @@ impl ScriptRunner {
     }
 
     /// Gives the least ranges to the pictures of the lab.
-    pub(super) fn keep_extents(&mut self) {
+    pub(super) fn set_least_ranges(&mut self) {
         if let Some(lab) = &mut self.lab.app.lab {
-            lab.extents.clone_from(&self.extents);
+            lab.set_least_ranges(self.least_ranges.clone());
         }
     }
 

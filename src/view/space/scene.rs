@@ -329,7 +329,7 @@ fn extent(q: &Quantities<'_>, point: &Point) -> Span3 {
         QuantitySource::Channel(channel) => {
             // a motion that was begun in a picture keeps its window
             let kept = q.lab.window_before(channel);
-            let set = least(q, channel).map(|[from, to]| (from, to));
+            let set = q.lab.least_range(channel).map(|[from, to]| (from, to));
             let more = [kept, set].into_iter().flatten();
             more.fold(q.bounds(channel), |(lo, hi), (from, to)| (lo.min(from), hi.max(to)))
         }
@@ -337,20 +337,15 @@ fn extent(q: &Quantities<'_>, point: &Point) -> Span3 {
     [ends.map(|end| end.0), ends.map(|end| end.1)]
 }
 
-/// The range of a channel that a script wants to be in the picture.
-fn least(q: &Quantities<'_>, channel: usize) -> Option<[f64; 2]> {
-    q.lab.extents.iter().find(|(of, _)| *of == channel).map(|(_, range)| *range)
-}
-
-/// The polytope that contains a point's motion so far, if its hull is recorded or it does not move, and no script wants more
-/// to be in the picture.
+/// The polytope that contains a point's motion so far, if its hull is recorded or it does not move, and no more is to be in
+/// the picture.
 fn hull(q: &Quantities<'_>, point: &Point) -> Option<OrientationPolytope> {
     let sources = point.map(|expression| q.place(expression));
     let channels = sources.map(|source| match source {
         QuantitySource::Channel(channel) => Some(channel),
         QuantitySource::Number(_) => None,
     });
-    if channels.iter().flatten().any(|channel| least(q, *channel).is_some()) {
+    if channels.iter().flatten().any(|channel| q.lab.least_range(*channel).is_some()) {
         return None;
     }
     let constant = sources.map(|source| match source {

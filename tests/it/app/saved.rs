@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use phaselab::app::{Above, App, AppEvent, Effect, Page, Pane, Saved};
+use phaselab::app::{Above, App, AppEvent, Effect, LeastRange, Page, Pane, Saved};
 use phaselab::experiment::Command;
 
 use crate::hand::{catalog, in_lab, lowered, pendulum, press, snapshot};
@@ -111,6 +111,29 @@ fn a_rebuilt_system_is_looked_at_as_before() {
     };
     assert_eq!(names(lab), names(&before));
     assert!(matches!(effects.as_slice(), [Effect::Execute(Command::Restore(_))]), "{effects:?}");
+}
+
+/// The least range of a quantity stays with it where the channels of a changed text have other indices, also of one that the
+/// system lacks in between.
+#[test]
+fn the_least_ranges_of_pictures_stay_with_their_quantities() {
+    let mut app = opened(FILE);
+    let range = [-7.0, 9.0];
+    let set = ["y'", "u"].map(|of| LeastRange { of: of.to_owned(), range, channel: None });
+    app.lab.as_mut().unwrap().set_least_ranges(set.to_vec());
+    let held = |app: &App| -> Vec<String> {
+        let lab = app.lab.as_ref().unwrap();
+        let channels = lab.loaded.system.channels().iter().enumerate();
+        let held = channels.filter(|(index, _)| lab.least_range(*index) == Some(range));
+        held.map(|(_, channel)| channel.name.clone()).collect()
+    };
+    assert_eq!(held(&app), ["y'"]);
+    let text = FILE.replace("[coordinates]\n", "[coordinates]\nu = { initial = 1.0 }\n");
+    let text = text.replace("y'^2", "y'^2 + u'^2");
+    app.update(AppEvent::Rebuilt(lowered(&text)));
+    assert_eq!(held(&app), ["u", "y'"]);
+    app.update(AppEvent::Rebuilt(lowered(FILE)));
+    assert_eq!(held(&app), ["y'"]);
 }
 
 #[test]

@@ -279,6 +279,11 @@ fn an_extent_names_what_a_picture_shows_from_less_to_more() {
     check("Extent rr from 0 to 1", "rr");
     check("Extent r^7 from 0 to 1", "no picture shows `r^7`");
     check("Extent r from 2 to a", "this range would go from 2 to 1");
+    // one quantity, written in two ways
+    check(
+        "Extent X from 0 to 1 and r from 0 to 1 and r*cos(theta) from 5 to 6",
+        "`r*cos(theta)` has two ranges",
+    );
     assert_eq!(
         diagnostics(
             "Extent r from 0 to 2 and r*cos(theta) from -2 to 2\nPredict \"?\" r within 1\nWait 1s\nExtent\nOutcome\n"
