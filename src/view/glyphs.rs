@@ -230,39 +230,39 @@ fn undotted(letter: char) -> Option<(char, char)> {
 /// Spells a text in ASCII. Characters without a spelling become `?`; combining dots become primes, as in `x'`.
 fn spell(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
-    let mut raised = false;
-    for character in text.chars() {
-        let exponent = superscript(character);
-        if exponent.is_some() && !raised {
-            out.push('^');
-        }
-        raised = exponent.is_some();
-        match exponent.or_else(|| subscript(character)) {
-            Some(plain) => out.push(plain),
-            None if character.is_ascii() => out.push(character),
-            None => out.push_str(spelling(character)),
-        }
-    }
+    spell_each(text, |_, caret, letters| {
+        out.push_str(caret);
+        out.push_str(letters);
+    });
     out
 }
 
 /// The letters in which each character of a text is spelt in ASCII, or the character itself where it has no spelling.
 pub(super) fn spelt(text: &str) -> Vec<Vec<char>> {
+    let mut out = Vec::with_capacity(text.len());
+    spell_each(text, |character, caret, letters| {
+        out.push(match letters {
+            "?" => vec![character],
+            letters => caret.chars().chain(letters.chars()).collect(),
+        });
+    });
+    out
+}
+
+/// Gives each character of a text with its letters in ASCII, `?` where it has no spelling, and the caret in front of these
+/// where an exponent begins.
+fn spell_each(text: &str, mut give: impl FnMut(char, &str, &str)) {
     let mut raised = false;
-    let each = |character: char| {
+    for character in text.chars() {
         let exponent = superscript(character);
-        let caret = (exponent.is_some() && !raised).then_some('^');
+        let caret = if exponent.is_some() && !raised { "^" } else { "" };
         raised = exponent.is_some();
-        match exponent.or_else(|| subscript(character)) {
-            Some(plain) => caret.into_iter().chain([plain]).collect(),
-            None => match spelling(character) {
-                _ if character.is_ascii() => vec![character],
-                "?" => vec![character],
-                letters => letters.chars().collect(),
-            },
+        let ascii = Some(character).filter(char::is_ascii);
+        match exponent.or_else(|| subscript(character)).or(ascii) {
+            Some(plain) => give(character, caret, plain.encode_utf8(&mut [0; 4])),
+            None => give(character, caret, spelling(character)),
         }
-    };
-    text.chars().map(each).collect()
+    }
 }
 
 fn superscript(character: char) -> Option<char> {
