@@ -154,7 +154,7 @@ impl App {
             (_, Choice::Equilibrium(index)) => self.begin_at_equilibrium(index, None),
             (_, Choice::Mode(index, mode)) => self.begin_at_equilibrium(index, Some(mode)),
             (_, Choice::Action(action)) => self.handle_action(action),
-            (_, Choice::ActionAt(place, action)) => self.handle_action_in(place, action),
+            (_, Choice::ActionAt(context, action)) => self.handle_action_in(context, action),
             (_, Choice::System(index)) => self.open_system(index),
             (_, Choice::Value(target)) => self.type_into(target),
             (_, Choice::Pane(pane)) => self.look_at(pane),

@@ -83,7 +83,7 @@ pub enum Choice {
     Method(&'static str),
     /// What a key would do.
     Action(Action),
-    /// An action in the nearest pane of this place, which then has the focus.
+    /// An action in the nearest pane of this context, which then has the focus.
     ActionAt(KeyContext, Action),
     /// The impulse of this index.
     Impulse(usize),

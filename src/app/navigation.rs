@@ -154,9 +154,9 @@ impl App {
 
     /// Returns the number of lines that a page up or down moves.
     pub(super) fn screenful(&self) -> isize {
-        let places = self.key_contexts();
+        let contexts = self.key_contexts();
         let pages = [KeyContext::Text, KeyContext::HelpSearch, KeyContext::Plain];
-        let text = pages.iter().any(|place| places.contains(place));
+        let text = pages.iter().any(|context| contexts.contains(context));
         if text { isize::from(self.drawn.rows.saturating_sub(2).max(1) as i16) } else { 10 }
     }
 }

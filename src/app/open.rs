@@ -25,7 +25,7 @@ impl App {
         let Some(name) = self.picker.take() else {
             return self.notify("No system fits this search.");
         };
-        if let Some(error) = self.picker.error.clone().filter(|f| f.name == name) {
+        if let Some(error) = self.picker.error.clone().filter(|error| error.name == name) {
             self.text.scroll = 0;
             self.overlay = Some(Overlay::Message(error));
             return Vec::new();

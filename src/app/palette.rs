@@ -186,7 +186,7 @@ impl App {
     }
 }
 
-/// Places whose keys are active everywhere; their lines follow those of the page.
+/// The contexts whose keys are active everywhere; their lines follow those of the page.
 const OUTER: [KeyContext; 2] = [KeyContext::Anywhere, KeyContext::Always];
 
 /// Whether an action only moves a selection or a window; nobody searches for such an action by name.

@@ -1,4 +1,4 @@
-//! AppEvent handling, one event at a time.
+//! The handling of events, one at a time.
 //!
 //! In: an event. Out: the changed state and the effects. Never here: what the individual actions do.
 
@@ -142,8 +142,8 @@ impl App {
         if let Some(lab) = self.lab.as_mut().filter(|_| self.page != Page::Picker) {
             lab.focus.untouched = false;
         }
-        let places = self.key_contexts();
-        if let Some(action) = keymap::action(key, places) {
+        let contexts = self.key_contexts();
+        if let Some(action) = keymap::action(key, contexts) {
             let effects = self.handle_action(action);
             self.expect(&effects);
             return effects;
@@ -155,8 +155,8 @@ impl App {
             effects.extend(self.press(KeyEvent { modifiers, ..key }));
             return effects;
         }
-        let searching = places.contains(&KeyContext::Search)
-            || (places.contains(&KeyContext::Picker) && begins_search(key));
+        let searching = contexts.contains(&KeyContext::Search)
+            || (contexts.contains(&KeyContext::Picker) && begins_search(key));
         if let Some(search) = self.typed_search() {
             if edit(&mut search.input, key) {
                 search.begin();

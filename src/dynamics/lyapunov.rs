@@ -165,9 +165,9 @@ pub(super) fn exponents(
         let end = most.min(growth.end());
         let closes = match closing(space, (method, motion.settings), excursion, end) {
             Ok(closes) => closes,
-            Err(error) => {
+            Err(stopped) => {
                 let reason = "whether the motion closes was not found out".to_owned();
-                let error = Some(found.error.unwrap_or(error));
+                let error = Some(found.error.unwrap_or(stopped));
                 return Ok(Lyapunov { verdict: Chaos::Undecided, reason, error, ..found });
             }
         };

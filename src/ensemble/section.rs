@@ -260,7 +260,7 @@ impl SectionOrbit<'_> {
                 }
             }
             match reached {
-                // a step that a signal has cancelled is not an error of the motion
+                // a step that a signal has cancelled is no error
                 Err(_) if cancel.is_cancelled() => return stopped(),
                 Err(error) => return (OrbitStatus::Failed, Some(error.to_string())),
                 Ok(Reached::Arrived) if self.plan.until.is_some() => {

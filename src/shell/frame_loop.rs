@@ -118,7 +118,7 @@ const ANSWER: Duration = Duration::from_secs(1);
 const LAST_WORD: Duration = Duration::from_millis(100);
 
 /// The number of consecutive failed frames after which the terminal is given up.
-const FAILURES: u32 = 20;
+const MOST_FAILED_FRAMES: u32 = 20;
 
 /// Shows a page on the terminal until it ends. The terminal is restored in every case.
 ///
@@ -139,7 +139,7 @@ pub fn run_screen(page: &mut impl Screen, pace: FramePace) -> Result<Ending, Lab
         size: None,
         governor: Governor::new(pace.frames, pace.bytes, Instant::now()),
         mouse: pace.mouse,
-        errors: 0,
+        failed_frames: 0,
         keyboard: false,
         asked: None,
     };
@@ -174,7 +174,7 @@ struct FrameLoop<'a, E> {
     mouse: bool,
     /// Whether the terminal knows the keyboard protocol.
     keyboard: bool,
-    errors: u32,
+    failed_frames: u32,
     /// When the terminal was asked.
     asked: Option<Instant>,
 }
@@ -353,10 +353,10 @@ impl<E: EventSource> FrameLoop<'_, E> {
     /// Sends what the terminal accepts. After a failed write, the terminal is set up and painted again.
     fn send(&mut self) -> io::Result<()> {
         match self.queue.send(|bytes| self.terminal.write(bytes)) {
-            Ok(()) => self.errors = 0,
-            Err(error) if self.errors == FAILURES => return Err(error),
+            Ok(()) => self.failed_frames = 0,
+            Err(error) if self.failed_frames == MOST_FAILED_FRAMES => return Err(error),
             Err(_) => {
-                self.errors += 1;
+                self.failed_frames += 1;
                 self.enter()?;
             }
         }

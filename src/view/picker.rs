@@ -293,7 +293,7 @@ fn summary(canvas: &mut Canvas<'_>, area: Rect, entry: &CatalogEntry) -> u16 {
 /// Draws the selected system in motion, or the reason why it cannot be shown.
 fn preview(canvas: &mut Canvas<'_>, area: Rect, app: &App, entry: &CatalogEntry) {
     let text = columns(area, 1, area.width.saturating_sub(2));
-    if let Some(error) = app.picker.error.as_ref().filter(|f| f.name == entry.name) {
+    if let Some(error) = app.picker.error.as_ref().filter(|error| error.name == entry.name) {
         canvas.left(row(text, 0), Role::Bad, "This file has errors; Enter shows all of them.");
         for (index, line) in error.message.lines().take(usize::from(text.height)).enumerate() {
             canvas.left(row(text, index + 2), Role::Text, line);

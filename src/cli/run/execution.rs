@@ -255,7 +255,7 @@ impl Run<'_> {
                 (self.steps * 2).min(STEPS_PER_CHECK)
             };
             bar.show(self.experiment.time());
-            // a step that a signal has cancelled is not an error of the motion
+            // a step that a signal has cancelled is no error
             self.interrupted()?;
             if let experiment::Status::Failed(error) = self.experiment.status() {
                 return Err(EarlyEnd::Error(error));

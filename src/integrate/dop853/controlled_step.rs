@@ -18,7 +18,7 @@ impl DormandPrince {
         for (kept, noise) in self.kept_noise.iter_mut().zip(&self.noise) {
             *kept = FORGETTING * noise;
         }
-        let mut errors = 0;
+        let mut rejected = 0;
         loop {
             self.noise.copy_from_slice(&self.kept_noise);
             // take a last step that is a little longer rather than another tiny one
@@ -27,11 +27,11 @@ impl DormandPrince {
             self.may_try(step, last)?;
             if let Err(error) = self.attempt(step) {
                 // a stage of a step too long may lie where there are no rates
-                if errors == TRIES || error.kind == MotionErrorKind::Cancelled {
+                if rejected == TRIES || error.kind == MotionErrorKind::Cancelled {
                     return Err(error);
                 }
                 self.size = step.abs() * SHORTER;
-                errors += 1;
+                rejected += 1;
                 continue;
             }
             self.measure(step);
@@ -47,10 +47,10 @@ impl DormandPrince {
             let part = if error <= 1.0 { self.resolved_part(step) } else { 1.0 };
             if part < 1.0 {
                 self.size = step.abs() * part;
-                errors += 1;
+                rejected += 1;
                 continue;
             }
-            let most = if errors > 0 { 1.0 } else { LONGER };
+            let most = if rejected > 0 { 1.0 } else { LONGER };
             let factor = (SAFETY * math::powf(error, -1.0 / 8.0)).clamp(SHORTER, most);
             if error <= 1.0 {
                 self.count_crossings(step)?;
@@ -70,7 +70,7 @@ impl DormandPrince {
                 break;
             }
             self.size = step.abs() * factor;
-            errors += 1;
+            rejected += 1;
         }
         std::mem::swap(&mut self.before, &mut self.state);
         std::mem::swap(&mut self.state, &mut self.next);

@@ -541,14 +541,14 @@ fn a_notice_goes_by_itself() {
 #[test]
 fn an_error_is_answered_by_a_reset_and_not_by_play() {
     let mut app = in_lab();
-    let mut faulted = snapshot(&pendulum(), 2.0);
+    let mut failed = snapshot(&pendulum(), 2.0);
     let error = phaselab::experiment::RunError {
         time: 2.0,
         message: "collision".to_owned(),
         ends_motion: true,
     };
-    faulted.status = Status::Failed(error);
-    app.update(AppEvent::Snapshot(Arc::new(faulted)));
+    failed.status = Status::Failed(error);
+    app.update(AppEvent::Snapshot(Arc::new(failed)));
     assert!(press(&mut app, "Space").is_empty());
     assert!(app.notifications.shown.is_some_and(|notice| notice.text.contains("reset")));
 }

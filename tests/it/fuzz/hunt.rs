@@ -53,7 +53,7 @@ pub(crate) fn hunt(target: &'static Target, seed: u64, length: Length) -> Result
             Err(RecvTimeoutError::Disconnected) => break,
             Err(RecvTimeoutError::Timeout) => {
                 let why = format!("no answer within {PATIENCE:?}");
-                return Err(error(target, &last.0, &why, &last.1));
+                return Err(described(target, &last.0, &why, &last.1));
             }
         }
     }
@@ -81,7 +81,7 @@ fn look(target: &Target, seed: u64, length: Length, tell: &Sender<Input>) -> Res
         // if the input ends the whole process, this file is all that is left
         fs::write(place(target), &bytes).unwrap();
         if fails(&bytes) {
-            return Err(error(target, &name, "it panics", &shrunk(bytes, LOOKS, &fails)));
+            return Err(described(target, &name, "it panics", &shrunk(bytes, LOOKS, &fails)));
         }
         case += 1;
     }
@@ -95,7 +95,7 @@ fn place(target: &Target) -> PathBuf {
 }
 
 /// Saves a failing input for the corpus and describes it.
-fn error(target: &Target, name: &str, why: &str, bytes: &[u8]) -> String {
+fn described(target: &Target, name: &str, why: &str, bytes: &[u8]) -> String {
     let place = place(target);
     fs::write(&place, bytes).unwrap();
     format!(
