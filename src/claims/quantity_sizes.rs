@@ -17,7 +17,7 @@ const TOLERANCE: f64 = 1e-10;
 const LAST_PART: f64 = 0.125;
 const LAST_OBSERVATIONS: u32 = 8;
 
-/// Rounding of what was larger before, relative to that.
+/// Rounding of what was larger before, relative to that: what is expected to be zero may be so much.
 const ROUNDING: f64 = 1e-15;
 
 /// How often the motion is observed between the start and the last time at which a value is expected.
@@ -89,13 +89,16 @@ impl<'a> QuantitySizes<'a> {
 
     /// How far a value may be from what is expected.
     pub(super) fn tolerance(&self, index: usize) -> f64 {
-        self.values[index].within.unwrap_or(self.sizes[index].tolerance())
+        let value = &self.values[index];
+        value.within.unwrap_or(self.sizes[index].tolerance(value.is))
     }
 }
 
 impl QuantitySize {
-    fn tolerance(self) -> f64 {
-        (TOLERANCE * self.lately).max(ROUNDING * self.ever)
+    /// The tolerated error of a quantity that is expected to have a value.
+    fn tolerance(self, expected: f64) -> f64 {
+        let tolerance = TOLERANCE * self.lately;
+        if expected == 0.0 { tolerance.max(ROUNDING * self.ever) } else { tolerance }
     }
 }
 
@@ -115,11 +118,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_error_is_a_part_of_what_is_left_and_no_rounding_of_what_was() {
-        let tolerance = |ever: f64, lately: f64| QuantitySize { ever, lately }.tolerance();
-        assert_eq!(tolerance(2.0, 2.0), 2.0 * 1e-10);
-        assert_eq!(tolerance(2.0, 2e-3), 2e-3 * 1e-10);
-        assert_eq!(tolerance(2.0, 2e-9), 2.0 * 1e-15);
+    fn an_error_is_a_part_of_what_is_left_and_zero_is_but_for_rounding_of_what_was() {
+        let tolerance =
+            |lately: f64, expected: f64| QuantitySize { ever: 2.0, lately }.tolerance(expected);
+        for expected in [0.0, 1e-12] {
+            assert_eq!(tolerance(2.0, expected), 2.0 * 1e-10);
+            assert_eq!(tolerance(2e-3, expected), 2e-3 * 1e-10);
+        }
+        assert_eq!(tolerance(2e-9, 1e-12), 2e-9 * 1e-10);
+        assert_eq!(tolerance(2e-9, 0.0), 2.0 * 1e-15);
     }
 
     #[test]

@@ -15,11 +15,7 @@ pub(super) fn refuse(system: &System) -> Result<(), DynamicsError> {
              derivatives of the motion are not computed",
         );
     }
-    if system.momenta_jump() {
-        return unsuited(
-            "L has a step in time in its momenta, where velocities jump, and derivatives of such motions are not computed: write H",
-        );
-    }
+    refuse_steps_in_time(system)?;
     if !system.has_tangents_in(Form::Momentum) && system.form() == Form::Velocity {
         return unsuited(
             "its velocities follow from its momenta by iteration only, and derivatives of such \
@@ -27,6 +23,14 @@ pub(super) fn refuse(system: &System) -> Result<(), DynamicsError> {
         );
     }
     Ok(())
+}
+
+fn refuse_steps_in_time(system: &System) -> Result<(), DynamicsError> {
+    if !system.discontinuities().momenta_jump {
+        return Ok(());
+    }
+    let why = "L has a step in time in its momenta, where velocities jump, and derivatives of such motions are not computed: write H";
+    Err(DynamicsError::Unsuited(why.to_owned()))
 }
 
 pub(super) fn refuse_constraints(system: &System) -> Result<(), DynamicsError> {
@@ -53,6 +57,7 @@ pub(super) fn refuse_acts_but(
             "impulses act on the way, across which derivatives of the motion are not computed",
         );
     }
+    refuse_steps_in_time(system)?;
     let passive =
         |action: EventAction| matches!(action, EventAction::Mark | EventAction::Section(_));
     let mut events = system.discontinuities().events.iter();

@@ -271,7 +271,8 @@ impl SectionOrbit<'_> {
                 }
                 Ok(Reached::OutOfBudget) => {}
                 Ok(Reached::Occurred(occurrence)) => {
-                    if occurrence.name == self.plan.event {
+                    let is_of_file = occurrence.kind != OccurrenceKind::StepInTime;
+                    if is_of_file && occurrence.name == self.plan.event {
                         last = self.motion.steps();
                         if let Err(error) = self.record(occurrence.time) {
                             return (OrbitStatus::Failed, Some(error.to_string()));

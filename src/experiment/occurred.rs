@@ -35,7 +35,10 @@ impl Experiment {
                 self.recorder.insert(clock, &before);
                 self.recorder.insert(clock, self.motion.values());
                 // no event of the file
-                return Ok(format!("{lead}: the velocities jump, the momenta do not"));
+                let time = short(occurrence.time);
+                return Ok(format!(
+                    "L has a step at t = {time}: the velocities jump, the momenta do not"
+                ));
             }
             OccurrenceKind::Impulse { .. } => {
                 let before = self.motion.values_before()?;

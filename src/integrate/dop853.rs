@@ -64,6 +64,7 @@ pub(super) const METHOD: Method = Method {
     stepping: Stepping::Adaptive,
     preserves: Preserves::Nothing,
     locates_kinks: false,
+    stays_within_steps: true,
     needs: "",
     about: "The Runge–Kutta method of order 8 that many programs use, for comparison. Kinks are \
             stepped over, not located; what follows one, as a body at rest under dry friction, takes steps of `taylor`. Hairer, Nørsett & Wanner, Solving Ordinary Differential \
@@ -347,7 +348,7 @@ impl Stepper for DormandPrince {
                 self.step_along_kink(limit)
             }
             Err(error) if matches!(error.kind, MotionErrorKind::StepUnderflow(_)) => {
-                if self.goes_to_kink(limit) { self.step_along_kink(limit) } else { Err(error) }
+                if self.goes_to_kink(limit)? { self.step_along_kink(limit) } else { Err(error) }
             }
             outcome => outcome,
         }

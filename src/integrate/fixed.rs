@@ -89,6 +89,8 @@ pub(super) struct FixedStep<S> {
     parameters: Vec<f64>,
     asked: Option<f64>,
     steps: EqualSteps,
+    /// Where the motion begins beside a step in time of the law: when, and a time at which the law in `f64` is the one on its side.
+    begun: Option<(f64, f64)>,
     /// The number of steps since the start, and an instability found on the way.
     taken: u64,
     /// Whether steps may be taken many at once, until it is seen that they may not.
@@ -118,6 +120,7 @@ impl<S: Scheme> FixedStep<S> {
             scheme,
             parameters: Vec::new(),
             asked: settings.step,
+            begun: None,
             steps: EqualSteps::new(DoubleDouble::ZERO, DoubleDouble::ZERO),
             taken: 0,
             in_batches: true,
@@ -135,6 +138,43 @@ impl<S: Scheme> FixedStep<S> {
         self.scheme.begin(&self.parameters);
         self.aside.begin(&self.parameters);
         self.in_batches = true;
+    }
+
+    /// Where the current state lies beside a step in time of the law: its time, and one at which the law in `f64` is the one there.
+    fn begun_beside_step(&self, step: f64) -> Result<Option<(f64, f64)>, MotionError> {
+        let (time, parameters) = (self.state.exact_time(), &self.parameters);
+        let Some(beside) = self.system.beside_step(time, step, parameters)? else {
+            return Ok(None);
+        };
+        let Some(sides) = self.system.beside_step_in_f64(time, step, parameters)? else {
+            return Ok(None);
+        };
+        let is_behind = self.system.is_behind_step(time, beside, parameters)?;
+        Ok(Some((time.high, sides[usize::from(is_behind)])))
+    }
+
+    /// When a step begins by the clock of the law, and how long it is, so that the law is that of one side at both its ends where one
+    /// of them is a step in time, which a clock in `f64` does not see from its sides.
+    fn on_one_side(
+        &self,
+        begin: DoubleDouble,
+        end: DoubleDouble,
+        step: f64,
+    ) -> Result<(DoubleDouble, f64), MotionError> {
+        if !self.system.momenta_jump() || step <= 0.0 {
+            return Ok((begin, step));
+        }
+        let first = self.begun.filter(|(time, _)| *time == begin.high).map(|(_, clock)| clock);
+        let last = self.system.beside_step_in_f64(end, step, &self.parameters)?;
+        let last = last.map(|[before, _]| before).filter(|before| *before > begin.high);
+        Ok(match (first, last) {
+            (None, None) => (begin, step),
+            (Some(first), None) => (DoubleDouble::from(first), step),
+            (None, Some(last)) => (DoubleDouble::from(last) - DoubleDouble::from(step), step),
+            (Some(first), Some(last)) if last > first => (DoubleDouble::from(first), last - first),
+            // within the digits of the clock
+            (Some(first), Some(_)) => (DoubleDouble::from(first), step),
+        })
     }
 
     /// The number of steps before the next check of stability; zero if it is due.
@@ -227,6 +267,7 @@ impl<S: Scheme> Stepper for FixedStep<S> {
         self.parameters.clear();
         self.parameters.extend_from_slice(parameters);
         let step = EqualSteps::step_of(self.asked, &self.system, state, parameters);
+        self.begun = self.begun_beside_step(step.high)?;
         self.count_from_here(step);
         self.scheme.begin_near(state);
         self.taken = 0;
@@ -255,8 +296,11 @@ impl<S: Scheme> Stepper for FixedStep<S> {
         self.may_step(limit)?;
         self.check_stability();
         self.next.copy_from(&self.state);
-        self.scheme.advance(self.steps.step.high, &mut self.next)?;
         let time = self.steps.time_after(1);
+        let (clock, step) =
+            self.on_one_side(self.state.exact_time(), time, self.steps.step.high)?;
+        self.next.set_time(clock);
+        self.scheme.advance(step, &mut self.next)?;
         self.next.set_time(time);
         if time.high == self.state.time {
             let kind = MotionErrorKind::StepUnderflow(self.steps.step.high);
@@ -322,8 +366,11 @@ impl<S: Scheme> DenseOutput for FixedStep<S> {
         }
         self.aside.forget();
         self.aside.continue_from(&self.scheme);
-        let step = DoubleDouble::from_decimal(time) - self.before.exact_time();
-        self.aside.advance(step.high, out)?;
+        let end = DoubleDouble::from_decimal(time);
+        let begin = self.before.exact_time();
+        let (clock, step) = self.on_one_side(begin, end, (end - begin).high)?;
+        out.set_time(clock);
+        self.aside.advance(step, out)?;
         (out.time, out.time_carry) = (time, 0.0);
         self.system.check_finite(out)
     }

@@ -17,6 +17,7 @@ pub(super) const FOURTH_ORDER: Method = Method {
     stepping: Stepping::Fixed,
     preserves: Preserves::SymplecticReversible,
     locates_kinks: false,
+    stays_within_steps: true,
     needs: "",
     about: "Collocation at two points, solved by iteration: symplectic for any system that has \
             momenta, whatever its H; for brackets it keeps every quadratic Casimir. Hairer, Lubich & Wanner, Geometric Numerical Integration, \
@@ -37,6 +38,7 @@ pub(super) const SIXTH_ORDER: Method = Method {
     stepping: Stepping::Fixed,
     preserves: Preserves::SymplecticReversible,
     locates_kinks: false,
+    stays_within_steps: true,
     needs: "",
     about: "Collocation at three points, solved by iteration: symplectic for any system that has \
             momenta, whatever its H; for brackets it keeps every quadratic Casimir. Hairer, Lubich & Wanner, Geometric Numerical Integration, \

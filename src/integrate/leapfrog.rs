@@ -12,6 +12,7 @@ pub(super) const METHOD: Method = Method {
     stepping: Stepping::Fixed,
     preserves: Preserves::SymplecticReversible,
     locates_kinks: false,
+    stays_within_steps: true,
     needs: splitting::NEEDS,
     about: "Half a kick, a drift, half a kick: the simplest symplectic method. Energy swings a \
             little and does not drift. Hairer, Lubich & Wanner, Geometric Numerical Integration, \

@@ -19,6 +19,8 @@ pub struct Method {
     pub preserves: Preserves,
     /// Whether steps end on kinks of the motion, rather than pass over them.
     pub locates_kinks: bool,
+    /// Whether the forces are evaluated within steps only, so that nothing is lost where steps end at a jump of theirs.
+    pub stays_within_steps: bool,
     /// What it requires of a system, in words; empty if it requires nothing.
     pub needs: &'static str,
     /// What it is good for, in a sentence or two, and its source.

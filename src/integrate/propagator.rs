@@ -186,8 +186,11 @@ impl Propagator {
             self.release(constraint, &native_state)?;
         }
         self.search.restore(start, state.time);
-        self.state.copy_from(state);
-        self.stepper.start(state, &self.parameters)
+        // one that was at a step in time is behind it now
+        if self.state.exact_time() == state.exact_time() {
+            self.state.copy_from(state);
+        }
+        self.stepper.start(&self.state, &self.parameters)
     }
 
     /// Restores a motion that began at `start` and was left at this state, with this step if steps are fixed: until the next
@@ -227,7 +230,7 @@ impl Propagator {
             if let Ok(stepper) = (self.method.make)(&self.system, &settings) {
                 self.stepper = stepper;
             }
-            self.stepper.start_with_step(state, &self.parameters, step)?;
+            self.stepper.start_with_step(&self.state, &self.parameters, step)?;
         }
         Ok(())
     }

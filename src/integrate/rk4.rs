@@ -19,6 +19,7 @@ pub(super) const METHOD: Method = Method {
     stepping: Stepping::Fixed,
     preserves: Preserves::Nothing,
     locates_kinks: false,
+    stays_within_steps: true,
     needs: "",
     about: "The classic method of order 4, for comparison: accurate for a while, but it gains or \
             loses energy steadily. Hairer, Nørsett & Wanner, Solving Ordinary Differential \

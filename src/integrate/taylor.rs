@@ -66,6 +66,7 @@ pub(super) const METHOD: Method = Method {
     stepping: Stepping::Adaptive,
     preserves: Preserves::Nothing,
     locates_kinks: true,
+    stays_within_steps: true,
     needs: "",
     about: "Power series in time, of an order that follows the tolerance (28 where none is given), \
             the lowest terms carried in double-double. Errors stay at the last digit shown, kinks \

@@ -29,6 +29,7 @@ pub(super) const FOURTH_ORDER: Method = Method {
     stepping: Stepping::Fixed,
     preserves: Preserves::SymplecticReversible,
     locates_kinks: false,
+    stays_within_steps: false,
     needs: splitting::NEEDS,
     about: "Three leapfrogs, the middle one backwards: order 4 without a drift of energy. \
             Yoshida, Physics Letters A 150 (1990) 262, eq. 4.1.",
@@ -44,6 +45,7 @@ pub(super) const SIXTH_ORDER: Method = Method {
     stepping: Stepping::Fixed,
     preserves: Preserves::SymplecticReversible,
     locates_kinks: false,
+    stays_within_steps: false,
     needs: splitting::NEEDS,
     about: "Seven leapfrogs of different length: order 6 without a drift of energy. Yoshida, \
             Physics Letters A 150 (1990) 262, solution A.",
@@ -59,6 +61,7 @@ pub(super) const EIGHTH_ORDER: Method = Method {
     stepping: Stepping::Fixed,
     preserves: Preserves::SymplecticReversible,
     locates_kinks: false,
+    stays_within_steps: false,
     needs: splitting::NEEDS,
     about: "Fifteen leapfrogs of different length: order 8 without a drift of energy, for small \
             errors at large steps. Yoshida, Physics Letters A 150 (1990) 262, solution D.",

@@ -3,7 +3,7 @@
 //! In: L (or H). Out: whether a sign or the cut of an angle is a step of it, where the force is an impulse that no derivative
 //! shows. Never here: where a motion meets it.
 
-use super::equations::Equations;
+use super::equations::{Equations, Flow};
 use super::rate_of_change::is_multiple;
 use crate::expr::{Expr, FunctionId, Node, Pool, Symbol, Zero, is_never_negative, keeps_its_sign};
 use crate::num::Number;
@@ -41,22 +41,56 @@ impl Equations {
     /// Returns whether a momentum of L, as a function of the velocities, jumps at a time. The momentum itself does not, so that the
     /// velocities do.
     pub fn momenta_jump(&self) -> bool {
-        !self.momentum_steps().is_empty()
+        !self.momentum_steps().is_empty() || self.momenta_jump_at_poles()
     }
 
-    /// The functions of the time alone at whose zeros a momentum of L jumps, as a function of the velocities.
+    /// The functions of the time alone, finite at all times, at whose zeros a momentum of L jumps, as a function of the velocities.
     pub fn momentum_steps(&self) -> Vec<Expr> {
+        let mut steps = self.momentum_steps_by(|p, time| self.signs_of(p, &[time]));
+        steps.retain(|&e| !self.may_have_poles(e));
+        steps
+    }
+
+    /// Returns whether a momentum jumps at a pole of a function of the time, as that of sign(1/t) or arctan(1/t).
+    pub fn momenta_jump_at_poles(&self) -> bool {
+        let signs = self.momentum_steps_by(|p, time| self.signs_of(p, &[time]));
+        signs.into_iter().any(|e| self.may_have_poles(e))
+            || !self.momentum_steps_by(|p, time| self.saturated_poles(p, &[time])).is_empty()
+    }
+
+    /// Returns whether the rates of momenta switch at zeros of these functions, too.
+    pub fn momentum_rates_switch_at(&self, steps: &[Expr]) -> bool {
+        let Flow::Lagrange { momentum_rates, .. } = &self.flow else { return false };
+        self.pool.reachable(momentum_rates).into_iter().any(|e| match self.pool.node(e) {
+            Node::Call(FunctionId::Sign | FunctionId::Abs, arguments) => {
+                arguments.iter().any(|a| steps.contains(a))
+            }
+            _ => false,
+        })
+    }
+
+    fn momentum_steps_by(&self, steps_of: impl Fn(Expr, Symbol) -> Vec<Expr>) -> Vec<Expr> {
         if !self.is_lagrangian() {
             return Vec::new();
         }
         let time = self.symbols.time;
         let others: Vec<Symbol> = self.moving().into_iter().filter(|s| *s != time).collect();
-        let mut steps: Vec<Expr> =
-            self.momenta.iter().flat_map(|&p| self.steps_of(p, &[time])).collect();
+        let mut steps: Vec<Expr> = self.momenta.iter().flat_map(|&p| steps_of(p, time)).collect();
         steps.retain(|&e| !self.pool.depends_on_any(e, &others));
         steps.sort_unstable();
         steps.dedup();
         steps
+    }
+
+    /// Whether a function of the time may be infinite at some.
+    fn may_have_poles(&self, e: Expr) -> bool {
+        let varies = |e: Expr| self.pool.depends_on_any(e, &[self.symbols.time]);
+        self.pool.reachable(&[e]).into_iter().any(|part| match self.pool.node(part) {
+            Node::Call(FunctionId::Tan | FunctionId::Cot | FunctionId::Ln, argument) => {
+                varies(argument[0])
+            }
+            _ => self.divisors(part).into_iter().any(|(divisor, _)| varies(divisor)),
+        })
     }
 
     /// Whether a function jumps with the sign of something that depends on some symbols.
@@ -66,6 +100,11 @@ impl Equations {
 
     /// What depends on some symbols and where it is zero, or has a pole, a function jumps.
     fn steps_of(&self, function: Expr, symbols: &[Symbol]) -> Vec<Expr> {
+        [self.signs_of(function, symbols), self.saturated_poles(function, symbols)].concat()
+    }
+
+    /// What depends on some symbols and with whose sign a function jumps.
+    fn signs_of(&self, function: Expr, symbols: &[Symbol]) -> Vec<Expr> {
         let pool = &self.pool;
         let sign = |e: Expr| match pool.node(e) {
             Node::Call(FunctionId::Sign, argument) => {
@@ -103,7 +142,8 @@ impl Equations {
             steps.extend(signs(e));
             steps.extend(quotients(e));
         }
-        steps.extend(self.saturated_poles(function, symbols));
+        let roots = pool.reachable(&[function]).into_iter().flat_map(|e| self.even_roots_below(e));
+        steps.extend(self.at_whose_zeros_it_jumps(function, symbols, roots.collect()));
         steps
     }
 
@@ -117,21 +157,28 @@ impl Equations {
             }
             _ => Vec::new(),
         });
-        let mut poles: Vec<Expr> = bounded
+        let poles: Vec<Expr> = bounded
             .flat_map(|part| match pool.node(part) {
                 Node::Call(FunctionId::Tan | FunctionId::Cot, _) => vec![part],
                 _ => self.divisors(part).into_iter().map(|(e, _)| e).collect(),
             })
             .collect();
-        poles
-            .extend(pool.reachable(&[function]).into_iter().flat_map(|e| self.even_roots_below(e)));
-        poles.sort_unstable();
-        poles.dedup();
-        let moving = self.moving();
-        poles.retain(|&pole| {
-            pool.depends_on_any(pole, symbols) && pool.jumps_at_zeros(function, pole, &moving)
+        self.at_whose_zeros_it_jumps(function, symbols, poles)
+    }
+
+    fn at_whose_zeros_it_jumps(
+        &self,
+        function: Expr,
+        symbols: &[Symbol],
+        mut among: Vec<Expr>,
+    ) -> Vec<Expr> {
+        among.sort_unstable();
+        among.dedup();
+        let (pool, moving) = (&self.pool, self.moving());
+        among.retain(|&e| {
+            pool.depends_on_any(e, symbols) && pool.jumps_at_zeros(function, e, &moving)
         });
-        poles
+        among
     }
 
     /// What is u in a divisor √(u²) of a product: u/√(u²) is the sign of u.

@@ -7,15 +7,21 @@ use super::Model;
 use crate::expr::{Expr, FunctionId, Node, Rule};
 
 impl Model {
-    /// Whether `abs`, `sign`, `min`, `max` or the cut of an `atan2` is applied in the law to anything but parameters, apart from
-    /// the progress of ramps that begin and end smoothly. Constraints belong to the law.
-    pub fn has_kinks_beside_smooth_ramps(&self) -> bool {
+    /// Whether `abs`, `sign`, `min`, `max` or the cut of an `atan2` is applied in the law to anything but parameters and `located`
+    /// functions, apart from the progress of ramps that begin and end smoothly. Constraints belong to the law.
+    pub fn has_kinks_beside_smooth_ramps(&self, located: &[Expr]) -> bool {
         let mut mechanics = self.mechanics.clone();
         let mut roots: Vec<Expr> = mechanics.expressions_mut().into_iter().map(|e| *e).collect();
         roots.extend(self.constraints.iter().map(|constraint| constraint.expression));
         let ramped = |e: Expr| self.ramped.is_smooth_progress(e);
         let reached = self.pool.reachable_until(&roots, ramped);
-        reached.into_iter().any(|e| self.is_switch(e))
+        let is_located = |e: Expr| match self.pool.node(e) {
+            Node::Call(FunctionId::Sign | FunctionId::Abs, argument) => {
+                located.contains(&argument[0])
+            }
+            _ => false,
+        };
+        reached.into_iter().any(|e| self.is_switch(e) && !is_located(e))
     }
 
     /// Whether the law has an angle that is folded back, as acos(cos(x)) and asin(sin(x)): it has kinks where the function in it

@@ -29,6 +29,8 @@ pub struct Discontinuities {
     pub(super) schedule: Arc<Program>,
     /// The functions of the time alone at whose zeros a momentum of L jumps, as a function of the velocities.
     pub(super) steps: Arc<Program>,
+    /// Whether a momentum of L, as a function of the velocities, jumps at a time, at such a zero or at a pole.
+    pub momenta_jump: bool,
     /// Whether L is quadratic in the velocities.
     quadratic: bool,
 }
@@ -82,7 +84,7 @@ impl Discontinuities {
         model: &Model,
         builder: &mut ProgramBuilder<'_>,
     ) -> Result<Discontinuities, Symbol> {
-        let steps = steps_in_time(builder);
+        let steps = builder.equations.momentum_steps();
         let mut lowering = builder.lowering();
         let instants = lowering.lower_all(&steps);
         let instants = lowering.finish(instants)?;
@@ -133,22 +135,10 @@ impl Discontinuities {
             change: observables::program(builder, &changes)?,
             schedule,
             steps: instants,
+            momenta_jump: builder.equations.momenta_jump(),
             quadratic: builder.equations.is_quadratic(),
         })
     }
-}
-
-/// The [steps](Discontinuities::steps) of the momenta.
-fn steps_in_time(builder: &mut ProgramBuilder<'_>) -> Vec<Expr> {
-    let zero = |e: Expr| {
-        let (function, argument) = match builder.pool.node(e) {
-            Node::Call(FunctionId::Tan, argument) => (FunctionId::Cos, argument[0]),
-            Node::Call(FunctionId::Cot, argument) => (FunctionId::Sin, argument[0]),
-            _ => return e,
-        };
-        builder.pool.call(function, &[argument])
-    };
-    builder.equations.momentum_steps().into_iter().map(zero).collect()
 }
 
 /// The functions of the events and of the surfaces of section.

@@ -24,12 +24,22 @@ pub(super) fn before(model: &Model, system: &System, equations: &Equations, meth
              make the step a steep slope, as with tanh, or give the impulse as an event"
         ));
     }
-    if equations.momenta_jump() {
+    let steps = equations.momentum_steps();
+    if !steps.is_empty() {
         stderr::report(
             "L has a step in time in its momenta, which keep their values there while the velocities jump",
         );
     }
-    let has_kinks = system.has_kinks() && model.has_kinks_beside_smooth_ramps();
+    if equations.momenta_jump_at_poles() {
+        stderr::report(
+            "L has a step in time in its momenta at a pole, where the motion keeps the velocities; make the step a steep slope, as \
+             with tanh, or write H",
+        );
+    }
+    // steps end there
+    let keeps_accuracy = method.stays_within_steps || !equations.momentum_rates_switch_at(&steps);
+    let located = if keeps_accuracy { &steps[..] } else { &[] };
+    let has_kinks = system.has_kinks() && model.has_kinks_beside_smooth_ramps(located);
     if (has_kinks || model.has_folded_angles()) && !method.locates_kinks {
         let others: Vec<&str> =
             METHODS.iter().filter(|m| m.locates_kinks).map(|m| m.name).collect();

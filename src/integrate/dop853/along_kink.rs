@@ -12,7 +12,7 @@ use crate::integrate::method::Settings;
 use crate::integrate::stepper::Stepper;
 use crate::integrate::taylor::Taylor;
 use crate::num::DoubleDouble;
-use crate::system::{MotionError, State};
+use crate::system::{MotionError, MotionErrorKind, State};
 
 /// A kink within so many digits of the clock after the start is followed to.
 const SOON: f64 = 64.0;
@@ -49,7 +49,9 @@ impl DormandPrince {
             Ok(()) => (0..switches).map(|i| self.exact.switch(i)).collect(),
             Err(_) => here.clone(),
         };
-        let is_near = |(here, later): (&f64, &f64)| *here == 0.0 || here * later < 0.0;
+        let is_near = |(here, later): (&f64, &f64)| {
+            *here == 0.0 || *here > 0.0 && *later < 0.0 || *here < 0.0 && *later > 0.0
+        };
         if here.iter().zip(&later).any(is_near) { self.follow_kink() } else { Ok(()) }
     }
 
@@ -65,14 +67,20 @@ impl DormandPrince {
 
     /// Whether a motion whose steps have become too small is on its way to a kink, which it then follows: where a number goes to zero
     /// there, no step is so short that its error relative to that number is small.
-    pub(super) fn goes_to_kink(&mut self, limit: f64) -> bool {
-        if !self.system.has_kinks() || self.follow_kink().is_err() {
-            return false;
+    pub(super) fn goes_to_kink(&mut self, limit: f64) -> Result<bool, MotionError> {
+        if !self.system.has_kinks() {
+            return Ok(false);
         }
+        self.follow_kink()?;
         let course = std::mem::replace(&mut self.course, KinkCourse::Away);
-        let KinkCourse::Along(mut ahead) = course else { return false };
-        let goes = ahead.step(limit).is_ok() && !ahead.is_beside_kinks();
-        goes && self.follow_kink().is_ok()
+        let KinkCourse::Along(mut ahead) = course else { return Ok(false) };
+        match ahead.step(limit) {
+            Ok(()) if !ahead.is_beside_kinks() => self.follow_kink()?,
+            Err(error) if error.kind == MotionErrorKind::Cancelled => return Err(error),
+            // it ends where the step has become too small
+            Ok(()) | Err(_) => return Ok(false),
+        }
+        Ok(true)
     }
 
     /// Takes a step of the method that follows kinks.

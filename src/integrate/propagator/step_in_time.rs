@@ -9,8 +9,10 @@
 use super::Propagator;
 use crate::integrate::located_event::LocatedEvent;
 use crate::model::EventAction;
-use crate::num::DoubleDouble;
 use crate::system::MotionError;
+
+/// So little of the time before a step that no motion takes place in it, as a part of the time.
+const AT_ONCE: f64 = 1e-25;
 
 impl Propagator {
     /// Gives the motion, which has come to the instant of a step, the velocities after it. Returns whether there is one.
@@ -79,19 +81,26 @@ impl Propagator {
         })
     }
 
-    /// Dates a state at which the motion begins, exactly at a step, just after it.
+    /// Dates a state at which the motion begins, exactly at a step, just after it. One that is dated just before it, as that of a motion
+    /// that is reversed there, is given the velocities after it.
     pub(super) fn begin_after_step_in_time(&mut self) -> Result<(), MotionError> {
         let time = self.system.after_step_in_time(self.state.exact_time(), &self.parameters)?;
         self.state.set_time(time);
         let beside = self.system.beside_step(time, 0.0, &self.parameters)?;
-        let is_behind = |[before, after]: [DoubleDouble; 2]| {
-            (time - before).high > 0.0 && (time - after).high <= (after - before).high
-        };
-        if beside.is_some_and(is_behind) {
-            self.crossed = Some(time);
-            if let Some(events) = &mut self.search.events {
-                events.begin_at(time);
+        let Some(beside) = beside else { return Ok(()) };
+        if !self.system.is_behind_step(time, beside, &self.parameters)? {
+            let left = (beside[1] - time).high;
+            if left > AT_ONCE * time.high.abs() {
+                return Ok(());
             }
+            let crossed = self.system.across_step_in_time(&self.state, &self.parameters, 0.0)?;
+            let Some((_, after)) = crossed else { return Ok(()) };
+            self.state.copy_from(&after);
+        }
+        let time = self.state.exact_time();
+        self.crossed = Some(time);
+        if let Some(events) = &mut self.search.events {
+            events.begin_at(time);
         }
         Ok(())
     }

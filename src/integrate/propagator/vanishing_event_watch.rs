@@ -9,11 +9,14 @@ use crate::system::MotionError;
 
 impl Propagator {
     /// The names of the events and sections whose functions are zero all along the current motion but for rounding, and since when.
-    /// An event that has released its constraint is none of them: it cannot happen again, and a multiplier is zero from then on.
+    /// An event that has released its constraint is none of them: it cannot happen again, and a multiplier is zero from then on. Nor is
+    /// a step in time of the law.
     pub fn vanishing_events(&self) -> impl Iterator<Item = (&str, f64)> {
         let events = &self.system.discontinuities().events;
         let is_over = |action: EventAction| match action {
             EventAction::Release(constraint) => self.system.is_released(constraint),
+            // no event of the file
+            EventAction::StepInTime => true,
             _ => false,
         };
         let known = self.search.events.iter().flat_map(EventLocator::vanishing);

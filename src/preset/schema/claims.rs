@@ -50,7 +50,7 @@ pub(in crate::preset) const EXPECTED_VALUE: SchemaTable = SchemaTable {
         key(
             "within",
             Number,
-            "the absolute tolerance; where not given 1e-10 of the largest size of its terms in the last eighth of the time until then",
+            "the absolute tolerance; where not given 1e-10 of the largest size of its terms in the last eighth of the time until then, and for zero at least 1e-15 of the largest before",
         ),
         SOURCE,
     ],

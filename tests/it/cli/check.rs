@@ -609,15 +609,19 @@ fn what_has_decayed_is_held_against_what_is_left_of_it() {
     };
     let decays = "L = \"1/2*x'^2\"\nforces = { x = \"-x'\" }";
     for (at, is, wrong) in [
-        // e⁻¹⁵, e⁻³⁰
+        // e⁻¹⁵, e⁻³⁰, e⁻⁴⁰
         ("15", "3.059023205018258e-7", ["3.0590233e-7", "3.06e-7"]),
-        ("30", "9.357622968840175e-14", ["5e-11", "1.2e-13"]),
+        ("30", "9.357622968840175e-14", ["9.4e-14", "1.2e-13"]),
+        ("40", "4.248354255291589e-18", ["5e-16", "4.2484e-18"]),
     ] {
         assert_eq!(check(decays, at, is).success(), "");
         for wrong in wrong {
             check(decays, at, wrong).fails(65, &["x': this is", "1 error"]);
         }
     }
+    // zero but for rounding of what it was
+    assert_eq!(check(decays, "40", "0").success(), "");
+    check(decays, "30", "0").fails(65, &["x': this is", "1 error"]);
     let swings = "L = \"1/2*x'^2 - 1/2*x^2\"";
     // π/2 and 201π/2
     for at in ["1.5707963267948966", "315.7300616857742"] {
