@@ -156,9 +156,10 @@ impl DormandPrince {
             evaluate(rates, stage, step, &self.state, &mut self.slopes, numbers)?;
         }
         self.next.copy_from(&self.state);
-        for i in 0..self.numbers.len() {
-            let change = step * sum(STAGES[METHOD_STAGES].from, &self.slopes, i);
-            self.next.set(i, self.state.exact(i) + DoubleDouble::from(change));
+        // `numbers` stay those of the last stage, at which rounding may be measured
+        sums(STAGES[METHOD_STAGES].from, &self.slopes, &mut self.fresh);
+        for (i, sum) in self.fresh.iter().enumerate() {
+            self.next.set(i, self.state.exact(i) + DoubleDouble::from(step * sum));
         }
         Ok(())
     }
@@ -301,10 +302,24 @@ fn evaluate(
     slopes: &mut [Vec<f64>],
     numbers: &mut [f64],
 ) -> Result<(), MotionError> {
-    for (i, x) in numbers.iter_mut().enumerate() {
-        *x = origin.values[i] + (origin.carry[i] + step * sum(STAGES[stage].from, slopes, i));
+    sums(STAGES[stage].from, slopes, numbers);
+    for (x, (value, carry)) in numbers.iter_mut().zip(origin.values.iter().zip(&origin.carry)) {
+        *x = value + (carry + step * *x);
     }
     rates.evaluate(origin.time + STAGES[stage].at * step, numbers, &mut slopes[stage])
+}
+
+/// The weighted sums of the slopes of all numbers, as [`sum`] has them: stage by stage, so that each slope is read in a row.
+fn sums(terms: &[WeightedStage], slopes: &[Vec<f64>], out: &mut [f64]) {
+    let Some((&(first, coefficient), others)) = terms.split_first() else { return out.fill(0.0) };
+    for (sum, slope) in out.iter_mut().zip(&slopes[first]) {
+        *sum = coefficient * slope;
+    }
+    for &(stage, coefficient) in others {
+        for (sum, slope) in out.iter_mut().zip(&slopes[stage]) {
+            *sum += coefficient * slope;
+        }
+    }
 }
 
 /// A weighted sum of the slopes of one number.
