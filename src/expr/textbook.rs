@@ -47,57 +47,68 @@ impl Pool {
         print(&pool, turned)
     }
 
-    /// `−a (e − 1)` as `a (1 − e)`, and `−(cos θ − 1)/l` as `(1 − cos θ)/l`. What is not constant and no function stays before the
-    /// number: `−k (x − 1)`.
+    /// Differences within products begin with their number, in every equation, and the sign of the product stands before it:
+    /// `a (e − 1)` as `−a (1 − e)`, `(e − 1) (cos θ − 1)/l` as `(1 − e) (1 − cos θ)/l`. What is not constant and no function
+    /// stays before the number: `−k (x − 1)`. No product gets a sign within a function, a power or another product.
     fn turn_signs(&mut self, e: Expr) -> Expr {
         let mut turned: FxHashMap<Expr, Expr> = FxHashMap::default();
+        let mut within: FxHashMap<Expr, Expr> = FxHashMap::default();
         for part in self.reachable(&[e]) {
-            let new = match self.node(part).with_parts(|part| turned[&part]) {
-                Node::Product(c, factors) if c.is_negative() => {
-                    let opposite = self.turned_factors(&factors);
-                    self.intern(match opposite {
-                        Some(opposite) => Node::Product(-c, opposite),
-                        None => Node::Product(c, factors),
-                    })
+            let is_sum = matches!(self.node(part), Node::Sum(..));
+            let parts = if is_sum { &turned } else { &within };
+            match self.node(part).with_parts(|part| parts[&part]) {
+                Node::Product(c, factors) => {
+                    let (is_opposite, other_factors) = self.turned_factors(&factors);
+                    let other = if is_opposite { -c } else { c };
+                    let new = self.intern(Node::Product(other, other_factors));
+                    turned.insert(part, new);
+                    let gets_sign = other.is_negative() && !c.is_negative();
+                    let kept = if gets_sign { self.intern(Node::Product(c, factors)) } else { new };
+                    within.insert(part, kept);
                 }
                 Node::Sum(constant, mut terms) => {
                     for (c, term) in &mut terms {
-                        let Node::Product(k, factors) = &*self.shared(*term) else { continue };
-                        if c.is_negative()
-                            && let Some(opposite) = self.turned_factors(factors)
-                        {
-                            let product = Node::Product(*k, opposite);
-                            (*c, *term) = (-*c, self.intern(product));
+                        let Node::Product(k, factors) = self.node(*term).clone() else { continue };
+                        if k.is_negative() {
+                            (*c, *term) = (-*c, self.intern(Node::Product(-k, factors)));
                         }
                     }
-                    self.intern(Node::Sum(constant, terms))
+                    let new = self.intern(Node::Sum(constant, terms));
+                    turned.insert(part, new);
+                    within.insert(part, new);
                 }
-                node => self.intern(node),
-            };
-            turned.insert(part, new);
+                node => {
+                    let new = self.intern(node);
+                    turned.insert(part, new);
+                    within.insert(part, new);
+                }
+            }
         }
         turned[&e]
     }
 
-    /// The factors of the opposite of a product, where one of them is a sum whose only negative term is its number.
-    fn turned_factors(&mut self, factors: &[Factor]) -> Option<Box<[Factor]>> {
+    /// The factors of a product with every sum whose only negative term is its number, or all of whose terms are negative,
+    /// replaced by its opposite, and whether they make the opposite product.
+    fn turned_factors(&mut self, factors: &[Factor]) -> (bool, Box<[Factor]>) {
         let is_odd = |n: Number| n.as_integer().is_some_and(|n| n % 2 != 0);
-        let comes_second = |pool: &Pool, base: Expr| match pool.node(base) {
-            Node::Sum(constant, terms) => {
-                constant.is_negative()
-                    && terms.iter().all(|&(c, term)| {
-                        let is_call = matches!(pool.node(term), Node::Call(..));
-                        !c.is_negative() && (is_call || pool.rank_of(term) == Rank::Constant)
-                    })
-            }
-            _ => false,
-        };
-        let place = factors.iter().position(|&(base, n)| is_odd(n) && comes_second(self, base))?;
-        let Node::Sum(constant, terms) = &*self.shared(factors[place].0) else { return None };
-        let opposite = terms.iter().map(|&(c, term)| (-c, term)).collect();
+        let mut is_opposite = false;
         let mut turned = factors.to_vec();
-        turned[place].0 = self.intern(Node::Sum(-*constant, opposite));
-        Some(turned.into())
+        for (base, _) in turned.iter_mut().filter(|(_, n)| is_odd(*n)) {
+            let Node::Sum(constant, terms) = &*self.shared(*base) else { continue };
+            let comes_second = constant.is_negative()
+                && terms.iter().all(|&(c, term)| {
+                    let is_call = matches!(self.node(term), Node::Call(..));
+                    !c.is_negative() && (is_call || self.rank_of(term) == Rank::Constant)
+                });
+            let all_negative = (constant.is_zero() || constant.is_negative())
+                && terms.iter().all(|(c, _)| c.is_negative());
+            if comes_second || all_negative {
+                let opposite = terms.iter().map(|&(c, term)| (-c, term)).collect();
+                *base = self.intern(Node::Sum(-*constant, opposite));
+                is_opposite = !is_opposite;
+            }
+        }
+        (is_opposite, turned.into())
     }
 
     /// A sum with its products multiplied out where terms combine and it is shorter so: `x (x − y) − ½ (x − y)²` as

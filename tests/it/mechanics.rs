@@ -60,6 +60,22 @@ fn pendulum() {
 }
 
 #[test]
+fn differences_have_one_sign_in_all_equations() {
+    for (potential, slope, written) in [
+        ("k*(1 - e)*x", "k*(1 - e)", "k (1 − e) x"),
+        ("k*(1 - e)/(1 - f)*x^2", "2*k*(1 - e)/(1 - f)*x", "k (1 − e) x²/(1 − f)"),
+        ("(e - 1)*(f - 1)*(1 - cos(x))", "(e - 1)*(f - 1)*sin(x)", "(1 − e) (1 − f) (1 − cos x)"),
+    ] {
+        let law = format!("1/2*m*x'^2 - {potential}");
+        let model = lagrangian(&["x"], &["m", "k", "e", "f"], &law);
+        let e = check(model, &[&format!("-{slope}/m")]);
+        let (l, h) = (e.lagrangian.expect("L"), e.hamiltonian.expect("H"));
+        assert_eq!(e.pool.unicode(l), format!("½ m ẋ² − {written}"));
+        assert_eq!(e.pool.unicode(h), format!("p_x²/(2 m) + {written}"));
+    }
+}
+
+#[test]
 fn heavy_symmetric_top() {
     // Goldstein, *Classical Mechanics*, § 5.7, by hand
     let model = lagrangian(
