@@ -44,7 +44,7 @@ pub use finite::all_finite;
 pub use format::{
     no_longer_than, push_shortest, rounded, short, shortest, significant, to_its_error,
 };
-pub use four_lanes::{FourLaneKernel, FourLanes, LANES, Separately, in_four_lanes};
+pub use four_lanes::{FourLaneKernel, FourLanes, LANES, ScalarLanes, in_four_lanes};
 pub use horner::{Polynomial, four_tails, padded, polynomial, tail, tails};
 pub use instruction_set::{Kernel, vectorized};
 pub use number::Number;

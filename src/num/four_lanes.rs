@@ -1,8 +1,8 @@
 //! Four numbers side by side, computed with at once.
 //!
 //! In and out: four `f64`. Each operation does in every lane what it does with one `f64`, bit for bit, whether by one
-//! instruction ([`V3`](pulp::x86::V3)) or by four ([`Separately`]). A compiler may or may not turn a loop over lanes into vector
-//! instructions; here they are said. Never here: which numbers.
+//! instruction ([`V3`](pulp::x86::V3)) or by four ([`ScalarLanes`]). A compiler may or may not turn a loop over lanes into vector
+//! instructions; here they are written explicitly. Never here: which numbers.
 
 use super::double_double::DoubleDouble;
 use super::instruction_set::FUSED_PLAINLY;
@@ -17,10 +17,10 @@ pub trait FourLanes: Copy {
     /// Four numbers.
     type Numbers: Copy;
 
-    /// Takes four numbers.
-    fn of(self, numbers: [f64; LANES]) -> Self::Numbers;
-    /// Gives them back.
-    fn give(self, a: Self::Numbers) -> [f64; LANES];
+    /// The numbers of an array.
+    fn from_array(self, numbers: [f64; LANES]) -> Self::Numbers;
+    /// The array of the numbers.
+    fn to_array(self, a: Self::Numbers) -> [f64; LANES];
     /// The same number in every lane.
     fn splat(self, x: f64) -> Self::Numbers;
     /// a + b.
@@ -38,9 +38,9 @@ pub trait FourLanes: Copy {
     /// |a|.
     fn abs(self, a: Self::Numbers) -> Self::Numbers;
     /// The larger number in each lane, the first where one is NaN.
-    fn larger(self, a: Self::Numbers, b: Self::Numbers) -> Self::Numbers;
+    fn max(self, a: Self::Numbers, b: Self::Numbers) -> Self::Numbers;
     /// The smaller number in each lane, the first where one is NaN.
-    fn smaller(self, a: Self::Numbers, b: Self::Numbers) -> Self::Numbers;
+    fn min(self, a: Self::Numbers, b: Self::Numbers) -> Self::Numbers;
     /// `then` in the lanes in which a < b, else `otherwise`.
     fn where_below(
         self,
@@ -54,7 +54,7 @@ pub trait FourLanes: Copy {
     /// The lanes in which a = b.
     fn equal(self, a: Self::Numbers, b: Self::Numbers) -> u32;
     /// Of positive numbers x = m 2ᵉ with 1 ≤ m < 2 the mantissas m and the exponents e.
-    fn parts(self, x: Self::Numbers) -> (Self::Numbers, Self::Numbers);
+    fn mantissa_exponent(self, x: Self::Numbers) -> (Self::Numbers, Self::Numbers);
 
     /// a + b and its rounding error, as [`DoubleDouble::sum`] has them.
     #[inline(always)]
@@ -67,7 +67,7 @@ pub trait FourLanes: Copy {
     /// The least of four numbers, none of which is NaN.
     #[inline(always)]
     fn least(self, a: Self::Numbers) -> f64 {
-        let [a, b, c, d] = self.give(a);
+        let [a, b, c, d] = self.to_array(a);
         let less = |a: f64, b: f64| if b < a { b } else { a };
         less(less(a, c), less(b, d))
     }
@@ -78,7 +78,7 @@ pub trait FourLanes: Copy {
     /// The largest of them.
     #[inline(always)]
     fn largest(self, a: Self::Numbers) -> f64 {
-        let [a, b, c, d] = self.give(a);
+        let [a, b, c, d] = self.to_array(a);
         let more = |a: f64, b: f64| if b > a { b } else { a };
         more(more(a, c), more(b, d))
     }
@@ -115,7 +115,7 @@ pub fn in_four_lanes<K: FourLaneKernel>(kernel: K) -> K::Output {
             return wide.vectorize(Call(kernel, wide));
         }
     }
-    kernel.run::<_, FUSED_PLAINLY>(Separately)
+    kernel.run::<_, FUSED_PLAINLY>(ScalarLanes)
 }
 
 /// In the last digits of 2⁵² an integer becomes a number by one subtraction.
@@ -126,7 +126,7 @@ const ONE: u64 = 1.0_f64.to_bits();
 
 /// Lane by lane, on any processor.
 #[derive(Clone, Copy, Debug)]
-pub struct Separately;
+pub struct ScalarLanes;
 
 /// An operation on each lane.
 macro_rules! each {
@@ -150,15 +150,15 @@ macro_rules! bits {
     }};
 }
 
-impl FourLanes for Separately {
+impl FourLanes for ScalarLanes {
     type Numbers = [f64; LANES];
 
     #[inline(always)]
-    fn of(self, numbers: [f64; LANES]) -> [f64; LANES] {
+    fn from_array(self, numbers: [f64; LANES]) -> [f64; LANES] {
         numbers
     }
     #[inline(always)]
-    fn give(self, a: [f64; LANES]) -> [f64; LANES] {
+    fn to_array(self, a: [f64; LANES]) -> [f64; LANES] {
         a
     }
     #[inline(always)]
@@ -190,11 +190,11 @@ impl FourLanes for Separately {
         each!(i => a[i].abs())
     }
     #[inline(always)]
-    fn larger(self, a: [f64; LANES], b: [f64; LANES]) -> [f64; LANES] {
+    fn max(self, a: [f64; LANES], b: [f64; LANES]) -> [f64; LANES] {
         each!(i => if b[i] > a[i] { b[i] } else { a[i] })
     }
     #[inline(always)]
-    fn smaller(self, a: [f64; LANES], b: [f64; LANES]) -> [f64; LANES] {
+    fn min(self, a: [f64; LANES], b: [f64; LANES]) -> [f64; LANES] {
         each!(i => if b[i] < a[i] { b[i] } else { a[i] })
     }
     #[inline(always)]
@@ -226,7 +226,7 @@ impl FourLanes for Separately {
         columns
     }
     #[inline(always)]
-    fn parts(self, x: [f64; LANES]) -> ([f64; LANES], [f64; LANES]) {
+    fn mantissa_exponent(self, x: [f64; LANES]) -> ([f64; LANES], [f64; LANES]) {
         let mantissa = |x: f64| f64::from_bits((x.to_bits() & MANTISSA) | ONE);
         let exponent =
             |x: f64| f64::from_bits(SHIFT.to_bits() | (x.to_bits() >> 52)) - (SHIFT + BIAS);
@@ -251,11 +251,11 @@ mod avx2 {
         type Numbers = f64x4;
 
         #[inline(always)]
-        fn of(self, [a, b, c, d]: [f64; LANES]) -> f64x4 {
+        fn from_array(self, [a, b, c, d]: [f64; LANES]) -> f64x4 {
             f64x4(a, b, c, d)
         }
         #[inline(always)]
-        fn give(self, f64x4(a, b, c, d): f64x4) -> [f64; LANES] {
+        fn to_array(self, f64x4(a, b, c, d): f64x4) -> [f64; LANES] {
             [a, b, c, d]
         }
         #[inline(always)]
@@ -285,11 +285,11 @@ mod avx2 {
         }
         // the instruction gives the second of its operands where one is NaN
         #[inline(always)]
-        fn larger(self, a: f64x4, b: f64x4) -> f64x4 {
+        fn max(self, a: f64x4, b: f64x4) -> f64x4 {
             self.max_f64s(b, a)
         }
         #[inline(always)]
-        fn smaller(self, a: f64x4, b: f64x4) -> f64x4 {
+        fn min(self, a: f64x4, b: f64x4) -> f64x4 {
             self.min_f64s(b, a)
         }
         #[inline(always)]
@@ -318,7 +318,7 @@ mod avx2 {
             ]
         }
         #[inline(always)]
-        fn parts(self, x: f64x4) -> (f64x4, f64x4) {
+        fn mantissa_exponent(self, x: f64x4) -> (f64x4, f64x4) {
             let x: u64x4 = pulp::cast(x);
             let all = |bits: u64| self.splat_u64x4(bits);
             let mantissa = self.or_u64x4(self.and_u64x4(x, all(MANTISSA)), all(ONE));
@@ -341,8 +341,8 @@ mod tests {
 
         #[inline(always)]
         fn run<L: FourLanes, const FUSED: bool>(self, lanes: L) -> Vec<u64> {
-            let (a, b) = (lanes.of(self.0), lanes.of(self.1));
-            let (mantissa, exponent) = lanes.parts(lanes.abs(a));
+            let (a, b) = (lanes.from_array(self.0), lanes.from_array(self.1));
+            let (mantissa, exponent) = lanes.mantissa_exponent(lanes.abs(a));
             let (sum, left) = lanes.sum(a, b);
             let (product, lost) = lanes.product::<FUSED>(a, b);
             let numbers = [
@@ -350,8 +350,8 @@ mod tests {
                 lanes.sub(a, b),
                 lanes.mul(a, b),
                 lanes.abs(a),
-                lanes.larger(a, b),
-                lanes.smaller(a, b),
+                lanes.max(a, b),
+                lanes.min(a, b),
                 lanes.where_below(a, b, a, b),
                 lanes.splat(self.0[1]),
                 mantissa,
@@ -362,12 +362,12 @@ mod tests {
             ];
             let [c, d, e, f] = lanes.transposed([a, b, sum, product]);
             let numbers = numbers.into_iter().chain([c, d, e, f]);
-            let lists = numbers.flat_map(|x| lanes.give(x)).map(f64::to_bits);
+            let lists = numbers.flat_map(|x| lanes.to_array(x)).map(f64::to_bits);
             let masks = [lanes.above(a, b), lanes.equal(a, b), lanes.all_lanes()];
             // beyond these sizes the error is not known exactly
             let ordinary = |x: f64| x == 0.0 || (1e-200..1e150).contains(&x.abs());
             let ordinary = self.0.iter().chain(&self.1).all(|x| ordinary(*x));
-            let lost = ordinary.then(|| lanes.give(lost).map(f64::to_bits));
+            let lost = ordinary.then(|| lanes.to_array(lost).map(f64::to_bits));
             lists.chain(masks.map(u64::from)).chain(lost.into_iter().flatten()).collect()
         }
     }
@@ -381,7 +381,7 @@ mod tests {
             for other in 0..numbers.len() {
                 let a = std::array::from_fn(|i| numbers[(shift + i) % numbers.len()]);
                 let b = std::array::from_fn(|i| numbers[(other + 3 * i) % numbers.len()]);
-                let apart = All(a, b).run::<_, FUSED_PLAINLY>(Separately);
+                let apart = All(a, b).run::<_, FUSED_PLAINLY>(ScalarLanes);
                 let is_nan = |bits: u64| f64::from_bits(bits).is_nan();
                 let at_once = in_four_lanes(All(a, b));
                 assert_eq!(at_once.len(), apart.len());
@@ -394,8 +394,8 @@ mod tests {
 
     #[test]
     fn a_number_is_its_mantissa_times_a_power_of_two() {
-        let lanes = Separately;
-        let (mantissas, exponents) = lanes.parts([1.0, 0.1, 3e300, 5e-300]);
+        let lanes = ScalarLanes;
+        let (mantissas, exponents) = lanes.mantissa_exponent([1.0, 0.1, 3e300, 5e-300]);
         assert_eq!((mantissas[0], exponents[0]), (1.0, 0.0));
         assert_eq!((mantissas[1], exponents[1]), (1.6, -4.0));
         for (m, e) in mantissas.into_iter().zip(exponents) {

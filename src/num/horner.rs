@@ -7,7 +7,7 @@
 
 use super::batch::Batch;
 use super::double_double::DoubleDouble;
-use super::four_lanes::{FourLanes, LANES, Separately};
+use super::four_lanes::{FourLanes, LANES, ScalarLanes};
 use super::instruction_set::{Kernel, vectorized};
 use super::real::Analytic;
 
@@ -36,12 +36,12 @@ pub fn tail<L: FourLanes>(lanes: L, high: &[f64], x: f64) -> f64 {
     let square = x * x;
     let fourth = lanes.splat(square * square);
     let (chunks, rest) = high.as_chunks::<APART>();
-    let mut sums = lanes.of(padded(rest, 0.0));
+    let mut sums = lanes.from_array(padded(rest, 0.0));
     // by places, since what is given to an iterator is not always inlined
     for i in (0..chunks.len()).rev() {
-        sums = lanes.add(lanes.mul(sums, fourth), lanes.of(chunks[i]));
+        sums = lanes.add(lanes.mul(sums, fourth), lanes.from_array(chunks[i]));
     }
-    let [first, second, third, last] = lanes.give(sums);
+    let [first, second, third, last] = lanes.to_array(sums);
     (third * square + first) + (last * square + second) * x
 }
 
@@ -55,15 +55,15 @@ pub fn four_tails<L: FourLanes>(lanes: L, high: [&[f64]; LANES], x: f64) -> L::N
     let ((c, c_rest), (d, d_rest)) = (c.as_chunks::<APART>(), d.as_chunks::<APART>());
     let count = a.len();
     let (b, c, d) = (&b[..count], &c[..count], &d[..count]);
-    let mut a_sums = lanes.of(padded(a_rest, 0.0));
-    let mut b_sums = lanes.of(padded(b_rest, 0.0));
-    let mut c_sums = lanes.of(padded(c_rest, 0.0));
-    let mut d_sums = lanes.of(padded(d_rest, 0.0));
+    let mut a_sums = lanes.from_array(padded(a_rest, 0.0));
+    let mut b_sums = lanes.from_array(padded(b_rest, 0.0));
+    let mut c_sums = lanes.from_array(padded(c_rest, 0.0));
+    let mut d_sums = lanes.from_array(padded(d_rest, 0.0));
     for i in (0..count).rev() {
-        a_sums = lanes.add(lanes.mul(a_sums, fourth), lanes.of(a[i]));
-        b_sums = lanes.add(lanes.mul(b_sums, fourth), lanes.of(b[i]));
-        c_sums = lanes.add(lanes.mul(c_sums, fourth), lanes.of(c[i]));
-        d_sums = lanes.add(lanes.mul(d_sums, fourth), lanes.of(d[i]));
+        a_sums = lanes.add(lanes.mul(a_sums, fourth), lanes.from_array(a[i]));
+        b_sums = lanes.add(lanes.mul(b_sums, fourth), lanes.from_array(b[i]));
+        c_sums = lanes.add(lanes.mul(c_sums, fourth), lanes.from_array(c[i]));
+        d_sums = lanes.add(lanes.mul(d_sums, fourth), lanes.from_array(d[i]));
     }
     let [first, second, third, last] = lanes.transposed([a_sums, b_sums, c_sums, d_sums]);
     let (x, square) = (lanes.splat(x), lanes.splat(square));
@@ -77,15 +77,15 @@ pub fn four_tails<L: FourLanes>(lanes: L, high: [&[f64]; LANES], x: f64) -> L::N
 fn slope_tail<L: FourLanes>(lanes: L, high: &[f64], order: usize, x: f64) -> f64 {
     let square = x * x;
     let fourth = lanes.splat(square * square);
-    let ahead = lanes.of([0.0, 1.0, 2.0, 3.0]);
+    let ahead = lanes.from_array([0.0, 1.0, 2.0, 3.0]);
     let (chunks, rest) = high.as_chunks::<APART>();
     let orders = lanes.add(lanes.splat((order + APART * chunks.len()) as f64), ahead);
-    let mut sums = lanes.mul(lanes.of(padded(rest, 0.0)), orders);
+    let mut sums = lanes.mul(lanes.from_array(padded(rest, 0.0)), orders);
     for i in (0..chunks.len()).rev() {
         let orders = lanes.add(lanes.splat((order + APART * i) as f64), ahead);
-        sums = lanes.add(lanes.mul(sums, fourth), lanes.mul(lanes.of(chunks[i]), orders));
+        sums = lanes.add(lanes.mul(sums, fourth), lanes.mul(lanes.from_array(chunks[i]), orders));
     }
-    let [first, second, third, last] = lanes.give(sums);
+    let [first, second, third, last] = lanes.to_array(sums);
     (third * square + first) + (last * square + second) * x
 }
 
@@ -145,7 +145,7 @@ impl Kernel for Polynomial<'_> {
     #[inline(always)]
     fn run<const FUSED: bool>(self) -> DoubleDouble {
         let tail = self.high.iter().rev().fold(0.0, |sum, c| sum * self.x.high + c);
-        self.with_tail::<_, FUSED>(Separately, tail)
+        self.with_tail::<_, FUSED>(ScalarLanes, tail)
     }
 }
 
@@ -192,7 +192,7 @@ mod tests {
             let all = tails(&high, x);
             for lane in 0..all.0.len() {
                 let alone: Vec<f64> = high.iter().map(|c| c.0[lane]).collect();
-                let own = tail(Separately, &alone, x.0[lane]);
+                let own = tail(ScalarLanes, &alone, x.0[lane]);
                 assert_eq!(all.0[lane].to_bits(), own.to_bits(), "{length}");
                 let direct = alone.iter().rev().fold(0.0, |sum, c| sum * x.0[lane] + c);
                 let powers = std::iter::successors(Some(1.0), |p| Some(p * x.0[lane].abs()));
@@ -212,7 +212,7 @@ mod tests {
                     .collect();
                 let (sum, size): (f64, f64) =
                     (terms.iter().sum(), terms.iter().map(|term| term.abs()).sum());
-                let off = slope_tail(Separately, &high[..length], order, x) - sum;
+                let off = slope_tail(ScalarLanes, &high[..length], order, x) - sum;
                 assert!(off.abs() <= 1e-14 * size, "{length} {order} {x}: {off:e}");
             }
         }

@@ -17,7 +17,7 @@ use super::state::State;
 use super::underflow;
 use crate::expr::FunctionId;
 use crate::num::{
-    Analytic, BATCH, Batch, DoubleDouble, Kernel, Polynomial, Separately, tail, tails, vectorized,
+    Analytic, BATCH, Batch, DoubleDouble, Kernel, Polynomial, ScalarLanes, tail, tails, vectorized,
 };
 
 /// The series of all numbers of the states of several orbits.
@@ -188,9 +188,9 @@ impl BatchSeries {
         for i in 0..self.origins.len() {
             self.gather(i, lane);
             let low = &self.origins[i][lane..=lane];
-            let tail = tail(Separately, &self.gathered, x.high);
+            let tail = tail(ScalarLanes, &self.gathered, x.high);
             let polynomial = Polynomial { low, high: &self.gathered, x };
-            out.set(i, polynomial.with_tail::<_, false>(Separately, tail));
+            out.set(i, polynomial.with_tail::<_, false>(ScalarLanes, tail));
         }
         let time = self.times[lane] + after;
         (out.time, out.time_carry) = (time.high, time.low);
@@ -250,7 +250,7 @@ impl Kernel for States<'_> {
                 series.gather(i, lane);
                 let low = &series.origins[i][lane..=lane];
                 let polynomial = Polynomial { low, high: &series.gathered, x: x[lane] };
-                out.set(i, polynomial.with_tail::<_, FUSED>(Separately, tail.0[lane]));
+                out.set(i, polynomial.with_tail::<_, FUSED>(ScalarLanes, tail.0[lane]));
             }
         }
         for (lane, out) in out.into_iter().enumerate() {

@@ -82,15 +82,15 @@ fn sums_of_four<L: FourLanes, const FUSED: bool>(
     let (a, b, c, d) = (&a[..known], &b[..known], &c[..known], &d[..known]);
     for j in (0..known).rev() {
         let (product, lost) = lanes.product::<FUSED>(sums, x);
-        let terms = lanes.of([a[j].high, b[j].high, c[j].high, d[j].high]);
+        let terms = lanes.from_array([a[j].high, b[j].high, c[j].high, d[j].high]);
         let (next, left) = lanes.sum(product, terms);
-        let terms = lanes.of([a[j].low, b[j].low, c[j].low, d[j].low]);
+        let terms = lanes.from_array([a[j].low, b[j].low, c[j].low, d[j].low]);
         let rest = lanes.add(lanes.add(lost, left), terms);
         errors = lanes.add(lanes.mul(errors, x), rest);
         sums = next;
     }
     let (sums, left) = lanes.sum(sums, errors);
-    (lanes.give(sums), lanes.give(left))
+    (lanes.to_array(sums), lanes.to_array(left))
 }
 
 /// A number in its unit. In a small one it is zero below the numbers that keep all their digits: what decays comes to
@@ -107,7 +107,7 @@ fn in_unit(number: DoubleDouble, unit: f64) -> DoubleDouble {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::{Separately, in_four_lanes};
+    use crate::num::{ScalarLanes, in_four_lanes};
     use crate::system::Form;
 
     #[test]
@@ -132,7 +132,7 @@ mod tests {
                     if at_once {
                         in_four_lanes(sum);
                     } else {
-                        sum.run::<_, false>(Separately);
+                        sum.run::<_, false>(ScalarLanes);
                     }
                     out
                 };
@@ -144,7 +144,7 @@ mod tests {
                     let high = &high[known..STRIDE];
                     let polynomial = Polynomial { low, high, x };
                     let alone = polynomial
-                        .with_tail::<_, false>(Separately, tail(Separately, high, x.high))
+                        .with_tail::<_, false>(ScalarLanes, tail(ScalarLanes, high, x.high))
                         .scaled(units[i]);
                     assert_eq!(together.exact(i), alone, "{i} of {count}");
                 }

@@ -130,11 +130,11 @@ impl FourLaneKernel for OtherTerms<'_> {
         // four sums side by side, each in powers of the fourth power
         let fourth = lanes.splat(square * square);
         let (chunks, rest) = c.as_chunks::<LANES>();
-        let mut sums = lanes.abs(lanes.of(padded(rest, 0.0)));
+        let mut sums = lanes.abs(lanes.from_array(padded(rest, 0.0)));
         for i in (0..chunks.len()).rev() {
-            sums = lanes.add(lanes.mul(sums, fourth), lanes.abs(lanes.of(chunks[i])));
+            sums = lanes.add(lanes.mul(sums, fourth), lanes.abs(lanes.from_array(chunks[i])));
         }
-        let [zeroth, first, second, third] = lanes.give(sums);
+        let [zeroth, first, second, third] = lanes.to_array(sums);
         let own = c[0].abs();
         (zeroth - own) + distance * first + square * (second + distance * third)
     }

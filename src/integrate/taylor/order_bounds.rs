@@ -134,7 +134,7 @@ impl OrderBounds {
     pub(super) fn of_lowest<L: FourLanes>(&self, lanes: L, coefficients: &[f64]) -> LowestBounds {
         let (low, own) = (coefficients.first_chunk::<LANES>(), coefficients.last_chunk::<WIDTH>());
         let (Some(low), Some(own)) = (low, own) else { return LowestBounds::NOTHING };
-        let low = lanes.give(four_logarithms(lanes, lanes.abs(lanes.of(*low))));
+        let low = lanes.to_array(four_logarithms(lanes, lanes.abs(lanes.from_array(*low))));
         let (infinite, none) = (lanes.splat(f64::INFINITY), lanes.splat(f64::NEG_INFINITY));
         let mut found = LowestBounds::NOTHING;
         let mut least = infinite;
@@ -142,28 +142,28 @@ impl OrderBounds {
         let own = own.as_chunks::<LANES>().0;
         // by places, since what is given to an iterator is not always inlined
         for i in 0..CHUNKS {
-            let own = four_logarithms(lanes, lanes.abs(lanes.of(own[i])));
+            let own = four_logarithms(lanes, lanes.abs(lanes.from_array(own[i])));
             let (mut by_tolerance, mut by_radius) = (none, none);
             for j in 0..LANES {
                 let order = &self.lowest[j];
                 let apart = lanes.sub(lanes.splat(low[j]), own);
-                let root = lanes.mul(apart, lanes.of(order.reciprocals[i]));
-                let allowed = lanes.add(root, lanes.of(order.by_tolerance[i]));
-                by_tolerance = lanes.larger(by_tolerance, allowed);
+                let root = lanes.mul(apart, lanes.from_array(order.reciprocals[i]));
+                let allowed = lanes.add(root, lanes.from_array(order.by_tolerance[i]));
+                by_tolerance = lanes.max(by_tolerance, allowed);
                 // the first two say nothing of the radius
                 if j >= 2 {
-                    let allowed = lanes.add(root, lanes.of(order.by_radius[i]));
-                    by_radius = lanes.larger(by_radius, allowed);
+                    let allowed = lanes.add(root, lanes.from_array(order.by_radius[i]));
+                    by_radius = lanes.max(by_radius, allowed);
                 }
             }
-            let indulgences = lanes.of(self.indulgences[i]);
-            let logs = lanes.add(lanes.smaller(by_tolerance, by_radius), indulgences);
+            let indulgences = lanes.from_array(self.indulgences[i]);
+            let logs = lanes.add(lanes.min(by_tolerance, by_radius), indulgences);
             // a coefficient that vanishes allows anything
             let logs = lanes.where_below(own, lanes.splat(f64::MIN), infinite, logs);
-            found.by_tolerance[i] = lanes.give(lanes.add(by_tolerance, indulgences));
-            found.logs[i] = lanes.give(logs);
+            found.by_tolerance[i] = lanes.to_array(lanes.add(by_tolerance, indulgences));
+            found.logs[i] = lanes.to_array(logs);
             bounds[i] = logs;
-            least = lanes.smaller(least, logs);
+            least = lanes.min(least, logs);
         }
         found.least = lanes.least(least);
         let (all, mut equal) = (lanes.splat(found.least), 0);
@@ -196,8 +196,8 @@ impl OrderBounds {
             let lower = if i < chunks.len() { chunks[i] } else { padded(rest, 0.0) };
             let factors =
                 if by_tolerance { &chunk.tolerance_factors } else { &chunk.radius_factors };
-            let terms = lanes.mul(lanes.abs(lanes.of(lower)), lanes.of(powers[i]));
-            most = lanes.larger(most, lanes.mul(terms, lanes.of(*factors)));
+            let terms = lanes.mul(lanes.abs(lanes.from_array(lower)), lanes.from_array(powers[i]));
+            most = lanes.max(most, lanes.mul(terms, lanes.from_array(*factors)));
         }
         own.is_normal() && lanes.above(all, most) == lanes.all_lanes()
     }
@@ -223,10 +223,13 @@ impl OrderBounds {
         let logs = logs.as_chunks::<LANES>().0;
         for i in 0..bound.chunks.len() {
             let chunk = &bound.chunks[i];
-            let root = lanes.mul(lanes.sub(lanes.of(logs[i]), own), lanes.of(chunk.reciprocals));
-            let allowed = lanes.add(root, lanes.of(chunk.by_tolerance));
-            by_tolerance = lanes.larger(by_tolerance, allowed);
-            by_radius = lanes.larger(by_radius, lanes.add(root, lanes.of(chunk.by_radius)));
+            let root = lanes.mul(
+                lanes.sub(lanes.from_array(logs[i]), own),
+                lanes.from_array(chunk.reciprocals),
+            );
+            let allowed = lanes.add(root, lanes.from_array(chunk.by_tolerance));
+            by_tolerance = lanes.max(by_tolerance, allowed);
+            by_radius = lanes.max(by_radius, lanes.add(root, lanes.from_array(chunk.by_radius)));
         }
         let (by_tolerance, by_radius) = (lanes.largest(by_tolerance), lanes.largest(by_radius));
         let no_radius = by_radius == f64::NEG_INFINITY;

@@ -13,11 +13,11 @@ pub(super) fn logarithms<L: FourLanes>(lanes: L, of: &[f64], logs: &mut [f64; RO
     let places = logs.as_chunks_mut::<LANES>().0;
     // by places, since what is given to an iterator is not always inlined
     for i in 0..chunks.len() {
-        places[i] = lanes.give(four_logarithms(lanes, lanes.abs(lanes.of(chunks[i]))));
+        places[i] = lanes.to_array(four_logarithms(lanes, lanes.abs(lanes.from_array(chunks[i]))));
     }
     if !rest.is_empty() {
-        let rest = lanes.of(padded(rest, 0.0));
-        places[chunks.len()] = lanes.give(four_logarithms(lanes, lanes.abs(rest)));
+        let rest = lanes.from_array(padded(rest, 0.0));
+        places[chunks.len()] = lanes.to_array(four_logarithms(lanes, lanes.abs(rest)));
     }
 }
 
@@ -29,7 +29,7 @@ const LN_MIDDLE: f64 = 0.405_465_108_108_164_4;
 /// series about the middle of the mantissas; −∞ for what is as good as zero.
 #[inline(always)]
 pub(super) fn four_logarithms<L: FourLanes>(lanes: L, x: L::Numbers) -> L::Numbers {
-    let (mantissa, exponent) = lanes.parts(x);
+    let (mantissa, exponent) = lanes.mantissa_exponent(x);
     let t = lanes.mul(lanes.sub(mantissa, lanes.splat(MIDDLE)), lanes.splat(1.0 / MIDDLE));
     let even = lanes.mul(t, t);
     let mut first = lanes.splat(1.0 / 7.0);
@@ -92,7 +92,7 @@ pub(super) fn rough_exponential(x: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::{Separately, math};
+    use crate::num::{ScalarLanes, math};
 
     #[test]
     fn rough_exponentials_have_eight_digits() {
@@ -111,7 +111,7 @@ mod tests {
             let x = math::exp(f64::from(i) * 0.3137);
             let log = rough_logarithms([x])[0];
             assert!((log - math::ln(x)).abs() < 1e-4, "{x}");
-            let four = four_logarithms(Separately, [x; LANES]);
+            let four = four_logarithms(ScalarLanes, [x; LANES]);
             assert!(four.iter().all(|other| other.to_bits() == log.to_bits()), "{x}");
         }
     }

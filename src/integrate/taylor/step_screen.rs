@@ -72,29 +72,31 @@ impl StepScreen {
         let mut passing = lanes.all_lanes();
         // by places, since what is given to an iterator is not always inlined
         for i in 0..CHUNKS {
-            let own = lanes.mul(lanes.abs(lanes.of(own[i])), lanes.of(self.entering[i]));
-            let term = lanes.mul(own, lanes.of(last[i]));
+            let own =
+                lanes.mul(lanes.abs(lanes.from_array(own[i])), lanes.from_array(self.entering[i]));
+            let term = lanes.mul(own, lanes.from_array(last[i]));
             // a coefficient that vanishes allows anything
             terms[i] = lanes.where_below(own, faint, vanishing, term);
-            let by_tolerance = lanes.mul(first, lanes.of(self.by_tolerance[0][i]));
-            let by_radius = lanes.mul(second, lanes.of(self.by_radius[0][i]));
-            passing &= lanes.above(lanes.smaller(by_tolerance, by_radius), terms[i]);
+            let by_tolerance = lanes.mul(first, lanes.from_array(self.by_tolerance[0][i]));
+            let by_radius = lanes.mul(second, lanes.from_array(self.by_radius[0][i]));
+            passing &= lanes.above(lanes.min(by_tolerance, by_radius), terms[i]);
         }
         // one order of each is mostly enough
         if passing == lanes.all_lanes() {
             return true;
         }
         for i in 0..CHUNKS {
-            let mut by_tolerance = lanes.mul(first, lanes.of(self.by_tolerance[0][i]));
-            let mut by_radius = lanes.mul(second, lanes.of(self.by_radius[0][i]));
+            let mut by_tolerance = lanes.mul(first, lanes.from_array(self.by_tolerance[0][i]));
+            let mut by_radius = lanes.mul(second, lanes.from_array(self.by_radius[0][i]));
             for j in 1..FIRST {
                 let own = low(lanes, coefficients, powers, j);
-                by_tolerance =
-                    lanes.larger(by_tolerance, lanes.mul(own, lanes.of(self.by_tolerance[j][i])));
+                by_tolerance = lanes
+                    .max(by_tolerance, lanes.mul(own, lanes.from_array(self.by_tolerance[j][i])));
                 let own = low(lanes, coefficients, powers, j + 2);
-                by_radius = lanes.larger(by_radius, lanes.mul(own, lanes.of(self.by_radius[j][i])));
+                by_radius =
+                    lanes.max(by_radius, lanes.mul(own, lanes.from_array(self.by_radius[j][i])));
             }
-            let allowed = lanes.smaller(by_tolerance, by_radius);
+            let allowed = lanes.min(by_tolerance, by_radius);
             if lanes.above(allowed, terms[i]) != lanes.all_lanes() {
                 return false;
             }
@@ -114,11 +116,11 @@ fn low<L: FourLanes>(lanes: L, coefficients: &[f64], powers: &[f64; ROOM], j: us
 #[inline(always)]
 pub(super) fn set_powers<L: FourLanes>(lanes: L, powers: &mut [f64; ROOM], h: f64, order: usize) {
     let square = h * h;
-    let mut next = lanes.of([1.0, h, square, square * h]);
+    let mut next = lanes.from_array([1.0, h, square, square * h]);
     let fourth = lanes.splat(square * square);
     let chunks = &mut powers.as_chunks_mut::<LANES>().0[..=order / LANES];
     for i in 0..chunks.len() {
-        chunks[i] = lanes.give(next);
+        chunks[i] = lanes.to_array(next);
         next = lanes.mul(next, fourth);
     }
 }

@@ -276,7 +276,7 @@ pub(super) fn reciprocals(k: usize) -> &'static [f64] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::Separately;
+    use crate::num::ScalarLanes;
 
     /// A series whose terms grow by a factor from one to the next.
     fn geometric(ratio: f64) -> Vec<f64> {
@@ -286,8 +286,8 @@ mod tests {
     /// The logarithm of the step that a series allows, with every order asked.
     fn of_one(coefficients: &[f64], shares: &Shares) -> f64 {
         let mut logs = [f64::NEG_INFINITY; ROOM];
-        logarithms(Separately, coefficients, &mut logs);
-        let of_lane = |lane| shares.bounds.of_lane(Separately, lane, &logs);
+        logarithms(ScalarLanes, coefficients, &mut logs);
+        let of_lane = |lane| shares.bounds.of_lane(ScalarLanes, lane, &logs);
         (0..WIDTH).map(of_lane).fold(f64::INFINITY, f64::min)
     }
 
@@ -322,18 +322,19 @@ mod tests {
                     let mut with = ShortestStep::new();
                     let mut without = f64::INFINITY;
                     for series in (0..4).map(|i| noisy(4 * seed + i, order)) {
-                        let shorter = with.take(Separately, &series, &shares);
+                        let shorter = with.take(ScalarLanes, &series, &shares);
                         let found = of_one(&series, &shares);
                         assert_eq!(shorter, found < without, "{series:?}");
                         without = without.min(found);
                         passed +=
-                            usize::from(shares.screen.passes(Separately, &series, &with.powers));
-                        let lowest = shares.bounds.of_lowest(Separately, &series);
+                            usize::from(shares.screen.passes(ScalarLanes, &series, &with.powers));
+                        let lowest = shares.bounds.of_lowest(ScalarLanes, &series);
                         let log = lowest.least;
                         assert!(log <= found, "{series:?}");
                         let mut powers = [f64::NAN; ROOM];
-                        set_powers(Separately, &mut powers, rough_exponential(log), order);
-                        let known = shares.bounds.is_decided(Separately, &lowest, &series, &powers);
+                        set_powers(ScalarLanes, &mut powers, rough_exponential(log), order);
+                        let known =
+                            shares.bounds.is_decided(ScalarLanes, &lowest, &series, &powers);
                         assert!(!known || log == found, "{series:?}");
                         decided += usize::from(known);
                     }
