@@ -18,6 +18,7 @@ pub trait FourLanes: Copy {
     type Numbers: Copy;
 
     /// The numbers of an array.
+    #[allow(clippy::wrong_self_convention, reason = "`self` stands for the instructions")]
     fn from_array(self, numbers: [f64; LANES]) -> Self::Numbers;
     /// The array of the numbers.
     fn to_array(self, a: Self::Numbers) -> [f64; LANES];
