@@ -209,9 +209,17 @@ fn paths_have_a_limit_together() {
     assert_eq!(message, "with this, the file's paths have more than a million nodes");
 }
 
-/// Nested definitions may be as deep as the limit for a text, and no deeper.
+/// The stack of a program's first thread; a thread of a test has a quarter of it, which code that is not optimised fills.
+const STACK: usize = 8 << 20;
+
 #[test]
 fn opened_definitions_have_a_depth_limit() {
+    let thread = std::thread::Builder::new().stack_size(STACK);
+    thread.spawn(open_deep_definitions).unwrap().join().unwrap();
+}
+
+/// Nested definitions may be as deep as the limit for a text, and no deeper.
+fn open_deep_definitions() {
     let chain = |n: usize| {
         let tower = |i: usize| match i {
             0 => "d0 = \"x\"\n".to_owned(),
