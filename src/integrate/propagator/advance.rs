@@ -211,7 +211,8 @@ impl Propagator {
         if let Some(crossed) = self.crossed.filter(|crossed| crossed.high == time) {
             self.state.set_time(crossed);
         }
-        Ok(())
+        // a step in time that rounding has located a little later
+        self.date_beside_step_in_time()
     }
 
     /// Sets the current state to that at the time of an occurrence, known beyond the last digit of

@@ -239,6 +239,19 @@ fn signs_of_small_functions_count() {
     }
 }
 
+/// Where rounding brings the step later than the instant, the row there is that before it, and no invariant is said to be lost.
+#[test]
+fn a_row_at_the_instant_is_on_one_side_of_it() {
+    for factor in ["1e-10", "1e-100"] {
+        let law = law(&format!("(3 - sign({factor}*(t - 1)))/2"), "0");
+        for row in rows(&law, "", &["taylor"], "1,2") {
+            let is_before = row[2] == 0.8 && row[3] == 1.6;
+            let is_after = row[2] == 1.6 && row[3] == 1.6;
+            assert!(is_after || row[0] == 1.0 && is_before, "{factor}: {row:?}");
+        }
+    }
+}
+
 /// No event of the file acts on the motion.
 #[test]
 fn what_needs_derivatives_refuses_the_step_and_no_event() {
