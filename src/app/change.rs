@@ -89,15 +89,28 @@ impl Lab {
 
     /// Starts the motion with several initial values at once.
     pub(super) fn start(&mut self, values: &[InitialOverride]) -> Vec<Effect> {
-        let before = self.given();
+        let windows_before = self.bounds_before.clone();
+        self.keep_windows();
+        self.start_in_window(values, windows_before)
+    }
+
+    /// Does so in the window that the pictures have now, given the ranges that they kept before.
+    pub(super) fn start_in_window(
+        &mut self,
+        values: &[InitialOverride],
+        windows_before: Vec<(f64, f64)>,
+    ) -> Vec<Effect> {
         let after = self.given_with(values);
-        self.note(Change::Start([before, after.clone()]));
+        let given = [self.given(), after.clone()];
+        let windows = [windows_before, self.bounds_before.clone()];
+        self.note(Change::Start { given, windows });
         vec![self.begin_with(after)]
     }
 
     /// Starts the motion where a flow has led.
     pub(super) fn start_carried(&mut self, after: Vec<InitialOverride>) -> Vec<Effect> {
         self.note(Change::Flow([self.given(), after.clone()]));
+        self.keep_windows();
         vec![self.begin_with(after)]
     }
 
@@ -253,7 +266,7 @@ impl Lab {
                 let name = format!("initial {}", named(ValueId::Initial(*index)));
                 went(&name, side.way(*numbers).map(short))
             }
-            Change::Start(_) => "the initial values".to_owned(),
+            Change::Start { .. } => "the initial values".to_owned(),
             Change::Flow(_) => "the flow".to_owned(),
             Change::FullReset { .. } => "the reset to the file's values".to_owned(),
             Change::Plot { index, .. } => {
@@ -285,11 +298,19 @@ impl Lab {
             }
             Change::Initial { index, numbers, given } => {
                 self.choose(ValueId::Initial(index));
+                self.keep_windows();
                 let effect = self.begin_with(side.of(given));
                 self.pending.set_value(ValueId::Initial(index), side.of(numbers));
                 vec![effect]
             }
-            Change::Start(given) | Change::Flow(given) => vec![self.begin_with(side.of(given))],
+            Change::Start { given, windows } => {
+                self.bounds_before = side.of(windows);
+                vec![self.begin_with(side.of(given))]
+            }
+            Change::Flow(given) => {
+                self.keep_windows();
+                vec![self.begin_with(side.of(given))]
+            }
             Change::FullReset { parameters, given } => match side {
                 ChangeSide::After => vec![self.give_back()],
                 ChangeSide::Before => {
@@ -299,6 +320,7 @@ impl Lab {
                             effects.push(self.set_parameter(index, value));
                         }
                     }
+                    self.keep_windows();
                     effects.push(self.begin_with(given));
                     effects
                 }
@@ -340,7 +362,6 @@ impl Lab {
         // The experiment reports the resulting other initial values.
         self.pending.values.retain(|(target, _)| matches!(target, ValueId::Parameter(_)));
         self.pending.given = Some(given.clone());
-        self.keep_windows();
         Effect::Execute(Command::Start(given))
     }
 

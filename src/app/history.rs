@@ -34,8 +34,13 @@ pub(super) enum Change {
         /// All overrides of the file's initial values before and after.
         given: [Vec<InitialOverride>; 2],
     },
-    /// Several initial values were set at once: all overrides before and after.
-    Start([Vec<InitialOverride>; 2]),
+    /// Several initial values were set at once.
+    Start {
+        /// All overrides before and after.
+        given: [Vec<InitialOverride>; 2],
+        /// The ranges that the pictures keep, before and after.
+        windows: [Vec<(f64, f64)>; 2],
+    },
     /// A flow has carried the state to another orbit: all overrides before and after.
     Flow([Vec<InitialOverride>; 2]),
     /// All values were reset to the file's.
@@ -66,7 +71,7 @@ impl Change {
         match self {
             Self::Parameter { .. }
             | Self::Initial { .. }
-            | Self::Start(_)
+            | Self::Start { .. }
             | Self::Flow(_)
             | Self::FullReset { .. } => true,
             Self::Plot { .. } | Self::Method(_) | Self::Settings(_) => false,
@@ -88,7 +93,13 @@ impl Change {
                 numbers[1] = *to;
                 given[1].clone_from(after);
             }
-            (Self::Start(given), Self::Start([_, after])) => given[1].clone_from(after),
+            (
+                Self::Start { given, windows },
+                Self::Start { given: [_, after], windows: [_, kept] },
+            ) => {
+                given[1].clone_from(after);
+                windows[1].clone_from(kept);
+            }
             (Self::Plot { index, plots }, Self::Plot { index: other, plots: later })
                 if index == other && plots[0].differs_smoothly(&later[1]) =>
             {

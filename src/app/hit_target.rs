@@ -47,8 +47,8 @@ pub enum HitTarget {
         /// The position in it.
         place: [f64; 2],
     },
-    /// A mass in a picture of a plane that can be held.
-    Body {
+    /// A mass in a picture of a plane that can be dragged.
+    Mass {
         /// The index of the picture.
         index: usize,
         /// The index of the mass among its shapes.
@@ -57,6 +57,8 @@ pub enum HitTarget {
         place: [f64; 2],
         /// The coordinates of the centre of the cell.
         at: [f64; 2],
+        /// The window of the picture.
+        window: DragWindow,
     },
     /// The inside of a plot's frame.
     Plot {
@@ -69,6 +71,17 @@ pub enum HitTarget {
     },
 }
 
+/// What a picture of a plane shows, and where, so that a drag in it does not depend on what is drawn next.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DragWindow {
+    /// The ranges of the horizontal and of the vertical axis.
+    pub ranges: [[f64; 2]; 2],
+    /// The column and the row of its first cell.
+    pub corner: [u16; 2],
+    /// The number of columns and of rows.
+    pub cells: [u16; 2],
+}
+
 /// What the mouse drags while its button is down.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Grab {
@@ -76,13 +89,17 @@ pub enum Grab {
     Bar(ValueId),
     /// The time bar.
     Time,
-    /// A mass, which it holds.
-    Body {
+    /// A mass.
+    Mass {
         /// The index of the picture.
         index: usize,
         /// The index of the mass among its shapes.
         shape: usize,
-        /// Whether the mouse has moved since the button was pressed.
+        /// The window of the picture when the button was pressed, in which the mass is dragged.
+        window: DragWindow,
+        /// Whether the motion runs again when the mass is let go.
+        resumes: bool,
+        /// Whether the mass has been moved since the button was pressed.
         moved: bool,
     },
     /// A view of the motion or a plot, which follows the mouse.

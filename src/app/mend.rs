@@ -65,6 +65,7 @@ impl App {
             self.go(Page::Picker);
         }
         self.end_group();
+        self.mouse.resumes = false;
         self.awaited.system = None;
         self.workbench.clear();
         self.workbench.lay_text(text);

@@ -11,7 +11,7 @@ use crossterm::event::{MouseButton, MouseEventKind};
 
 use super::hit_target::{Grab, HitTarget};
 use super::{Action, App, Effect, InputField, Lab, Notification, Overlay, Page, Pane, ValueId};
-use crate::experiment::Command;
+use crate::experiment::{Command, Status};
 use crate::instrument::{NoStart, Plot, PlotContext, Sight, StartValues};
 use crate::model::Model;
 
@@ -26,7 +26,8 @@ const NO_STARTS: &str = "No orbits can be added here: points of this section can
 const NO_MORE: &str = "No more orbits can be added; N removes those added.";
 
 /// Why a picture in a plane does not turn under the mouse.
-const PLANE: &str = "This motion stays in a plane and is seen face on; to start elsewhere, drag a mass, or click in a phase portrait.";
+const PLANE: &str = "This motion stays in a plane and is seen face on; to start elsewhere, click in a phase portrait.";
+const PLANE_OF_MASSES: &str = "This motion stays in a plane and is seen face on; to start elsewhere, drag a mass, or click in a phase portrait.";
 
 /// Whether a picture is of a motion in a plane, seen face on.
 fn is_face_on(plot: &Plot, model: &Model) -> bool {
@@ -48,11 +49,17 @@ impl App {
         }
     }
 
-    /// Ends a drag, even if the terminal did not report the release of the button.
+    /// Ends a drag, even if the terminal did not report the release of the button. A motion that was paused by it runs again.
     pub fn end_group(&mut self) {
-        self.mouse.drag = None;
+        self.end_drag();
         if let Some(lab) = &mut self.lab {
             lab.history.end_group();
+        }
+    }
+
+    fn end_drag(&mut self) {
+        if let Some(Grab::Mass { moved: true, resumes, .. }) = self.mouse.drag.take() {
+            self.mouse.resumes = resumes;
         }
     }
 
@@ -113,10 +120,12 @@ impl App {
                 self.mouse.drag = Some(Grab::Time);
                 return vec![Effect::Execute(Command::LookAt(time))];
             }
-            HitTarget::Body { index, shape, .. } => {
+            HitTarget::Mass { index, shape, window, .. } => {
                 lab.focus.pane = Pane::Plot(index);
                 lab.history.begin_group();
-                self.mouse.drag = Some(Grab::Body { index, shape, moved: false });
+                let resumes = lab.seen().is_some_and(|seen| seen.status != Status::Paused);
+                let grab = Grab::Mass { index, shape, window, resumes, moved: false };
+                self.mouse.drag = Some(grab);
             }
             HitTarget::Plot { index, place, .. } | HitTarget::Space { index, place } => {
                 lab.focus.pane = Pane::Plot(index);
@@ -136,15 +145,22 @@ impl App {
             (Some(Grab::Time), HitTarget::Time(time)) => {
                 vec![Effect::Execute(Command::LookAt(time))]
             }
-            (Some(Grab::Body { index, shape, moved }), HitTarget::Body { at, .. }) => {
-                self.mouse.drag = Some(Grab::Body { index, shape, moved: true });
+            (
+                Some(Grab::Mass { index, shape, window, resumes, moved }),
+                HitTarget::Mass { at, .. },
+            ) => {
                 let Some(lab) = &mut self.lab else { return Vec::new() };
                 let eye = lab.plots.get(index).and_then(Plot::eye);
-                let held = eye.and_then(|eye| lab.held_at(eye, shape, at));
-                // what is held does not move by itself
-                let mut effects =
-                    Vec::from_iter((!moved).then_some(Effect::Execute(Command::Pause)));
-                effects.extend(held.into_iter().flat_map(|held| lab.start(&held)));
+                let Some(values) = eye.and_then(|eye| lab.dragged_to(eye, shape, at)) else {
+                    return Vec::new();
+                };
+                self.mouse.drag = Some(Grab::Mass { index, shape, window, resumes, moved: true });
+                if moved {
+                    return lab.start_in_window(&values, lab.bounds_before.clone());
+                }
+                // what is dragged does not move by itself
+                let mut effects = vec![Effect::Execute(Command::Pause)];
+                effects.extend(lab.start(&values));
                 effects
             }
             (
@@ -158,7 +174,10 @@ impl App {
                     let mut slid = false;
                     lab.redraw(index, |plot, _| slid = plot.slide(by));
                     if !slid {
-                        self.notifications.show(Notification::info(PLANE));
+                        let eye = lab.plots.get(index).and_then(Plot::eye);
+                        let of_masses = eye.is_some_and(|eye| lab.has_draggable_mass(eye));
+                        let text = if of_masses { PLANE_OF_MASSES } else { PLANE };
+                        self.notifications.show(Notification::info(text));
                     }
                     return Vec::new();
                 }
@@ -170,10 +189,10 @@ impl App {
     }
 
     fn let_go(&mut self, hit: HitTarget) -> Vec<Effect> {
-        let grabbed = self.mouse.drag.take();
+        let grabbed = self.mouse.drag;
+        self.end_drag();
         let Some(lab) = &mut self.lab else { return Vec::new() };
         let effects = match (grabbed, hit) {
-            (Some(Grab::Body { moved: true, .. }), _) => vec![Effect::Execute(Command::Play)],
             (Some(Grab::Picture { moved: false, .. }), HitTarget::Plot { index, place, at }) => {
                 match lab.begun_at(index, at) {
                     Ok(effects) => effects,
@@ -217,7 +236,7 @@ impl App {
                 match hit {
                     HitTarget::Plot { index, place, .. }
                     | HitTarget::Space { index, place }
-                    | HitTarget::Body { index, place, .. } => {
+                    | HitTarget::Mass { index, place, .. } => {
                         lab.redraw(index, |plot, _| plot.zoom_about(factor, [true; 2], place));
                     }
                     HitTarget::Value(target) | HitTarget::Bar { target, .. } => {

@@ -74,6 +74,8 @@ pub struct Mouse {
     pub is_reported: bool,
     /// What it drags.
     pub drag: Option<Grab>,
+    /// Whether the motion that a drag has paused is to run again.
+    pub(super) resumes: bool,
 }
 
 /// What of a page of text is in view.

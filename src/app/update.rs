@@ -15,7 +15,7 @@ use super::pending::{AwaitedPlots, LoadRequest};
 use super::{
     App, AppEvent, Effect, Lab, LoadError, Loaded, Notification, Overlay, Page, Pane, TextInView,
 };
-use crate::experiment::Snapshot;
+use crate::experiment::{Command, Snapshot};
 
 /// The maximum size of one paste, in bytes.
 pub const LONGEST_PASTE: usize = 256 * 1024;
@@ -29,6 +29,9 @@ impl App {
     pub fn update(&mut self, event: AppEvent) -> Vec<Effect> {
         let shown = self.notifications.shown.clone();
         let mut effects = self.handle(event);
+        if std::mem::take(&mut self.mouse.resumes) {
+            effects.insert(0, Effect::Execute(Command::Play));
+        }
         self.forget_past_motion(shown.as_ref(), &effects);
         self.request_jobs(&mut effects);
         if self.page == Page::Picker {
@@ -253,6 +256,8 @@ impl App {
     pub(super) fn loaded(&mut self, loaded: Loaded) -> Vec<Effect> {
         let answered = self.answered(&loaded.name);
         self.end_group();
+        // a motion that was dragged is no longer there
+        self.mouse.resumes = false;
         let stale = self.workbench.postpone_check().then_some(Effect::StopCheck);
         self.workbench.clear();
         self.overlay.take_if(|overlay| matches!(overlay, Overlay::Workbench));

@@ -288,14 +288,21 @@ impl Screen for Session {
             TerminalEvent::Key(key) => AppEvent::Key(key),
             TerminalEvent::Paste(text) => AppEvent::Paste(text),
             TerminalEvent::Mouse(mouse) => {
-                if mouse.kind == MouseEventKind::Down(MouseButton::Left) {
-                    // Not every terminal reports the release of a button.
+                // Not every terminal reports the release of a button.
+                let is_released =
+                    mouse.kind == MouseEventKind::Moved && self.app.mouse.drag.is_some();
+                if mouse.kind == MouseEventKind::Down(MouseButton::Left) || is_released {
                     self.app.end_group();
                 }
                 let area = Rect::from((Position::ORIGIN, self.size));
                 match view::hit_test(&self.app, self.style.full(), area, mouse.column, mouse.row) {
                     Some(hit) => AppEvent::Mouse(with_shift(mouse), hit),
-                    None => return ScreenRequest::Nothing,
+                    None => {
+                        if mouse.kind == MouseEventKind::Up(MouseButton::Left) {
+                            self.app.end_group();
+                        }
+                        return ScreenRequest::Nothing;
+                    }
                 }
             }
             TerminalEvent::FocusGained => AppEvent::Focus(true),

@@ -28,8 +28,8 @@ pub(super) struct Canvas<'a> {
     pub(super) style: &'a RenderStyle,
     /// The regions for the mouse, if they are collected; later ones lie over earlier ones.
     pub(super) regions: Option<Vec<(Rect, ScreenRegion)>>,
-    /// The masses of the picture drawn last that can be held: where each is, its index among the shapes, and the frame.
-    pub(super) held: Vec<(Rect, usize, PlotFrame)>,
+    /// The masses of the picture drawn last that can be dragged: where each is, its index among the shapes, and the frame.
+    pub(super) masses: Vec<(Rect, usize, PlotFrame)>,
     /// The position of the terminal's cursor.
     pub(super) cursor: Option<Position>,
     /// Where the cursor of the focused plot is.
@@ -54,7 +54,7 @@ impl<'a> Canvas<'a> {
             buffer,
             style,
             regions: None,
-            held: Vec::new(),
+            masses: Vec::new(),
             cursor: None,
             reading: None,
             moving: None,

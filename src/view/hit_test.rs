@@ -7,10 +7,11 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 
 use super::canvas::Canvas;
+use super::plot::{PlotFrame, Scale};
 use super::region::ScreenRegion;
 use super::render_style::RenderStyle;
 use super::screen::paint;
-use crate::app::{App, Grab, HitTarget};
+use crate::app::{App, DragWindow, Grab, HitTarget};
 
 /// The regions of a screen.
 #[derive(Clone, Debug)]
@@ -47,15 +48,15 @@ impl HitMap {
         let is_dragged = |region: &ScreenRegion| match (self.drag, region) {
             (Some(Grab::Bar(dragged)), ScreenRegion::Bar(target, _)) => dragged == *target,
             (Some(Grab::Time), ScreenRegion::Time(_)) => true,
-            (Some(Grab::Body { index, shape, .. }), ScreenRegion::Body(i, k, _)) => {
-                (index, shape) == (*i, *k)
-            }
             (
                 Some(Grab::Picture { index, .. }),
                 ScreenRegion::Plot(i, _) | ScreenRegion::Space(i),
             ) => index == *i,
             _ => false,
         };
+        if let Some(Grab::Mass { index, shape, window, .. }) = self.drag {
+            return Some(dragged_mass(index, shape, window, at));
+        }
         let found = match self.drag {
             Some(_) => self.regions.iter().find(|(_, region)| is_dragged(region)),
             None => self.regions.iter().rev().find(|(area, _)| area.contains(at)),
@@ -64,11 +65,37 @@ impl HitMap {
     }
 }
 
+/// A mass that is dragged to a position, in the window in which it was grabbed; beyond it, to the nearest position in it.
+fn dragged_mass(index: usize, shape: usize, window: DragWindow, at: Position) -> HitTarget {
+    let ([[left, right], [low, high]], [x, y]) = (window.ranges, window.corner);
+    let [wide, tall] = window.cells;
+    let area = Rect::new(x, y, wide, tall);
+    let frame = PlotFrame::new(Scale::linear(left, right), Scale::linear(low, high), area);
+    let inside = |at: u16, start: u16, count: u16| {
+        at.clamp(start, start.saturating_add(count.saturating_sub(1)))
+    };
+    mass(index, shape, &frame, Position::new(inside(at.x, x, wide), inside(at.y, y, tall)))
+}
+
+/// A mass of a picture at a position.
+fn mass(index: usize, shape: usize, frame: &PlotFrame, at: Position) -> HitTarget {
+    let Rect { x, y, width, height } = frame.area;
+    let place = [middle(at.x, x, width), 1.0 - middle(at.y, y, height)];
+    let window = DragWindow {
+        ranges: [frame.x, frame.y].map(|scale| [scale.lo, scale.hi]),
+        corner: [x, y],
+        cells: [width, height],
+    };
+    HitTarget::Mass { index, shape, place, at: frame.at(at), window }
+}
+
+/// The share of a length at which the middle of a cell is.
+fn middle(at: u16, start: u16, length: u16) -> f64 {
+    (f64::from(at) - f64::from(start) + 0.5) / f64::from(length.max(1))
+}
+
 /// The target of a region at a position, which may lie outside it.
 fn resolved(region: ScreenRegion, area: Rect, at: Position) -> Option<HitTarget> {
-    let middle = |at: u16, start: u16, length: u16| {
-        (f64::from(at) - f64::from(start) + 0.5) / f64::from(length.max(1))
-    };
     let place = [middle(at.x, area.x, area.width), 1.0 - middle(at.y, area.y, area.height)];
     Some(match region {
         ScreenRegion::Blank => return None,
@@ -85,12 +112,7 @@ fn resolved(region: ScreenRegion, area: Rect, at: Position) -> Option<HitTarget>
             HitTarget::Time(if share < 1.0 { from + share * (to - from) } else { to })
         }
         ScreenRegion::Space(index) => HitTarget::Space { index, place },
-        ScreenRegion::Body(index, shape, frame) => {
-            let inside = frame.area;
-            let place =
-                [middle(at.x, inside.x, inside.width), 1.0 - middle(at.y, inside.y, inside.height)];
-            HitTarget::Body { index, shape, place, at: frame.at(at) }
-        }
+        ScreenRegion::Mass(index, shape, frame) => mass(index, shape, &frame, at),
         ScreenRegion::Plot(index, frame) => HitTarget::Plot { index, place, at: frame.at(at) },
     })
 }

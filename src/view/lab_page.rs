@@ -221,8 +221,8 @@ fn plot(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, (index, sharing): (usize
         Some(frame) => canvas.region(frame.area, ScreenRegion::Plot(index, frame)),
         None if plot.kind.is_scene() => {
             canvas.region(inner, ScreenRegion::Space(index));
-            for (place, shape, frame) in std::mem::take(&mut canvas.held) {
-                canvas.region(place, ScreenRegion::Body(index, shape, frame));
+            for (place, shape, frame) in std::mem::take(&mut canvas.masses) {
+                canvas.region(place, ScreenRegion::Mass(index, shape, frame));
             }
         }
         None => {}

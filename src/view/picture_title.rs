@@ -52,7 +52,7 @@ fn piece(canvas: &Canvas<'_>, q: &Quantities<'_>, entry: &Entry) -> Vec<Span> {
         ]
     };
     match entry {
-        Entry::Channel(channel) => valued(&q.name(*channel), q.value_in_title(*channel)),
+        Entry::Channel(channel) => valued(&q.name(*channel), q.value(*channel)),
         Entry::Number(name, value) => valued(name, *value),
         Entry::Words(words) => {
             let words = with_powers(words, canvas.style.glyphs);
@@ -117,7 +117,7 @@ fn keys(
     let head = vec![canvas.span(Role::Title, &heading.title)];
     let named = || curves.iter().map(|(index, channel)| key(canvas, q, *index, *channel));
     let valued = named().zip(curves).map(|(mut key, (_, channel))| {
-        let value = readable(q.value_in_title(*channel), 4, canvas.style.glyphs);
+        let value = readable(q.value(*channel), 4, canvas.style.glyphs);
         key.push(canvas.span(Role::Accent, format!(" {value:<8}")));
         key
     });

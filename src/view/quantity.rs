@@ -57,12 +57,6 @@ impl<'a> Quantities<'a> {
         self.snapshot.values.get(channel).copied().unwrap_or(f64::NAN)
     }
 
-    /// A channel's current value as a title gives it, with few digits: zero where it is nothing beside what it has been.
-    pub(super) fn value_in_title(&self, channel: usize) -> f64 {
-        let (value, (lo, hi)) = (self.value(channel), self.bounds(channel));
-        if value.abs() < NOTHING * lo.abs().max(hi.abs()) { 0.0 } else { value }
-    }
-
     /// The least and greatest value of a channel since the start.
     pub(super) fn bounds(&self, channel: usize) -> (f64, f64) {
         self.snapshot.bounds.get(channel).copied().unwrap_or((f64::NAN, f64::NAN))
@@ -162,9 +156,6 @@ impl<'a> Quantities<'a> {
         DrawnAxis::new(self.name(channel), unit, through(scale, viewport))
     }
 }
-
-/// Values below this, relative to those before, are nothing in a title.
-const NOTHING: f64 = 1e-10;
 
 /// Values below this, relative to similar ones, are rounding errors.
 const ROUNDING: f64 = 1e-13;

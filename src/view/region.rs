@@ -18,8 +18,8 @@ pub(super) enum ScreenRegion {
     Time([f64; 2]),
     /// The inside of a plot's axes.
     Plot(usize, PlotFrame),
-    /// A mass that can be held, by its index among the shapes of a picture, and the frame of that.
-    Body(usize, usize, PlotFrame),
+    /// A mass that can be dragged, by its index among the shapes of a picture, and the frame of that.
+    Mass(usize, usize, PlotFrame),
     /// The inside of a picture of the motion in space.
     Space(usize),
 }

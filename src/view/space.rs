@@ -30,9 +30,7 @@ use super::canvas::Canvas;
 use super::companions;
 use super::glyphs::Glyphs;
 use super::ink::is_colourless;
-use super::plot::{
-    Camera, DepthBuffer, Letters, Marker, Pen, PlotFrame, Raster, Scale, Visibility,
-};
+use super::plot::{Camera, DepthBuffer, Letters, Marker, Pen, PlotFrame, Raster, Visibility};
 use super::quantity::Quantities;
 use super::theme::Role;
 use crate::instrument::CameraPose;
@@ -129,7 +127,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
     }
     painter.halos();
     if canvas.regions.is_some() {
-        canvas.held = painter.held();
+        canvas.masses = painter.draggable();
     }
     canvas.cache = cache;
     painter.apparent(apparent(q, *eye));
@@ -338,35 +336,46 @@ impl ScenePainter<'_> {
         Some(radius / self.column()).filter(|cells| cells.is_finite() && *cells > least)
     }
 
-    /// The masses that can be held, in a plane seen face on: where each is on the screen, its index among the shapes, and the frame.
-    fn held(&self) -> Vec<(Rect, usize, PlotFrame)> {
+    /// The masses that can be dragged, in a plane seen face on: the cells of each by rows, its index among the shapes, and the frame.
+    fn draggable(&self) -> Vec<(Rect, usize, PlotFrame)> {
         let is_face_on =
             [self.camera.yaw, self.camera.pitch] == [Camera::FACE_ON.yaw, Camera::FACE_ON.pitch];
         if !is_face_on || self.range.is_some() {
             return Vec::new();
         }
-        let Rect { width, height, .. } = self.frame.area;
-        let cells = |length: f64, scale: Scale, count: u16| {
-            let one = (scale.hi - scale.lo).abs() / f64::from(count.max(1));
-            (length / one).clamp(0.0, f64::from(count)) as u16
-        };
-        let shapes = self.q.lab.shapes(self.eye).enumerate();
-        let masses = shapes.filter_map(|(index, (shape, _))| match shape {
-            Shape::Mass { at, radius } if self.q.lab.can_hold(self.eye, index) => {
-                Some((index, at, radius.map_or(0.0, |radius| self.q.number(radius).abs())))
+        let mut found = Vec::new();
+        for (index, (shape, _)) in self.q.lab.shapes(self.eye).enumerate() {
+            if let Shape::Mass { at, radius } = shape
+                && self.q.lab.can_drag(self.eye, index)
+            {
+                let radius = self.disc_radius(radius.map(|radius| self.q.number(radius)));
+                let rows = self.mass_rows(self.flat(self.point(at)), radius);
+                found.extend(rows.into_iter().map(|row| (row, index, self.frame)));
             }
-            _ => None,
-        });
-        let place = |(index, at, radius): (usize, &Point, f64)| {
-            let centre = self.frame.cell(self.flat(self.point(at)))?;
-            // a cell more at each side: nobody hits a single one
-            let across = cells(radius, self.frame.x, width) + 1;
-            let along = cells(radius, self.frame.y, height);
-            let corner = [centre.x.saturating_sub(across), centre.y.saturating_sub(along)];
-            let around = Rect::new(corner[0], corner[1], 2 * across + 1, 2 * along + 1);
-            Some((around.intersection(self.frame.area), index, self.frame))
+        }
+        found
+    }
+
+    /// The cells that a mass covers, by rows. Those of a marker have one more at each side: nobody hits a single one.
+    fn mass_rows(&self, [x, y]: [f64; 2], radius: Option<f64>) -> Vec<Rect> {
+        let (frame, area) = (&self.frame, self.frame.area);
+        let Some(radius) = radius else {
+            let around = |centre: Position| Rect::new(centre.x.saturating_sub(1), centre.y, 3, 1);
+            let centre = frame.cell([x, y]).map(around);
+            return centre.map(|cells| cells.intersection(area)).into_iter().collect();
         };
-        masses.filter_map(place).collect()
+        let [wide, tall] = [area.width, area.height].map(f64::from);
+        // the row and the columns in cells from the upper left corner
+        let column = |x: f64| (frame.x.fraction(x) * wide).clamp(0.0, wide);
+        let end = |row: u16| frame.y.value(1.0 - f64::from(row) / tall);
+        let cells = |row: u16| {
+            let [above, below] = [end(row), end(row + 1)];
+            let off = y - y.clamp(below.min(above), below.max(above));
+            let half = (radius * radius - off * off).max(0.0).sqrt();
+            let [from, to] = [column(x - half).floor() as u16, column(x + half).ceil() as u16];
+            (half > 0.0 && from < to).then(|| Rect::new(area.x + from, area.y + row, to - from, 1))
+        };
+        (0..area.height).filter_map(cells).collect()
     }
 
     /// The radius with which a mass is drawn as a disc: its own if it is large enough; where dots are blocks, which a marker among

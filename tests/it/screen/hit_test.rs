@@ -88,7 +88,7 @@ fn every_line_of_a_list_is_where_it_is_drawn() {
             }
         }
         seen.sort();
-        let wanted = ["Bar", "Body", "Gauge", "Hint", "Page", "Pane", "Plot", "Space", "Value"];
+        let wanted = ["Bar", "Gauge", "Hint", "Mass", "Page", "Pane", "Plot", "Space", "Value"];
         let wanted = wanted.map(str::to_owned);
         assert_eq!(seen, wanted, "{size:?}");
     }
@@ -350,32 +350,32 @@ fn a_plane_is_zoomed_and_moved_with_the_mouse() {
     }
 }
 
-/// The cells of the masses that can be held.
-fn bodies(app: &App, size: (u16, u16)) -> Vec<(u16, u16)> {
-    places(app, size, |target| matches!(target, HitTarget::Body { .. }))
+/// The cells of the masses that can be dragged.
+fn masses(app: &App, size: (u16, u16)) -> Vec<(u16, u16)> {
+    places(app, size, |target| matches!(target, HitTarget::Mass { .. }))
 }
 
 /// A bob follows the mouse around its pivot, waits there, and swings from rest once it is let go; one undo takes all of it back.
 #[test]
-fn a_bob_is_held_and_let_go_from_rest() {
+fn a_bob_is_dragged_and_let_go_from_rest() {
     let size = (120, 40);
     let mut real = Real::of("pendulum");
     real.run(30);
     let before = real.seen().initial.clone();
-    let bob = bodies(&real.app, size);
+    let bob = masses(&real.app, size);
     act(&mut real, size, Down(Left), bob[bob.len() / 2]);
     // the pivot is in the middle of the picture: to its right θ is π/2, below it 0, to its left −π/2
     let angle = |real: &Real| real.seen().values[0];
     for (place, expected) in [((34, 11), 1.57), ((20, 20), 0.0), ((6, 11), -1.57)] {
         act(&mut real, size, Drag(Left), place);
         assert!((angle(&real) - expected).abs() < 0.1, "{place:?} {}", angle(&real));
-        assert_eq!(real.seen().status, Status::Paused, "what is held does not move");
+        assert_eq!(real.seen().status, Status::Paused, "what is dragged does not move");
     }
-    let held = angle(&real);
+    let placed = angle(&real);
     act(&mut real, size, Up(Left), (6, 11));
-    assert_eq!(*real.seen().initial, [held, 0.0]);
+    assert_eq!(*real.seen().initial, [placed, 0.0]);
     real.run(30);
-    assert!(real.seen().time > 0.0 && angle(&real) > held, "it swings");
+    assert!(real.seen().time > 0.0 && angle(&real) > placed, "it swings");
     real.press("u");
     assert_eq!(real.seen().initial, before);
 }
@@ -393,10 +393,10 @@ fn a_mass_is_brought_where_the_mouse_is_or_as_near_as_it_can_be() {
     ] {
         let mut real = Real::of(name);
         let hit = |real: &Real, place| match at(&real.app, size, place) {
-            Some(HitTarget::Body { at, shape, .. }) => (at, shape),
+            Some(HitTarget::Mass { at, shape, .. }) => (at, shape),
             other => panic!("{name}: {other:?}"),
         };
-        let cells = bodies(&real.app, size);
+        let cells = masses(&real.app, size);
         let mut shapes: Vec<usize> = cells.iter().map(|cell| hit(&real, *cell).1).collect();
         shapes.sort_unstable();
         shapes.dedup();
@@ -424,13 +424,13 @@ fn a_mass_is_brought_where_the_mouse_is_or_as_near_as_it_can_be() {
     }
 }
 
-/// A planet is not pulled through its sun: beside an angle its distance keeps its sign.
+/// A planet is not pulled through its sun, where its distance would change sign.
 #[test]
-fn a_distance_beside_an_angle_keeps_its_sign() {
+fn a_planet_is_not_pulled_through_its_sun() {
     let size = (120, 40);
     let mut real = Real::of("planet");
-    let bodies = bodies(&real.app, size);
-    let place = *bodies.last().expect("a planet");
+    let masses = masses(&real.app, size);
+    let place = *masses.last().expect("a planet");
     act(&mut real, size, Down(Left), place);
     for x in (2..place.0).rev() {
         act(&mut real, size, Drag(Left), (x, place.1));
@@ -438,14 +438,198 @@ fn a_distance_beside_an_angle_keeps_its_sign() {
     }
 }
 
-/// What constraints tie together, or the time moves, cannot be held.
+/// What constraints tie together, or the time moves, cannot be dragged.
 #[test]
-fn what_does_not_follow_from_coordinates_alone_is_not_held() {
+fn what_does_not_follow_from_coordinates_alone_is_not_dragged() {
     for name in ["pendulum-rod", "kapitza", "heavy-top"] {
         let mut real = Real::of(name);
         real.run(10);
-        assert_eq!(bodies(&real.app, (120, 40)), [], "{name}");
+        assert_eq!(masses(&real.app, (120, 40)), [], "{name}");
     }
+}
+
+/// In a vector potential p = 0 is not rest: with H = ½(p_x + y)² + ½(p_y − x)² that is p = (−y, x).
+#[test]
+fn a_mass_in_a_vector_potential_is_at_rest_where_it_is_let_go() {
+    let size = (120, 40);
+    let mut real = Real::with(lowered(
+        "title = \"T\"\n[coordinates]\nx = { initial = 1.0, momentum = 0.5 }\ny = { initial = 0.5, momentum = 0.0 }\n\
+         [hamiltonian]\nH = \"1/2*((p_x + y)^2 + (p_y - x)^2)\"\n\
+         [space]\nshapes = [{ mass = [\"x\", \"y\", \"0\"] }, { line = [\"-2\", \"-2\", \"0\"], to = [\"2\", \"2\", \"0\"] }]\n",
+    ));
+    let cells = masses(&real.app, size);
+    act(&mut real, size, Down(Left), cells[cells.len() / 2]);
+    act(&mut real, size, Drag(Left), (cells[0].0 - 4, cells[0].1 + 2));
+    let [x, y, p_x, p_y] = real.seen().initial[..] else { panic!("four values") };
+    assert!((x - 1.0).abs() > 0.05, "it is dragged: {x}");
+    assert_eq!([p_x + y, p_y - x], [0.0; 2]);
+}
+
+/// A cart with a pendulum: the bob, at X + sin θ, follows the mouse from X = 0, where X has no sign to keep.
+#[test]
+fn the_bob_of_a_cart_is_dragged() {
+    let size = (120, 40);
+    let mut real = Real::with(lowered(
+        "title = \"T\"\n[coordinates]\nX = { initial = 0.0 }\ntheta = { initial = 0.5, period = \"2*pi\" }\n\
+         [lagrangian]\nL = \"X'^2 + 1/2*theta'^2 + X'*theta'*cos(theta) + cos(theta)\"\n\
+         [space]\nshapes = [{ mass = [\"X + sin(theta)\", \"-cos(theta)\", \"0\"] }, { line = [\"-2\", \"-2\", \"0\"], to = [\"2\", \"2\", \"0\"] }]\n",
+    ));
+    let cells = masses(&real.app, size);
+    act(&mut real, size, Down(Left), cells[cells.len() / 2]);
+    let to = (cells[0].0 - 4, cells[0].1 - 1);
+    let Some(HitTarget::Mass { at: wanted, .. }) = at(&real.app, size, to) else {
+        panic!("grabbed")
+    };
+    act(&mut real, size, Drag(Left), to);
+    let [x, theta, ..] = real.seen().initial[..] else { panic!("four values") };
+    let found = [x + math::sin(theta), -math::cos(theta)];
+    let off = [0, 1].map(|k| (wanted[k] - found[k]).abs());
+    assert!(off.iter().all(|off| *off < 1e-6), "{wanted:?} {found:?}");
+}
+
+/// The counterweight pulled down to the ground shortens the string of the other weight, and stops before it has none.
+#[test]
+fn a_mass_is_not_dragged_through_a_place_where_the_masses_are_singular() {
+    let size = (120, 40);
+    let mut real = Real::of("swinging-atwood");
+    let is_weight = |target: &HitTarget| matches!(target, HitTarget::Mass { shape, .. } if *shape == counterweight(&real));
+    let cell = places(&real.app, size, is_weight)[0];
+    act(&mut real, size, Down(Left), cell);
+    let mut found = Vec::new();
+    for row in 1..39 {
+        for column in [cell.0, cell.0 + 1] {
+            act(&mut real, size, Drag(Left), (column, row));
+            found.push(real.seen().values[0]);
+        }
+    }
+    assert!(found.iter().all(|r| *r > 0.0), "{found:?}");
+    assert!(found.iter().any(|r| *r != found[0]), "it is dragged");
+}
+
+/// The mass at the place of the heavier weight, which moves straight: r alone is in it.
+fn counterweight(real: &Real) -> usize {
+    let lab = real.lab();
+    let eye = lab.plots.iter().find_map(Plot::eye).expect("a picture");
+    let angle = lab.loaded.equations.coordinates[1].position;
+    let is_straight = |shape: &Shape| match shape {
+        Shape::Mass { at, .. } => at.iter().all(|e| !lab.loaded.equations.pool.depends(*e, angle)),
+        _ => false,
+    };
+    eye.shapes(&lab.loaded.model).iter().position(is_straight).expect("a weight")
+}
+
+/// Whatever ends a drag, the motion runs again if it ran before, and not otherwise: the button let go beyond the pane of a picture
+/// that is zoomed, a key, or the next press of the button, where its release was not reported.
+#[test]
+fn a_motion_paused_by_a_drag_runs_again_however_that_ends() {
+    let size = (120, 40);
+    for was_paused in [false, true] {
+        for ending in 0..3 {
+            let mut real = Real::of("pendulum");
+            real.run(30);
+            let status = if was_paused { Status::Paused } else { Status::Running };
+            if (real.seen().status == Status::Paused) != was_paused {
+                real.press("Space");
+            }
+            assert_eq!(real.seen().status, status);
+            let bob = masses(&real.app, size);
+            let bob = bob[bob.len() / 2];
+            for _ in 0..3 {
+                act(&mut real, size, ScrollUp, bob);
+            }
+            let zoomed = masses(&real.app, size);
+            let bob = zoomed[zoomed.len() / 2];
+            act(&mut real, size, Down(Left), bob);
+            act(&mut real, size, Drag(Left), (bob.0 + 2, bob.1));
+            act(&mut real, size, Drag(Left), (119, 39));
+            assert_eq!(real.seen().status, Status::Paused);
+            match ending {
+                0 => act(&mut real, size, Up(Left), (119, 39)),
+                1 => real.press("Tab"),
+                _ => {
+                    real.app.end_group();
+                    act(&mut real, size, Down(Left), (0, 0));
+                }
+            }
+            assert_eq!(real.app.mouse.drag, None, "{ending}");
+            // what is still to be done is done by the next event
+            let effects = real.app.update(AppEvent::Tick(std::time::Duration::ZERO));
+            real.execute(effects);
+            real.look();
+            assert_eq!(real.seen().status, status, "{ending}");
+        }
+    }
+}
+
+/// The window of a picture stays the same while a mass is dragged, however far and often the mouse leaves it; one undo brings back both.
+#[test]
+fn a_drag_beyond_a_picture_does_not_widen_it() {
+    let size = (120, 40);
+    let mut real = Real::of("planet");
+    real.press("Space");
+    real.run(10);
+    let window = |real: &Real| {
+        all(&real.app, size).into_iter().find_map(|(_, target)| match target {
+            HitTarget::Mass { window, .. } => Some(window),
+            _ => None,
+        })
+    };
+    let (before, values) = (window(&real).expect("a planet"), real.seen().initial.clone());
+    let place = masses(&real.app, size)[0];
+    act(&mut real, size, Down(Left), place);
+    for wiggle in 0..24 {
+        act(&mut real, size, Drag(Left), (119 - wiggle % 2, 39));
+    }
+    let [x, y] = before.ranges.map(|range| range[0].abs().max(range[1].abs()));
+    let r = real.seen().values[0];
+    assert!(r > values[0] && r <= math::hypot(x, y), "{r} {before:?}");
+    act(&mut real, size, Up(Left), (119, 39));
+    real.press("u");
+    assert_eq!(real.seen().initial, values);
+    assert_eq!(window(&real), Some(before));
+}
+
+/// That a mass can be dragged is said only where one can.
+#[test]
+fn a_drag_beside_the_masses_says_what_can_be_dragged() {
+    let size = (120, 40);
+    for (name, can_drag) in [("pendulum", true), ("pendulum-rod", false), ("kapitza", false)] {
+        let mut real = Real::of(name);
+        let picture = real.lab().plots.iter().position(|plot| plot.eye().is_some()).unwrap();
+        let space = |target: &HitTarget| matches!(target, HitTarget::Space { index, .. } if *index == picture);
+        let place = places(&real.app, size, space)[0];
+        act(&mut real, size, Down(Left), place);
+        act(&mut real, size, Drag(Left), (place.0 + 3, place.1 + 1));
+        let text = &real.app.notifications.shown.as_ref().expect("a notification").text;
+        assert!(text.contains("stays in a plane"), "{name}: {text}");
+        assert_eq!(text.contains("drag a mass"), can_drag, "{name}: {text}");
+    }
+}
+
+/// A mass is where it is drawn: every cell of its disc takes hold of it.
+#[test]
+fn every_cell_of_a_disc_is_its_mass() {
+    let size = (120, 40);
+    let real = Real::of("swinging-atwood");
+    let weight = counterweight(&real);
+    let is_weight =
+        |target: &HitTarget| matches!(target, HitTarget::Mass { shape, .. } if *shape == weight);
+    let cells = places(&real.app, size, is_weight);
+    let buffer = screen(&real.app, &rich(), size);
+    let colour = buffer[cells[cells.len() / 2]].fg;
+    let (from, to) = (cells[0], cells[cells.len() - 1]);
+    let around = (from.1 - 2..to.1 + 3).flat_map(|y| (from.0 - 3..to.0 + 4).map(move |x| (x, y)));
+    let drawn: Vec<_> =
+        around.filter(|at| buffer[*at].fg == colour && buffer[*at].symbol() != " ").collect();
+    assert!(drawn.len() > 2, "{drawn:?}");
+    let rows = |cells: &[(u16, u16)]| {
+        let mut rows: Vec<u16> = cells.iter().map(|cell| cell.1).collect();
+        rows.sort_unstable();
+        rows.dedup();
+        rows
+    };
+    assert_eq!(rows(&drawn), rows(&cells));
+    assert!(drawn.iter().all(|cell| cells.contains(cell)), "{drawn:?} {cells:?}");
 }
 
 /// The cells with a disc in some columns of the upper half.

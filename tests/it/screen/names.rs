@@ -130,26 +130,3 @@ fn numbers_stand_in_one_column() {
     let all = ["x", "p_x", "angular momentum about the left sun", "Euler's integral"].map(ends);
     assert!(all.windows(2).all(|pair| pair[0] == pair[1]), "{all:?} {text:#?}");
 }
-
-/// A title with a few digits has no room for what a crossing of zero is off: a value is zero beside what it has been. What is small
-/// by itself is not.
-#[test]
-fn a_title_has_zero_for_what_is_nothing_beside_what_it_was() {
-    let real = Real::of("pendulum");
-    let seen = real.seen();
-    let of = |values: [f64; 2]| {
-        let mut changed = seen.clone();
-        let mut all = changed.values.to_vec();
-        all[0] = values[0];
-        changed.values = all.into();
-        let mut bounds = changed.bounds.to_vec();
-        bounds[0] = (-values[1], values[1]);
-        changed.bounds = bounds.into();
-        let mut app = real.app.clone();
-        app.update(AppEvent::Snapshot(Arc::new(changed)));
-        rows(&screen(&app, &rich(), (120, 40)))[1].clone()
-    };
-    assert!(of([-1.938e-17, 2.0]).contains("θ 0 "), "{}", of([-1.938e-17, 2.0]));
-    assert!(of([1e-9, 2.0]).contains("θ 1.000×10⁻⁹"), "{}", of([1e-9, 2.0]));
-    assert!(of([2e-17, 2e-17]).contains("θ 2.000×10⁻¹⁷"), "{}", of([2e-17, 2e-17]));
-}
