@@ -52,6 +52,7 @@ mod palette;
 mod pane;
 mod pending;
 mod picker;
+mod picture_range;
 mod plain;
 mod pointer;
 mod predicting;
