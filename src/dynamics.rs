@@ -106,7 +106,7 @@ pub use flow_course::{FlowMoment, flow_course};
 pub use flow_map::{FlowMap, flow_map};
 pub use frequency_drift::{FrequencyDrift, frequency_drift};
 pub use gali::{Gali, gali};
-pub use kind::Kind;
+pub use kind::EquilibriumKind;
 pub use lyapunov::{Lyapunov, lyapunov};
 pub use lyapunov_batch::{LyapunovOrbit, lyapunov_of_all};
 pub use method_step::MethodStep;

@@ -49,7 +49,6 @@ mod run_state;
 mod run_token;
 mod saved_companion;
 mod scrub;
-mod scrubbed;
 mod setup;
 mod snapshot;
 mod step_log;

@@ -5,7 +5,6 @@
 //! system and its current state. Out: [`Plot`]s, [`Picture`]s, [`Job`](crate::job::Job)s. Never here: cells and
 //! colours (`view` draws any picture), keys, threads.
 
-mod accurate;
 mod action;
 mod actions;
 mod angle;

@@ -76,7 +76,7 @@ pub use canonical_verdict::{CanonicalVerdict, FailingBracket};
 pub use chart::ChartBracket;
 pub use conservation::{Class, Classed, class_of, classes};
 pub use constrain::with_reactions;
-pub use derive::{derive, derive_for_motion};
+pub use derive::{derive, derive_for_motion, exact_constants};
 pub use domain::widened;
 pub use equations::{
     Apparent, Auxiliary, AuxiliaryRates, CLOSED_FORM_LIMIT, Conserved, ConstraintRow,

@@ -47,7 +47,7 @@ pub use format::{
 pub use four_lanes::{FourLaneKernel, FourLanes, LANES, ScalarLanes, in_four_lanes};
 pub use horner::{Polynomial, four_tails, padded, polynomial, tail, tails};
 pub use instruction_set::{Kernel, vectorized};
-pub use number::Number;
+pub use number::{Number, gcd};
 pub use polytope::OrientationPolytope;
 pub use power_series::{cosine_of_arctangent, cosine_of_half, square_root};
 pub use prime_field::{PRIMES, PrimeField, Residue, Unreduced, rational};

@@ -94,12 +94,10 @@ impl<'a> EffectivePotential<'a> {
         energy.ok().filter(|energy| !energy.is_nan()).unwrap_or(f64::INFINITY)
     }
 
-    /// The momentum of the coordinate, as a channel.
     pub(super) fn momentum(&self) -> ChannelKind {
         ChannelKind::Momentum(self.coordinate)
     }
 
-    /// The velocity of the coordinate at a start.
     pub(super) fn velocity(&mut self, start: &Start) -> Result<f64, MotionError> {
         self.observed(start, ChannelKind::Velocity(self.coordinate))
     }

@@ -271,7 +271,6 @@ impl FrozenMotion<'_> {
     }
 }
 
-/// The way in which a velocity goes.
 fn way(velocity: f64) -> Root {
     if velocity < 0.0 { Root::Negative } else { Root::Positive }
 }

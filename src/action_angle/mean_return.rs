@@ -61,7 +61,6 @@ fn has_settled(mean: f64, half: f64) -> bool {
 /// Where the returns that are averaged over begin.
 struct MeanStart<'a> {
     start: Start,
-    /// The event that returns are located by.
     event: (&'a System, &'a str),
     /// How often it happens in a return.
     crossings: u64,

@@ -103,12 +103,10 @@ impl History {
         }
     }
 
-    /// The index of the interval in which a time lies.
     fn slot(&self, time: f64) -> u64 {
         if self.width > 0.0 { ((time - self.origin).abs() / self.width + EDGE) as u64 } else { 0 }
     }
 
-    /// Doubles the length of the intervals.
     fn coarsen(&mut self) {
         self.width *= 2.0;
         let mut joined: Vec<Stretch> = Vec::with_capacity(CAPACITY);

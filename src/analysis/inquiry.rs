@@ -46,19 +46,11 @@ pub enum InquiryAnswer {
 
 impl Inquiry {
     /// Parses a question, `f, g` or one expression, and answers it. `H` is the energy if the file
-    /// does not define that name. The whole may be enclosed in brackets.
+    /// does not define that name. The whole may be enclosed in brackets. Once the token is set, the result is meaningless.
     ///
     /// # Errors
     /// Returns an error with its place if the text is not valid.
-    pub fn of(model: &Model, equations: &Equations, text: &str) -> Result<Inquiry, SyntaxError> {
-        Self::with(model, equations, text, equations.pool.cancel())
-    }
-
-    /// The same, with a token that cancels it; the result is then meaningless.
-    ///
-    /// # Errors
-    /// Returns the errors of [`Inquiry::of`].
-    pub fn with(
+    pub fn of(
         model: &Model,
         equations: &Equations,
         text: &str,

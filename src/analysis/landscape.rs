@@ -23,7 +23,6 @@ const GRID: [usize; 2] = [161, 121];
 /// has a middle row.
 const SEARCH: usize = 81;
 
-/// The number of levels.
 const LEVELS: usize = 11;
 
 /// A curve in the phase plane, through coordinates and rates.

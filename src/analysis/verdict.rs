@@ -42,7 +42,7 @@ pub enum Unseen {
     Unresolved(f64),
 }
 
-/// How the errors of a method depend on the past.
+/// The dependence of a method's errors on the past.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Errors {
     /// The error of an invariant is a function of the state, as the energy's is under a symplectic
@@ -54,7 +54,7 @@ pub enum Errors {
     Accumulated,
 }
 
-/// How a drift at the rounding floor grows.
+/// The growth of a drift at the rounding floor.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Growth {
     /// It does not grow.

@@ -221,7 +221,6 @@ impl App {
         Vec::new()
     }
 
-    /// Shows an error to the user.
     pub(super) fn fail(&mut self, text: impl Into<String>) -> Vec<Effect> {
         self.notifications.show(Notification::error(text));
         Vec::new()

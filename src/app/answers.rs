@@ -17,7 +17,6 @@ use crate::model::{Model, Variation};
 #[derive(Clone, Debug, Default)]
 pub(super) struct Answers {
     pub(super) entries: Vec<PlotJob>,
-    /// The periodic orbits among them.
     pub(super) periodic: Vec<Arc<PeriodicOrbits>>,
     /// Whether something has changed since the needs were last determined.
     pub(super) stale: bool,
@@ -58,7 +57,6 @@ pub(super) struct EquilibriaSearch {
     pub(super) found: Option<Arc<FoundEquilibria>>,
 }
 
-/// The symmetries of a lab's system.
 #[derive(Clone, Debug, Default)]
 pub(super) struct SymmetrySearch {
     /// The symmetries that were found, with the values of the parameters.
@@ -67,7 +65,6 @@ pub(super) struct SymmetrySearch {
     pub(super) awaited: Option<u64>,
 }
 
-/// What a search found.
 #[derive(Clone, Debug)]
 pub(super) struct FoundSymmetries {
     /// The system with its numbers that are no short fractions as parameters.
@@ -87,7 +84,6 @@ impl EquilibriaSearch {
 }
 
 impl Answers {
-    /// Advances the time.
     pub(super) fn tick(&mut self, elapsed: Duration) {
         self.resting.1 = self.resting.1.saturating_add(elapsed);
         self.all_under_way().for_each(|job| job.tick(elapsed));
@@ -182,12 +178,10 @@ pub struct Searches {
     pub constants: InvariantSearch,
     pub(super) equilibria: EquilibriaSearch,
     pub(super) symmetries: SymmetrySearch,
-    /// The ticket of the job that follows a flow.
     pub(super) flow: Option<u64>,
 }
 
 impl Searches {
-    /// Advances the time.
     pub(super) fn tick(&mut self, elapsed: Duration) {
         self.constants.tick(elapsed);
         self.equilibria.tick(elapsed);

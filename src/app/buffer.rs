@@ -48,7 +48,6 @@ pub struct SourceBuffer {
     pub(super) on_disk: String,
     /// Incremented with every change of the text.
     revision: u64,
-    /// The running check.
     checking: Option<RunningCheck>,
     /// The time left until the text is checked.
     rest: Option<Duration>,
@@ -62,7 +61,6 @@ pub struct SourceBuffer {
     pub(super) unchecked: bool,
 }
 
-/// A check that runs.
 #[derive(Clone, Debug)]
 struct RunningCheck {
     ticket: u64,
@@ -304,7 +302,6 @@ impl SourceBuffer {
         text
     }
 
-    /// Whether the check with this ticket is this buffer's.
     pub(super) fn awaits(&self, ticket: u64) -> bool {
         self.checking.as_ref().is_some_and(|check| check.ticket == ticket)
     }
@@ -343,7 +340,6 @@ impl SourceBuffer {
         Some(format!("Saved: {shown}, with {count}: {row}:{column} {}", diagnostic.message))
     }
 
-    /// Handles a typed key.
     pub(super) fn press(&mut self, key: KeyEvent, page: usize) {
         match &mut self.asking {
             Some(Asking::Words(input)) => {

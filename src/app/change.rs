@@ -130,7 +130,6 @@ impl Lab {
         vec![self.give_back()]
     }
 
-    /// Switches to another method.
     pub(super) fn integrate_by(&mut self, name: &'static str) -> Vec<Effect> {
         match self.method() {
             // Switching to the same method would only restart its statistics.
@@ -142,13 +141,11 @@ impl Lab {
         vec![Effect::Execute(Command::Method(name.to_owned()))]
     }
 
-    /// Sets the method's step.
     pub(super) fn step_by(&mut self, step: f64) -> Vec<Effect> {
         self.settle(|settings| settings.step = Some(step));
         vec![Effect::Execute(Command::StepSize(step))]
     }
 
-    /// Sets the method's tolerance.
     pub(super) fn tolerate(&mut self, tolerance: f64) -> Vec<Effect> {
         self.settle(|settings| settings.tolerance = Some(tolerance));
         vec![Effect::Execute(Command::Tolerance(tolerance))]
@@ -164,7 +161,6 @@ impl Lab {
         self.pending.settings = Some(after);
     }
 
-    /// Changes a picture.
     pub(super) fn redraw(&mut self, index: usize, change: impl FnOnce(&mut Plot, &super::Loaded)) {
         let Some(plot) = self.plots.get_mut(index) else { return };
         let before = plot.clone();

@@ -39,7 +39,6 @@ pub struct Jobs {
 }
 
 impl Jobs {
-    /// Creates a job with a new ticket.
     pub(super) fn request(&mut self, asker: Asker, job: Job<Answer>) -> Computation {
         self.count += 1;
         Computation { ticket: self.count, asker, job }
@@ -74,12 +73,10 @@ impl UnderWay {
         Self { ticket: computation.ticket, name, since, share }
     }
 
-    /// Advances the time.
     pub(super) fn tick(&mut self, elapsed: Duration) {
         self.since = self.since.saturating_add(elapsed);
     }
 
-    /// Updates the progress of the job with this ticket.
     pub(super) fn reach(&mut self, ticket: u64, share: Share) {
         if ticket == self.ticket {
             self.share = share;

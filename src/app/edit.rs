@@ -57,7 +57,6 @@ impl App {
         self.own_buffer().is_some_and(|buffer| buffer.awaits(ticket))
     }
 
-    /// Opens the file of the loaded system.
     pub(super) fn edit_file(&mut self) -> Vec<Effect> {
         // The row of the editor's state is not taken by what was said of the motion before.
         self.notifications.shown.take_if(|notice| !notice.is_error());
@@ -104,7 +103,6 @@ impl App {
         }
     }
 
-    /// Carries out an editor command.
     pub(super) fn work(&mut self, work: EditCommand) -> Vec<Effect> {
         let Some(buffer) = self.buffer() else { return Vec::new() };
         let changed = match work {
@@ -226,7 +224,6 @@ impl App {
         self.notify(format!("not found: `{sought}`"))
     }
 
-    /// Advances the time.
     pub(super) fn tick_buffer(&mut self, elapsed: Duration) -> Option<Effect> {
         if self.page == Page::Picker {
             return self.workbench.postpone_check().then_some(Effect::StopCheck);

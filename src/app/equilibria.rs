@@ -68,7 +68,6 @@ impl App {
         })
     }
 
-    /// Reports the progress of the search.
     pub(super) fn equilibria_progressed(&mut self, ticket: u64, share: Share) {
         let Some(lab) = &mut self.lab else { return };
         let Some(job) = &mut lab.searches.equilibria.under_way else { return };
@@ -79,7 +78,6 @@ impl App {
         }
     }
 
-    /// Opens the list of what was found.
     fn list_equilibria(&mut self) -> Vec<Effect> {
         let Some(lab) = &self.lab else { return Vec::new() };
         let Some(present) = lab.present() else { return Vec::new() };
@@ -128,7 +126,6 @@ impl App {
 }
 
 impl Lab {
-    /// Returns the equilibria that were found at these parameters.
     pub(super) fn equilibria_at(&self, parameters: &[f64]) -> &[Equilibrium] {
         let found = self.searches.equilibria.found.as_ref();
         let found = found.filter(|found| found.parameters == parameters);

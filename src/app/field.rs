@@ -118,7 +118,6 @@ pub(super) fn number(model: &Model, parameters: &[f64], text: &str) -> Result<f6
     }
 }
 
-/// Whether a key types a character.
 fn types(key: KeyEvent) -> bool {
     matches!(key.code, KeyCode::Char(c) if !c.is_control()) && !key.modifiers.intersects(CTRL_ALT)
 }

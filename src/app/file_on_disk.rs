@@ -6,20 +6,12 @@ use std::path::PathBuf;
 
 use super::buffer::{Asking, BufferState};
 use super::{App, Effect, Lab, Notification, SaveError};
-use crate::preset::{PresetOrigin, is_path};
+use crate::preset::is_path;
 
 impl App {
     /// Returns the file of the loaded system, if it has one.
     pub fn file(&self) -> Option<PathBuf> {
-        let name = &self.lab.as_ref()?.loaded.name;
-        if is_path(name) {
-            return Some(PathBuf::from(name));
-        }
-        let entry = self.picker.entries.iter().find(|entry| entry.name == *name)?;
-        match &entry.origin {
-            PresetOrigin::User(path) => Some(path.clone()),
-            PresetOrigin::Shipped => None,
-        }
+        self.place_of(&self.lab.as_ref()?.loaded.name)
     }
 
     pub(super) fn save_file(&mut self) -> Vec<Effect> {

@@ -48,7 +48,6 @@ pub struct Findings {
     pub hamiltonian: bool,
     /// The names of all constants as shown, known first.
     pub names: Vec<String>,
-    /// The names of those found, as in files.
     found_names: Vec<String>,
 }
 
@@ -141,7 +140,6 @@ pub(super) fn searched_law(
     Ok((model, equations))
 }
 
-/// Makes the search.
 pub(super) fn search(
     model: Model,
     equations: Equations,

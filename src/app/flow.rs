@@ -43,10 +43,8 @@ struct FlowEnd {
 /// Energies that differ by less than this part are the same to rounding.
 const SAME: f64 = 1e-12;
 
-/// What generates a flow.
 #[derive(Clone, Debug)]
 pub(super) enum FlowGenerator {
-    /// A constant of the motion.
     Constant(Expr),
     /// A change of time, and of each coordinate.
     Symmetry(Expr, Vec<Expr>),
@@ -98,21 +96,17 @@ impl FlowGenerator {
     }
 }
 
-/// What is carried.
 struct FlowStart {
     model: Model,
     equations: Equations,
     generator: FlowGenerator,
     epsilon: f64,
-    /// The time that the generator is for.
     time: f64,
     parameters: Vec<f64>,
-    /// The channels of the system.
     state: Vec<(ChannelKind, f64)>,
 }
 
 impl FlowStart {
-    /// The law of the flow.
     fn law(&self, progress: &Progress) -> Result<(Model, Equations), String> {
         let mut equations = self.equations.clone();
         equations.pool.set_cancel(progress.token().clone());
@@ -189,7 +183,6 @@ impl FlowStart {
 }
 
 impl FlowEnd {
-    /// What is said of the new orbit.
     fn sentence(&self) -> String {
         let begins = "The motion begins where the flow leads";
         let Some([before, after]) = self.energies else {
@@ -269,7 +262,6 @@ impl Lab {
 }
 
 impl App {
-    /// Follows the flow of a constant from the current state.
     pub(super) fn follow_flow(&mut self, index: usize, epsilon: f64) -> Vec<Effect> {
         let Some(lab) = &self.lab else { return Vec::new() };
         let Some(Ok(findings)) = lab.findings() else { return Vec::new() };
@@ -278,7 +270,6 @@ impl App {
         self.follow(FlowGenerator::Constant(generator), law, epsilon)
     }
 
-    /// Follows the flow of a generator of the file.
     pub(super) fn follow_generator(&mut self, index: usize, epsilon: f64) -> Vec<Effect> {
         let Some(lab) = &self.lab else { return Vec::new() };
         let Some(generator) = lab.loaded.model.generators.get(index) else { return Vec::new() };

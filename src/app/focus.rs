@@ -4,7 +4,6 @@
 
 use super::{App, Lab, Pane};
 
-/// The names of the lists.
 const LISTS: [(&str, Pane); 4] = [
     ("parameters", Pane::Parameters),
     ("initial", Pane::Initial),

@@ -26,7 +26,6 @@ const SECOND: u32 = 4;
 /// The divisor of the score of a match in a description.
 const DESCRIBED: u32 = 4;
 
-/// A parsed query.
 pub(super) struct Query {
     words: Vec<QueryWord>,
     matcher: Matcher,
@@ -39,7 +38,6 @@ struct QueryWord {
     letters: u32,
 }
 
-/// The texts of a line.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Texts<'a> {
     /// The label of the line; its matched letters are highlighted.

@@ -51,7 +51,6 @@ impl App {
         effects
     }
 
-    /// Takes the guide of an index.
     pub(super) fn take_guide(&mut self, index: usize) -> Vec<Effect> {
         let Some(guide) = self.picker.guides.get(index) else { return Vec::new() };
         self.picker.last_guide = Some(index);

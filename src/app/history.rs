@@ -17,10 +17,8 @@ const TOGETHER: Duration = Duration::from_millis(800);
 /// The most motions whose recorded past is kept, and not their state alone.
 const MOST_PASTS: usize = 8;
 
-/// One undoable change.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Change {
-    /// A parameter was changed.
     Parameter {
         index: usize,
         /// Its value before and after.
@@ -52,7 +50,6 @@ pub(super) enum Change {
     },
     /// A picture shows something else, or its view has changed.
     Plot {
-        /// Its index among the pictures.
         index: usize,
         /// The picture before and after.
         plots: Box<[Plot; 2]>,
@@ -208,7 +205,6 @@ impl UndoHistory {
         }
     }
 
-    /// Advances the time.
     pub(super) fn tick(&mut self, elapsed: Duration) {
         self.since = self.since.map(|since| since.saturating_add(elapsed));
         self.stepped = self.stepped.map(|(index, since)| (index, since.saturating_add(elapsed)));

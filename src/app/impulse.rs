@@ -20,7 +20,6 @@ impl Lab {
         (0..model.impulses.len()).filter(waits).collect()
     }
 
-    /// Returns a menu line for each of them.
     pub(super) fn impulse_lines(&self) -> Vec<Item> {
         let line = |index: usize| {
             let impulse = &self.loaded.model.impulses[index];

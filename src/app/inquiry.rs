@@ -26,7 +26,7 @@ impl App {
                 (Arc::clone(&lab.loaded.model), Arc::clone(&lab.loaded.equations));
             let asked = text.clone();
             let job = Job::new("deriving", move |progress| {
-                Answer::new(Inquiry::with(&model, &equations, &asked, progress.token()))
+                Answer::new(Inquiry::of(&model, &equations, &asked, progress.token()))
             });
             let computation = self.jobs.request(Asker::Prompt, job);
             prompt.under_way = Some((text, UnderWay::new(&computation)));

@@ -35,7 +35,6 @@ pub struct Lab {
     pub selection: Selection,
     /// The number of rows by which the law of motion is scrolled.
     pub law_scroll: u16,
-    /// What drawing the panes has determined.
     pub(super) drawn: DrawnPanes,
     rods: Rods,
     /// The results computed in the background for the pictures, and the jobs under way.
@@ -46,7 +45,6 @@ pub struct Lab {
     /// Changes requested and not yet confirmed by a snapshot.
     pub(super) pending: PendingChanges,
     pub(super) history: UndoHistory,
-    /// The verdicts as they are shown.
     steady: SteadyVerdicts,
     /// What a person predicts on a picture.
     pub prediction: Option<Box<Prediction>>,
@@ -215,7 +213,6 @@ impl Lab {
             && snapshot.values.len() == self.loaded.system.channels().len()
     }
 
-    /// Advances the time.
     pub(super) fn tick(&mut self, elapsed: Duration) {
         self.history.tick(elapsed);
         self.steady.tick(elapsed);
@@ -321,7 +318,6 @@ impl Lab {
         *place = to(*place).min(count.saturating_sub(1));
     }
 
-    /// Returns the value given in the file.
     pub(super) fn of_file(&self, target: ValueId) -> Option<f64> {
         match target {
             ValueId::Parameter(index) => self.loaded.model.parameters.get(index).map(|p| p.value),

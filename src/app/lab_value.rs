@@ -120,7 +120,6 @@ impl Lab {
         Some(at.value(&model.pool, function))
     }
 
-    /// Returns the value that the experiment has.
     pub(super) fn fact(&self, target: ValueId) -> Option<f64> {
         let snapshot = self.snapshot.as_ref()?;
         match target {

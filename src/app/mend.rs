@@ -9,7 +9,7 @@ use super::buffer::Unsaved;
 use super::session::NEW_SYSTEM;
 use super::{Above, App, Effect, Lab, Loaded, Overlay, Page};
 use crate::experiment::Command;
-use crate::preset::{PresetOrigin, is_path, template};
+use crate::preset::{CatalogEntry, template};
 
 impl App {
     /// Asks for the text of the file whose errors are shown.
@@ -23,15 +23,8 @@ impl App {
     }
 
     /// The file of a system of this name, if it has one.
-    fn place_of(&self, name: &str) -> Option<PathBuf> {
-        if is_path(name) {
-            return Some(PathBuf::from(name));
-        }
-        let entry = self.picker.entries.iter().find(|entry| entry.name == name)?;
-        match &entry.origin {
-            PresetOrigin::User(path) => Some(path.clone()),
-            PresetOrigin::Shipped => None,
-        }
+    pub(super) fn place_of(&self, name: &str) -> Option<PathBuf> {
+        CatalogEntry::place_among(&self.picker.entries, name)
     }
 
     /// Opens the editor with the text of a wrong file; its check says where the errors are.
@@ -118,7 +111,6 @@ impl App {
         texts.rev().find(|text| Some(text.name.as_str()) != continued)
     }
 
-    /// Returns to the unsaved text that is listed.
     pub(super) fn return_to_text(&mut self) -> Vec<Effect> {
         if let Some(text) = self.waiting_text() {
             self.edit_alone(text);

@@ -94,7 +94,6 @@ impl Notifications {
         }
     }
 
-    /// Removes those that wait.
     pub(super) fn clear_waiting(&mut self) {
         self.waiting.clear();
     }

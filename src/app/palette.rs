@@ -130,7 +130,6 @@ impl App {
         }
     }
 
-    /// Returns a line for each theme.
     fn theme_lines(&self) -> impl Iterator<Item = Item> {
         self.themes.available.iter().enumerate().map(|(index, (name, about))| Item {
             label: format!("theme: {name}"),
@@ -141,7 +140,6 @@ impl App {
         })
     }
 
-    /// Returns a line for each system of the catalog.
     fn system_lines(&self) -> Vec<Item> {
         let open = self.lab.as_ref().filter(|_| self.page != super::Page::Picker);
         let open = open.map(|lab| lab.loaded.name.as_str());
@@ -166,7 +164,6 @@ impl App {
         self.handle_action(Action::TypeValue)
     }
 
-    /// Shows a pane of the lab.
     pub(super) fn look_at(&mut self, pane: Pane) -> Vec<Effect> {
         self.go(super::Page::Lab);
         if let Some(lab) = &mut self.lab {
@@ -175,7 +172,6 @@ impl App {
         Vec::new()
     }
 
-    /// Opens the system of this index in the lab.
     pub(super) fn open_system(&mut self, index: usize) -> Vec<Effect> {
         let Some(name) = self.picker.entries.get(index).map(|entry| entry.name.clone()) else {
             return Vec::new();
@@ -237,7 +233,6 @@ fn method_lines(system: &System) -> impl Iterator<Item = Item> {
 }
 
 impl Lab {
-    /// Selects a value.
     pub(super) fn choose(&mut self, target: ValueId) {
         match target {
             ValueId::Parameter(index) => {
@@ -249,7 +244,6 @@ impl Lab {
         }
     }
 
-    /// Returns a line for each value that can be typed.
     fn value_lines(&self) -> Vec<Item> {
         let parameters = (0..self.count(ValueId::Parameter)).map(ValueId::Parameter);
         let initial = (0..self.count(ValueId::Initial)).map(ValueId::Initial);
@@ -280,7 +274,6 @@ impl Lab {
         parameters.chain(initial).filter_map(line).collect()
     }
 
-    /// Returns a line for each pane.
     fn pane_lines(&self) -> Vec<Item> {
         let line = |pane: Pane| Item {
             label: format!("focus: {}", self.titled(pane)),
@@ -312,7 +305,6 @@ impl Lab {
         offered.iter().enumerate().map(line).chain(lacking.map(none)).collect()
     }
 
-    /// Returns the name of a pane with the word for its kind.
     pub(super) fn titled(&self, pane: Pane) -> String {
         format!("{}{}", self.kind_of(pane), self.name_of(pane))
     }

@@ -8,7 +8,6 @@ use crate::instrument::{Plot, SavedPlot};
 use crate::integrate::Settings;
 use crate::system::InitialOverride;
 
-/// A system that is being loaded.
 #[derive(Clone, Debug)]
 pub(super) struct LoadRequest {
     pub(super) name: String,
@@ -33,7 +32,6 @@ pub(super) struct Awaited {
 /// A view that waits for a text with all that it shows.
 #[derive(Clone, Debug)]
 pub(super) struct AwaitedView {
-    /// The session.
     pub(super) saved: Saved,
     /// The pictures until then; where a person has chosen others, these stay.
     pub(super) until: Vec<SavedPlot>,
@@ -64,18 +62,15 @@ impl AwaitedPlots {
 /// A plot that waits for the text with the quantity that was typed for its next axis.
 #[derive(Clone, Debug)]
 pub(super) struct TypedAxis {
-    /// Its index among the plots.
     pub(super) plot: usize,
     /// The plot so far, the name of each channel of its axes, and its label; nothing on the first axis.
     pub(super) begun: Option<(Plot, Vec<Vec<String>>, String)>,
-    /// The name of the quantity.
     pub(super) name: String,
 }
 
 /// Changes sent to the experiment and not yet confirmed by a snapshot.
 #[derive(Clone, Debug, Default)]
 pub(super) struct PendingChanges {
-    /// Single values.
     pub(super) values: Vec<(ValueId, f64)>,
     pub(super) speed: Option<f64>,
     pub(super) method: Option<&'static str>,

@@ -12,7 +12,6 @@ impl App {
         self.reading = Reading { snapshot, automatic, ..Reading::default() };
     }
 
-    /// Carries out the actions of the page.
     pub(super) fn read_by(&mut self, action: Action) -> Vec<Effect> {
         if action == Action::ReadAnew {
             let line = self.reading.line;

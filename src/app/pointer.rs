@@ -296,7 +296,6 @@ impl App {
         }
     }
 
-    /// Adds orbits to the focused section.
     pub(super) fn add_orbits(&mut self) -> Vec<Effect> {
         let reading = self.drawn.reading;
         let Some(lab) = &mut self.lab else { return Vec::new() };
@@ -325,7 +324,6 @@ impl App {
         Vec::new()
     }
 
-    /// Fills what is seen of the focused section with orbits.
     pub(super) fn fill_section(&mut self) -> Vec<Effect> {
         let Some(lab) = &mut self.lab else { return Vec::new() };
         let Some((index, plot)) = lab.focused_plot() else { return Vec::new() };

@@ -36,19 +36,16 @@ impl Prompt {
         }
     }
 
-    /// Advances the time.
     pub(super) fn tick(&mut self, elapsed: Duration) {
         if let Some((_, job)) = &mut self.under_way {
             job.tick(elapsed);
         }
     }
 
-    /// Whether it waits for the job with this ticket.
     pub(super) fn awaits(&self, ticket: u64) -> bool {
         self.under_way.as_ref().is_some_and(|(_, job)| job.ticket == ticket)
     }
 
-    /// Takes in the outcome of the job.
     pub(super) fn take(&mut self, outcome: &Outcome<Answer>) {
         let Some((text, _)) = self.under_way.take() else { return };
         let Outcome::Done(answer) = outcome else { return };

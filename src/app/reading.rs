@@ -27,7 +27,6 @@ pub struct Reading {
 }
 
 impl Reading {
-    /// Advances the time.
     pub(super) fn tick(&mut self, elapsed: Duration) {
         self.since = self.since.saturating_add(elapsed);
     }

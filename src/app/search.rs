@@ -23,7 +23,6 @@ const BUDGET: Duration = Duration::from_secs(1);
 const MOST: u32 = 3;
 
 impl Lab {
-    /// The job of a search that is wanted now.
     pub(super) fn wants_search(&mut self, jobs: &mut Jobs) -> Option<Computation> {
         let parameters = self.seen()?.parameters.to_vec();
         let search_state = &mut self.searches.constants;

@@ -47,7 +47,6 @@ impl Saved {
 }
 
 impl Lab {
-    /// The pictures as they are stored.
     fn saved_plots(&self) -> Vec<SavedPlot> {
         self.plots.iter().map(|plot| SavedPlot::of(plot, self.loaded.physics())).collect()
     }

@@ -205,7 +205,6 @@ impl App {
         }
     }
 
-    /// Handles the progress of a job.
     pub(super) fn progressed(&mut self, ticket: u64, share: Share) {
         self.equilibria_progressed(ticket, share);
         let answers = self.lab.as_mut().map(|lab| &mut lab.answers);

@@ -108,7 +108,6 @@ pub struct Themes {
 }
 
 impl Themes {
-    /// Returns the name of the theme of this index.
     pub(super) fn name(&self, index: usize) -> Option<&'static str> {
         self.available.get(index).map(|(name, _)| *name)
     }

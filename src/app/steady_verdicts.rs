@@ -13,7 +13,6 @@ use crate::experiment::{Gauge, Growth, Snapshot};
 /// How long a verdict on a moving system is shown that no longer holds.
 const HELD: Duration = Duration::from_millis(2500);
 
-/// The verdicts that are shown.
 #[derive(Clone, Debug, Default)]
 pub(super) struct SteadyVerdicts {
     shown: Vec<SteadyVerdict>,
@@ -35,7 +34,6 @@ struct SteadyVerdict {
 }
 
 impl SteadyVerdicts {
-    /// Advances the time.
     pub(super) fn tick(&mut self, elapsed: Duration) {
         self.elapsed = self.elapsed.saturating_add(elapsed);
     }

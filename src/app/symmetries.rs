@@ -111,7 +111,6 @@ impl App {
         })
     }
 
-    /// Opens the list of what was found.
     fn list_symmetries(&mut self) -> Vec<Effect> {
         let Some(found) = self.lab.as_ref().and_then(Lab::found_symmetries) else {
             return Vec::new();
@@ -133,7 +132,6 @@ impl App {
         Vec::new()
     }
 
-    /// Follows the flow of a symmetry from the current state.
     pub(super) fn follow_symmetry(&mut self, index: usize, epsilon: f64) -> Vec<Effect> {
         let Some(found) = self.lab.as_ref().and_then(Lab::found_symmetries) else {
             return Vec::new();

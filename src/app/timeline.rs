@@ -8,7 +8,6 @@ use crate::experiment::{Command, Recorded, Status};
 use crate::expr::Expr;
 use crate::num::short;
 
-/// The most marks.
 const MOST: usize = 32;
 
 /// A key moves the time that is shown by this part of the recorded past.

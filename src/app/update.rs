@@ -305,7 +305,6 @@ impl App {
         self.awaited.system.take_if(|request| request.name == name).map(|request| request.opens)
     }
 
-    /// Shows a page, scrolled to its start.
     pub(super) fn go(&mut self, page: Page) {
         if page == Page::Picker {
             self.left = self.saved();

@@ -17,7 +17,6 @@ pub struct Workbench {
     pub keeps: bool,
     /// The buffers; the last one is on top.
     buffers: Vec<SourceBuffer>,
-    /// The number of checks of all buffers so far.
     checks: u64,
 }
 

@@ -12,7 +12,6 @@ use crate::num::Number;
 /// The tolerated error of a bracket, relative to the size of its terms.
 const TOLERANCE: f64 = 1e-10;
 
-/// Returns a diagnostic for each false claim on a bracket.
 pub(super) fn false_brackets(model: &Model, equations: &Equations) -> Vec<Diagnostic> {
     if model.expect.brackets.is_empty() {
         return Vec::new();

@@ -118,7 +118,6 @@ pub(super) fn undefined_start(
     start::without_value(model, equations, &at)
 }
 
-/// The value of a channel among those of all.
 fn seen(system: &System, values: &[f64], kind: ChannelKind) -> f64 {
     let channel = system.channels().iter().position(|c| c.kind == kind);
     channel.map_or(f64::NAN, |i| values[i])

@@ -8,10 +8,8 @@ use crate::model::Model;
 /// The number of samples of the motion for what is claimed to be conserved.
 const SAMPLES: u32 = 200;
 
-/// What is observed at a time.
 #[derive(Clone, Copy)]
 pub(super) enum Observation {
-    /// The quantities that are claimed to be conserved.
     Claims,
     /// How large the quantities are that have an expected value.
     Sizes,
@@ -20,7 +18,6 @@ pub(super) enum Observation {
 }
 
 impl Observation {
-    /// The index of the expected value.
     pub(super) fn value(self) -> Option<usize> {
         if let Observation::Value(i) = self { Some(i) } else { None }
     }

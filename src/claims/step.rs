@@ -10,7 +10,6 @@ use crate::mechanics::{Equations, Valuation};
 use crate::model::{ExpectedStep, Model};
 use crate::system::System;
 
-/// Returns a diagnostic for each false claim on a step.
 pub(super) fn false_steps(
     model: &Model,
     equations: &Equations,

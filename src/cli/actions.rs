@@ -284,7 +284,6 @@ impl Systems {
     }
 }
 
-/// The coordinate that is asked for.
 fn coordinate(model: &Model, wanted: Option<&str>) -> Result<usize, CommandError> {
     let wrong = |message: String| Err(CommandError::WrongUse(message));
     if model.is_poisson() {

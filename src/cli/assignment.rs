@@ -244,7 +244,6 @@ fn numeral(text: &str) -> Option<f64> {
     Some(value + 0.0)
 }
 
-/// The initial value that a name refers to.
 pub(super) fn place(
     model: &Model,
     name: &str,
@@ -339,7 +338,7 @@ pub(super) fn expression_with_energy(
     read(scope, pool, written, called)
 }
 
-fn read(
+pub(super) fn read(
     mut scope: Scope,
     pool: &mut Pool,
     written: &str,

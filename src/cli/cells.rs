@@ -47,7 +47,6 @@ impl TableCell {
         }
     }
 
-    /// The cell for reading.
     fn brief(&self) -> String {
         match self {
             TableCell::Number(x) if x.is_finite() => short(*x),
@@ -56,7 +55,6 @@ impl TableCell {
         }
     }
 
-    /// The cell in JSON.
     pub(super) fn value(&self) -> Value {
         match self {
             TableCell::Count(n) => Value::from(*n),
@@ -127,7 +125,6 @@ pub(super) fn object_in_pieces(
     std::iter::once(head).chain(pieces)
 }
 
-/// The members of an object, one a line.
 fn lines_of(members: &Map<String, Value>) -> String {
     let compound = |value: &Value| value.is_array() || value.is_object();
     let member = |(key, value): (&String, &Value)| {

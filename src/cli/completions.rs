@@ -26,7 +26,6 @@ pub(super) fn execute(arguments: &Arguments, command: clap::Command) -> Result<(
     Output::print(OutputForm::Text, &script(arguments.shell, command))
 }
 
-/// The whole script.
 fn script(shell: Shell, mut command: clap::Command) -> String {
     let named = named(&command);
     let mut bytes = Vec::new();

@@ -7,7 +7,8 @@ use super::error::CommandError;
 use super::interrupt::Interrupt;
 use super::study::{self, Study, StudyArguments, shown, table};
 use crate::dynamics::{
-    Equilibria, Equilibrium, Kind, VirtualWork, equilibria, name_equilibria, with_virtual_work,
+    Equilibria, Equilibrium, EquilibriumKind, VirtualWork, equilibria, name_equilibria,
+    with_virtual_work,
 };
 use crate::mechanics::ConstraintRow;
 
@@ -60,7 +61,7 @@ fn object(study: &Study, found: &Equilibria) -> Map<String, Value> {
             "energy": one.energy,
             "multipliers": multipliers(study, one),
             "virtual_work": one.work.iter().map(|work| balance(names, work)).collect::<Vec<_>>(),
-            "kind": one.kind.map(Kind::word),
+            "kind": one.kind.map(EquilibriumKind::word),
             "family": one.family.iter().map(|along| study.named(along)).collect::<Vec<_>>(),
             "eigenvalues": one.eigenvalues,
             "frequencies": frequencies,
@@ -89,7 +90,6 @@ fn multipliers(study: &Study, one: &Equilibrium) -> Value {
     Value::Object(rows.map(|(row, &value)| (name(row), value.into())).collect())
 }
 
-/// The forces on a coordinate.
 fn balance(names: &[String], work: &VirtualWork) -> Value {
     let terms = work.terms.iter().map(|(term, value)| json!({ "term": term, "value": value }));
     json!({
@@ -106,7 +106,7 @@ fn text(study: &Study, found: &Equilibria) -> String {
     }
     let mut text = String::new();
     for one in &found.found {
-        let kind = one.kind.map_or("equilibrium", Kind::word);
+        let kind = one.kind.map_or("equilibrium", EquilibriumKind::word);
         let stable = one.stability();
         let name = if one.name.is_empty() { String::new() } else { format!("{}: ", one.name) };
         let energy = match one.energy {

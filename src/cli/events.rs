@@ -21,7 +21,6 @@ impl Events {
         Events { of: Some((Arc::clone(model), occurrences.clone())) }
     }
 
-    /// The unknown events of a run that was ended from outside.
     pub(super) fn unknown() -> Events {
         Events { of: None }
     }

@@ -11,11 +11,9 @@ pub struct Exit {
     pub when: &'static str,
 }
 
-/// Success.
 pub(super) const DONE: u8 = 0;
 /// The request could not be fulfilled.
 pub(super) const COULD_NOT: u8 = 1;
-/// Wrong usage.
 pub(super) const WRONG_USE: u8 = 2;
 /// A file is wrong: `EX_DATAERR` of BSD's `sysexits.h`.
 pub(super) const WRONG_FILE: u8 = 65;

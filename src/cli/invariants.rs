@@ -69,7 +69,6 @@ struct Scan {
     values: Vec<f64>,
 }
 
-/// The most values of a scan.
 const MOST_VALUES: f64 = 10_000.0;
 
 impl FromStr for Scan {

@@ -63,7 +63,6 @@ pub(super) struct Tour {
     restart: bool,
 }
 
-/// Takes the tour.
 pub(super) fn tour(
     arguments: &Tour,
     interrupt: &Interrupt,
@@ -166,7 +165,6 @@ pub(super) fn execute(
     }
 }
 
-/// The title of a shipped lesson.
 fn title(name: &str) -> String {
     let script = preset::lesson(name).and_then(|source| Script::read(&source).ok());
     script.and_then(|script| script.head.title).unwrap_or_else(|| name.to_owned())

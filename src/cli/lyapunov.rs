@@ -100,7 +100,6 @@ fn series(volumes: &Gali) -> Value {
     Value::Object(all.collect())
 }
 
-/// GALIₖ at the end.
 fn lines(volumes: &Gali) -> String {
     let Some(last) = volumes.logarithms.last() else { return String::new() };
     let all = last.iter().enumerate();

@@ -107,7 +107,6 @@ fn head(man: &Man) -> io::Result<Vec<u8>> {
     Ok(page)
 }
 
-/// The page of one command.
 fn of_command(
     mut command: clap::Command,
     words: &[String],
@@ -156,7 +155,6 @@ fn keys(roff: &mut Roff) {
     }
 }
 
-/// A name with its description.
 fn entry(roff: &mut Roff, name: &str, about: &str) {
     roff.control("TP", []);
     roff.text([bold(name)]);

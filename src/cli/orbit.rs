@@ -42,12 +42,12 @@ pub(super) struct Arguments {
     energy: Option<f64>,
     /// Follows the family of the orbit over values of `energy`, `period` or a parameter.
     #[arg(long, value_name = "NAME=FROM:TO:COUNT", allow_hyphen_values = true)]
-    along: Option<Values>,
+    along: Option<SweptValues>,
 }
 
 /// Values of something, from one to another.
 #[derive(Clone, PartialEq, Debug)]
-struct Values {
+struct SweptValues {
     name: String,
     values: Vec<f64>,
 }
@@ -55,10 +55,10 @@ struct Values {
 /// The most values of a family.
 const MOST: u32 = 10_000;
 
-impl FromStr for Values {
+impl FromStr for SweptValues {
     type Err = String;
 
-    fn from_str(text: &str) -> Result<Values, String> {
+    fn from_str(text: &str) -> Result<SweptValues, String> {
         let shape = || "write it as NAME=FROM:TO:COUNT".to_owned();
         let (name, range) = text.split_once('=').ok_or_else(shape)?;
         let [from, to, count] = range.split(':').collect::<Vec<_>>()[..] else {
@@ -69,7 +69,7 @@ impl FromStr for Values {
         if !(2..=MOST).contains(&count) || from == to {
             return Err(format!("a family has from 2 to {MOST} values, from one to another"));
         }
-        Ok(Values {
+        Ok(SweptValues {
             name: name.trim().to_owned(),
             values: decimal::divisions(from, to, count - 1).collect(),
         })
@@ -116,7 +116,6 @@ pub(super) fn execute(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     study::write(&arguments.study, result, None, interrupt)
 }
 
-/// What the orbit is to have.
 fn fixed(arguments: &Arguments, study: &Study) -> Result<Fixed, CommandError> {
     let space = &study.space;
     let wrong = |what: &str| Err(CommandError::WrongUse(what.to_owned()));
@@ -138,8 +137,7 @@ fn fixed(arguments: &Arguments, study: &Study) -> Result<Fixed, CommandError> {
     }
 }
 
-/// What changes along the family.
-fn along(values: &Values, study: &Study) -> Result<Along, CommandError> {
+fn along(values: &SweptValues, study: &Study) -> Result<Along, CommandError> {
     match values.name.as_str() {
         "energy" => Ok(Along::Energy),
         "period" => Ok(Along::Period),

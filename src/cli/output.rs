@@ -175,7 +175,6 @@ impl Output {
         Ok(())
     }
 
-    /// Its name in messages.
     pub(super) fn name(&self) -> &str {
         &self.name
     }

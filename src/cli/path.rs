@@ -134,7 +134,6 @@ fn found(arguments: &Arguments, laid: &Laid) -> Result<JudgedPath, CommandError>
     Ok(judged)
 }
 
-/// Both ends of the path.
 fn ends(arguments: &Arguments, laid: &Laid) -> Result<[Vec<f64>; 2], CommandError> {
     let (model, parameters) = (&*laid.model, &laid.start.parameters);
     let state =
@@ -182,7 +181,6 @@ impl JudgedPath {
         ["t".to_owned()].into_iter().chain(inner).chain(["energy".to_owned()]).collect()
     }
 
-    /// The result in a format.
     fn written(&self, format: TableFormat, laid: &Laid) -> String {
         let columns = JudgedPath::columns(&laid.model);
         let (index, kind) = (self.nature.map(|n| n.0), self.nature.map(|n| word(n.1)));

@@ -83,7 +83,6 @@ impl PathFunctions {
     }
 }
 
-/// Whether a name is that of a momentum.
 pub(super) fn is_momentum(model: &Model, name: &str) -> bool {
     name.strip_prefix("p_")
         .is_some_and(|of| model.coordinate(name).is_none() && model.coordinate(of).is_some())

@@ -114,14 +114,12 @@ pub(super) fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     check_claims(&source, &recording)
 }
 
-/// The format that the name of a still asks for.
 fn still_format(path: &Path) -> Result<ImageFormat, CommandError> {
     let wrong =
         |why: String| CommandError::WrongUse(format!("--still {}: {why}", printable::path(path)));
     path.to_string_lossy().parse().map_err(wrong)
 }
 
-/// The index of the marker of this name.
 fn find_marker<'a>(
     names: impl Iterator<Item = &'a str>,
     wanted: &str,

@@ -102,7 +102,6 @@ pub(super) enum RunStatus {
 }
 
 impl RunStatus {
-    /// The word in the reports.
     pub(super) fn word(self) -> &'static str {
         match self {
             RunStatus::Completed => "completed",

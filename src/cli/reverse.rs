@@ -124,7 +124,6 @@ fn returned(laid: &Laid, until: f64, interrupt: &Interrupt) -> Result<(Return, u
     }
 }
 
-/// Advances to a reading of the clock.
 fn advance(
     experiment: &mut Experiment,
     clock: f64,

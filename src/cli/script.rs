@@ -18,7 +18,6 @@ impl MathScript {
         if glyphs.is_ascii() { MathScript::Ascii } else { MathScript::Unicode }
     }
 
-    /// Formats an expression.
     pub(super) fn math(self, pool: &Pool, e: Expr) -> String {
         match self {
             MathScript::Unicode => pool.unicode(e),
@@ -26,7 +25,6 @@ impl MathScript {
         }
     }
 
-    /// Formats a symbol.
     pub(super) fn symbol(self, pool: &Pool, symbol: Symbol) -> String {
         let info = pool.symbol_info(symbol);
         match self {
@@ -35,7 +33,6 @@ impl MathScript {
         }
     }
 
-    /// Formats text.
     pub(super) fn words(self, text: &str) -> String {
         match self {
             MathScript::Unicode => text.to_owned(),

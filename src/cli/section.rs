@@ -18,9 +18,7 @@ use super::interrupt::Interrupt;
 use super::motion_options::{Laid, MotionOptions};
 use super::output::Output;
 use super::starts::Starts;
-use super::stderr;
 use super::threads::{self, ThreadOptions};
-use crate::diagnostic::{Diagnostic, report};
 use crate::ensemble::{
     Crossings, EnergyShell, Root, SectionPlan, Start, add_section, crossings_of_all, section_group,
 };
@@ -186,19 +184,8 @@ pub(super) fn surface(
     called: &str,
 ) -> Result<Expr, CommandError> {
     let mut pool = model.pool.clone();
-    let mut scope = Scope::new(model, Allowed::Event, "a section");
-    let read = scope.read(&mut pool, written);
-    let Some(e) = read else {
-        let diagnostics = scope.diagnostics.into_iter().map(|diagnostic| {
-            let place = diagnostic.span.start..diagnostic.span.end;
-            Diagnostic { help: diagnostic.help, ..Diagnostic::error(place, diagnostic.message) }
-        });
-        let diagnostics: Vec<Diagnostic> = diagnostics.collect();
-        stderr::show(&report(written, called, &diagnostics, stderr::has_colour()));
-        let written = printable::quoted(written);
-        let message = format!("{called}: `{written}` is not an expression of this system");
-        return Err(CommandError::WrongUse(message));
-    };
+    let scope = Scope::new(model, Allowed::Event, "a section");
+    let e = assignment::read(scope, &mut pool, written, called)?;
     let is_parameter = |symbol| model.parameters.iter().any(|p| p.symbol == symbol);
     if pool.symbols_of(e).into_iter().all(is_parameter) {
         let written = printable::quoted(written);
@@ -267,7 +254,6 @@ fn unknown_columns(model: &Model, wanted: &[String]) -> Vec<String> {
     extra
 }
 
-/// The columns that are written.
 fn shown_columns(laid: &Laid, wanted: Option<&[String]>) -> Result<Vec<ShownColumn>, CommandError> {
     let names = laid.header().columns;
     let Some(wanted) = wanted else { return Ok(names.into_iter().zip(0..).collect()) };

@@ -13,10 +13,8 @@ use crate::file;
 use crate::model::Model;
 use crate::printable;
 
-/// The longest table.
 const LONGEST: u64 = 256 << 20;
 
-/// The most rows of a grid.
 const MOST_ROWS: usize = 10_000_000;
 
 /// Rows of values under their names, as written.

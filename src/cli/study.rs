@@ -117,7 +117,6 @@ impl Study {
         Ok(state)
     }
 
-    /// The variables of a state by their names.
     pub(super) fn named(&self, variables: &[f64]) -> Value {
         let names = self.space.names().iter().cloned();
         Value::Object(names.zip(variables.iter().map(|&x| x.into())).collect())
@@ -140,7 +139,6 @@ pub(super) fn head(
     head
 }
 
-/// How a computation fails.
 #[expect(clippy::needless_pass_by_value, reason = "it is handed to map_err")]
 pub(super) fn failed(error: DynamicsError) -> CommandError {
     match error {

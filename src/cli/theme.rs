@@ -61,7 +61,6 @@ fn swatches(theme: &Theme) -> String {
     format!("{blocks}  {}  ", words.join(" "))
 }
 
-/// Text in the colour of a style.
 fn painted(text: &str, style: Style) -> String {
     let code = sgr::colour(style.fg.unwrap_or(Color::Reset), sgr::FOREGROUND);
     format!("\x1b[{}m{text}\x1b[39m", sgr::written(&code))

@@ -24,7 +24,6 @@ fn threads(text: &str) -> Result<NonZeroUsize, String> {
 }
 
 impl ThreadOptions {
-    /// The number of threads.
     pub(super) fn count(&self) -> usize {
         let cores = || thread::available_parallelism().ok();
         self.threads.or_else(cores).map_or(1, NonZeroUsize::get)

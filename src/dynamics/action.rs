@@ -27,7 +27,6 @@ pub struct Lagrangian {
     /// By q, by q̇, and by the time.
     first: Evaluator<f64>,
     second: Evaluator<f64>,
-    /// Whether it depends on the time.
     pub(super) timed: bool,
     start: f64,
     /// The number of kinks of its values.
@@ -137,13 +136,13 @@ impl Lagrangian {
         })
     }
 
-    /// The same for paths that begin at this time, and not at the start of the file.
+    /// This Lagrangian for paths that begin at this time instead of the start of the file.
     #[must_use]
     pub fn beginning_at(self, start: f64) -> Lagrangian {
         Lagrangian { start, ..self }
     }
 
-    /// The same for searches that end soon after this token is set.
+    /// This Lagrangian with a token that ends its searches soon after it is set.
     #[must_use]
     pub fn with_cancel(self, cancel: Cancel) -> Lagrangian {
         Lagrangian { cancel, ..self }
@@ -178,7 +177,6 @@ impl Lagrangian {
         self.work
     }
 
-    /// Whether it has kinks.
     pub(super) fn has_switches(&self) -> bool {
         self.switches > 0
     }

@@ -13,7 +13,6 @@ use crate::num::math;
 /// The most instants that are remembered; beyond, neighbours are put together.
 const MOST: usize = 1024;
 
-/// What is known of the steps so far.
 pub(super) struct AmplifiedRounding {
     last: DMatrix<f64>,
     steps: Vec<StepGroup>,

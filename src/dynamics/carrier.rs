@@ -37,7 +37,6 @@ const COARSE: f64 = 64.0;
 /// are those of the method's own map.
 pub struct Carrier {
     space: PhaseSpace,
-    /// The system with tangent vectors.
     system: System,
     states: TangentStates,
     method: &'static Method,
@@ -313,7 +312,7 @@ impl Carrier {
         self.jumping.as_ref().map_or_else(|| self.stepper.time(), |jumping| jumping.span.1)
     }
 
-    /// Whether it has not come to a time yet, or not all has happened that happens there.
+    /// Whether a time has not been reached yet, or something that happens there has not happened yet.
     pub fn is_before(&self, until: f64, forwards: bool) -> bool {
         let time = self.time();
         if time == until {

@@ -24,7 +24,7 @@ const SECTIONS: u32 = 60;
 /// A matrix has lost rank where a singular value is this small beside the largest that it has had.
 const LOST: f64 = 1e-5;
 
-/// The times after the start, up to a duration, at which ∂q/∂p(0) is singular.
+/// The times after the start, up to a duration, at which ∂q/∂p(0) is singular (conjugate points).
 ///
 /// # Errors
 /// Returns an error if the motion cannot be followed.
@@ -39,8 +39,8 @@ pub fn conjugate_points(
     singular(space, (method, settings), (start, &momenta), duration)
 }
 
-/// The times after the start, up to a duration, at which the ways of equal energy from the same place meet to first order: their
-/// envelope is touched. With one coordinate that is where it turns.
+/// The times after the start, up to a duration, at which curves of equal energy from the same place meet to first order,
+/// touching their envelope. With one coordinate these are the turning points.
 ///
 /// # Errors
 /// Returns an error if the motion cannot be followed, does not conserve its energy, or begins at rest.

@@ -33,7 +33,6 @@ pub(super) struct ConstrainedBalance {
     /// The coordinates that rest, and the cyclic ones.
     resting: Vec<usize>,
     cyclic: Vec<usize>,
-    /// The momenta of the cyclic coordinates.
     momenta: Vec<f64>,
 }
 
@@ -125,7 +124,6 @@ impl ConstrainedBalance {
         Ok(balance)
     }
 
-    /// The unknowns among (q, q̇), by index.
     pub(super) fn unknowns(&self) -> Vec<usize> {
         let degrees = self.space.system().degrees();
         self.resting.iter().copied().chain(self.cyclic.iter().map(|i| degrees + i)).collect()

@@ -81,7 +81,6 @@ pub(super) struct Continuation<'a> {
     pub(super) along: Along,
     pub(super) fixed: Fixed,
     pub(super) values: &'a [f64],
-    /// The values of the Casimirs on all orbits.
     pub(super) casimirs: &'a [f64],
     /// How many periods of a drive an orbit has, and that period at some parameters.
     pub(super) drive: Option<(f64, DrivePeriod<'a>)>,
@@ -102,7 +101,6 @@ impl Continuation<'_> {
         (low, self.values.iter().copied().fold(f64::NEG_INFINITY, f64::max))
     }
 
-    /// The space at a value of the parameter.
     fn space_at(&self, parameter: f64) -> PhaseSpace {
         match self.along {
             Along::Parameter(index) => {
@@ -217,7 +215,6 @@ impl Continuation<'_> {
         (self.exact.1 != self.method.1).then_some(Continuation { method: self.exact, ..*self })
     }
 
-    /// The orbit at a point, by the method of the members.
     fn member(&self, from: &FamilyPoint, point: FamilyPoint) -> Result<Orbit, DynamicsError> {
         let (mut point, mut method) = (point, self.method);
         let exact = self.exact().unwrap_or(*self);
@@ -319,7 +316,6 @@ impl Continuation<'_> {
         Ok(point)
     }
 
-    /// The point at which a family begins.
     pub(super) fn begun(&self, orbit: &Orbit) -> Result<FamilyPoint, DynamicsError> {
         let conserved = self.space.has_energy_levels();
         if !matches!(self.along, Along::Parameter(_)) && !conserved {

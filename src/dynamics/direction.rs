@@ -17,7 +17,6 @@ pub(super) struct FlowDirection {
     source: RateSource,
 }
 
-/// Where rates come from.
 enum RateSource {
     /// The variables are independent.
     Free(VectorField),

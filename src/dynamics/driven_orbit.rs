@@ -22,8 +22,8 @@ const NEAR: f64 = 0.1;
 /// An orbit that comes back this near, relative to its size, before its period has ended closes there.
 const SAME: f64 = 1e-9;
 
-/// The periodic orbit near a start whose period is that of the drive or a small multiple of it: where the motion returns
-/// near its start after one of them, that one comes first.
+/// The periodic orbit near a start whose period is that of the drive or a small multiple of it; multiples after which the
+/// motion returns near its start are tried first.
 ///
 /// # Errors
 /// Returns an error if there is none nearby, which says what the motion is instead; if the motion cannot be followed; or on
@@ -38,7 +38,8 @@ pub fn driven_orbit(
     found.map_err(|error| explained(error, space, method, start, &mut |_, _| ()))
 }
 
-/// The same, but an error does not say what the motion is instead. `report` is given the steps taken, and their greatest number.
+/// Finds the orbit of [`driven_orbit`], without saying in an error what the motion is instead. `report` is given the
+/// number of steps taken and its maximum.
 ///
 /// # Errors
 /// Returns an error if there is none nearby; if the motion cannot be followed; or on cancellation.

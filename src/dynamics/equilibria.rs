@@ -21,7 +21,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::equilibrium::{Equilibria, Equilibrium, in_order};
 use super::error::DynamicsError;
-use super::kind::{Kind, Signature};
+use super::kind::{EquilibriumKind, Signature};
 use super::linear;
 use super::phase_space::PhaseSpace;
 use super::small_oscillation::{LinearMotion, Mode, growth_errors, linear_motion, modes};
@@ -32,7 +32,6 @@ use crate::system::{Form, MotionErrorKind, State};
 use family::{Belonging, EquilibriumFamily};
 use search::{EquilibriumSearch, LawAtRest};
 
-/// The largest number of equilibria.
 const MOST: usize = 100;
 
 /// The error of the second derivative of a potential along the surface of constraints, as a part of its largest entry.
@@ -70,7 +69,8 @@ pub fn equilibria(space: &PhaseSpace, start: &State) -> Result<Equilibria, Dynam
     equilibria_watched(space, start, &mut |_, _| ())
 }
 
-/// Like [`equilibria`]; before each search it hands on how many have been, and how many there will be, as far as is known.
+/// Searches as [`equilibria`] does. Before each of its searches it reports how many have been made, and how many there
+/// will be as far as is known.
 ///
 /// # Errors
 /// Returns an error if the law of motion depends on time.
@@ -130,7 +130,7 @@ pub fn equilibria_watched(
         let known = found.iter().any(|known| match family {
             // a minimum and a maximum are two, however near
             None if (known.kind == one.kind
-                || [known.kind, one.kind].contains(&Some(Kind::Degenerate)))
+                || [known.kind, one.kind].contains(&Some(EquilibriumKind::Degenerate)))
                 && search.is_lost_between(&known.variables, &variables) =>
             {
                 true
@@ -288,11 +288,11 @@ impl EquilibriumSearch<'_> {
             let modes = Vec::new();
             return Some(Around { kind: None, eigenvalues, linear, is_extremum, modes });
         };
-        let kind = if along.is_empty() { inertia.kind() } else { Kind::Degenerate };
-        let is_least = kind == Kind::Minimum && self.space.is_passive();
+        let kind = if along.is_empty() { inertia.kind() } else { EquilibriumKind::Degenerate };
+        let is_least = kind == EquilibriumKind::Minimum && self.space.is_passive();
         let is_greatest = || {
             let hamiltonian = self.space.is_hamiltonian() && along.is_empty();
-            hamiltonian && Signature::of_energy(&df, &error).kind() == Kind::Maximum
+            hamiltonian && Signature::of_energy(&df, &error).kind() == EquilibriumKind::Maximum
         };
         let is_extremum = is_least || is_greatest();
         let places = DMatrix::identity(count / 2, count);
@@ -305,7 +305,7 @@ impl EquilibriumSearch<'_> {
         });
         let mass = mass.filter(|mass| mass.clone().cholesky().is_some());
         // V has a strict minimum, and so has the energy where T is positive
-        let is_flat_minimum = kind == Kind::Degenerate
+        let is_flat_minimum = kind == EquilibriumKind::Degenerate
             && along.is_empty()
             && mass.is_some()
             && self.space.is_passive()
@@ -330,7 +330,7 @@ impl EquilibriumSearch<'_> {
                 let error = second.map(|_| ON_SURFACE * second.amax());
                 Signature::of(&second, &error).kind()
             }
-            _ => Kind::Degenerate,
+            _ => EquilibriumKind::Degenerate,
         });
         let error = around.matrix.map(|_| ON_SURFACE * around.matrix.amax());
         let errors = growth_errors(&around.matrix, &error, &eigenvalues);
@@ -341,7 +341,7 @@ impl EquilibriumSearch<'_> {
             mode.frequency /= around.time;
         }
         let eigenvalues = eigenvalues.into_iter().map(|z| z.map(|x| x / around.time)).collect();
-        let is_extremum = kind == Some(Kind::Minimum) && self.space.is_passive();
+        let is_extremum = kind == Some(EquilibriumKind::Minimum) && self.space.is_passive();
         Some(Around { kind, eigenvalues, linear, is_extremum, modes })
     }
 
@@ -370,9 +370,8 @@ impl EquilibriumSearch<'_> {
     }
 }
 
-/// What is around an equilibrium.
 struct Around {
-    kind: Option<Kind>,
+    kind: Option<EquilibriumKind>,
     eigenvalues: Vec<[f64; 2]>,
     linear: LinearMotion,
     /// Whether it is a strict minimum of an energy that does not grow, or a strict maximum of one that is conserved.

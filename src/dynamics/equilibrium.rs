@@ -4,7 +4,7 @@
 
 use std::cmp::Ordering;
 
-use super::kind::Kind;
+use super::kind::EquilibriumKind;
 use super::small_oscillation::{LinearMotion, Mode, rests};
 use super::virtual_work::VirtualWork;
 
@@ -20,7 +20,7 @@ pub struct Equilibrium {
     /// The value of H there.
     pub energy: f64,
     /// What the effective potential does there; `None` for brackets.
-    pub kind: Option<Kind>,
+    pub kind: Option<EquilibriumKind>,
     /// Where it is one of a family, a curve or a surface of equilibria: directions along it, as many as its dimension, each with a
     /// part for every variable. It is the member nearest to the start.
     pub family: Vec<Vec<f64>>,
@@ -33,7 +33,6 @@ pub struct Equilibrium {
     /// linearised motion alone prove nothing (T. M. Cherry, Trans. Cambridge Philos. Soc. 23, 199 (1925)). See
     /// [`Equilibrium::stability`].
     pub stable: Option<bool>,
-    /// What the linearised motion does.
     pub(super) linear: LinearMotion,
     /// The rates of the cyclic coordinates, by index.
     pub rates: Vec<(usize, f64)>,
@@ -62,7 +61,7 @@ impl Equilibrium {
     }
 }
 
-/// What a search has found.
+/// The equilibria that a search has found.
 #[derive(Clone, Debug)]
 pub struct Equilibria {
     /// The equilibria by energy.

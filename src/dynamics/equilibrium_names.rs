@@ -14,9 +14,9 @@ const ALONE: f64 = 0.5;
 /// Rounding, as a part of where the motion begins.
 const ROUNDING: f64 = 1e-7;
 
-/// Names the equilibria that are nearest to the places of names, each of which is nearest to its own and nearer than halfway to
-/// another place: of those that are missing no other gets the name. Where a name has no other beside it, the equilibrium must be
-/// nearer than halfway to the next one, and not far away. Coordinates with a period are compared within it.
+/// Gives equilibria the names of the file. A name belongs to the equilibrium nearest to its place, provided that this is
+/// nearer than halfway to the place of any other name. A name that has no other beside it needs an equilibrium nearer
+/// than halfway to the next equilibrium, and not far away. Coordinates with a period are compared within it.
 pub fn name_equilibria(model: &Model, parameters: &[f64], found: &mut [Equilibrium]) {
     let known = Valuation::of_parameters(model, parameters);
     let value = |e| known.value(&model.pool, e);

@@ -30,7 +30,6 @@ pub(super) struct Excursion {
     /// The periods of the variables, and units of displacements.
     turns: Vec<Option<f64>>,
     units: DVector<f64>,
-    /// Whether it moves at the start.
     moves: bool,
     is_autonomous: bool,
     /// The largest distance of each variable from its start, and its largest size.
@@ -237,7 +236,6 @@ impl Excursion {
         self.first.is_some() && is_unchanged(self.change, self.steepest)
     }
 
-    /// Where it began.
     pub(super) fn start(&self) -> &State {
         &self.start
     }

@@ -9,7 +9,7 @@ use crate::num::math;
 /// Of a family whose orbits are not isolated.
 pub const NOT_ISOLATED: &str = "each orbit has others of the same value beside it: the family has more parameters, and one path through it is followed";
 
-/// What changes along a family.
+/// The quantity that changes along a family.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Along {
     /// Members differ by their energies.
@@ -20,7 +20,7 @@ pub enum Along {
     Parameter(usize),
 }
 
-/// What happens to a family at an orbit.
+/// A bifurcation of a family at an orbit.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Bifurcation {
     /// It turns back.
@@ -32,7 +32,7 @@ pub enum Bifurcation {
 }
 
 impl Bifurcation {
-    /// Its name.
+    /// Its name in reports.
     pub fn word(self) -> &'static str {
         match self {
             Bifurcation::Fold => "fold",
@@ -54,8 +54,8 @@ pub struct Member {
 }
 
 impl Member {
-    /// What becomes of its neighbours, to first order. Where it bifurcates and volumes across it are preserved, two multipliers have
-    /// met at 1 or −1, and the others decide; they are known to the part of a step to which the place is.
+    /// Its stability, to first order. Where it bifurcates and volumes across it are preserved, two multipliers have met
+    /// at 1 or −1, and the others decide; they are known to the part of a step to which the place is.
     pub fn stability(&self) -> OrbitStability {
         let meets = match self.bifurcation {
             Some(Bifurcation::Fold | Bifurcation::Branching) => 1.0,

@@ -28,8 +28,8 @@ pub fn family(
     Ok(course.family())
 }
 
-/// The same under a drive, whose period at some parameters `drive` gives: the orbits keep their multiple of it, also along a
-/// parameter on which it depends.
+/// Follows a family as [`family`] does, under a drive whose period at some parameters `drive` gives: the orbits keep
+/// their multiple of it, also along a parameter on which it depends.
 ///
 /// # Errors
 /// Returns an error if the family has no such values.
@@ -143,7 +143,7 @@ impl FamilyCourse {
         Ok(())
     }
 
-    /// What is known of it.
+    /// The family as far as it is known.
     pub fn family(&self) -> Family {
         let mut members: Vec<Member> = Vec::new();
         let mut ended = Vec::new();

@@ -14,9 +14,9 @@ const BALANCINGS: usize = 12;
 /// The error of an entry of a product, and of an eigenvalue of entries no larger than 1, per row.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
-/// What the effective potential does at an equilibrium.
+/// The kind of an equilibrium as a critical point of the effective potential.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Kind {
+pub enum EquilibriumKind {
     /// It grows in all directions.
     Minimum,
     /// It grows in some and falls in others.
@@ -27,14 +27,14 @@ pub enum Kind {
     Degenerate,
 }
 
-impl Kind {
-    /// Its name.
+impl EquilibriumKind {
+    /// Its name in reports.
     pub fn word(self) -> &'static str {
         match self {
-            Kind::Minimum => "minimum",
-            Kind::Saddle => "saddle",
-            Kind::Maximum => "maximum",
-            Kind::Degenerate => "degenerate",
+            EquilibriumKind::Minimum => "minimum",
+            EquilibriumKind::Saddle => "saddle",
+            EquilibriumKind::Maximum => "maximum",
+            EquilibriumKind::Degenerate => "degenerate",
         }
     }
 }
@@ -105,12 +105,12 @@ impl Signature {
         Signature::of(&ordered(df, -1.0), &ordered(error, 1.0))
     }
 
-    pub(super) fn kind(self) -> Kind {
+    pub(super) fn kind(self) -> EquilibriumKind {
         match (self.growing, self.falling, self.flat) {
-            (_, 0, 0) => Kind::Minimum,
-            (0, _, 0) => Kind::Maximum,
-            (_, _, 0) => Kind::Saddle,
-            _ => Kind::Degenerate,
+            (_, 0, 0) => EquilibriumKind::Minimum,
+            (0, _, 0) => EquilibriumKind::Maximum,
+            (_, _, 0) => EquilibriumKind::Saddle,
+            _ => EquilibriumKind::Degenerate,
         }
     }
 }
@@ -119,7 +119,7 @@ impl Signature {
 mod tests {
     use super::*;
 
-    fn of(rows: [[f64; 2]; 2], error: f64) -> Kind {
+    fn of(rows: [[f64; 2]; 2], error: f64) -> EquilibriumKind {
         let second = DMatrix::from_fn(2, 2, |i, j| rows[i][j]);
         Signature::of(&second, &DMatrix::from_element(2, 2, error)).kind()
     }
@@ -127,18 +127,18 @@ mod tests {
     /// By determinant and trace.
     #[test]
     fn a_soft_direction_counts_beside_a_stiff_one() {
-        assert_eq!(of([[1e12, 0.0], [0.0, 1.0]], 1e-16), Kind::Minimum);
-        assert_eq!(of([[8.0, 6e-5], [6e-5, 1e-9]], 1e-13), Kind::Minimum);
-        assert_eq!(of([[8.0, 6e-5], [6e-5, 1e-10]], 1e-13), Kind::Saddle);
-        assert_eq!(of([[0.0, 1e-9], [1e-9, 1e9]], 0.0), Kind::Saddle);
+        assert_eq!(of([[1e12, 0.0], [0.0, 1.0]], 1e-16), EquilibriumKind::Minimum);
+        assert_eq!(of([[8.0, 6e-5], [6e-5, 1e-9]], 1e-13), EquilibriumKind::Minimum);
+        assert_eq!(of([[8.0, 6e-5], [6e-5, 1e-10]], 1e-13), EquilibriumKind::Saddle);
+        assert_eq!(of([[0.0, 1e-9], [1e-9, 1e9]], 0.0), EquilibriumKind::Saddle);
         // det = ±1e-7 − 1e-18 has no sign
-        assert_eq!(of([[0.0, 1e-9], [1e-9, 1e9]], 1e-16), Kind::Degenerate);
+        assert_eq!(of([[0.0, 1e-9], [1e-9, 1e9]], 1e-16), EquilibriumKind::Degenerate);
     }
 
     #[test]
     fn what_is_no_more_than_its_error_is_flat() {
-        assert_eq!(of([[8.0, 0.0], [0.0, 1e-13]], 2e-13), Kind::Degenerate);
-        assert_eq!(of([[0.9, 0.3], [0.3, 0.1]], 1e-16), Kind::Degenerate);
-        assert_eq!(of([[1.0, 0.0], [0.0, 0.0]], 0.0), Kind::Degenerate);
+        assert_eq!(of([[8.0, 0.0], [0.0, 1e-13]], 2e-13), EquilibriumKind::Degenerate);
+        assert_eq!(of([[0.9, 0.3], [0.3, 0.1]], 1e-16), EquilibriumKind::Degenerate);
+        assert_eq!(of([[1.0, 0.0], [0.0, 0.0]], 0.0), EquilibriumKind::Degenerate);
     }
 }

@@ -82,7 +82,6 @@ impl Levels {
         self.has_energy
     }
 
-    /// All of them at a state.
     pub(super) fn at(
         &self,
         state: &State,

@@ -16,7 +16,6 @@ pub(super) struct Lobatto {
     pub(super) weights: Vec<f64>,
     /// D_ij = ℓ_j′(x_i).
     pub(super) derivative: DMatrix<f64>,
-    /// The weights of barycentric interpolation.
     barycentric: Vec<f64>,
 }
 

@@ -23,7 +23,6 @@ use crate::integrate::{Method, Settings};
 use crate::num::short;
 use crate::system::{MotionErrorKind, State};
 
-/// The points of the curve.
 const POINTS: usize = 200;
 
 /// The exponents of a motion.

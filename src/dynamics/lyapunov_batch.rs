@@ -30,7 +30,11 @@ pub struct LyapunovOrbit {
     pub until: f64,
 }
 
-/// The exponents of each motion, several of them followed side by side where the system and the method allow it.
+/// The exponents of each motion, in the order of `orbits`; several are followed side by side where the system and the
+/// method allow it.
+///
+/// # Errors
+/// Each motion has the error that `lyapunov` gives for it.
 pub fn lyapunov_of_all(
     orbits: &[LyapunovOrbit],
     (method, settings): (&'static Method, Settings),
@@ -78,7 +82,6 @@ fn room(
     Some((system, batch))
 }
 
-/// The motion in a lane.
 struct LyapunovLane {
     course: LyapunovCourse,
     states: TangentStates,
@@ -89,7 +92,6 @@ struct LyapunovLane {
 /// Motions that are followed side by side.
 struct ExponentsTogether<'a> {
     orbits: &'a [LyapunovOrbit],
-    /// The system with tangent vectors.
     system: System,
     method: &'static Method,
     settings: Settings,
@@ -133,7 +135,7 @@ impl Follower for ExponentsTogether<'_> {
         if end != *until && regular_step.vanishes_with((end - begin).abs()) {
             return OrbitCourse::Over;
         }
-        let mut step = LaneStep { batch: &mut *batch, lane, states: &mut *states };
+        let mut step = CarriedStep { batch: &mut *batch, lane, states: &mut *states };
         let Ok(renewed) = course.observe(space, &mut step) else { return OrbitCourse::Over };
         if batch.state(lane).time >= *until {
             let motion =
@@ -159,13 +161,13 @@ impl Follower for ExponentsTogether<'_> {
 }
 
 /// The last step in a lane.
-struct LaneStep<'a> {
+struct CarriedStep<'a> {
     batch: &'a mut BatchPropagator,
     lane: usize,
     states: &'a mut TangentStates,
 }
 
-impl LaneStep<'_> {
+impl CarriedStep<'_> {
     /// The state with its vectors, as they are carried, at a time within the step.
     fn inside(&mut self, time: f64) -> State {
         let mut full = self.batch.state(self.lane).clone();
@@ -176,7 +178,7 @@ impl LaneStep<'_> {
     }
 }
 
-impl TangentStep for LaneStep<'_> {
+impl TangentStep for CarriedStep<'_> {
     fn interval(&self) -> (f64, f64) {
         self.batch.interval(self.lane)
     }

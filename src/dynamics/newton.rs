@@ -38,7 +38,7 @@ pub(super) const CLOSED: f64 = 1e-9;
 /// A residual below this part of the size is rounding.
 pub(super) const ROUNDING: f64 = 2e-15;
 
-/// What is the same for the orbit that is searched for.
+/// The quantity that is held fixed in the search for an orbit.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Fixed {
     /// The orbit has this energy.
@@ -54,7 +54,6 @@ pub(super) struct Newton<'a> {
     pub(super) method: (&'static Method, Settings),
     pub(super) fixed: Fixed,
     pub(super) units: OrbitUnits,
-    /// The values that Casimirs are to have.
     pub(super) casimirs: Vec<f64>,
     /// The steps that are left; without one there is no end to them.
     pub(super) budget: Option<&'a SearchBudget<'a>>,
@@ -264,7 +263,6 @@ impl Newton<'_> {
         time
     }
 
-    /// What a search begins with.
     pub(super) fn reached(
         &self,
         state: State,

@@ -68,7 +68,6 @@ pub struct Orbit {
     pub multipliers: Vec<[f64; 2]>,
     /// The error of each, to first order in what rounding leaves of the matrix; infinite where that has no bound.
     pub errors: Vec<f64>,
-    /// Whether the matrix is symplectic.
     pub(super) is_symplectic: bool,
     /// The trivial directions, whose multipliers are 1.
     pub trivial: Removed,
@@ -154,8 +153,8 @@ impl Orbit {
     }
 }
 
-/// Finds the periodic orbit near a state of the space. Without a period it begins at the first
-/// returns near the start.
+/// Finds the periodic orbit near a state of the space. Without a given period the search begins at the first returns near
+/// the start.
 ///
 /// # Errors
 /// Returns an error if there is none nearby, which says what the motion is instead; if the motion cannot be followed; or on
@@ -171,7 +170,8 @@ pub fn periodic_orbit(
     found.map_err(|error| explained(error, space, method, start, &mut |_, _| ()))
 }
 
-/// The same, but an error does not say what the motion is instead. `report` is given the steps taken, and their greatest number.
+/// Finds the orbit of [`periodic_orbit`], without saying in an error what the motion is instead. `report` is given the
+/// number of steps taken and its maximum.
 ///
 /// # Errors
 /// Returns an error if there is none nearby; if the motion cannot be followed; or on cancellation.
@@ -259,7 +259,6 @@ impl Missed {
     }
 }
 
-/// The orbit near a start with about a period.
 fn closed_near(
     space: &PhaseSpace,
     method: (&'static Method, Settings),
@@ -290,7 +289,6 @@ fn unsuited(why: &str) -> DynamicsError {
     DynamicsError::Unsuited(why.to_owned())
 }
 
-/// The state near a start whose motion closes.
 fn solve(
     newton: &Newton<'_>,
     start: &State,

@@ -15,7 +15,7 @@ const VANISHING: f64 = 1e-3;
 const TIMES: f64 = 16.0;
 
 impl Orbit {
-    /// What its trivial multipliers are those of, one after the other.
+    /// The reasons for its trivial multipliers, one for each.
     pub fn trivial_names(&self) -> Vec<&str> {
         let canonical = match self.trivial {
             Removed::Nothing => &[][..],

@@ -8,7 +8,7 @@ use super::unit_circle::KnownMultipliers;
 /// An error that rounding leaves of the matrix of the multipliers is mentioned if it may show in their digits.
 pub const NOTICED_ROUNDING: f64 = 1e-8;
 
-/// What becomes of the neighbours of a periodic orbit, to first order.
+/// The stability of a periodic orbit, to first order.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum OrbitStability {
     /// There is no direction across it but that to orbits of other energies.
@@ -81,7 +81,7 @@ impl Orbit {
         }
     }
 
-    /// What becomes of its neighbours, to first order.
+    /// Its stability, to first order.
     pub fn stability(&self) -> OrbitStability {
         match (self.multipliers.is_empty(), self.stable) {
             (true, _) => OrbitStability::Neutral,

@@ -20,7 +20,7 @@ const HEIGHTS: [f64; 3] = [0.3, 1.0, 3.0];
 /// The number of intervals at whose ends paths are compared.
 const COMPARED: u32 = 64;
 
-/// Finds a stationary path between two places.
+/// Finds a stationary path between two places, beginning with the straight line and then with curves beside it.
 ///
 /// # Errors
 /// Returns the error of the first path that is not resolved, or else that from the straight line, if Newton's method comes to none from

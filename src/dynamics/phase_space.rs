@@ -67,7 +67,7 @@ impl PhaseSpace {
         PhaseSpace::through_impulses(model, equations, system, parameters)
     }
 
-    /// The phase space of a system on whose motion events do nothing but end it, which it is asked for without its end.
+    /// The phase space of a system whose events do nothing but end the motion; here the motion continues past them.
     ///
     /// # Errors
     /// Returns an error if the motion has no derivative everywhere, is held to constraints, or impulses act on it.
@@ -82,7 +82,7 @@ impl PhaseSpace {
         PhaseSpace::read(model, equations, system, parameters, false)
     }
 
-    /// The phase space of a system that constraints may hold, and on whose motion no impulses act.
+    /// The phase space of a system that may be held to constraints, and on whose motion no impulses act.
     ///
     /// # Errors
     /// Returns an error if the motion has no derivative everywhere, or impulses act on it.
@@ -96,9 +96,9 @@ impl PhaseSpace {
         PhaseSpace::read(model, equations, system, parameters, false)
     }
 
-    /// The phase space of a system that constraints may hold. Its variables are not independent then: the states are those
-    /// that satisfy the constraints, and the displacements those of [`PhaseSpace::allowed_displacements`]. Where there are
-    /// no constraints, impulses may act on the motion.
+    /// The phase space of a system that may be held to constraints. Its variables are then not independent: the states
+    /// are those that satisfy the constraints, and the displacements those of [`PhaseSpace::allowed_displacements`].
+    /// Without constraints, impulses may act on the motion.
     ///
     /// # Errors
     /// Returns an error if the motion has no derivative everywhere else, or if impulses or events act on a motion that is

@@ -17,7 +17,7 @@ const QUADRATIC: f64 = 1e-9;
 /// An integral of a root, which has no derivatives where the velocity vanishes, is settled to this part.
 const SETTLED: f64 = 1e-10;
 
-/// ∫ Σ p dq along a path of a duration, p = ∂L/∂q̇.
+/// The abbreviated action ∫ Σ p dq, p = ∂L/∂q̇, along a path traversed in this duration.
 ///
 /// # Errors
 /// Returns an error if p is not finite on the path, or the integral does not settle.
@@ -32,9 +32,9 @@ pub fn abbreviated_action(
     })
 }
 
-/// The same along the way of a path that is gone with an energy, at whatever time: ∫ (2 √((E + L₀) L₂) + L₁) dt, where L_k is the
-/// part of L of degree k in the velocities; ∫ 2 √((E − V) T) dt of L = T − V. It is stationary on the way of a motion of that
-/// energy, among all ways between its ends (Jacobi).
+/// The abbreviated action along the same curve when it is traversed at a given energy, whatever time that takes: ∫ (2
+/// √((E + L₀) L₂) + L₁) dt, where L_k is the part of L of degree k in the velocities; ∫ 2 √((E − V) T) dt for L = T − V.
+/// It is stationary on the curve of a motion of that energy, among all curves between its ends (Jacobi).
 ///
 /// # Errors
 /// Returns an error if L has other parts, or the way leaves the region that the energy allows.
@@ -137,7 +137,7 @@ impl Hamiltonian {
         Ok(Hamiltonian { degrees: model.coordinates.len(), value, start: model.run.start })
     }
 
-    /// The same for paths that begin at this time, and not at the start of the file.
+    /// This Hamiltonian for paths that begin at this time instead of the start of the file.
     #[must_use]
     pub fn beginning_at(self, start: f64) -> Hamiltonian {
         Hamiltonian { start, ..self }

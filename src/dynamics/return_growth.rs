@@ -16,7 +16,6 @@ use crate::integrate::{Method, Settings};
 use crate::num::math;
 use crate::system::State;
 
-/// The parts of the way.
 const PARTS: u32 = 64;
 
 /// The growth of errors on the way back, after some time.
@@ -42,8 +41,8 @@ impl ReturnGrowth {
     }
 }
 
-/// The growth along the way back from a state to a time; `None` where derivatives are not known on all of it, as backwards
-/// under constraints.
+/// The growth of errors along the way back from a state to a time; `None` where derivatives are not known on all of it,
+/// for example backwards under constraints.
 pub fn return_growth(
     space: &PhaseSpace,
     method: (&'static Method, Settings),

@@ -31,7 +31,7 @@ const SAMPLES: usize = 128;
 /// The number of values of ε on either side of 0.
 const SIDE: i32 = 12;
 
-/// How long a motion is followed, and where on the way it is not smooth.
+/// The duration of a motion, and the times on the way at which it is not smooth.
 #[derive(Clone, Copy, Debug)]
 pub struct MotionSpan<'a> {
     /// From its beginning.

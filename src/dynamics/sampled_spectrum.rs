@@ -45,7 +45,7 @@ const SURE: f64 = 3.0;
 /// The errors make no more than this part of that frequency, so that it is not met by chance.
 const CHANCE: f64 = 1e-2;
 
-/// What is wanted of a quantity.
+/// A request for the spectrum of a quantity.
 #[derive(Clone, Copy, Debug)]
 pub struct SpectrumRequest {
     /// From when to when it is taken.
@@ -144,7 +144,6 @@ pub fn sampled_spectrum(
     }
 }
 
-/// The spectrum by this number of values.
 fn taken(
     request: &SpectrumRequest,
     count: usize,

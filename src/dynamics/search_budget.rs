@@ -20,13 +20,11 @@ pub(super) struct SearchBudget<'a> {
 }
 
 impl<'a> SearchBudget<'a> {
-    /// That of a search by a method.
     pub(super) fn of(method: &Method, report: &'a dyn Fn(u64, u64)) -> Self {
         let total = if method.stepping == Stepping::Fixed { STEPS_FIXED } else { STEPS };
         Self { taken: Cell::new(0), total, report }
     }
 
-    /// Counts a step.
     pub(super) fn step(&self) {
         self.taken.set(self.taken.get() + 1);
         (self.report)(self.taken.get().min(self.total), self.total);

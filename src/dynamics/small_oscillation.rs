@@ -14,7 +14,7 @@ const ROUNDING: f64 = 1e3 * f64::EPSILON;
 /// A part of a mode below this is rounding, which equal frequencies leave half the digits of.
 const REAL: f64 = 1e-7;
 
-/// A small oscillation.
+/// A normal mode of small oscillations about an equilibrium.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Mode {
     /// Its angular frequency.
@@ -190,7 +190,6 @@ fn real_basis(
     Some(basis.into_iter().map(|v| v.map(|x| Complex::new(x, 0.0))).collect())
 }
 
-/// The largest modulus.
 fn largest(eigenvalues: &[[f64; 2]]) -> f64 {
     eigenvalues.iter().map(|z| math::hypot(z[0], z[1])).fold(0.0, f64::max)
 }

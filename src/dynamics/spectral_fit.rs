@@ -72,7 +72,6 @@ impl<'a> SpectralFit<'a> {
         self.spacing * self.signal.len() as f64
     }
 
-    /// The time from the middle.
     fn time(&self, k: usize) -> f64 {
         (k as f64 - (self.signal.len() as f64 - 1.0) / 2.0) * self.spacing
     }

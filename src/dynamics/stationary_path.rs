@@ -30,7 +30,7 @@ const ZERO: f64 = 1e-8;
 const CANCELLED: &str = "the search was cancelled";
 const TOO_LONG: &str = "the search takes too long";
 
-/// What a stationary path is among its neighbours.
+/// The kind of a stationary path: whether its action is least among its neighbours.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum PathKind {
     /// The action is less on all of them.
@@ -150,7 +150,6 @@ fn passes_kink(lagrangian: &mut Lagrangian, path: &StationaryPath) -> bool {
 /// guess that lies between two.
 const MULTIPLES: [f64; 7] = [1.0, 1.2, 0.8, 1.5, 0.6, 2.0, 0.4];
 
-/// The points at which paths are compared.
 const COMPARED: u32 = 64;
 
 /// Finds, of the stationary paths to which Newton's method comes from a guess and from multiples of its distance to the

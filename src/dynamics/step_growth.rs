@@ -16,7 +16,6 @@ pub(super) struct StepGrowth {
     last: f64,
     /// The greatest growth, and when the step ended.
     greatest: (f64, f64),
-    /// The sum of all changes.
     sum: f64,
 }
 

@@ -36,7 +36,6 @@ pub(super) trait TangentStep {
 
 /// Reads and writes states with tangent vectors.
 pub(super) struct TangentStates {
-    /// The system with tangent vectors.
     system: System,
     /// That of the space, without them.
     plain: System,
@@ -88,7 +87,6 @@ impl TangentStates {
     }
 }
 
-/// The tangent vectors of a state, as columns.
 pub(super) fn vectors_of(system: &System, state: &State) -> DMatrix<f64> {
     let (n, count) = (system.moving(), system.tangents());
     let first = system.tangent_place(0);

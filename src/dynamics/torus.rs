@@ -93,7 +93,6 @@ fn basis(
 struct Resonance {
     /// The denominator, the number of the first frequency.
     first: u32,
-    /// The numbers of the others.
     others: Vec<f64>,
     /// The largest distance of a ratio.
     off: f64,
@@ -169,7 +168,6 @@ impl Torus {
         self.period(resonance) * SIGMAS * error / frequency
     }
 
-    /// What is to be said of it.
     pub(super) fn sentence(&self) -> String {
         let frequencies: Vec<String> =
             self.frequencies.iter().map(|&(x, error)| digits(x, SIGMAS * error)).collect();

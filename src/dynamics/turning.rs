@@ -14,7 +14,6 @@ const TURNS: u32 = 64;
 /// A number of turns this close to a whole one is one.
 const WHOLE: f64 = 1e-9;
 
-/// The expressions of a law of motion.
 pub(super) fn law(equations: &Equations) -> Vec<Expr> {
     match &equations.flow {
         Flow::Lagrange { mass, force, .. } => mass.iter().flatten().chain(force).copied().collect(),

@@ -41,8 +41,8 @@ const FREQUENCIES: usize = 3;
 /// Is given how much of the work is done, of how much.
 type ProgressReport<'a> = &'a mut dyn FnMut(u64, u64);
 
-/// An error that says beside what was not found what the motion from the start is, where that can be known. Other errors are as
-/// they are. `report` is given how much of the work is done, of how much.
+/// Adds to an error of a search for a periodic orbit what the motion from the start is instead, where that can be known;
+/// other errors are returned unchanged. `report` is given the work done and the total.
 pub fn explained(
     error: DynamicsError,
     space: &PhaseSpace,

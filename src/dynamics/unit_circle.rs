@@ -58,7 +58,6 @@ impl KnownMultipliers<'_> {
     }
 }
 
-/// The modulus.
 fn size([re, im]: [f64; 2]) -> f64 {
     math::hypot(re, im)
 }

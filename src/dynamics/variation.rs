@@ -133,8 +133,8 @@ fn settled_slopes(
     settled
 }
 
-/// The abbreviated action ∫ Σ p dq of a motion, and of the same ways as of [`varied_action`], each gone with the energy of the
-/// motion, at whatever time. Where the energy forbids a way there is no point.
+/// The abbreviated action ∫ Σ p dq of a motion, and of the same curves as in [`varied_action`], each traversed at the
+/// energy of the motion, whatever time that takes. A curve that enters a region forbidden at this energy has no point.
 ///
 /// # Errors
 /// Returns an error if L is not of the second degree in the velocities or depends on the time, or the motion cannot be
@@ -228,14 +228,10 @@ pub fn varied_phase_action<'a>(
     Ok(VariedAction { action: followed.integral, curves, ends: None })
 }
 
-/// What becomes of the momenta.
 #[derive(Clone, Copy)]
 enum MomentumRule {
-    /// They are those of the motion.
     Kept,
-    /// They are varied by themselves.
     Varied,
-    /// They are those of the velocities.
     OfPath,
 }
 

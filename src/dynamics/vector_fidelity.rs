@@ -11,12 +11,10 @@ use crate::num::short;
 /// A pair of exponents whose sum is this part of the largest one is none.
 const UNPAIRED: f64 = 0.1;
 
-/// What is known of a motion that was followed.
 pub(super) struct Followed<'a> {
     pub(super) motion: &'a CarriedMotion,
     pub(super) growth: &'a TangentGrowth,
     pub(super) single_steps: &'a StepGrowth,
-    /// The largest exponent.
     pub(super) largest: f64,
     /// The largest |λᵢ + λⱼ| of a pair, where pairs are expected at every time.
     pub(super) pairing: Option<f64>,

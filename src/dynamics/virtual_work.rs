@@ -109,7 +109,6 @@ impl ForceTerm {
         self.slopes.iter().map(change).sum()
     }
 
-    /// Its value at a place, as far as the place is known.
     fn value(&self, pool: &Pool, known: &Valuation, place: &[f64]) -> f64 {
         let value = known.value(pool, self.expression);
         let slopes = self.slopes.iter();
@@ -215,7 +214,6 @@ pub(super) fn virtual_work(
     places.iter().map(at).collect()
 }
 
-/// Whether a sum of forces is zero beside the largest.
 fn sums_to_zero(sum: f64, largest: f64) -> bool {
     sum.abs() <= SUMS_TO_ZERO * largest
 }

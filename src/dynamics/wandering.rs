@@ -27,12 +27,10 @@ const RETURNS: usize = 16;
 /// after 1000. Those near are not recognised; where their averages converge as well, clinging to islands, they pass for regular.
 const SHIFT: f64 = 25.0;
 
-/// How an orbit wanders.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct Wandering {
     /// The largest difference between averages of parts of the orbit, over its extent.
     pub(super) apart: f64,
-    /// Whether it is as that of random numbers.
     pub(super) is_random: bool,
 }
 

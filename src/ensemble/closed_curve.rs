@@ -48,7 +48,6 @@ struct CurveNode {
 pub struct ClosedCurve {
     /// The nodes in order, [`INTERVALS`] for each panel; the last panel ends at the first node.
     nodes: Vec<CurveNode>,
-    /// The channels that are seen.
     channels: Vec<usize>,
     /// What is at most the extent of a picture.
     scales: [f64; 2],
@@ -187,7 +186,6 @@ impl ClosedCurve {
         (parts.iter().enumerate().map(want).collect(), parts.iter().enumerate().all(known))
     }
 
-    /// The extent of the curve in a picture.
     fn extent(&self, time: usize) -> [f64; 2] {
         [0, 1].map(|k| {
             let all = self.nodes.iter().filter_map(|node| Some(node.seen.get(time)?[k]));

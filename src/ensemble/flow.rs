@@ -7,8 +7,8 @@ use std::ops::ControlFlow;
 
 use super::pool::{PoolError, in_order};
 use crate::integrate::{
-    BatchPropagator, Follower, LaneStatus, Method, OrbitCourse, Propagator, Reached, Settings,
-    Stepping, side_by_side,
+    BatchPropagator, Follower, LaneStatus, METHODS, Method, OrbitCourse, Propagator, Reached,
+    Settings, Stepping, side_by_side,
 };
 use crate::num::BATCH;
 use crate::system::{MotionError, Observer, State, System};
@@ -91,6 +91,13 @@ impl SystemFlow {
         let end = self.follow(from, times, channels, &mut carried.seen);
         carried.end = end.ok().flatten();
         carried
+    }
+
+    /// The same flow by the default method, which shows the errors of a method of fixed step; `None` where the steps follow a
+    /// tolerance anyway.
+    pub fn by_default_method(&self) -> Option<SystemFlow> {
+        let fixed = self.method.0.stepping == Stepping::Fixed;
+        fixed.then(|| SystemFlow { method: (&METHODS[0], Settings::default()), ..self.clone() })
     }
 
     /// Carries many states on all cores, several of them side by side where the system and the method
@@ -205,7 +212,6 @@ impl SystemFlow {
     }
 }
 
-/// What is seen of a state.
 struct FlowObserver<'a> {
     observer: Observer,
     channels: &'a [usize],
@@ -236,7 +242,6 @@ impl FlowObserver<'_> {
 /// States carried side by side.
 struct CarriedTogether<'a> {
     system: &'a System,
-    /// Each with its parameters.
     from: &'a [(Option<&'a State>, &'a [f64])],
     times: &'a [f64],
     channels: &'a [usize],

@@ -22,14 +22,11 @@ pub struct SectionPlane {
     parameters: Vec<f64>,
 }
 
-/// What the surface fixes.
 #[derive(Clone, PartialEq, Debug)]
 enum SurfaceCondition {
     /// A coordinate; the energy fixes the rate that is left.
     Place {
-        /// Its index.
         coordinate: usize,
-        /// Its value on the surface.
         value: f64,
         /// Whether the expression of the surface grows with it.
         grows: bool,
@@ -221,7 +218,6 @@ impl SectionPlane {
     }
 }
 
-/// The velocity of a coordinate at a start.
 fn velocity(
     system: &System,
     observer: &mut Observer,

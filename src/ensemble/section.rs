@@ -70,7 +70,6 @@ impl SectionPlan {
         if self.all_channels { system.channels().len() } else { system.columns() }
     }
 
-    /// Reads them at a state.
     pub(super) fn see(
         &self,
         observer: &mut Observer,

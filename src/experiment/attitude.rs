@@ -8,7 +8,6 @@ use super::{Gauge, Reference};
 use crate::num::math;
 use crate::system::{ChannelKind, System};
 
-/// The state of the gauge of an attitude.
 #[derive(Clone, Debug)]
 pub(super) struct AttitudeGauge {
     /// The channel of the first entry; the others follow in row-major order.

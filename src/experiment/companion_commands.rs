@@ -139,7 +139,6 @@ impl Experiment {
         }
     }
 
-    /// A state beside another.
     fn beside(origin: &CompanionOrigin, state: &State) -> State {
         let mut state = state.clone();
         if let CompanionOrigin::Neighbour(displaced) = origin {
@@ -172,12 +171,10 @@ impl Experiment {
         self.companions.all = all;
     }
 
-    /// The parameters of the main motion have changed.
     pub(super) fn pass_parameters(&mut self) {
         self.pass(&CompanionChange::Parameters(self.setup.parameters.clone()));
     }
 
-    /// The method of the main motion has changed.
     pub(super) fn pass_method(&mut self) {
         self.pass(&CompanionChange::Method(self.motion.method(), self.motion.settings()));
     }

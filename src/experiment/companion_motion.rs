@@ -343,13 +343,11 @@ impl CompanionMotion {
         Some(self.motion.step_size().abs()).filter(|step| is_fixed && *step > 0.0)
     }
 
-    /// The constraints that were released.
     fn released(&self) -> Arc<[usize]> {
         let system = self.motion.system();
         (0..system.constraints()).filter(|&k| system.is_released(k)).collect()
     }
 
-    /// Its distance from the main motion.
     pub(super) fn separation(&self) -> Arc<DistanceHistory> {
         Arc::clone(&self.record.separation)
     }

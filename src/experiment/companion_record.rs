@@ -22,7 +22,6 @@ pub(super) struct CompanionRecord {
     pub(super) separation: Arc<DistanceHistory>,
 }
 
-/// A record as it is seen at a time.
 pub(super) struct RecordSeen {
     pub(super) time: f64,
     pub(super) values: Arc<[f64]>,
@@ -69,7 +68,6 @@ impl CompanionRecord {
         Arc::make_mut(&mut self.separation).add(*time, main, &own, periods);
     }
 
-    /// Adds a crossing of a surface of section.
     pub(super) fn add_crossing(&mut self, surface: usize, time: f64) {
         self.crossings.push(surface, time, &self.values);
     }

@@ -18,7 +18,6 @@ use crate::analysis::DistanceHistory;
 /// The most motions beside the main one.
 pub const MOST_COMPANIONS: usize = 6;
 
-/// The companions of an experiment.
 #[derive(Default)]
 pub(super) struct Companions {
     pub(super) all: Vec<CompanionMotion>,

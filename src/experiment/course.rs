@@ -17,7 +17,6 @@ use super::reversal::Reversal;
 use super::row_spacing::RowSpacing;
 use super::run_log::RunLog;
 use super::run_state::RunState;
-use super::scrubbed::Scrubbed;
 use super::setup::{MethodNotFound, Setup, choose_method};
 use super::snapshot::{Gauge, MethodFact, Recorded, Snapshot, Status};
 use crate::analysis::CrossingLog;
@@ -41,7 +40,7 @@ pub struct Experiment {
     /// Where the law was changed since the restart.
     pub(super) changes: LawChanges,
     /// The time in the past that is shown.
-    pub(super) scrubbed: Option<Box<Scrubbed>>,
+    pub(super) scrubbed: Option<Box<ObservedMotion>>,
     pub(super) recorder: Recorder,
     pub(super) gauges: Gauges,
     pub(super) run: RunState,
@@ -286,11 +285,9 @@ impl Experiment {
     }
 }
 
-/// The motion.
 impl Experiment {
-    /// The motion at the time that is shown.
     pub(super) fn seen(&self) -> &ObservedMotion {
-        self.scrubbed.as_ref().map_or(&self.motion, |scrubbed| &scrubbed.motion)
+        self.scrubbed.as_deref().unwrap_or(&self.motion)
     }
 
     /// Its crossings of the surfaces of section up to there.

@@ -18,7 +18,6 @@ pub(super) struct Deviation {
 }
 
 impl Deviation {
-    /// Starts at this time.
     pub(super) fn since(time: f64) -> Deviation {
         Deviation { since: time, farthest: 0.0, history: History::new() }
     }
@@ -29,7 +28,6 @@ impl Deviation {
         self.farthest = self.farthest.max(known.farthest.unwrap_or(known.max_drift));
     }
 
-    /// Records a deviation.
     pub(super) fn observe(&mut self, now: f64) {
         self.farthest = self.farthest.max(now);
     }
@@ -40,7 +38,6 @@ impl Deviation {
         self.history.push(time, now);
     }
 
-    /// Returns the gauge that shows it.
     pub(super) fn gauge(&self, name: &str, shown: &str, reason: String, now: f64) -> Gauge {
         let verdict = match self.farthest {
             ..=ROUNDING => Verdict::Exact(Growth::Level),

@@ -140,7 +140,6 @@ impl Echo {
         Arc::make_mut(&mut self.separation).add(gone, &then, &now, periods);
     }
 
-    /// How the motion has returned so far.
     pub(super) fn returned(&self) -> Return {
         Return {
             turned: self.turned,

@@ -39,7 +39,6 @@ pub struct EventCount {
 }
 
 impl EventLog {
-    /// Clears the log.
     pub(super) fn clear(&mut self) {
         *self = EventLog { only_counts: self.only_counts, ..EventLog::default() };
     }
@@ -49,7 +48,6 @@ impl EventLog {
         self.only_counts = true;
     }
 
-    /// Adds an occurrence.
     pub(super) fn push(&mut self, occurrence: Occurrence) {
         let counts = Arc::make_mut(&mut self.counts);
         match counts.iter_mut().find(|entry| entry.name == occurrence.name) {

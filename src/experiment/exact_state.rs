@@ -9,7 +9,6 @@ pub(super) fn exact_numbers(state: &State) -> Vec<[f64; 2]> {
     state.values.iter().zip(&state.carry).map(|(&value, &carry)| [value, carry]).collect()
 }
 
-/// The state of these numbers at this time.
 pub(super) fn exact_state([time, time_carry]: [f64; 2], form: Form, numbers: &[[f64; 2]]) -> State {
     let (values, carry) = numbers.iter().map(|&[value, carry]| (value, carry)).unzip();
     State { time, time_carry, form, values, carry }

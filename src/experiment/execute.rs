@@ -182,7 +182,6 @@ impl Experiment {
         self.energy_of(self.motion.values())
     }
 
-    /// The energy among the values of all channels.
     pub(super) fn energy_of(&self, values: &[f64]) -> f64 {
         let kinds = self.system().channels().iter().map(|c| c.kind);
         let place = kinds.into_iter().position(|kind| kind == ChannelKind::Energy);

@@ -27,7 +27,6 @@ pub(super) struct GatheredStates {
     observed: Vec<ObservedAt>,
     clocks: Batch,
     numbers: Vec<Batch>,
-    /// One of them.
     state: State,
 }
 

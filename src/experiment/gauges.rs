@@ -34,7 +34,6 @@ const MEASURED: u64 = 16;
 /// may be due to the method.
 const CONTRADICTED: f64 = 100.0;
 
-/// All gauges of one system.
 #[derive(Clone, Debug)]
 pub(super) struct Gauges {
     equations: Arc<Equations>,
@@ -73,7 +72,6 @@ impl Gauges {
         }
     }
 
-    /// Takes the current values as the reference.
     pub(super) fn refer(&mut self, now: &GaugeInputs<'_>) {
         self.reference_time = now.time;
         self.reference_steps = now.steps;

@@ -7,7 +7,6 @@ use std::sync::Arc;
 
 use super::last_change::LastChange;
 
-/// The changes since the motion began.
 #[derive(Debug, Default)]
 pub(super) struct LawChanges {
     pub(super) last: Option<Arc<LastChange>>,

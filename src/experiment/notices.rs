@@ -10,7 +10,6 @@ const MOST: usize = 16;
 pub(super) struct Notices {
     /// The sentences, the newest last.
     pub(super) sentences: Vec<String>,
-    /// The names of occurrences that have been reported.
     reported: Vec<String>,
 }
 

@@ -16,7 +16,6 @@ use crate::integrate::{
 use crate::mechanics::Valuation;
 use crate::system::{MotionError, Observer, State, System};
 
-/// A motion in progress, with its observer.
 pub(super) struct ObservedMotion {
     pub(super) inner: integrate::Propagator,
     observer: Observer,
@@ -29,7 +28,6 @@ pub(super) struct ObservedMotion {
     pub(super) watch: StepSampler,
     /// A state within a step.
     inside: State,
-    /// The states between the steps so far.
     pub(super) log: StepLog,
     /// −1 if the system is run backwards, so that the clock of its states is −t; otherwise 1.
     pub(super) sign: f64,
@@ -126,7 +124,6 @@ impl ObservedMotion {
         self.observe()
     }
 
-    /// The residual of each constraint in the current state.
     pub(super) fn residuals(&self) -> &[[f64; 2]] {
         &self.residuals
     }
@@ -152,7 +149,6 @@ impl ObservedMotion {
         self.log.push(self.inner.state(), steps, step);
     }
 
-    /// The number of impulses so far.
     pub(super) fn impulses(&self) -> u64 {
         self.log.impulses()
     }
@@ -216,7 +212,6 @@ impl ObservedMotion {
         parted
     }
 
-    /// An error of this motion at its time.
     pub(super) fn dated(&self, error: MotionError) -> MotionError {
         MotionError { time: self.sign * error.time, ..error }
     }
@@ -236,9 +231,7 @@ fn mark_lost(lost: &mut [bool], values: &[f64]) {
     }
 }
 
-/// Queries.
 impl ObservedMotion {
-    /// The system with all its constraints.
     pub(super) fn whole(&self) -> &System {
         self.inner.whole()
     }
@@ -270,7 +263,6 @@ impl ObservedMotion {
         self.sign
     }
 
-    /// The current time.
     pub(super) fn time(&self) -> f64 {
         self.sign * self.clock()
     }
@@ -316,7 +308,6 @@ impl ObservedMotion {
         self.inner.forget(time);
     }
 
-    /// Whether the motion has begun.
     pub(super) fn has_begun(&self) -> bool {
         !self.state().values.is_empty()
     }

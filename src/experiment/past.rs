@@ -35,7 +35,6 @@ impl PartialEq for Past {
 }
 
 impl Past {
-    /// The past that a snapshot of a system has recorded.
     pub(super) fn of(system: &System, snapshot: &Snapshot) -> Past {
         Past {
             names: system.channels().iter().map(|channel| channel.name.clone()).collect(),

@@ -12,7 +12,6 @@ use crate::system::{MotionError, State};
 pub(super) struct KnownStep {
     state: State,
     steps: u64,
-    /// The size of a fixed step.
     step: f64,
     released: Vec<usize>,
     start: f64,

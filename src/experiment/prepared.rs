@@ -72,7 +72,6 @@ pub struct PrepareError {
 }
 
 impl PrepareError {
-    /// The error of a cancelled preparation.
     fn stopped(document: &Document) -> PrepareError {
         let message = "stopped before it was ready";
         let report = format!("{}: {message}", document.path);

@@ -21,7 +21,6 @@ const CHUNKS: [usize; THINNINGS] = [64, 32, 32, 32];
 /// The greatest number of stored values (48 MB), for systems with very many channels.
 pub(super) const NUMBERS: usize = 6_000_000;
 
-/// Records rows.
 #[derive(Clone, Debug)]
 pub(super) struct Recorder {
     width: usize,
@@ -139,7 +138,6 @@ impl Recorder {
         self.last.map_or(due, |last| due.max(last.next_up()))
     }
 
-    /// Records the row that is due.
     pub(super) fn record(&mut self, time: f64, values: &[f64]) {
         self.count += 1;
         self.last = Some(time);
@@ -205,7 +203,6 @@ impl Recorder {
         }
     }
 
-    /// The recorded trail.
     pub(super) fn trail(&self) -> Trail {
         let sealed = self.sealed.iter().rev().flatten().cloned().collect();
         let thinned = std::array::from_fn(|level| self.sealed[level].len());
@@ -221,7 +218,6 @@ impl Recorder {
         self.bounds.iter().map(seen).collect()
     }
 
-    /// The hulls of the points that are followed.
     pub(super) fn hulls(&self) -> Arc<[Hull]> {
         self.hulls.all().into()
     }

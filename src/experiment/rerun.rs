@@ -22,11 +22,9 @@ const WORK: u64 = 5_000_000;
 /// The end of a rerun within this part of the size of the motion is that of the same motion.
 const SAME: f64 = 1e-6;
 
-/// What has come of a rerun.
 pub(super) enum Rerun {
     /// The stored state, to the last bit: the experiment is in it, with its past.
     Exact,
-    /// Nearly the stored state.
     Near(RerunPast),
     /// Another state, or none: the past is not known.
     Lost,

@@ -15,12 +15,10 @@ use crate::system::{ChannelKind, System};
 /// A longer row is replaced by its general form.
 const LONGEST: usize = 24;
 
-/// The state of the gauge of a constraint.
 #[derive(Clone, Debug)]
 pub(super) struct ResidualGauge {
     index: usize,
     name: String,
-    /// The channel of its multiplier.
     multiplier: usize,
     /// λ as shown, its unit, and the meaning of the force.
     symbol: String,
@@ -65,7 +63,6 @@ impl ResidualGauge {
         &self.name
     }
 
-    /// Continues from a saved reference.
     pub(super) fn restore(&mut self, known: &Reference) {
         self.deviation.restore(known);
     }

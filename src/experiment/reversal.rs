@@ -6,7 +6,6 @@
 use super::echo::Echo;
 use crate::system::System;
 
-/// What reversing time has to know.
 pub(super) struct Reversal {
     /// The system run the other way, once it was needed.
     pub(super) other_way: Option<System>,
@@ -17,7 +16,6 @@ pub(super) struct Reversal {
 }
 
 impl Reversal {
-    /// No reversal of a motion that begins at a time.
     pub(super) fn none(began: f64) -> Reversal {
         Reversal { other_way: None, began, echo: None }
     }

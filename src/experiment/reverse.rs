@@ -23,7 +23,6 @@ use crate::model::EventAction;
 use crate::num::short;
 
 impl Experiment {
-    /// Reverses time.
     pub(super) fn reverse(&mut self) {
         if let Some(why) = self.no_way_back() {
             return self.notify(why);

@@ -21,7 +21,6 @@ const SPARSEST: f64 = 65_536.0;
 /// The longest time between two rows, in seconds of wall time: one frame.
 const LONGEST_LAG: f64 = 1.0 / 60.0;
 
-/// The spacing of the rows of one experiment.
 pub(super) struct RowSpacing {
     /// The rows recorded since the last frame.
     rows: u64,
@@ -36,7 +35,6 @@ impl Default for RowSpacing {
 }
 
 impl RowSpacing {
-    /// Counts a row.
     pub(super) fn row_recorded(&mut self) {
         self.rows += 1;
     }

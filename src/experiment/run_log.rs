@@ -14,7 +14,6 @@ pub(super) struct RunLog {
 }
 
 impl RunLog {
-    /// The logs of a system with so many surfaces of section.
     pub(super) fn new(surfaces: usize) -> RunLog {
         RunLog { occurrences: EventLog::default(), crossings: CrossingLog::new(surfaces) }
     }

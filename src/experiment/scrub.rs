@@ -4,7 +4,6 @@
 //! here: the step that takes the motion itself back (`rewind`).
 
 use super::advance::HORIZON;
-use super::scrubbed::Scrubbed;
 use super::{Command, Experiment, Recorded};
 use crate::num::short;
 
@@ -36,7 +35,7 @@ impl Experiment {
         let (horizon, start) = (HORIZON * self.setup.spacing, self.schedule_start());
         let Some(known) = self.motion.known_at(time, start) else { return };
         let viewer = match self.scrubbed.take() {
-            Some(scrubbed) => Ok(scrubbed.motion),
+            Some(viewer) => Ok(*viewer),
             None => self.motion.another(&self.setup.parameters),
         };
         let mut motion = match viewer {
@@ -45,7 +44,7 @@ impl Experiment {
         };
         if motion.go_to(time, &known, horizon) {
             motion.observe_terms();
-            self.scrubbed = Some(Box::new(Scrubbed { motion }));
+            self.scrubbed = Some(Box::new(motion));
         } else {
             self.notify(format!("t = {} can no longer be shown", short(time)));
         }
@@ -55,7 +54,7 @@ impl Experiment {
     /// carried back to the time that is shown, or is about to begin again.
     pub(super) fn scrubs(&mut self, command: &Command) -> bool {
         let Some(scrubbed) = &self.scrubbed else { return false };
-        let (time, sign) = (scrubbed.motion.time(), self.motion.sign());
+        let (time, sign) = (scrubbed.time(), self.motion.sign());
         match command {
             Command::LookAt(_) | Command::Speed(_) | Command::Follow(_) => false,
             Command::Pause => true,

@@ -26,7 +26,6 @@ pub(super) struct LoggedState {
     pub(super) step: f64,
 }
 
-/// The numbers of a logged state.
 fn size(logged: &LoggedState) -> usize {
     2 * logged.state.values.len()
 }
@@ -39,9 +38,7 @@ pub(super) struct StepLog {
     numbers: Option<usize>,
     /// Whether nobody will take the motion back.
     off: bool,
-    /// The number of impulses so far.
     impulses: u64,
-    /// The run to which the states belong.
     run: RunToken,
     /// The states of runs before that may be resumed, the oldest first.
     earlier: VecDeque<(ReleasedToken, VecDeque<LoggedState>)>,
@@ -120,17 +117,14 @@ impl StepLog {
         self.known.push_back(logged);
     }
 
-    /// An impulse was applied.
     pub(super) fn note_impulse(&mut self) {
         self.impulses += 1;
     }
 
-    /// The number of impulses so far.
     pub(super) fn impulses(&self) -> u64 {
         self.impulses
     }
 
-    /// The first time that is known.
     pub(super) fn first(&self) -> Option<f64> {
         self.known.front().map(|known| known.state.time)
     }

@@ -34,7 +34,6 @@ pub(super) struct StepSampler {
     gathered: GatheredStates,
     form: Option<Form>,
     parameters: Vec<f64>,
-    /// Whether the law depends on the time.
     depends_on_time: bool,
     /// The channels at the last state at which they were sampled.
     pub(super) values: Vec<f64>,

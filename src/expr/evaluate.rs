@@ -80,8 +80,8 @@ impl Pool {
         }
     }
 
-    /// Whether the value of `e`, which is below the normal numbers in `f64`, is so by underflow: in a wider range it is not
-    /// 0, or its terms, which cancel, are all that small.
+    /// Whether the value of `e`, which is below the normal numbers of `f64`, is the result of underflow: in a wider range
+    /// it is not 0, or its terms, which cancel, are all that small.
     pub fn underflows(&self, e: Expr, at: &dyn Fn(Symbol) -> f64) -> bool {
         let least = i64::from(f64::MIN_EXP);
         self.enclosure(e, at).is_some_and(|ball| {

@@ -19,7 +19,6 @@ impl SymbolSet {
         SymbolSet(1 << (symbol.index() % DISTINCT))
     }
 
-    /// The set of these symbols.
     pub(super) fn of_all(symbols: impl IntoIterator<Item = Symbol>) -> SymbolSet {
         symbols.into_iter().fold(SymbolSet::default(), |all, s| all.union(SymbolSet::of(s)))
     }
@@ -59,7 +58,6 @@ pub(super) struct NodeMeasure {
 }
 
 impl NodeMeasure {
-    /// The measure of a node, from those of its parts.
     pub(super) fn of(node: &Node, known: &[NodeMeasure]) -> NodeMeasure {
         let mut measure = NodeMeasure {
             depth: 0,

@@ -4,10 +4,8 @@
 
 use super::node::Expr;
 
-/// The passes whose results are remembered.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Pass {
-    /// Simplified.
     Simplify,
     /// Terms combined and factors taken out, as the expression stands.
     Shorten,
@@ -19,7 +17,6 @@ pub(super) enum Pass {
     ExpandInProof,
 }
 
-/// The number of passes.
 const PASSES: usize = 5;
 
 /// The mark of a node without a result.

@@ -180,7 +180,6 @@ pub(super) fn dotted_letter(c: char) -> Option<(char, usize)> {
     })
 }
 
-/// Fractions that are one character.
 pub(super) const FRACTIONS: [(i64, i64, char); 15] = [
     (1, 2, '½'),
     (1, 3, '⅓'),

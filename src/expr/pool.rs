@@ -120,7 +120,7 @@ impl Pool {
         &self.cancel
     }
 
-    /// The number of expressions in the pool: how much was built so far.
+    /// The number of expressions in the pool.
     pub fn built(&self) -> usize {
         self.nodes.len()
     }

@@ -19,7 +19,6 @@ pub(super) enum BindingStrength {
     Atom,
 }
 
-/// A written piece.
 pub(super) struct PrintedPiece {
     pub(super) text: String,
     pub(super) level: BindingStrength,
@@ -33,7 +32,6 @@ pub(super) trait Style {
     /// A positive number as a factor.
     fn number(&self, n: Number) -> PrintedPiece;
     fn parenthesise(&self, inner: &str) -> String;
-    /// Joins pieces into one product.
     fn join(&self, factors: &[String]) -> String;
     /// One piece over another; on one line unless the style overrides it.
     fn fraction(&self, above: &PrintedPiece, below: &PrintedPiece) -> PrintedPiece {

@@ -187,7 +187,6 @@ fn range(pool: &Pool, e: Expr, known: &[Sided]) -> (f64, f64) {
     }
 }
 
-/// The range of a product.
 fn times((a, b): (f64, f64), (c, d): (f64, f64)) -> (f64, f64) {
     // nothing times what is unbounded is nothing
     let product = |x: f64, y: f64| if x == 0.0 || y == 0.0 { 0.0 } else { x * y };

@@ -20,7 +20,7 @@ impl Pool {
         self.scale(Number::MINUS_ONE, a)
     }
 
-    /// `n · a` for a number `n`.
+    /// `n · a`.
     pub fn scale(&mut self, n: Number, a: Expr) -> Expr {
         self.linear(Number::ZERO, &[(n, a)])
     }

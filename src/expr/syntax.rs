@@ -226,7 +226,6 @@ fn not_a_product(left: &Syntax, right: &Syntax, names: &dyn Resolve) -> Option<S
     )))
 }
 
-/// The error for a call of an unknown function.
 fn no_function(name: &str, span: Span) -> SyntaxError {
     let error = SyntaxError::new(span, format!("there is no function `{name}`"));
     if let Some(help) = other_functions::written_here(name) {

@@ -27,7 +27,6 @@ use crate::job::{Job, Progress};
 use crate::num::significant;
 use crate::system::ChannelKind;
 
-/// The levels of the picture.
 const AXIS: Level = 0;
 const CURVES: Level = 1;
 const MOTION: Level = 2;
@@ -36,10 +35,8 @@ const MOTION: Level = 2;
 const GRID: f64 = 0.25;
 const MOST: f64 = 240.0;
 
-/// The row of a principle.
 pub(super) struct ActionPlot(pub(super) Principle);
 
-/// What was found, and of which motion.
 struct ComputedAction {
     principle: Principle,
     conditions: PlotConditions,

@@ -22,7 +22,6 @@ use crate::system::ChannelKind;
 use action_at_time::{ActionAtTime, signed};
 use computed::{ComputedActions, Found};
 
-/// The levels of the picture.
 const SEPARATRIX: Level = 0;
 const CURVE: Level = 1;
 const PAST: Level = 2;
@@ -36,7 +35,6 @@ const SWINGS: f64 = 0.1;
 /// What is said as long as nothing is known.
 const BEING_COMPUTED: &str = "being computed";
 
-/// The row.
 pub(super) struct ActionsPlot;
 
 impl Instrument for ActionsPlot {

@@ -17,7 +17,6 @@ use crate::action_angle::AngleAtTime;
 use crate::job::{Job, Progress};
 use crate::num::significant;
 
-/// The levels of the picture.
 const LINE: Level = 0;
 const POINTS: Level = 1;
 const NOW: Level = 2;
@@ -28,10 +27,8 @@ const OF_A_PERIOD: f64 = 1.0 / 24.0;
 /// So many points are kept; beyond, every other one is left out.
 const MOST: usize = 2000;
 
-/// The row.
 pub(super) struct AnglePlot;
 
-/// What was found, and of what.
 struct ComputedAngle {
     course: FrozenCourse<AngleAtTime>,
     /// Why there is no angle now.
@@ -173,7 +170,6 @@ impl Instrument for AnglePlot {
 }
 
 impl ComputedAngle {
-    /// Whether it is still what is to be seen at a time.
     fn holds_at(&self, time: f64) -> bool {
         let FrozenCourse { state, frozen, past, .. } = &self.course;
         if frozen.is_err() {

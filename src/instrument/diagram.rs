@@ -24,7 +24,6 @@ use super::{
 use crate::job::Job;
 use crate::model::{Variation, View};
 
-/// The levels of the picture.
 const NOW: Level = 0;
 const POINTS: Level = 1;
 const FITTED: Level = 2;
@@ -38,7 +37,6 @@ const SAME: f64 = 1e-3;
 /// Numbers that differ by less than this part of them are drawn as one.
 const LEVEL: f64 = 1e-6;
 
-/// The row of a number.
 pub(super) struct Diagram(pub(super) DiagramQuantity);
 
 impl Instrument for Diagram {
@@ -253,7 +251,6 @@ impl Instrument for Diagram {
     }
 }
 
-/// What was computed of the kind that a plot is.
 fn computed<'a>(plot: &Plot, answer: Option<&'a Answer>) -> Option<&'a ComputedDiagram> {
     let found = answer?.of::<ComputedDiagram>();
     found.filter(|found| Diagram(found.number).name() == plot.kind.name())
@@ -276,7 +273,6 @@ fn curves(found: &ComputedDiagram) -> Vec<Vec<[f64; 2]>> {
     pieces.filter(|piece| !piece.is_empty()).map(points).collect()
 }
 
-/// The name of what it runs over.
 fn name<'a>(physics: Physics<'a>, over: &[Variation]) -> &'a str {
     over.first().map_or("?", |&over| varied::named(physics, over).0)
 }

@@ -30,7 +30,6 @@ use frame::CloudFrame;
 use leg::CloudLeg;
 use origin::CloudOrigin;
 
-/// The levels of the picture.
 const CURVE: Level = 0;
 const CLOUD: Level = 2;
 const NOW: Level = 4;
@@ -38,7 +37,6 @@ const NOW: Level = 4;
 /// What is beyond the extent of a cloud is this part of it.
 const MARGIN: f64 = 0.08;
 
-/// The row.
 pub(super) struct Ensemble;
 
 impl Instrument for Ensemble {
@@ -304,7 +302,6 @@ fn expected(context: PlotContext<'_>) -> Option<f64> {
     Some(cloud.first?.value * math::exp(cloud.rate? * since))
 }
 
-/// How far it is from that.
 fn off(context: PlotContext<'_>) -> Option<f64> {
     let (expected, action) = (expected(context)?, shown(context)?.action?);
     Some(((action.value - expected) / expected).abs()).filter(|off| off.is_finite())

@@ -7,7 +7,7 @@
 use super::mode_amplitude::mode_amplitude;
 use super::{Ink, Layer, Level, MarkerShape, Physics, Present};
 use crate::dynamics::{
-    Equilibrium, Kind, PhaseSpace, VirtualWork, equilibria_watched, name_equilibria,
+    Equilibrium, EquilibriumKind, PhaseSpace, VirtualWork, equilibria_watched, name_equilibria,
     with_virtual_work,
 };
 use crate::ensemble::Start;
@@ -174,7 +174,7 @@ fn on_the_surface(
 
 /// An equilibrium in words: its kind, where it is, and its frequencies.
 pub fn described(physics: Physics<'_>, one: &Equilibrium) -> (String, String) {
-    let kind = one.kind.map_or("equilibrium", Kind::word);
+    let kind = one.kind.map_or("equilibrium", EquilibriumKind::word);
     let stable = match one.stable {
         None if !one.is_linearly_stable() => "neutral",
         _ => one.stability(),

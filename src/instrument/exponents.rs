@@ -13,7 +13,6 @@ use crate::integrate::{Method, Settings, method_named};
 use crate::job::{Job, Progress};
 use crate::num::significant;
 
-/// The levels of the picture.
 const BAND: Level = 0;
 const CURVE: Level = 1;
 
@@ -24,7 +23,6 @@ const DOUBLINGS: u32 = 5;
 /// A job counts its progress in so many parts.
 const PARTS: f64 = 1000.0;
 
-/// The row.
 pub(super) struct Exponents;
 
 /// What was measured, and of which motion.

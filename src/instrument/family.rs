@@ -27,7 +27,6 @@ use crate::num::significant;
 use crate::system::ChannelKind;
 use members::{FamilyMember, FollowedFamily, close, follow_on};
 
-/// The levels of the picture.
 const CURVE: Level = 2;
 const NOW: Level = 4;
 
@@ -40,10 +39,8 @@ const SPARSE: f64 = 0.35;
 /// What is beyond the extent of a family is this part of it.
 const MARGIN: f64 = 0.1;
 
-/// The row.
 pub(super) struct FamilyPlot;
 
-/// What was found, and of which motion.
 struct ComputedFamily {
     conditions: PlotConditions,
     /// The time of the motion when it was asked for.
@@ -306,7 +303,6 @@ fn along_in_words(plot: &Plot, physics: Physics<'_>) -> String {
     }
 }
 
-/// What it is for the motion.
 fn now(plot: &Plot, present: &Present<'_>) -> Option<f64> {
     match plot.over.first() {
         Some(&over) => varied::now(present, over),

@@ -20,7 +20,6 @@ use crate::model::Model;
 use crate::num::{math, significant};
 use crate::system::State;
 
-/// The levels of the picture.
 const BESIDE: Level = 0;
 const CURVE: Level = 1;
 const NOW: Level = 2;
@@ -44,11 +43,9 @@ const LEAST_POWER: f64 = -17.0;
 /// The most entries of M that are written.
 const ENTRIES: usize = 4;
 
-/// The row.
 pub(super) struct FlowPlot;
 
-/// What was found, and of which motion.
-struct Followed {
+struct ComputedFlow {
     conditions: PlotConditions,
     doublings: u32,
     begin: f64,
@@ -103,7 +100,7 @@ impl Instrument for FlowPlot {
 
     fn across(&self, PlotContext { present, answer, .. }: PlotContext<'_>) -> Across {
         let start = present.began();
-        let span = |known: &Followed| [known.begin, known.end];
+        let span = |known: &ComputedFlow| [known.begin, known.end];
         Across::Times(
             followed(answer).map_or_else(|| [start, start + length(present.physics, 0)], span),
         )
@@ -184,7 +181,7 @@ impl Instrument for FlowPlot {
                 follow(&space, (method, conditions.settings), (&state, end), progress)
             });
             let conditions = conditions.clone();
-            Answer::new(Followed { conditions, doublings, begin: start, end, outcome })
+            Answer::new(ComputedFlow { conditions, doublings, begin: start, end, outcome })
         });
         Need::Job(job)
     }
@@ -363,8 +360,8 @@ fn length(physics: Physics<'_>, doublings: u32) -> f64 {
     SECONDS * physics.model.run.speed * f64::from(1 << doublings)
 }
 
-fn followed(answer: Option<&Answer>) -> Option<&Followed> {
-    answer?.of::<Followed>()
+fn followed(answer: Option<&Answer>) -> Option<&ComputedFlow> {
+    answer?.of::<ComputedFlow>()
 }
 
 fn courses(answer: Option<&Answer>) -> Option<&Courses> {

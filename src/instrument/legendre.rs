@@ -12,13 +12,11 @@ use crate::model::Mechanics;
 use crate::num::significant;
 use crate::system::ChannelKind;
 
-/// The levels of the picture.
 const AXIS: Level = 0;
 const TANGENT: Level = 1;
 const CURVE: Level = 2;
 const NOW: Level = 3;
 
-/// Points of the curve.
 const POINTS: usize = 241;
 
 /// The places at which the range of the vertical axis is evaluated, but for one.
@@ -30,10 +28,8 @@ const BEYOND: f64 = 1.4;
 /// A second difference below this part of the greatest value counts as zero.
 const FLAT: f64 = 1e-12;
 
-/// The row.
 pub(super) struct LegendrePlot;
 
-/// One function of one number.
 #[derive(Clone, Copy)]
 struct TransformedFunction {
     /// L of a velocity, or H of a momentum.

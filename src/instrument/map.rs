@@ -22,7 +22,6 @@ use crate::mechanics::Valuation;
 use crate::model::{Variation, View};
 use crate::system::InitialOverride;
 
-/// The levels of the picture.
 const FIELD: Level = 0;
 const NOW: Level = 2;
 
@@ -35,7 +34,6 @@ const SECONDS: f64 = 60.0;
 /// The numbers of coordinates and of parameters of which all pairs are offered.
 const OFFERED: usize = 3;
 
-/// The row.
 pub(super) struct Map;
 
 impl Instrument for Map {
@@ -230,12 +228,10 @@ fn computed(answer: Option<&Answer>) -> Option<&ComputedMap> {
     answer?.of::<ComputedMap>()
 }
 
-/// The view of the file.
 fn view<'a>(plot: &Plot, physics: Physics<'a>) -> Option<&'a View> {
     physics.model.views.get(plot.view?)
 }
 
-/// What is shown of the motions.
 fn number(plot: &Plot, physics: Physics<'_>) -> MapNumber {
     let Some(view) = view(plot, physics) else { return MapNumber::Exponent };
     if let Some(section) = view.section {

@@ -27,7 +27,6 @@ pub(super) fn offers(physics: Physics<'_>, what: &str, about: &str) -> Vec<Offer
     physics.positions().map(offer).collect()
 }
 
-/// A state of the motion, for one of its coordinates.
 #[derive(Clone)]
 pub(super) struct CoordinateState {
     pub(super) coordinate: usize,
@@ -115,7 +114,6 @@ impl<M: Clone> FrozenCourse<M> {
             && (self.replaced || here.are_of_one_motion(there))
     }
 
-    /// Whether it is still what is known of the law.
     pub(super) fn is_of_this_law(&self) -> bool {
         !self.replaced
     }

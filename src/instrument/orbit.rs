@@ -22,21 +22,17 @@ use crate::job::{Job, Progress};
 use crate::num::{math, significant};
 use crate::system::{ChannelKind, Form, System};
 
-/// The levels of the picture.
 const TRAIL: Level = 0;
 const CURVE: Level = 2;
 const NOW: Level = 4;
 
-/// The points of the curve.
 const POINTS: usize = 2048;
 
 /// What is beyond the extent of an orbit is this part of it.
 const MARGIN: f64 = 0.25;
 
-/// The row.
 pub(super) struct OrbitPlot;
 
-/// What was found, and of which motion.
 struct ComputedOrbit {
     conditions: PlotConditions,
     /// The time of the motion when it was asked for.
@@ -51,7 +47,6 @@ struct Described {
     orbit: Closed,
     points: Vec<[f64; 2]>,
     extent: [[f64; 2]; 2],
-    /// The period of the drive.
     drive: Option<f64>,
     /// Where it crosses the surfaces of section.
     periodic: Arc<PeriodicOrbits>,

@@ -5,7 +5,6 @@
 //! the action stationary. Never here: how such a path is found (`dynamics`), nor that there are no others.
 //! Source: *The Principles of Dynamics*, §§ 1.4.1, 3.5.
 
-use super::accurate::accurate;
 use super::action::{duration, nothing_yet};
 use super::conditions::PlotConditions;
 use super::{
@@ -19,7 +18,6 @@ use crate::job::{Job, Progress};
 use crate::num::{math, significant};
 use crate::system::{ChannelKind, System};
 
-/// The levels of the picture.
 const OTHERS: Level = 1;
 const OWN: Level = 2;
 const NOW: Level = 3;
@@ -28,7 +26,6 @@ const NOW: Level = 3;
 const HALF_WAVES: [f64; 2] = [1.0, 2.0];
 const FAR: [f64; 3] = [0.5, 1.0, 2.0];
 
-/// Points of a curve.
 const POINTS: usize = 161;
 
 /// Two paths are the same if they differ by less than this part of their reach everywhere.
@@ -42,10 +39,8 @@ const FARTHER: f64 = 8.0;
 /// The most paths that are named in the corner.
 const NAMED: usize = 5;
 
-/// The row.
 pub(super) struct PathsPlot;
 
-/// What was found, and of which motion.
 struct ComputedPaths {
     conditions: PlotConditions,
     coordinate: usize,
@@ -59,7 +54,6 @@ struct TruePath {
     action: f64,
     index: usize,
     kind: PathKind,
-    /// Whether the motion takes it.
     own: bool,
     /// The coordinate over the time.
     points: Vec<[f64; 2]>,
@@ -319,7 +313,7 @@ fn motion(
         carried.end.map(|_| carried.seen)
     };
     let seen = followed(&flow).ok_or("the motion cannot be followed up to now")?;
-    let exact = accurate(&flow).and_then(|exact| followed(&exact)).unwrap_or_default();
+    let exact = flow.by_default_method().and_then(|exact| followed(&exact)).unwrap_or_default();
     let away = exact.iter().zip(&seen).map(|(a, b)| distance(a, b)).fold(0.0, f64::max);
     Ok((seen, away))
 }
@@ -342,7 +336,6 @@ fn found(answer: Option<&Answer>) -> &[TruePath] {
     computed(answer).and_then(|known| known.outcome.as_deref().ok()).unwrap_or(&[])
 }
 
-/// What is said of the paths.
 fn lines(answer: Option<&Answer>) -> Vec<String> {
     let all = match computed(answer).map(|known| &known.outcome) {
         None => return vec!["being computed".to_owned()],

@@ -23,7 +23,6 @@ const TRAIL: Level = 2;
 const MARK: Level = 3;
 const NOW: Level = 4;
 
-/// The row.
 pub(super) struct Phase;
 
 /// A landscape and the conditions it was computed for.

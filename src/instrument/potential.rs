@@ -9,13 +9,11 @@ use crate::expr::{Expr, Pool, Symbol};
 use crate::mechanics::Valuation;
 use crate::num::rounded;
 
-/// The levels of the picture.
 const ALLOWED: Level = 0;
 const ENERGY: Level = 1;
 const CURVE: Level = 2;
 const NOW: Level = 3;
 
-/// Points of the curve.
 const POINTS: usize = 240;
 
 /// Fraction of the dots drawn where the motion is allowed.
@@ -33,7 +31,6 @@ const TRIED: usize = 97;
 const PARTS: usize = 16;
 const ROUNDS: usize = 6;
 
-/// The row.
 pub(super) struct Potential;
 
 /// The potential of a view of the file.

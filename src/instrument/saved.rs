@@ -184,7 +184,6 @@ impl SavedPlot {
     }
 }
 
-/// Whether a view of the file is of a kind.
 fn is_view_of(model: &Model, view: usize, kind: &dyn Instrument) -> bool {
     model.views.get(view).is_some_and(|view| view.kind == kind.name())
 }

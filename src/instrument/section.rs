@@ -27,13 +27,12 @@ use crate::model::View;
 use crate::system::InitialOverride;
 use measures::MEASURES;
 use portrait::{
-    Begun, COUNT, DrawnOrbit, IDLE, Portrait, SectionConditions, SectionTask, TRANSIENT,
+    COUNT, DrawnOrbit, IDLE, Portrait, SectionConditions, SectionTask, StartedPortrait, TRANSIENT,
 };
 use regularity::{by_chaos, chaos_ink, newest_rotation, own_rotation, to_its_error};
 pub(super) use surface::zero;
 use surface::{crossing, surface, view};
 
-/// The levels of the picture.
 const BOUNDARY: Level = 0;
 const ORBITS: Level = 1;
 const OWN: Level = 2;
@@ -42,7 +41,6 @@ const NOW: Level = 3;
 /// The colours of regular orbits, in turn: none of the running motion's, and none that is like that of chaotic ones.
 const SINGLE: [usize; 5] = [2, 3, 4, 5, 6];
 
-/// The row.
 pub(super) struct SectionPlot;
 
 impl Instrument for SectionPlot {
@@ -251,7 +249,7 @@ impl Instrument for SectionPlot {
             columns: [x, y],
             transient: if dissipates(present.physics) { TRANSIENT } else { 0 },
             // orbits of a picture that was begun continue in it
-            known: known.map(|known| Begun {
+            known: known.map(|known| StartedPortrait {
                 region: known.region.clone(),
                 orbits: known.orbits.clone(),
                 pending: known.pending.clone(),
@@ -294,7 +292,6 @@ fn plane(plot: &Plot, present: &Present<'_>) -> Option<SectionPlane> {
     plane.filter(|plane| energy.is_finite() || !plane.is_bounded())
 }
 
-/// The initial values of the motion.
 fn own_start(present: &Present<'_>) -> Start {
     let Physics { model, system, .. } = present.physics;
     let given = present.initial.iter().enumerate();

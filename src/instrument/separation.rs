@@ -14,11 +14,9 @@ use super::{
 use crate::analysis::{DistanceHistory as Distances, Slope};
 use crate::num::significant;
 
-/// The levels of the picture.
 const CURVES: Level = 1;
 const SLOPE: Level = 2;
 
-/// The row.
 pub(super) struct SeparationPlot;
 
 /// What is said of the straight line through a distance: its slope and how well that is known, and where it was measured.
@@ -170,7 +168,6 @@ fn newest<'a>(present: &Present<'a>) -> Option<(usize, &'a Arc<Distances>, Optio
     Some((*number, distances, distances.slope()))
 }
 
-/// The range of all points.
 fn range(present: &Present<'_>, axis: usize) -> Option<[f64; 2]> {
     let all = present.separations.iter().flat_map(|(_, d)| d.points()).map(|p| p[axis]);
     let (least, greatest) =

@@ -138,7 +138,6 @@ impl CameraPose {
         Self { yaw: 0.0, pitch: 0.0, zoom: 1.0, pan: [0.0; 2], ..self }
     }
 
-    /// Rotates the picture by these angles.
     pub(super) fn turn(&mut self, yaw: f64, pitch: f64) {
         self.yaw = (self.yaw + yaw).rem_euclid(TAU);
         self.pitch = (self.pitch + pitch).clamp(-FRAC_PI_2, FRAC_PI_2);

@@ -5,7 +5,6 @@ use super::{
     Present,
 };
 
-/// The row.
 pub(super) struct Space;
 
 impl Instrument for Space {

@@ -19,7 +19,6 @@ use crate::job::{Job, Progress};
 use crate::num::{math, significant, to_its_error};
 use crate::system::ChannelKind;
 
-/// The levels of the picture.
 const CURVE: Level = 0;
 const LINES: Level = 2;
 
@@ -36,10 +35,8 @@ const LINES_NAMED: usize = 6;
 const POWERS: f64 = 9.0;
 const BEYOND: f64 = 1.3;
 
-/// The row.
 pub(super) struct SpectrumPlot;
 
-/// What was found, and of which motion.
 struct ComputedSpectrum {
     conditions: PlotConditions,
     /// The frequency of the drive, if the motion has one.
@@ -58,7 +55,6 @@ struct Analysis {
     lines: Lines,
     /// Whether others were left out as images of faster ones.
     has_images: bool,
-    /// Of an angle.
     rate: Option<MeanRate>,
     drift: Option<FrequencyDrift>,
 }

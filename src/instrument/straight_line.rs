@@ -9,7 +9,6 @@ use crate::num::{math, significant};
 /// A line needs at least this many points.
 const FEWEST: usize = 8;
 
-/// A straight line through points.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct StraightLine {
     pub(super) slope: f64,
@@ -42,7 +41,6 @@ impl StraightLine {
         slope.is_finite().then_some(Self { error, ..line })
     }
 
-    /// The height of the line.
     pub(super) fn at(&self, x: f64) -> f64 {
         self.mean[1] + self.slope * (x - self.mean[0])
     }

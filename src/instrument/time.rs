@@ -10,7 +10,6 @@ const CURVES: Level = 200;
 const MARK: Level = 201;
 const NOW: Level = 202;
 
-/// The row.
 pub(super) struct Time;
 
 impl Instrument for Time {

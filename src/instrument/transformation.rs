@@ -20,7 +20,7 @@ use self::grid::old_variables;
 use self::image::{ImageOrigin, beyond, of_branches, outside};
 use self::judged::MapVerdict;
 use self::relations::{depends_on_time, implicit};
-use self::window::Along;
+use self::window::ShownCoordinates;
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
     Need, Offer, Physics, Picture, Plot, PlotContext, Present, Stroke, Upwards,
@@ -31,7 +31,6 @@ use crate::mechanics::{TransformationReport, Valuation, relations_of};
 use crate::model::Transformation as Law;
 use crate::system::ChannelKind;
 
-/// The levels of the picture.
 const GRID: Level = 0;
 const TRAIL: Level = 2;
 const NOW: Level = 4;
@@ -45,7 +44,6 @@ const DIM: f64 = 0.35;
 /// The grid of a map that depends on the time is found anew after so many seconds of the wall clock at the file's own speed.
 const STALE: f64 = 0.1;
 
-/// The row.
 pub(super) struct TransformationPlot;
 
 /// What was found of a transformation, and where.
@@ -326,7 +324,6 @@ fn with_image(plot: &Plot, present: &Present<'_>) -> Valuation {
     present.valuation().with(new.zip(image))
 }
 
-/// What is said of the image of the moving point.
 fn of_image(plot: &Plot, present: &Present<'_>) -> &'static [&'static str] {
     let (Some(Shown { law, new }), Some(x), Some(y)) =
         (shown(plot, present.physics), plot.column(0), plot.column(1))
@@ -406,7 +403,7 @@ fn range(
     let mapped = mapped(answer).filter(|_| !turns)?;
     let (lo, hi) = *present.bounds.get(plot.column(axis)?)?;
     let others = mapped.branches.as_deref().map_or(&[][..], |branches| &branches.lines);
-    Along { own: &mapped.grid, others, images, reached: [lo, hi] }.range(axis)
+    ShownCoordinates { own: &mapped.grid, others, images, reached: [lo, hi] }.range(axis)
 }
 
 /// The images of the moving point on other branches: to which their grids lead, and the others.

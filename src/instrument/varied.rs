@@ -60,7 +60,6 @@ impl VariedConditions {
         Some(Self { over, window, parameters, overrides, method, settings })
     }
 
-    /// The start of the motion at these numbers.
     fn start(&self, physics: Physics<'_>, at: &[f64]) -> Start {
         let mut parameters = self.parameters.clone();
         let mut overrides = self.overrides.clone();
@@ -104,7 +103,6 @@ impl VariedMotions {
         Physics { model: &self.model, equations: &self.equations, system: &self.system }
     }
 
-    /// The start of the motion at these numbers.
     pub(super) fn start(&self, at: &[f64]) -> Start {
         self.conditions.start(self.physics(), at)
     }
@@ -165,7 +163,6 @@ pub(super) fn within(x: f64, period: Option<f64>) -> f64 {
     period.map_or(x, |period| x - period * (x / period).round())
 }
 
-/// The view of the file that a plot shows.
 fn view<'a>(plot: &Plot, physics: Physics<'a>) -> Option<&'a View> {
     physics.model.views.get(plot.view?)
 }
@@ -211,7 +208,6 @@ pub(super) fn parameters_at(plot: &Plot, at: [f64; 2]) -> Vec<(usize, f64)> {
     parameters.collect()
 }
 
-/// Its name as written.
 pub(super) fn written(physics: Physics<'_>, over: Variation) -> &str {
     match over {
         Variation::Parameter(index) => {
@@ -276,7 +272,6 @@ pub(super) fn range(plot: &Plot, present: &Present<'_>, axis: usize) -> Option<[
     Some(given(plot, present, axis).unwrap_or(own))
 }
 
-/// The part of it that is seen.
 fn seen(plot: &Plot, present: &Present<'_>, axis: usize) -> Option<[f64; 2]> {
     let [from, to] = range(plot, present, axis)?;
     let Some(viewport) = plot.viewport() else { return Some([from, to]) };

@@ -83,7 +83,6 @@ impl Ansatz {
         Some(ansatz)
     }
 
-    /// The degree of a column in the momenta.
     pub(super) fn degree(&self, column: usize) -> u32 {
         self.momenta[self.columns[column].0].iter().sum()
     }

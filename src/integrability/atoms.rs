@@ -25,11 +25,9 @@ pub(super) struct MonomialGenerator {
 pub(super) struct AnsatzFamily {
     /// Absent coordinates enter by their sine and cosine, and not by themselves.
     pub(super) absent_by_angle: bool,
-    /// Angles are halved.
     pub(super) half_angles: bool,
 }
 
-/// The generators of one family.
 #[derive(Clone, Debug)]
 pub(super) struct Atoms {
     pub(super) momenta: Vec<Expr>,
@@ -46,7 +44,6 @@ pub(super) struct Atoms {
     pub(super) family: AnsatzFamily,
 }
 
-/// What occurs in a law.
 #[derive(Default)]
 struct LawAtoms {
     algebraic: Vec<Symbol>,

@@ -41,7 +41,6 @@ impl DeterminingEquations {
         DeterminingEquations { monomials, functions, field: PrimeField::nth(0) }
     }
 
-    /// The number of coefficients.
     pub(super) fn width(&self) -> usize {
         self.monomials.len() * self.functions
     }

@@ -16,7 +16,7 @@ use super::occurring_functions::OccurringFunctions;
 use super::positive_roots::PositiveRoots;
 use super::radicals::Radicals;
 use super::random::Random;
-use super::units::{Units, Unsupported};
+use super::units::{ArgumentUnits, Unsupported};
 use crate::expr::{Expr, Pool, Symbol};
 use crate::num::{Number, PrimeField, Residue};
 
@@ -36,7 +36,6 @@ pub(super) struct ResidueEvaluator {
     positive: PositiveRoots,
 }
 
-/// The values at one point.
 #[derive(Clone, Debug)]
 pub(super) struct SamplePoint {
     pub(super) field: PrimeField,
@@ -61,7 +60,7 @@ impl ResidueEvaluator {
         for &e in &nodes {
             steps.push(functions.operation(pool, e, &index, moving)?);
         }
-        let fixed = |all: &Units| -> Vec<bool> {
+        let fixed = |all: &ArgumentUnits| -> Vec<bool> {
             all.order.iter().map(|&term| !pool.depends_on_any(term, moving)).collect()
         };
         let OccurringFunctions { circles, units, roots_of, opaque, inexact } = &functions;
@@ -168,7 +167,6 @@ impl ResidueEvaluator {
         Some(SamplePoint { field, values, companions })
     }
 
-    /// The value of a compiled expression.
     pub(super) fn value(&self, point: &SamplePoint, e: Expr) -> Residue {
         point.values[self.index[&e]]
     }

@@ -39,7 +39,6 @@ pub(super) fn accelerations(equations: &mut Equations) -> Result<Vec<Expr>, Unsu
     }
 }
 
-/// Equations of motion solved for the accelerations.
 #[derive(Clone)]
 pub(super) struct ExplicitMotion {
     pub(super) time: Symbol,

@@ -6,7 +6,7 @@ use super::ansatz::Ansatz;
 use super::atoms::Atoms;
 use super::law::Law;
 use crate::expr::{Expr, Node, Pool};
-use crate::num::Number;
+use crate::num::{Number, gcd};
 
 /// Σ coefficient · monomial.
 pub(super) fn combination(
@@ -85,23 +85,17 @@ fn least_integers(all: &[Number]) -> Vec<Number> {
     let Some(fractions) = all.iter().map(fraction).collect::<Option<Vec<_>>>() else {
         return all.to_vec();
     };
-    let multiple = fractions.iter().try_fold(1_i128, |m, (_, d)| (m / gcd(m, *d)).checked_mul(*d));
+    let common = |a: i128, b: i128| gcd(a.unsigned_abs(), b.unsigned_abs()) as i128;
+    let multiple =
+        fractions.iter().try_fold(1_i128, |m, (_, d)| (m / common(m, *d)).checked_mul(*d));
     let Some(multiple) = multiple else { return all.to_vec() };
     let whole = fractions.iter().map(|(n, d)| n.checked_mul(multiple / d));
     let Some(whole) = whole.collect::<Option<Vec<i128>>>() else { return all.to_vec() };
-    let divisor = whole.iter().fold(0, |g, &n| gcd(g, n)).max(1);
+    let divisor = whole.iter().fold(0, |g, &n| common(g, n)).max(1);
     let divisor = if whole.first().is_some_and(|n| *n < 0) { -divisor } else { divisor };
     let scaled: Vec<Number> = whole.iter().map(|&n| Number::ratio(n / divisor, 1)).collect();
     let fit = scaled.iter().all(|n| matches!(n, Number::Rational(..)));
     if fit { scaled } else { all.to_vec() }
-}
-
-fn gcd(a: i128, b: i128) -> i128 {
-    let (mut a, mut b) = (a.abs(), b.abs());
-    while b != 0 {
-        (a, b) = (b, a % b);
-    }
-    a
 }
 
 /// The ansatz in words: what was searched, and so where nothing else is. `print` writes an expression.

@@ -24,7 +24,6 @@ use crate::mechanics::Equations;
 use crate::model::Model;
 use crate::num::{Number, PRIMES, PrimeField, Residue};
 
-/// The largest number of monomials of constants.
 const MOST_MONOMIALS: usize = 150;
 
 /// The number of combinations that are tried.
@@ -96,7 +95,6 @@ impl Commuting {
 pub(super) struct Given<'a> {
     pub(super) functions: &'a [(Expr, Expr)],
     pub(super) brackets: &'a [Vec<Option<Expr>>],
-    /// Whether each is proved to be constant.
     pub(super) proved: &'a [bool],
 }
 
@@ -140,7 +138,6 @@ struct InvolutionSearch {
     here: Vec<Vec<Expr>>,
     /// The constants whose products are taken.
     usable: Vec<usize>,
-    /// The commuting set.
     set: Vec<ConstantPolynomial>,
 }
 
@@ -276,7 +273,6 @@ impl InvolutionSearch {
         Some(echelon.null_space())
     }
 
-    /// Whether a polynomial is functionally independent of the set.
     fn is_independent(&mut self, pool: &mut Pool, candidate: &ConstantPolynomial) -> bool {
         let members: Vec<ConstantPolynomial> =
             self.set.iter().chain([candidate]).cloned().collect();
@@ -296,7 +292,6 @@ impl InvolutionSearch {
     }
 }
 
-/// The bracket of two polynomials in functions, from the brackets of those.
 fn bracket(
     pool: &mut Pool,
     first: &ConstantPolynomial,

@@ -19,10 +19,13 @@ use crate::num::{PrimeField, Residue};
 /// How the rates of the variables are known.
 #[derive(Clone, Debug)]
 pub(super) enum RateRule {
-    /// One expression for each variable.
     Explicit(Vec<Expr>),
     /// Positions, then velocities: M q̈ − Aᵀλ = f, A q̈ = γ.
-    Solved { mass: Vec<Vec<Expr>>, force: Vec<Expr>, rows: Vec<LawConstraint> },
+    Solved {
+        mass: Vec<Vec<Expr>>,
+        force: Vec<Expr>,
+        rows: Vec<LawConstraint>,
+    },
 }
 
 /// A constraint A q̇ + a = 0, with f(q) = 0 where it is holonomic.
@@ -48,7 +51,6 @@ impl LawConstraint {
     }
 }
 
-/// A law of motion for which constants of the motion are searched for.
 #[derive(Clone, Debug)]
 pub(super) struct Law {
     /// The variables of the state; of canonical ones all positions come first.
@@ -114,7 +116,6 @@ impl Law {
         self.variables.iter().copied().chain([self.time]).collect()
     }
 
-    /// Every expression of the law.
     pub(super) fn expressions(&self) -> Vec<Expr> {
         let mut all = vec![self.energy];
         match &self.rule {
@@ -157,7 +158,6 @@ impl Law {
         if self.positions == 0 { &[] } else { &self.variables[self.positions..] }
     }
 
-    /// Returns whether time occurs in the law.
     pub(super) fn is_driven(&self, pool: &Pool) -> bool {
         self.expressions().into_iter().any(|e| pool.depends(e, self.time))
     }
@@ -337,7 +337,6 @@ impl Law {
         Some((0..functions.len()).map(|i| echelon.add(gradient(i))).collect())
     }
 
-    /// The dimension of the space of states at a point.
     pub(super) fn dimension(&self, evaluator: &ResidueEvaluator, point: &SamplePoint) -> usize {
         self.directions(evaluator, point).len()
     }

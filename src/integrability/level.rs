@@ -130,7 +130,6 @@ impl Ground<'_> {
     }
 }
 
-/// What a level found.
 pub(super) struct LevelOutcome {
     /// The number of independent monomials.
     pub(super) size: usize,

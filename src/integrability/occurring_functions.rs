@@ -5,7 +5,7 @@
 use rustc_hash::FxHashMap;
 
 use super::node_operation::{Angle, NodeOperation};
-use super::units::{Units, Unsupported, least_common};
+use super::units::{ArgumentUnits, Unsupported, least_common};
 use crate::expr::{Expr, FunctionId, Node, Pool, Symbol};
 use crate::num::Number;
 
@@ -13,8 +13,8 @@ use crate::num::Number;
 #[derive(Default)]
 pub(super) struct OccurringFunctions {
     /// The angles of sines and cosines, and the exponents of exponentials, by their terms.
-    pub(super) circles: Units,
-    pub(super) units: Units,
+    pub(super) circles: ArgumentUnits,
+    pub(super) units: ArgumentUnits,
     /// The order of the roots that are taken of each base.
     pub(super) roots_of: FxHashMap<Expr, u64>,
     /// The number of logarithms and arctangents.
@@ -85,7 +85,6 @@ impl OccurringFunctions {
         Ok(Angle { parts, quarters })
     }
 
-    /// The operation of a node.
     pub(super) fn operation(
         &self,
         pool: &mut Pool,

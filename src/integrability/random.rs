@@ -5,7 +5,6 @@
 
 use crate::num::{PrimeField, Residue};
 
-/// Random residues.
 #[derive(Clone, Debug)]
 pub(super) struct Random(u64);
 

@@ -114,7 +114,6 @@ fn conditions(law: &Law, flipped: u64, reversed: bool) -> Option<Vec<(Expr, bool
     }
 }
 
-/// Whether the law is proved to be the same.
 fn leaves(pool: &mut Pool, law: &Law, flipped: u64, reversed: bool) -> bool {
     let Some(all) = conditions(law, flipped, reversed) else { return false };
     // most candidates are refused by numbers, which costs little

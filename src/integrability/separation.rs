@@ -6,9 +6,8 @@
 use std::collections::HashMap;
 
 use super::law::is_hamiltonian;
-use super::stand_in;
 use crate::expr::{Expr, Symbol};
-use crate::mechanics::{Equations, separation};
+use crate::mechanics::{Equations, exact_constants, separation};
 use crate::model::Model;
 
 /// Whether Levi-Civita's conditions hold at the parameters' values. `None` where there is no H without time, or neither
@@ -17,7 +16,7 @@ pub fn separates(model: &Model, equations: &mut Equations) -> Option<bool> {
     if model.is_poisson() || !is_hamiltonian(model, equations) {
         return None;
     }
-    let values: HashMap<Symbol, Expr> = stand_in::values(model, equations)
+    let values: HashMap<Symbol, Expr> = exact_constants(model, equations)
         .into_iter()
         .map(|(s, n)| (s, equations.pool.number(n)))
         .collect();

@@ -4,7 +4,7 @@
 //! What is found for stand-ins is claimed only if it is proved with the names of the parameters. Never here: searches.
 
 use crate::expr::Symbol;
-use crate::mechanics::{Equations, body_values};
+use crate::mechanics::{Equations, exact_constants};
 use crate::model::Model;
 use crate::num::Number;
 
@@ -12,7 +12,7 @@ use crate::num::Number;
 /// a stand-in, since products of such values are rounded and the relations of a search would no longer hold. Those whose
 /// ratio is a short fraction have stand-ins with that ratio, and no others have.
 pub(super) fn constants(model: &Model, equations: &Equations) -> Vec<(Symbol, Number)> {
-    stand_ins(values(model, equations))
+    stand_ins(exact_constants(model, equations))
 }
 
 /// Exact numbers in place of those that are not.
@@ -49,7 +49,7 @@ fn stand_ins(values: Vec<(Symbol, Number)>) -> Vec<(Symbol, Number)> {
 /// Whether some of them are stand-ins: what is found for these is claimed only if it is proved with the names of the
 /// parameters.
 pub(super) fn has_stand_ins(model: &Model, equations: &Equations) -> bool {
-    values(model, equations).iter().any(|(_, value)| value.is_long())
+    exact_constants(model, equations).iter().any(|(_, value)| value.is_long())
 }
 
 /// The square of a prime, so that roots of quotients are fractions; another one for each class, and none that divides one of
@@ -64,15 +64,6 @@ fn square(class: usize, taken: &[Number]) -> Number {
     let fits = |&p: &i64| (2..=p.isqrt()).all(|d| p % d != 0) && !divides(p);
     let root = (2..).filter(fits).nth(class).unwrap_or(2);
     Number::Rational(root, 1) * Number::Rational(root, 1)
-}
-
-/// The parameters and what follows from a body, with their values.
-pub(super) fn values(model: &Model, equations: &Equations) -> Vec<(Symbol, Number)> {
-    let values = model.parameter_values();
-    let body = equations.supplements.body.as_ref();
-    let body = body_values(model, &equations.pool, body, &values);
-    let own = model.parameters.iter().map(|p| p.symbol).zip(values);
-    own.chain(body).map(|(s, x)| (s, Number::Real(x).canonical())).collect()
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@
 use rustc_hash::FxHashMap;
 
 use crate::expr::{Expr, Node, Pool};
-use crate::num::Number;
+use crate::num::{Number, gcd};
 
 /// Why a law cannot be evaluated over a prime field.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
@@ -15,12 +15,12 @@ pub struct Unsupported(pub String);
 
 /// The units of which arguments are made: each term with the least common denominator of its coefficients.
 #[derive(Default)]
-pub(super) struct Units {
+pub(super) struct ArgumentUnits {
     pub(super) denominators: FxHashMap<Expr, i64>,
     pub(super) order: Vec<Expr>,
 }
 
-impl Units {
+impl ArgumentUnits {
     pub(super) fn collect(&mut self, pool: &mut Pool, argument: Expr) -> Result<(), Unsupported> {
         for (c, term) in terms(pool, argument) {
             let Number::Rational(_, d) = c else {
@@ -50,11 +50,7 @@ impl Units {
 
 /// The least common multiple.
 pub(super) fn least_common(a: i64, b: i64) -> i64 {
-    let (mut x, mut y) = (a, b);
-    while y != 0 {
-        (x, y) = (y, x % y);
-    }
-    a / x * b
+    a / gcd(a.unsigned_abs().into(), b.unsigned_abs().into()) as i64 * b
 }
 
 /// An argument as a sum of multiples of terms without coefficient.

@@ -28,7 +28,6 @@ pub struct Symmetry {
     pub between_impulses: bool,
 }
 
-/// A Lagrangian with its slopes.
 #[derive(Clone)]
 pub(super) struct VariedLagrangian {
     pub(super) time: Symbol,

@@ -25,7 +25,6 @@ pub struct BatchPropagator {
     events: Option<Box<BatchEvents>>,
 }
 
-/// The orbits, by a method.
 enum BatchStepper {
     Taylor(Box<TaylorBatch>),
     Splitting(Box<EqualStepsBatch<BatchSplitStep, Splitting>>),
@@ -77,7 +76,7 @@ impl BatchPropagator {
         Some(BatchPropagator { system: system.clone(), stepper, events: None })
     }
 
-    /// The same with the events of the system, which must all be without effect on the motion and by a
+    /// Room for [`BATCH`] orbits with the events of the system, which must all be without effect on the motion, by a
     /// method whose steps are power series; otherwise `None`.
     pub fn with_events(
         system: &System,
@@ -125,20 +124,14 @@ impl BatchPropagator {
         of_stepper!(&mut self.stepper, stepper => stepper.clear(lane));
     }
 
-    /// How a lane stands.
+    /// The status of a lane.
     pub fn status(&self, lane: usize) -> LaneStatus {
         of_stepper!(&self.stepper, stepper => stepper.status(lane))
     }
 
-    /// Takes a step in every lane that is under way and before its limit. A method of variable step
-    /// does not go beyond the limit. Returns false if it was cancelled.
-    #[must_use]
-    pub fn step(&mut self, limits: &[f64; BATCH]) -> bool {
-        self.steps_unobserved(limits, &[f64::NEG_INFINITY; BATCH])
-    }
-
-    /// The same for as many steps as nobody observes the states between: at least one, and none more where one has
-    /// led to or beyond the time of a lane in `observations`. A method may take them one by one.
+    /// Takes steps whose intermediate states nobody observes, in every lane that is under way and before its limit: at
+    /// least one, and no more once a step has reached the time of a lane in `observations`. A method may take them one by
+    /// one; one of variable step does not go beyond the limit. Returns false if it was cancelled.
     #[must_use]
     pub fn steps_unobserved(&mut self, limits: &[f64; BATCH], observations: &[f64; BATCH]) -> bool {
         match (&mut self.stepper, &mut self.events) {

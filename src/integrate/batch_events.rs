@@ -45,7 +45,7 @@ struct LaneSearch {
 }
 
 /// The last step of a lane.
-struct LaneStep<'a> {
+struct EventStep<'a> {
     motion: &'a mut TaylorBatch,
     lane: usize,
     series: &'a LaneSeries,
@@ -126,7 +126,7 @@ impl BatchEvents {
             return Ok(None);
         }
         self.series.take(motion.series(), lane);
-        let mut step = LaneStep { motion, lane, series: &self.series };
+        let mut step = EventStep { motion, lane, series: &self.series };
         while waiting.is_some() || search.clear < end {
             let found = match waiting.take() {
                 Some(found) => found,
@@ -154,7 +154,7 @@ impl BatchEvents {
     }
 }
 
-impl DenseOutput for LaneStep<'_> {
+impl DenseOutput for EventStep<'_> {
     fn interval(&self) -> (f64, f64) {
         (self.series.time().high, self.motion.state(self.lane).time)
     }

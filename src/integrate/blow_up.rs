@@ -192,7 +192,6 @@ fn is_ordinary(step: f64, spacing: f64) -> bool {
     step.abs() > VANISHING * spacing && step.abs() <= spacing
 }
 
-/// The digits of a time that are known to a tolerance.
 fn known_digits(tolerance: f64) -> f64 {
     -math::log10(tolerance) - UNCERTAIN
 }
@@ -267,7 +266,6 @@ impl LawfulMotion {
     }
 }
 
-/// A number with so many digits.
 fn rounded(number: f64, digits: f64) -> f64 {
     if digits > f64::from(f64::DIGITS) {
         return number;

@@ -26,14 +26,12 @@ use super::{initial_step, roundoff};
 use crate::num::{DoubleDouble, math};
 use crate::system::{ExactRates, MotionError, MotionErrorKind, Rates, State, System};
 
-/// The default tolerance.
 const TOLERANCE: f64 = 1e-13;
 
 /// The first step as a part of the motion's [time scale](super::initial_step::of); the next ones
 /// grow from there.
 const FIRST: f64 = 0.05;
 
-/// The safety factor of the optimal step.
 const SAFETY: f64 = 0.9;
 
 /// The multiple of the measured rounding of a rate that is tolerated.
@@ -322,7 +320,6 @@ fn sums(terms: &[WeightedStage], slopes: &[Vec<f64>], out: &mut [f64]) {
     }
 }
 
-/// A weighted sum of the slopes of one number.
 fn sum(terms: &[WeightedStage], slopes: &[Vec<f64>], i: usize) -> f64 {
     terms.iter().map(|&(stage, coefficient)| coefficient * slopes[stage][i]).sum()
 }

@@ -17,7 +17,6 @@ const MOST_STEPS: f64 = 9_007_199_254_740_992.0;
 /// The steps in a row that must change the time by more than this many of its last digits.
 const DIGITS_PER_STEP: f64 = 4.0;
 
-/// The steps since counting began.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct EqualSteps {
     /// The step; negative if the motion runs backwards.
@@ -53,7 +52,6 @@ impl EqualSteps {
         self.origin + self.step * (self.count + count as f64)
     }
 
-    /// Counts steps.
     pub(super) fn take(&mut self, count: u64) {
         self.count += count as f64;
     }

@@ -14,7 +14,6 @@ use crate::system::{BatchSteps, Form, State, System};
 /// The most steps between two checks of the token.
 const MOST: u64 = 256;
 
-/// One orbit.
 #[derive(Clone)]
 struct EqualStepsLane {
     status: LaneStatus,
@@ -65,12 +64,10 @@ impl<B: BatchSteps, S: Scheme> EqualStepsBatch<B, S> {
         })
     }
 
-    /// The form of the states.
     pub(super) fn form(&self) -> Form {
         self.aside.form()
     }
 
-    /// Puts an orbit into a lane.
     pub(super) fn start(&mut self, lane: usize, state: &State, parameters: &[f64]) -> LaneStatus {
         let own = &mut self.lanes[lane];
         let regular = self.many.set_parameters(lane, parameters);

@@ -33,7 +33,6 @@ const MOST_DOUBLED: u32 = 24;
 /// After an impulse the sign of a function may change again very soon, after this part of the time.
 const SOONEST: f64 = 2e-15;
 
-/// The state of the search for events.
 #[derive(Clone, Debug)]
 pub(super) struct EventLocator {
     probe: Probe,

@@ -28,9 +28,7 @@ fn unusable(step: f64) -> Option<String> {
     }
 }
 
-/// One step of a method.
 pub(super) trait Scheme: Clone + Send {
-    /// The form of its states.
     fn form(&self) -> Form;
 
     /// Sets the parameters and [forgets](Scheme::forget) the motion so far.
@@ -40,7 +38,6 @@ pub(super) trait Scheme: Clone + Send {
     /// the step and is not changed.
     fn advance(&mut self, step: f64, state: &mut State) -> Result<(), MotionError>;
 
-    /// Forgets the motion so far.
     fn forget(&mut self) {}
 
     /// Moves the numbers of a state by as many steps, with the same result as one by one. Returns

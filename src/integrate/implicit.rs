@@ -33,7 +33,6 @@ pub(super) fn fits(method: &Method, system: &System) -> Result<(), MethodError> 
     Ok(())
 }
 
-/// The scheme of a tableau.
 #[derive(Clone)]
 pub(super) struct Implicit {
     rates: Rates,
@@ -131,7 +130,6 @@ impl Implicit {
         }
     }
 
-    /// Computes the slopes from the stages.
     fn evaluate(&mut self, step: f64, state: &State) -> Result<(), MotionError> {
         let n = state.values.len();
         let stages = self.stages.chunks_exact(n).zip(self.slopes.chunks_exact_mut(n));

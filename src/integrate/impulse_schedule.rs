@@ -7,7 +7,6 @@ use super::clock::spacing;
 use crate::num::DoubleDouble;
 use crate::system::ImpulseTimes;
 
-/// The impulses of one motion.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ImpulseSchedule {
     schedule: Vec<ImpulseTimes>,

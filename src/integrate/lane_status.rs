@@ -1,6 +1,6 @@
 //! How an orbit carried beside others stands. Never here: the orbit.
 
-/// How a lane stands.
+/// The status of a lane of a batch.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum LaneStatus {
     /// Nothing is in it.

@@ -13,7 +13,6 @@ use crate::num::DoubleDouble;
 pub(super) enum EventRole {
     /// It only sees it.
     Sees,
-    /// The law has a step in time.
     StepInTime,
     /// It acts on it.
     Acts,
@@ -31,10 +30,8 @@ impl EventRole {
     }
 }
 
-/// A crossing of one function.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct Crossing {
-    /// The time.
     pub(super) exact: DoubleDouble,
     /// The sign after the crossing.
     pub(super) side: f64,
@@ -42,7 +39,6 @@ pub(super) struct Crossing {
     pub(super) pole: bool,
 }
 
-/// An event found.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct LocatedEvent {
     pub(super) event: usize,
@@ -51,12 +47,10 @@ pub(super) struct LocatedEvent {
 }
 
 impl Crossing {
-    /// A crossing of zero.
     pub(super) fn at(exact: DoubleDouble, side: f64) -> Crossing {
         Crossing { exact, side, pole: false }
     }
 
-    /// Whether it counts for an event of this direction.
     pub(super) fn counts(&self, direction: Direction) -> bool {
         let awaited = match direction {
             Direction::Rising => self.side > 0.0,
@@ -67,7 +61,6 @@ impl Crossing {
     }
 }
 
-/// What was found at one time.
 #[derive(Clone, Debug, Default)]
 pub(super) struct LocatedEvents {
     /// The events, each with the side of its function afterwards, in the order in which they happen.

@@ -14,14 +14,12 @@ const MOST_SHORTEST: u32 = 64;
 /// step with more is far beyond what its method can follow.
 const MOST_PIECES: u32 = 1 << 16;
 
-/// The pieces of one step.
 #[derive(Clone, Debug)]
 pub(super) struct PieceCount {
     /// The number of minimal intervals in a row.
     pub(super) shortest: u32,
     /// The beginning of the last step that was sampled.
     step: f64,
-    /// The number of its pieces so far.
     count: u32,
 }
 

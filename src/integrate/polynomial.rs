@@ -19,7 +19,6 @@ const TOUCH: f64 = 1e-14;
 /// A function on a piece of a step, as a polynomial in the time after the beginning of the piece.
 pub(super) struct StepPolynomial {
     pub(super) coefficients: Vec<f64>,
-    /// The length of the piece.
     pub(super) length: f64,
     /// The time that counts as equal to the beginning.
     pub(super) soonest: f64,
@@ -75,7 +74,6 @@ impl StepPolynomial {
         }
     }
 
-    /// The slope at a time.
     pub(super) fn slope(&self, x: f64) -> f64 {
         value_and_slope(&self.coefficients, x).1
     }

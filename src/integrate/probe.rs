@@ -7,7 +7,6 @@ use super::DenseOutput;
 use crate::num::DoubleDouble;
 use crate::system::{EventFunctions, MotionError, State};
 
-/// Evaluates the functions of one motion.
 #[derive(Clone, Debug)]
 pub(super) struct Probe {
     event_functions: EventFunctions,
@@ -36,7 +35,6 @@ impl Probe {
         self.begun.filter(|&begun| earlier(time, begun)).unwrap_or(time)
     }
 
-    /// The values at a state.
     pub(super) fn of(&mut self, state: &State) -> Result<&[f64], MotionError> {
         self.event_functions.observe(state, &mut self.values)?;
         Ok(&self.values)
@@ -64,7 +62,6 @@ impl Probe {
         self.event_functions.exactly(event, &self.state)
     }
 
-    /// One value at a state, in double-double.
     pub(super) fn exactly_of(
         &mut self,
         event: usize,

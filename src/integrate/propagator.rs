@@ -31,7 +31,7 @@ use occurrence_search::OccurrenceSearch;
 use passed_event::PassedEvents;
 use singularity_record::SingularityRecord;
 
-/// How far a motion came.
+/// The outcome of advancing a motion.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Reached {
     /// To the requested time.
@@ -48,7 +48,6 @@ pub enum Reached {
 pub struct Propagator {
     /// The system as compiled, with all its constraints.
     whole: System,
-    /// The system with the active constraints.
     system: System,
     method: &'static Method,
     settings: Settings,
@@ -56,7 +55,6 @@ pub struct Propagator {
     projector: Option<ConstraintProjector>,
     search: OccurrenceSearch,
     parameters: Vec<f64>,
-    /// The current state.
     state: State,
     /// The state before the last impulse.
     before: State,
@@ -208,7 +206,7 @@ impl Propagator {
         self.restore_with_step_and_parameters((state, step), &parameters, (start, released))
     }
 
-    /// The same at these parameters.
+    /// Restores a motion as [`Propagator::restore_with_step`] does, at these parameters.
     ///
     /// # Errors
     /// Returns an error if the motion cannot continue from there.
@@ -283,7 +281,6 @@ impl Propagator {
     }
 }
 
-/// Accessors.
 impl Propagator {
     /// The system with all its constraints.
     pub fn whole(&self) -> &System {
@@ -351,7 +348,8 @@ impl Propagator {
         self.stepper.at(time, out)
     }
 
-    /// The same at any time there, which is not meant as a decimal number.
+    /// Writes the state at a time within the last step into `out`, as [`Propagator::inside`] does, for a time that need
+    /// not be read as a decimal number.
     ///
     /// # Errors
     /// Returns an error if the state cannot be evaluated.

@@ -35,7 +35,6 @@ pub(super) const METHOD: Method = Method {
 /// its weight in sixths.
 pub(super) const STAGES: [(f64, f64); 4] = [(0.0, 1.0), (0.5, 2.0), (0.5, 2.0), (1.0, 1.0)];
 
-/// The steps of one orbit.
 #[derive(Clone)]
 pub(super) struct RungeKutta {
     rates: Rates,

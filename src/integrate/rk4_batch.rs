@@ -7,7 +7,6 @@ use super::rk4::STAGES;
 use crate::num::{Analytic, BATCH, Batch, Kernel, vectorized};
 use crate::system::{BatchSteps, OrbitRates, Rates, State, System};
 
-/// The steps of several orbits.
 pub(super) struct RungeKuttaBatch {
     rates: OrbitRates,
     /// What depends on the parameters of one lane alone is computed here.
@@ -20,7 +19,6 @@ pub(super) struct RungeKuttaBatch {
     sums: Vec<Batch>,
 }
 
-/// A number of the states.
 #[derive(Clone, Copy)]
 struct MovingNumber {
     value: Batch,
@@ -48,7 +46,6 @@ impl RungeKuttaBatch {
         })
     }
 
-    /// Takes a step that begins at these times.
     #[inline(always)]
     fn step(&mut self, times: Batch) {
         let RungeKuttaBatch { rates, steps, numbers, others, sums, .. } = self;
@@ -123,7 +120,6 @@ impl BatchSteps for RungeKuttaBatch {
     }
 }
 
-/// Many steps.
 struct RungeKuttaSteps<'a, T> {
     orbits: &'a mut RungeKuttaBatch,
     count: u64,

@@ -15,8 +15,8 @@ const MARGIN: f64 = 4.0;
 /// Roots closer together than `end / 2^DEPTH` count as a touch, not as two crossings.
 const DEPTH: u32 = 48;
 
-/// Returns the first point in `(0, end]` where a polynomial that is positive just after 0 becomes
-/// negative. `coefficients[k]` belongs to `x^k`; there are at most 64.
+/// The first point in `(0, end]` where a polynomial that is positive just after 0 becomes negative; `None` if it stays
+/// positive. `coefficients[k]` belongs to `x^k`; there are at most 64.
 pub fn first_crossing(coefficients: &[f64], end: f64) -> Option<f64> {
     sign_changes(coefficients, end).find(|change| !change.rises).map(|change| change.x)
 }
@@ -24,7 +24,6 @@ pub fn first_crossing(coefficients: &[f64], end: f64) -> Option<f64> {
 /// A point where a polynomial changes its sign.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct SignChange {
-    /// The point.
     pub(super) x: f64,
     /// Whether the polynomial is positive after it.
     pub(super) rises: bool,
@@ -176,13 +175,10 @@ fn to_bernstein(a: &mut [f64]) {
     }
 }
 
-/// The signs of a list.
 struct Signs {
-    /// The number of sign changes.
     changes: u32,
     /// The first sign that is not zero; zero if there is none.
     first: f64,
-    /// The last sign.
     last: f64,
 }
 

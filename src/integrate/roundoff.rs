@@ -13,7 +13,6 @@ const UNITS: [f64; 5] = [2.0, -3.0, 1.0, -2.0, 3.0];
 /// The number of perturbations tried.
 const WAYS: usize = 3;
 
-/// Where the rates are evaluated.
 pub(super) struct RatesPoint<'a> {
     pub(super) time: f64,
     pub(super) numbers: &'a [f64],

@@ -55,7 +55,6 @@ const CLEAR: f64 = 4.0;
 /// It has left its zero only if its value also grows by this factor from each sample to the next.
 const GROWS: f64 = 1.2;
 
-/// A sample of one function.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sample {
     time: f64,

@@ -6,9 +6,7 @@ use crate::num::DoubleDouble;
 
 /// A piece of a step on which the functions are represented by their series.
 pub(super) struct SeriesPiece {
-    /// The beginning.
     pub(super) from: DoubleDouble,
-    /// The unit of time of the series.
     pub(super) unit: f64,
     /// The length in that unit.
     pub(super) length: f64,

@@ -38,8 +38,8 @@ pub struct SeveralMotions {
     pub sides: [bool; 2],
 }
 
-/// The first coordinate along which the motion from a state is not unique. `None` too where it moves, where the law depends on
-/// the time, under constraints and in variables with brackets: nothing is said of these.
+/// The first coordinate along which the motion from a state is not unique. Also `None` where nothing is claimed: if the
+/// state moves, the law depends on the time, or there are constraints or brackets.
 pub fn several_motions(
     system: &System,
     state: &State,

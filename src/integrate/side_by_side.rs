@@ -6,7 +6,7 @@
 use super::{BatchPropagator, LaneStatus};
 use crate::num::BATCH;
 
-/// How an orbit continues.
+/// Whether an orbit is to be followed further.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum OrbitCourse {
     /// No farther than this time.
@@ -15,7 +15,7 @@ pub enum OrbitCourse {
     Over,
 }
 
-/// What is done with each orbit.
+/// What is done with each of several orbits that are followed side by side.
 pub trait Follower {
     /// Puts an orbit into a lane.
     fn begin(&mut self, orbit: usize, lane: usize, batch: &mut BatchPropagator) -> OrbitCourse;
@@ -35,7 +35,7 @@ pub trait Follower {
     fn leave(&mut self, orbit: usize);
 }
 
-/// Follows all orbits. Returns false if it was cancelled on the way.
+/// Follows all orbits, several at a time. Returns false if it was cancelled.
 pub fn side_by_side(
     batch: &mut BatchPropagator,
     orbits: usize,

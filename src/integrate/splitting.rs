@@ -14,12 +14,10 @@ use crate::system::{Composition, Form, KinkSides, MotionError, Rates, SplitStep,
 /// What it requires of a system.
 pub(super) const NEEDS: &str = "H = T(p) + V(q, t)";
 
-/// Checks that a system is separable.
 pub(super) fn fits(method: &Method, system: &System) -> Result<(), MethodError> {
     system.separable().map_err(|why| MethodError { method: method.name, reason: why.to_owned() })
 }
 
-/// Creates a stepper from the leapfrogs of a method.
 pub(super) fn make(method: &Method, system: &System, settings: &Settings) -> StepperResult {
     fits(method, system)?;
     let Some(scheme) = Splitting::new(system, &Composition::Leapfrogs((method.leapfrogs)())) else {

@@ -158,7 +158,6 @@ fn combine<T>(columns: &[T], weights: impl Fn(&T) -> Stages, slopes: Stages) -> 
     sum
 }
 
-/// The leading part of a column.
 #[inline(always)]
 fn leading(column: &BatchDouble<STAGES>) -> Stages {
     column.high
@@ -207,7 +206,6 @@ impl Kernel for BeginStep<'_> {
     }
 }
 
-/// Performs passes.
 struct Passes<'a> {
     lanes: &'a mut StageLanes,
     first: usize,

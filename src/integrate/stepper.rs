@@ -1,7 +1,7 @@
 //! The interface of every method.
 
 use super::{DenseOutput, StepBlock, Unstable};
-use crate::system::{Form, MotionError, State};
+use crate::system::{MotionError, State};
 
 /// A motion in progress by one method. A call of [`Stepper::step`] takes one step; afterwards the
 /// motion is known anywhere inside it, by its [`DenseOutput`].
@@ -67,11 +67,6 @@ pub trait Stepper: DenseOutput + Send {
     /// The instability of the fixed step, if one was found.
     fn unstable(&self) -> Option<Unstable> {
         None
-    }
-
-    /// The form the method works in, and that its states have.
-    fn form(&self) -> Form {
-        self.state().form
     }
 
     /// The current time: the end of the last step.

@@ -4,14 +4,11 @@
 
 use crate::num::{Analytic, DoubleDouble};
 
-/// The coefficients of one method.
 #[derive(Clone, Debug)]
 pub(super) struct Tableau {
     /// c, the times of the stages as parts of a step.
     pub(super) nodes: Vec<DoubleDouble>,
-    /// b.
     pub(super) weights: Vec<DoubleDouble>,
-    /// a, row by row.
     pub(super) matrix: Vec<Vec<DoubleDouble>>,
     /// Row i: the polynomial through the slopes at the nodes, evaluated at 1 + c_i.
     pub(super) onward: Vec<Vec<f64>>,

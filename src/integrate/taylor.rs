@@ -48,7 +48,7 @@ use super::method::{Method, MethodError, Preserves, Settings, Stepping};
 use super::stepper::Stepper;
 use crate::num::DoubleDouble;
 use crate::system::{
-    ExactRates, Form, MotionError, MotionErrorKind, Series, Side, State, StepSeries, System,
+    ExactRates, MotionError, MotionErrorKind, Series, Side, State, StepSeries, System,
 };
 
 /// The default tolerance. It is far below the last digit shown, so that the results carry the error
@@ -76,7 +76,6 @@ pub(super) const METHOD: Method = Method {
     make: |system, settings| Ok(Box::new(Taylor::new(system, settings)?)),
 };
 
-/// A motion by Taylor series.
 #[derive(Debug)]
 pub(super) struct Taylor {
     system: System,
@@ -307,10 +306,6 @@ impl Stepper for Taylor {
 
     fn tolerance(&self) -> Option<f64> {
         Some(self.tolerance)
-    }
-
-    fn form(&self) -> Form {
-        self.system.form()
     }
 }
 

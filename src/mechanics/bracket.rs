@@ -38,7 +38,8 @@ pub fn bracket(
     Ok(pool.simplify(sum))
 }
 
-/// The same for its values: new variables of maps without a closed form, on the branch that is followed, stay in it.
+/// \[f, g\] as [`bracket`] gives it, but to be evaluated: new variables of maps without a closed form stay in it, on the
+/// branch that is followed.
 ///
 /// # Errors
 /// Returns an error if f or g is not known as a function of (q, p, t).
@@ -293,7 +294,6 @@ pub fn recognise(model: &Model, equations: &mut Equations, e: Expr) -> Option<Re
     None
 }
 
-/// The name of the energy.
 const ENERGY: &str = "energy";
 
 /// The names by which a bracket may be reported, each with its function on phase space.

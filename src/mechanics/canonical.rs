@@ -55,7 +55,6 @@ pub struct PhaseMap {
 }
 
 impl PhaseMap {
-    /// The relations of a transformation, with their derivatives.
     pub(super) fn relations(pool: &mut Pool, model: &Model, given: &Transformation) -> PhaseMap {
         let pairs = model.coordinates.iter().zip(&given.new);
         let half = |k: usize| given.new.iter().map(move |pair| pair[k]);
@@ -264,7 +263,6 @@ impl PhaseMap {
         tangent.iter().all(|x| x.is_finite()).then_some(tangent)
     }
 
-    /// Points near the start with their images.
     pub(super) fn images(
         &self,
         model: &Model,

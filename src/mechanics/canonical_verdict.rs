@@ -60,11 +60,11 @@ pub struct FailingBracket {
 
 /// Units of the old variables in which those of a pair are of like size: √(|q|/|p|) of each pair, and its reciprocal. A common
 /// unit of action is left out, as it changes no entry of M of a map that keeps it.
-struct Units(Vec<f64>);
+struct PairUnits(Vec<f64>);
 
-impl Units {
+impl PairUnits {
     /// Those of the largest values at some points.
-    fn of(old: &[Symbol], points: &[Valuation]) -> Units {
+    fn of(old: &[Symbol], points: &[Valuation]) -> PairUnits {
         let largest = |s: Symbol| points.iter().map(|at| at.at(s).abs()).fold(0.0, f64::max);
         let (positions, momenta) = old.split_at(old.len() / 2);
         let ratios = positions.iter().zip(momenta).map(|(&q, &p)| largest(q) / largest(p));
@@ -74,7 +74,7 @@ impl Units {
         });
         let units: Vec<f64> = units.collect();
         let reciprocals = units.iter().map(|unit| 1.0 / unit);
-        Units(units.iter().copied().chain(reciprocals).collect())
+        PairUnits(units.iter().copied().chain(reciprocals).collect())
     }
 
     /// Puts M into these units of the old variables, and units of the new ones in which those of a pair have rows of like size:
@@ -117,7 +117,7 @@ impl TangentTest {
 
 impl PhaseMap {
     /// What M says at a point with its image; `None` where the map breaks down.
-    fn test_at(&self, pool: &Pool, units: &Units, at: &Valuation) -> Option<TangentTest> {
+    fn test_at(&self, pool: &Pool, units: &PairUnits, at: &Valuation) -> Option<TangentTest> {
         let mut matrix = self.tangent(pool, at)?;
         let (rows, columns) = matrix.shape();
         if !self.is_explicit() {
@@ -139,7 +139,7 @@ impl PhaseMap {
         &self,
         model: &Model,
         equations: &Equations,
-        units: &Units,
+        units: &PairUnits,
         verdict: &mut CanonicalVerdict,
     ) {
         let pool = &equations.pool;
@@ -158,7 +158,7 @@ impl PhaseMap {
     /// Whether the map is canonical.
     pub fn verdict(&self, model: &Model, equations: &mut Equations) -> CanonicalVerdict {
         let images = self.images(model, equations, 2 * POINTS);
-        let units = Units::of(&self.old, &images);
+        let units = PairUnits::of(&self.old, &images);
         let pool = &equations.pool;
         let tests = images.iter().filter_map(|at| self.test_at(pool, &units, at));
         let (mut tests, wild): (Vec<TangentTest>, Vec<TangentTest>) =

@@ -39,7 +39,8 @@ pub struct ChartBracket {
 }
 
 impl ChartBracket {
-    /// The bracket in the new variables of each transformation of the file; of f and g that are no functions of (q, p, t) none.
+    /// The bracket in the new variables of each transformation of the file; empty if f and g are not functions of (q, p,
+    /// t).
     pub fn all(model: &Model, equations: &mut Equations, sides: [Expr; 2]) -> Vec<ChartBracket> {
         let maps = group::phase_maps(model, equations);
         maps.into_iter().filter_map(|map| Self::of(model, equations, map, sides)).collect()

@@ -51,19 +51,28 @@ impl Equations {
         self.supplements.separation.get_or_insert(Separation::Unknown(String::new()))
     }
 
-    /// q̈ as a function of (q, q̇, t), or q̇ then ṗ of a Hamiltonian system.
+    /// q̈ as a function of (q, q̇, t), or q̇ then ṗ of a Hamiltonian system; one for each coordinate.
+    ///
+    /// # Errors
+    /// The reason why there is none: the equations are not linear in the unknowns, or too long to write.
     pub fn solved(&mut self) -> &Result<Vec<Expr>, NoClosedForm> {
         self.solve();
         &self.solved
     }
 
     /// λ of each constraint as a function of (q, q̇, t).
+    ///
+    /// # Errors
+    /// The reason why there is none, as for [`Equations::solved`].
     pub fn multipliers(&mut self) -> &Result<Vec<Expr>, NoClosedForm> {
         self.solve();
         &self.multipliers
     }
 
     /// H(q, p, t).
+    ///
+    /// # Errors
+    /// The reason why the Legendre transform has no closed form.
     pub fn hamiltonian(&mut self) -> &Result<Expr, NoClosedForm> {
         if self.is_lagrangian() {
             self.transform();
@@ -71,7 +80,10 @@ impl Equations {
         &self.hamiltonian
     }
 
-    /// q̇(q, p, t).
+    /// q̇(q, p, t), one for each coordinate.
+    ///
+    /// # Errors
+    /// The reason why the Legendre transform has no closed form.
     pub fn velocities(&mut self) -> &Result<Vec<Expr>, NoClosedForm> {
         if self.is_lagrangian() {
             self.transform();
@@ -80,6 +92,9 @@ impl Equations {
     }
 
     /// L(q, q̇, t).
+    ///
+    /// # Errors
+    /// The reason why the Legendre transform has no closed form.
     pub fn lagrangian(&mut self) -> &Result<Expr, NoClosedForm> {
         if !self.is_lagrangian() {
             self.transform();
@@ -88,6 +103,9 @@ impl Equations {
     }
 
     /// H = T(p) + V(q, t), if H separates in this way and nothing else acts.
+    ///
+    /// # Errors
+    /// The reason why it does not separate.
     pub fn separable(&mut self) -> &Result<Separable, NoClosedForm> {
         if self.pending.separable {
             self.pending.separable = false;

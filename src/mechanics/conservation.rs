@@ -46,7 +46,7 @@ pub enum Class {
 }
 
 impl Class {
-    /// Returns whether it is conserved, by proof or numerically.
+    /// Whether it is conserved, by proof or numerically.
     pub fn is_conserved(self) -> bool {
         matches!(self, Class::Proved | Class::Numerically | Class::AtTheseParameters)
     }

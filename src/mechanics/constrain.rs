@@ -12,7 +12,6 @@ use crate::expr::{Expr, Pool, Symbol};
 use crate::model::{Constraint, Model};
 use crate::num::Number;
 
-/// The rows of a model's constraints.
 pub(super) fn rows(pool: &mut Pool, model: &Model) -> Vec<ConstraintRow> {
     let coordinates = CoordinateSymbols::of(model);
     let time = model.symbols.time;

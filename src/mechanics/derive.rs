@@ -84,7 +84,7 @@ fn derive_once(model: &Model) -> Result<Equations, NoClosedForm> {
     equations.supplements.body =
         model.body.as_ref().map(|body| rigid_body::compose(&mut pool, body));
     equations.pool = pool;
-    equations.supplements.constants = constants(model, &equations);
+    equations.supplements.constants = exact_constants(model, &equations);
     attitude::find(&mut equations, model);
     equations.supplements.frames = frames::find(model, &mut equations);
     if let Some(comparison) = &model.comparison {
@@ -102,7 +102,7 @@ fn derive_once(model: &Model) -> Result<Equations, NoClosedForm> {
 }
 
 /// The parameters and what follows from a body, with their values as exact numbers.
-fn constants(model: &Model, equations: &Equations) -> Vec<(Symbol, Number)> {
+pub fn exact_constants(model: &Model, equations: &Equations) -> Vec<(Symbol, Number)> {
     let values = model.parameter_values();
     let body = equations.supplements.body.as_ref();
     let body = rigid_body::body_values(model, &equations.pool, body, &values);

@@ -287,7 +287,6 @@ impl Equations {
         read(&constraint.unit)
     }
 
-    /// The dimension of a name that a body defines.
     fn of_body(&self, model: &Model, symbol: Symbol, read: Reader) -> Option<Dimension> {
         let names = model.body.as_ref()?.names;
         let body = self.supplements.body.as_ref()?;

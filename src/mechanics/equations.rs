@@ -152,7 +152,7 @@ impl Supplements {
     }
 }
 
-/// What expressions call a coordinate and its rates.
+/// The symbols of a coordinate, its rates and its momentum.
 #[derive(Clone, Copy, Debug)]
 pub struct CoordinateSymbols {
     /// q.

@@ -24,7 +24,6 @@ const MOST_COMPONENTS: usize = 3_000;
 type ExteriorForm = BTreeMap<Vec<usize>, Expr>;
 
 impl Equations {
-    /// Finds of each constraint whether it is holonomic.
     pub(super) fn find_holonomy(&mut self) {
         let rows = self.constraints.clone();
         if rows.iter().all(|row| row.position.is_some()) {
@@ -307,7 +306,6 @@ impl Pfaffian<'_> {
     }
 }
 
-/// A form of degree one.
 fn form_of(components: &[Expr]) -> ExteriorForm {
     let all = components.iter().enumerate().filter(|(_, e)| **e != Expr::ZERO);
     all.map(|(i, &e)| (vec![i], e)).collect()

@@ -85,15 +85,15 @@ fn transformations(model: &Model, equations: &mut Equations) -> Vec<Transformati
 }
 
 impl TransformationReport {
-    /// The report on the transformation of a name but for its generating functions, if its law can be written down; the
-    /// equations' pool grows.
+    /// The report on the transformation of this name without its generating functions, if its map can be written down;
+    /// the equations' pool grows.
     pub fn named(model: &Model, equations: &mut Equations, name: &str) -> Option<Self> {
         let maps = written_maps(model, equations);
         let (_, map) = maps.into_iter().find(|(_, map)| map.name == name)?;
         Some(Self::of(model, equations, map))
     }
 
-    /// What is said of a canonical map of which no generating functions were found.
+    /// The sentence about a canonical map of which no generating functions were found.
     pub fn without_functions(&self) -> &'static str {
         if self.map.is_explicit() || !self.map.parts.is_empty() {
             "Its generating functions are not known in closed form."
@@ -178,7 +178,7 @@ fn generators(model: &Model, equations: &mut Equations) -> Vec<GeneratorReport> 
 }
 
 impl Further {
-    /// Computes them; the equations' pool grows.
+    /// Derives these results; the equations' pool grows.
     pub fn of(model: &Model, equations: &mut Equations) -> Further {
         let classes = classes(model, equations);
         let flow = equations.flow.clone();

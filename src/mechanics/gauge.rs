@@ -9,7 +9,7 @@ use super::equations::Equations;
 use super::potential::potential;
 use crate::expr::{Expr, Symbol, Zero};
 
-/// What the difference of two Lagrangians is.
+/// The difference of two Lagrangians, and whether it is a total time derivative.
 #[derive(Clone, Debug)]
 pub struct GaugeDifference {
     /// L₁ − L₂.

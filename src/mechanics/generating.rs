@@ -56,7 +56,7 @@ impl GeneratingFunction {
         self.named(GeneratingType::name)
     }
 
-    /// The same as it is shown.
+    /// The name of its type as it is shown.
     pub fn shown(&self) -> String {
         self.named(GeneratingType::shown)
     }

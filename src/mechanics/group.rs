@@ -18,7 +18,6 @@ use super::valuation::Valuation;
 use crate::expr::{Expr, Symbol};
 use crate::model::{ChainPart, GeneratingType, Model, Transformation, TransformationLaw};
 
-/// Finds the transformations of a model.
 pub(super) fn find(equations: &mut Equations, model: &Model) {
     let shared: Vec<Symbol> = model.new_variables().into_iter().map(|(_, s)| s).collect();
     let mut all: Vec<Option<Solution>> = Vec::new();

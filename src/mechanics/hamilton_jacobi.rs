@@ -166,7 +166,6 @@ struct Remainder {
     solves: bool,
 }
 
-/// What is left of the equation.
 fn remainder(
     model: &Model,
     equations: &mut Equations,

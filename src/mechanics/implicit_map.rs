@@ -17,7 +17,7 @@ const HOLDS: f64 = 1e-9;
 /// An image is near another if Newton's first step misses it by less than this part of the step.
 const NEAR: f64 = 0.5;
 
-/// Numbers of several sizes and signs.
+/// Numbers of several sizes.
 const SIZES: [f64; 7] = [0.7, -0.6, 1.9, 0.1, -1.7, 5.0, 30.0];
 
 /// Images are the same if they differ by less than this part of their size.
@@ -30,7 +30,7 @@ const BEGINNINGS: usize = 8;
 /// Multiples of a known image that may be near another.
 const FACTORS: [f64; 4] = [1.0, -1.0, 2.0, -0.5];
 
-/// What `n` numbers of which nothing is known may be near to, for Newton's method to begin with.
+/// First guesses of `n` unknown numbers for Newton's method, of several sizes and signs.
 pub fn guesses(n: usize) -> impl Iterator<Item = Vec<f64>> {
     let row = SIZES.len();
     (0..3 * row).map(move |k| (0..n).map(|i| SIZES[(k + i * (k / row + 1)) % row]).collect())
@@ -205,7 +205,6 @@ impl ImplicitMap {
     }
 }
 
-/// The values of the entries of a matrix.
 pub(super) fn matrix_at(pool: &Pool, of: &[Vec<Expr>], at: &Valuation) -> DMatrix<f64> {
     let columns = of.first().map_or(0, Vec::len);
     DMatrix::from_fn(of.len(), columns, |i, j| at.value(pool, of[i][j]))

@@ -20,7 +20,6 @@ const NUDGES: [f64; 6] = [1e-12, -1e-12, 3e-12, -3e-12, 7e-12, -7e-12];
 /// 0: what it fails by is rounding.
 const MOVES: f64 = 1e-9;
 
-/// Whether values are nearly those beside them.
 fn are_close(values: &[(Symbol, f64)], beside: &[(Symbol, f64)]) -> bool {
     let mut pairs = values.iter().zip(beside);
     pairs.all(|((_, one), (_, other))| (one - other).abs() <= MOVES * one.abs().max(other.abs()))

@@ -65,7 +65,6 @@ impl Unsolved {
         Unsolved { equations, unknowns, found }
     }
 
-    /// The unknowns in an equation.
     fn unknowns_of(&self, pool: &Pool, e: Expr) -> Vec<Symbol> {
         self.unknowns.iter().copied().filter(|&s| pool.depends(e, s)).collect()
     }

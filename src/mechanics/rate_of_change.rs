@@ -39,7 +39,6 @@ fn have_one_ratio(pool: &Pool, both: [Expr; 2], constants_count: bool) -> bool {
         && pairs().all(|(&(m, a), &(n, b))| a == b && same(m, ratio * n))
 }
 
-/// How it is known that a quantity is conserved.
 pub(super) enum ConservedBy {
     /// Its rate is proved to vanish.
     Always,

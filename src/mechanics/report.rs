@@ -73,7 +73,7 @@ pub struct Reaction {
     pub multiplier: Symbol,
 }
 
-/// What an impulse does to each momentum.
+/// The change of each momentum by an impulse.
 #[derive(Clone, Debug)]
 pub struct ImpulseReport<'a> {
     /// The impulse as the file gives it.

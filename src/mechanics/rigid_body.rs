@@ -32,7 +32,6 @@ pub const COMPONENTS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (0,
 /// Nine expressions, by rows.
 pub type Tensor = [[Expr; 3]; 3];
 
-/// Assembles a body from its pieces.
 pub(super) fn compose(pool: &mut Pool, body: &Body) -> RigidBody {
     let masses: Vec<Expr> = body.pieces.iter().map(|piece| piece.mass).collect();
     let mass = pool.sum(&masses);
@@ -290,7 +289,7 @@ pub fn body_values(
     names.all().into_iter().zip(all).collect()
 }
 
-/// The same values, computed before anything is derived.
+/// The values of a body's names at these parameters, computed before anything is derived.
 pub fn body_constants(model: &Model, parameters: &[f64]) -> Vec<(Symbol, f64)> {
     let Some(body) = &model.body else { return Vec::new() };
     let mut pool = model.pool.clone();

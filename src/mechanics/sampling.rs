@@ -54,7 +54,6 @@ impl Valuation {
         Valuation::around_start(model, equations, n, (n, width))
     }
 
-    /// The start itself.
     pub(super) fn at_start(model: &Model, equations: &Equations) -> Valuation {
         Valuation::around_start(model, equations, 0, (0, 0.0))
     }

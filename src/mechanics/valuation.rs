@@ -13,7 +13,7 @@ use crate::model::Model;
 pub struct Valuation(HashMap<Symbol, f64>);
 
 impl Valuation {
-    /// The values of a model's parameters.
+    /// The values of a model's parameters, in the order of the model.
     pub fn of_parameters(model: &Model, parameters: &[f64]) -> Valuation {
         let known = model.parameters.iter().zip(parameters);
         Valuation(known.map(|(parameter, &value)| (parameter.symbol, value)).collect())
@@ -41,7 +41,6 @@ impl Valuation {
         pool.evaluate(e, &|symbol| self.at(symbol))
     }
 
-    /// The size of the terms of an expression.
     pub(super) fn size(&self, pool: &Pool, e: Expr) -> f64 {
         pool.evaluate_with_size(e, &|symbol| self.at(symbol)).1
     }

@@ -38,7 +38,6 @@ pub struct Scope {
     names: BTreeMap<String, Meaning>,
     kinds: FxHashMap<Symbol, SymbolRole>,
     offenders: FxHashMap<Expr, Option<Symbol>>,
-    /// How the symbols of the model are shown.
     infos: Arc<Vec<SymbolInfo>>,
     /// The names as the screen shows them, once something is not a name of the file.
     shown: OnceCell<ShownNames>,

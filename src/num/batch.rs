@@ -87,50 +87,6 @@ impl<const N: usize> Batch<N> {
         lanes!(i => if self.0[i] > other.0[i] { 1.0 } else { 0.0 })
     }
 
-    /// Whether every number is above another.
-    #[inline(always)]
-    pub fn all_above(self, other: Batch<N>) -> bool {
-        let mut all = true;
-        for lane in 0..N {
-            all &= self.0[lane] > other.0[lane];
-        }
-        all
-    }
-
-    /// The least number; there must be no NaN.
-    #[inline(always)]
-    pub fn least(self) -> f64 {
-        self.reduced(|a, b| if b < a { b } else { a })
-    }
-
-    /// The first lane of the least number; there must be no NaN.
-    #[inline(always)]
-    pub fn place_of_least(self) -> usize {
-        let (least, mut place) = (self.least(), 0);
-        for lane in (0..N).rev() {
-            place = if self.0[lane] == least { lane } else { place };
-        }
-        place
-    }
-
-    /// The largest number; there must be no NaN.
-    #[inline(always)]
-    pub fn largest(self) -> f64 {
-        self.reduced(|a, b| if b > a { b } else { a })
-    }
-
-    /// One of the numbers, where the better of two does not depend on their order: four are compared at once, so that
-    /// none waits for all before it.
-    #[inline(always)]
-    fn reduced(self, better: impl Fn(f64, f64) -> f64) -> f64 {
-        const APART: usize = 4;
-        let mut best = [self.0[0]; APART];
-        for lane in 0..N {
-            best[lane % APART] = better(best[lane % APART], self.0[lane]);
-        }
-        better(better(best[0], best[2]), better(best[1], best[3]))
-    }
-
     /// Whether no number is below that of another batch in its lane; NaN is.
     #[inline(always)]
     pub fn all_reach(self, other: Batch<N>) -> bool {

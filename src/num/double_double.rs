@@ -88,12 +88,6 @@ impl DoubleDouble {
         }
     }
 
-    /// The absolute value.
-    #[must_use]
-    pub fn abs(self) -> DoubleDouble {
-        if self.high < 0.0 { -self } else { self }
-    }
-
     /// Returns whether it is finite.
     pub fn is_finite(self) -> bool {
         self.high.is_finite() && self.low.is_finite()

@@ -19,7 +19,6 @@ pub struct ExtendedRange {
     exponent: Exponent,
 }
 
-/// ln 2.
 const LN_2: DoubleDouble =
     DoubleDouble { high: std::f64::consts::LN_2, low: 2.319_046_813_846_299_6e-17 };
 

@@ -242,7 +242,6 @@ mod avx2 {
 
     use super::{BIAS, FourLanes, LANES, MANTISSA, ONE, SHIFT};
 
-    /// The lanes of a mask as bits.
     #[inline(always)]
     fn bits(lanes: V3, mask: m64x4) -> u32 {
         lanes.avx._mm256_movemask_pd(pulp::cast(mask)) as u32

@@ -87,7 +87,6 @@ impl RunOutcome {
         }
     }
 
-    /// A run that ended at a time with these values.
     fn ended(
         (status, message): (OrbitStatus, Option<String>),
         time: f64,
@@ -107,7 +106,6 @@ impl RunOutcome {
 }
 
 impl RunPlan {
-    /// The experiment of one run.
     fn experiment(&self, start: &Start, end: f64) -> Result<Experiment, String> {
         let length = if end > start.time { end - start.time } else { 1.0 };
         let only_ends = self.is_side_by_side();
@@ -167,7 +165,6 @@ impl RunPlan {
     }
 }
 
-/// Many runs.
 impl RunPlan {
     /// Whether they are followed side by side.
     pub fn is_side_by_side(&self) -> bool {
@@ -215,9 +212,7 @@ struct RunTogether<'a, D: FnMut(usize, RunOutcome)> {
     watches: [DriftWatch; BATCH],
     /// The terms of all lanes, where they can be evaluated together.
     terms: Option<BatchTerms>,
-    /// The state at the end of a run.
     last: State,
-    /// Those that have to be followed alone.
     alone: Vec<usize>,
     done: &'a mut D,
 }

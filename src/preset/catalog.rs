@@ -106,14 +106,7 @@ impl Catalog {
 
     /// The path of what a user names, which need not exist; `None` for a shipped preset or an unknown name.
     pub fn place(&self, wanted: &str) -> Option<PathBuf> {
-        if is_path(wanted) {
-            return Some(PathBuf::from(wanted));
-        }
-        let entry = self.entries.iter().find(|entry| entry.name == wanted)?;
-        match &entry.origin {
-            PresetOrigin::User(path) => Some(path.clone()),
-            PresetOrigin::Shipped => None,
-        }
+        CatalogEntry::place_among(&self.entries, wanted)
     }
 
     /// Returns the name of the preset with this title, in capitals or not.

@@ -109,7 +109,6 @@ fn check_once(
     law.map(|_| check.model)
 }
 
-/// A model under construction.
 struct ModelBuilder<'c> {
     /// The file's text, for locating a position inside an expression.
     file: &'c str,

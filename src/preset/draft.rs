@@ -52,7 +52,6 @@ pub(super) use vector::Formulas;
 /// digits.
 pub(super) type Formula = Spanned<String>;
 
-/// The file as written.
 pub(super) struct Draft {
     /// The file's description of itself.
     pub(super) info: Info,
@@ -70,30 +69,20 @@ pub(super) struct Draft {
     pub(super) impulses: Vec<DraftImpulse>,
     /// The events, crossings to be located.
     pub(super) events: Vec<DraftEvent>,
-    /// A body composed of pieces.
     pub(super) body: Option<DraftBody>,
-    /// The attitude of the body.
     pub(super) attitude: Option<DraftAttitude>,
-    /// The incorrect mechanics for comparison.
     pub(super) comparison: Option<DraftComparison>,
     pub(super) transformations: Vec<DraftTransformation>,
     pub(super) generators: Vec<DraftGenerator>,
-    /// The names of equilibria.
     pub(super) equilibria: Vec<DraftEquilibrium>,
-    /// The complete integral.
     pub(super) integral: Option<DraftIntegral>,
     pub(super) observables: Vec<DraftObservable>,
-    /// The file's claims.
     pub(super) expect: DraftExpect,
-    /// The frames for viewing a picture.
     pub(super) frames: Vec<DraftFrame>,
     /// The views that the screen opens with.
     pub(super) views: Vec<DraftView>,
-    /// The shapes of the picture in space.
     pub(super) shapes: Vec<DraftShape>,
-    /// The camera of the picture in space.
     pub(super) camera: DraftCamera,
-    /// The settings of a run.
     pub(super) run: DraftRun,
 }
 
@@ -107,7 +96,6 @@ impl Draft {
 /// The top-level keys of the file, for suggesting where a stray key belongs.
 const TOP_LEVEL: [&str; 6] = ["title", "summary", "source", "chapter", "topics", "notes"];
 
-/// Reads the whole file.
 pub(super) fn read(file: &Spanned<DeTable<'_>>, diagnostics: &Diagnostics) -> Draft {
     let mut top = Table::new("the file", 0..0, file.get_ref(), diagnostics).with(&FILE);
     let info = read_info(&mut top);

@@ -67,7 +67,6 @@ pub fn law_digest(text: &str) -> Option<String> {
     Some(format!("{:016x}", num::digest(said.as_bytes())))
 }
 
-/// Whether a text has the name of an observable.
 fn is_named(observable: &Value, text: &str) -> bool {
     let name = observable.get("name").and_then(Value::as_str);
     name.is_some_and(|name| {
@@ -80,7 +79,6 @@ fn is_named(observable: &Value, text: &str) -> bool {
     })
 }
 
-/// Keeps these keys of a table.
 fn retain(value: &mut Value, keeps: impl Fn(&str) -> bool) {
     if let Value::Table(table) = value {
         table.retain(|key, _| keeps(key));

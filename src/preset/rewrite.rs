@@ -237,7 +237,6 @@ pub(super) fn push(file: &mut DocumentMut, key: &str, table: Table) {
     }
 }
 
-/// The table of expectations.
 const EXPECT: &str = "expect";
 
 /// The table at an entry; a plain value is moved to this key of a new table.

@@ -24,7 +24,6 @@ use key::key;
 use law::{COMPARISON, CONSTRAINT, EVENT, HAMILTONIAN, IMPULSE, LAGRANGIAN, POISSON, RAMP};
 use picture::{FRAME, SPACE, VIEW};
 
-/// The whole file.
 pub(super) const FILE: SchemaTable = SchemaTable {
     head: "(top)",
     about: "What the file says of itself, before the first table.",

@@ -102,7 +102,6 @@ fn steering_value(value: &Spanned<DeValue<'_>>, diagnostics: &mut Diagnostics) {
 enum Loses {
     /// The key at the range, with its value.
     Key,
-    /// The value at the range.
     Value,
     /// Everything that follows.
     Track,

@@ -15,9 +15,7 @@ use super::script::{Assert, AssertedNumber, Comparator, LineText};
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct AssertionResult {
-    /// Whether it is true.
     pub(super) holds: bool,
-    /// A sentence with the values.
     pub(super) sentence: String,
 }
 
@@ -162,7 +160,6 @@ pub(super) fn column(app: &App, of: &LineText) -> Result<usize, Diagnostic> {
     })
 }
 
-/// The index of the channel of an expression that a picture shows.
 pub(super) fn shown_channel(app: &App, of: &LineText) -> Result<usize, Diagnostic> {
     let (lab, _) = seen(app, of)?;
     let channel = lab.shown_channel(&of.text).map_err(|scope| unreadable(&scope, of))?;

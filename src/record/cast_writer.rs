@@ -30,7 +30,6 @@ pub enum Version {
 pub struct Cast<W> {
     out: W,
     version: Version,
-    /// The time of the last event.
     last: Micros,
 }
 

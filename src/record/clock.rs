@@ -4,17 +4,13 @@
 
 use std::time::Duration;
 
-/// Microseconds from the beginning.
 pub(super) type Micros = u64;
 
-/// Microseconds in a second.
 pub(super) const SECOND: Micros = 1_000_000;
 
-/// Frames at a constant rate.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Clock {
     fps: u32,
-    /// The current frame.
     frame: u64,
     /// The time up to which frames were requested.
     until: Micros,
@@ -37,12 +33,10 @@ impl Clock {
         self.time_of(self.frame)
     }
 
-    /// The time of a frame.
     fn time_of(&self, frame: u64) -> Micros {
         frame.saturating_mul(SECOND) / u64::from(self.fps)
     }
 
-    /// The time of the next frame.
     pub(super) fn next(&self) -> Micros {
         self.time_of(self.frame + 1)
     }

@@ -85,7 +85,6 @@ impl HeadlessLab {
         HeadlessLab::open(&self.document, &self.called, fps, self.budget)
     }
 
-    /// The time of the current frame.
     pub(super) fn now(&self) -> Micros {
         self.clock.now()
     }
@@ -112,7 +111,6 @@ impl HeadlessLab {
         })
     }
 
-    /// Sends an event to the application.
     pub(super) fn update(&mut self, event: AppEvent) {
         let effects = self.app.update(event);
         self.run_effects(effects);
@@ -124,7 +122,6 @@ impl HeadlessLab {
         self.run_effects(effects);
     }
 
-    /// Sends a command to the experiment.
     pub(super) fn execute(&mut self, command: Command) {
         let Some(experiment) = &mut self.experiment else { return };
         let clockwork = |e: &Experiment| (e.status() == Status::Running, e.clock(), e.speed());
@@ -171,7 +168,6 @@ impl HeadlessLab {
         }
     }
 
-    /// Runs the effects that the application requests.
     fn run_effects(&mut self, effects: Vec<Effect>) {
         for effect in effects {
             match effect {
@@ -203,7 +199,6 @@ impl HeadlessLab {
         }
     }
 
-    /// Starts a system.
     fn begin(&mut self, name: String, ready: Prepared) -> Loaded {
         let Prepared { model, equations, system, mut experiment, document } = ready;
         self.epoch += 1;

@@ -50,7 +50,6 @@ pub struct Lesson {
     unattended: bool,
 }
 
-/// What a lesson is doing.
 pub(super) enum LessonStage {
     /// Time passes.
     Playing,
@@ -70,7 +69,6 @@ pub(super) enum LessonStage {
     Ended,
 }
 
-/// A paragraph of the pane.
 pub(super) fn paragraph(kind: ParagraphKind, text: impl Into<String>) -> Paragraph {
     Paragraph { kind, text: text.into() }
 }
@@ -217,7 +215,6 @@ impl Lesson {
         }
     }
 
-    /// Performs the next action of the script.
     pub(super) fn next_event(&mut self) -> Result<(), Diagnostic> {
         // what is said of a task is said of what the person did
         let next = self.runner.script.steps.get(self.runner.next).map(|(_, step)| step);
@@ -413,7 +410,6 @@ impl Lesson {
         self.enter(LessonStage::Playing);
     }
 
-    /// Commits an answer to the question.
     pub(super) fn commit(&mut self, answer: GivenAnswer) {
         let app = &mut self.runner.lab.app;
         match (self.question.as_mut().map(|question| &mut question.kind), answer) {

@@ -173,7 +173,6 @@ impl Lesson {
         Ok(PredictedAxis { channel, range, within })
     }
 
-    /// The names of the axes of a prediction.
     pub(super) fn names(&self, prediction: &Prediction) -> [String; 2] {
         let lab = self.runner.lab.app.lab.as_ref();
         prediction.axes.map(|axis| match axis.channel {
@@ -191,7 +190,6 @@ fn spoken(right: bool) -> (ParagraphKind, &'static str) {
     if right { (ParagraphKind::Right, "Right") } else { (ParagraphKind::Wrong, "Wrong") }
 }
 
-/// An option with its letter.
 pub(super) fn letter(index: usize, text: &str) -> String {
     let letter = char::from(b'a' + (index.min(25) as u8));
     format!("{letter}) {text}")

@@ -9,7 +9,6 @@ use crate::view::lesson::{Paragraph, ParagraphKind, rows};
 /// The most rows of the pane on a screen of 80 columns and 24 rows, with its frame.
 const MOST_ROWS: u16 = 11;
 
-/// The most options of a question.
 const MOST_OPTIONS: usize = 6;
 
 /// The errors in the order of a lesson.

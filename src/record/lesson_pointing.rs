@@ -12,7 +12,6 @@ use super::script_runner::ScriptRunner;
 use crate::app::{AppEvent, HitTarget, Prediction};
 use crate::view::{Painter, RenderStyle, hit_test};
 
-/// The most points of a curve.
 const MOST_POINTS: usize = 40;
 
 impl Lesson {

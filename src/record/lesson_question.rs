@@ -46,7 +46,6 @@ pub(super) enum GivenAnswer {
     Points(Vec<[f64; 2]>),
 }
 
-/// How a question was answered.
 #[derive(Clone, Debug)]
 pub(super) struct AnswerVerdict {
     pub(super) question: Question,

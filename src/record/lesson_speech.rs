@@ -145,7 +145,6 @@ impl Lesson {
 }
 
 impl Question {
-    /// Whether a curve is asked for.
     fn is_curve(&self) -> bool {
         matches!(&self.kind, QuestionKind::Place { prediction, .. } if prediction.is_curve)
     }
@@ -163,7 +162,6 @@ impl Question {
         said
     }
 
-    /// The committed answer.
     fn answer(&self) -> String {
         match &self.kind {
             QuestionKind::Choice { options, chosen: Some(chosen) } => {

@@ -70,7 +70,7 @@ pub struct ChapterMarker {
     pub colourless: Buffer,
 }
 
-/// What is told of a script that was run.
+/// An entry of the transcript of a script that was run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum TranscriptEntry {
     /// An action.
@@ -199,7 +199,6 @@ fn too_long(script: &Script, width: u16) -> Vec<Diagnostic> {
     long.map(|(place, _)| Diagnostic::error(place.clone(), message.clone())).collect()
 }
 
-/// A recording in progress.
 struct Take {
     performance: ScriptRunner,
     screen: Frames,
@@ -245,7 +244,6 @@ impl Take {
         Ok(true)
     }
 
-    /// Draws the current state as a frame.
     fn draw(&mut self, now: Micros) -> io::Result<()> {
         let Self { performance, screen, style, .. } = self;
         if performance.lab.takes_repaint() {

@@ -319,7 +319,6 @@ impl Script {
 /// How long a key is shown if the script does not specify it.
 pub const PACE: Micros = 150_000;
 
-/// The result of reading so far.
 #[derive(Default)]
 struct ScriptReading {
     head: ScriptHeader,
@@ -329,14 +328,12 @@ struct ScriptReading {
     diagnostics: Vec<Diagnostic>,
 }
 
-/// The meaning of a line.
 pub(super) enum Said {
     /// A setting of the whole demo.
     Head(Box<dyn FnOnce(&mut ScriptHeader)>),
     Step(ScriptStep),
 }
 
-/// At most this many errors are reported.
 const MOST_ERRORS: usize = 100;
 
 impl ScriptReading {

@@ -30,7 +30,6 @@ const CAPTION_ROWS: u16 = 3;
 pub struct ScriptRunner {
     pub(super) lab: HeadlessLab,
     pub(super) script: Script,
-    /// The index of the next step.
     pub(super) next: usize,
     under_way: PartialStep,
     /// Whether a first picture is due, because time passes or something else needs it.
@@ -46,7 +45,6 @@ pub struct ScriptRunner {
     painter: Painter,
 }
 
-/// The unfinished part of a step.
 enum PartialStep {
     Nothing,
     Keys(vec::IntoIter<KeyEvent>),
@@ -61,11 +59,9 @@ struct ValueRamp {
     to: f64,
 }
 
-/// The next event of a performance.
 pub(super) enum RunnerEvent {
     /// A frame is due and is to be drawn.
     Frame,
-    /// An action was performed.
     Done(&'static str, String),
     /// An assertion at this range; [`ScriptRunner::find`] evaluates it.
     Claim(Range<usize>, Assert),
@@ -143,7 +139,6 @@ impl ScriptRunner {
         self.lab.now()
     }
 
-    /// Performs the next action.
     pub(super) fn next_event(&mut self) -> Result<RunnerEvent, Diagnostic> {
         loop {
             if self.begins && !self.begun {
@@ -179,7 +174,6 @@ impl ScriptRunner {
         }
     }
 
-    /// Begins the next step of the script.
     fn step(&mut self) -> Result<Option<RunnerEvent>, Diagnostic> {
         let Some((place, step)) = self.script.steps.get(self.next).cloned() else {
             // a script that has not shown anything draws its first picture
@@ -291,7 +285,6 @@ impl ScriptRunner {
         }
     }
 
-    /// Gives the least ranges to the pictures of the lab.
     pub(super) fn set_least_ranges(&mut self) {
         if let Some(lab) = &mut self.lab.app.lab {
             lab.set_least_ranges(self.least_ranges.clone());
@@ -365,7 +358,6 @@ impl ScriptRunner {
         self.pass(self.pace);
     }
 
-    /// Advances by one frame.
     pub(super) fn frame(&mut self) {
         if let PartialStep::Sweep { courses, frame, count } = &mut self.under_way {
             *frame += 1;

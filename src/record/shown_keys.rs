@@ -25,7 +25,6 @@ struct ShownKey {
 }
 
 impl ShownKeys {
-    /// All of these keys.
     pub(super) fn of(keys: &[KeyEvent]) -> ShownKeys {
         let mut shown = ShownKeys::default();
         for key in keys {
@@ -62,7 +61,6 @@ impl ShownKeys {
         self.0.clear();
     }
 
-    /// Their names.
     pub(super) fn written(&self) -> Vec<String> {
         let written = |key: &ShownKey| match key.count {
             0 | 1 => key.name.clone(),

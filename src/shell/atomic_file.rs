@@ -95,7 +95,6 @@ fn folder(place: &Path) -> &Path {
     place.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-/// Writes a file, replacing an existing one.
 pub(super) fn write(place: &Path, bytes: &[u8], durability: Durability) -> io::Result<()> {
     let mut file = AtomicFile::begin(place)?;
     file.write_all(bytes)?;

@@ -23,7 +23,6 @@ pub struct CastPlayer {
     cast: RecordedCast,
     /// Where the rest of the cast comes from while it is still being recorded.
     ahead: Option<RecordingAhead>,
-    /// How its recording ended.
     recorded: Option<Result<Recording, NotRecorded>>,
     style: RenderStyle,
     screen: avt::Vt,
@@ -122,7 +121,6 @@ impl CastPlayer {
         usize::from(self.size.height) > self.screen.size().1
     }
 
-    /// Whether the control line is shown.
     fn shows_controls(&self) -> bool {
         let by_itself = self.has_room() || self.paused || self.is_over() || !self.awake.is_zero();
         self.wanted.unwrap_or(by_itself)

@@ -18,7 +18,6 @@ pub(super) struct Checker {
 }
 
 pub(super) struct CheckResult {
-    /// The ticket of the check.
     pub(super) ticket: u64,
     /// The experiment, or what is wrong with the text.
     pub(super) outcome: Result<Box<Prepared>, Vec<Diagnostic>>,
@@ -27,7 +26,6 @@ pub(super) struct CheckResult {
 }
 
 impl Checker {
-    /// Creates an idle checker.
     pub(super) fn new() -> Self {
         Self { side: SideJob::new("checker"), begun: Instant::now() }
     }

@@ -26,7 +26,6 @@ pub(super) fn is_there(variable: &dyn Fn(&str) -> Option<String>) -> bool {
     windows || begins("TERM", &TERMS) || begins("TERM_PROGRAM", &PROGRAMS)
 }
 
-/// Puts a text into the clipboard.
 pub(super) fn write(text: &str, mut out: impl Write) -> io::Result<()> {
     queue!(out, CopyToClipboard::to_clipboard_from(text))
 }

@@ -11,7 +11,6 @@ use etcetera::BaseStrategy;
 use etcetera::base_strategy::Xdg;
 
 use super::options::{OptionRow, Words, rows};
-use super::regular;
 use crate::diagnostic::{Diagnostic, Document};
 use crate::preset::{Plain, Setting};
 
@@ -27,7 +26,7 @@ pub fn path() -> Option<PathBuf> {
 /// Returns an error if the file exists but cannot be read.
 pub fn find() -> io::Result<Option<Document>> {
     let Some(path) = path() else { return Ok(None) };
-    match regular::document(&path) {
+    match Document::open_regular(&path) {
         Ok(document) => Ok(Some(document)),
         Err(error) => match error.kind() {
             io::ErrorKind::NotFound | io::ErrorKind::NotADirectory => Ok(None),

@@ -235,12 +235,10 @@ mod tests {
         assert_eq!(pieces, expected, "{bytes:?} in pieces");
     }
 
-    /// Parses keys by their names.
     fn keys(names: &str) -> Vec<KeyEvent> {
         names.split_whitespace().map(|name| key::named(name).expect("a key")).collect()
     }
 
-    /// Takes the events decoded so far.
     fn taken(decoder: &mut Decoder) -> Vec<Event> {
         decoder.sink.events.drain(..).collect()
     }

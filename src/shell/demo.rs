@@ -33,7 +33,6 @@ pub(super) struct Demo {
 }
 
 impl Demo {
-    /// Creates a demo at its start.
     pub(super) fn new(runner: ScriptRunner, style: RenderStyle) -> Self {
         let style = ScreenStyle::new(style);
         Self { runner, style, time: Duration::ZERO, paused: false, end: None }

@@ -18,7 +18,6 @@ pub struct DoctorFinding {
     pub why: String,
 }
 
-/// The environment.
 type Variables<'a> = &'a dyn Fn(&str) -> Option<String>;
 
 /// The variables that determine the colours.

@@ -13,7 +13,6 @@ use crossterm::event::Event;
 use super::question::{Questions, TerminalReply};
 use super::terminal::{Terminal, TerminalMode};
 
-/// A reader of a terminal.
 pub(super) trait EventSource {
     /// Reads the available input; call it when there is some. Returns `false` if the terminal is gone.
     fn read(&mut self, terminal: &Terminal) -> io::Result<bool>;

@@ -26,7 +26,6 @@ enum Task {
     Sync,
 }
 
-/// Writes files.
 #[derive(Debug)]
 pub(super) struct FileWriter {
     tasks: Sender<(PathBuf, Task)>,
@@ -38,7 +37,6 @@ pub(super) struct FileWriter {
 }
 
 impl FileWriter {
-    /// Creates an idle writer.
     pub(super) fn new() -> io::Result<Self> {
         let (tasks, given) = channel::<(PathBuf, Task)>();
         let (sender, outcomes) = channel();
@@ -70,7 +68,6 @@ impl FileWriter {
         self.hurried.store(hurried, Ordering::Relaxed);
     }
 
-    /// Queues the writing of a file.
     pub(super) fn write(
         &mut self,
         path: &Path,

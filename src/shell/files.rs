@@ -75,7 +75,6 @@ pub(super) fn read(place: &Path) -> io::Result<String> {
     })
 }
 
-/// A file that is checked periodically.
 #[derive(Debug, Default)]
 pub(super) struct Watch {
     place: Option<PathBuf>,
@@ -85,12 +84,13 @@ pub(super) struct Watch {
     missed: u32,
 }
 
-/// A change of a watched file.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) enum FileChange {
     /// It has changed and now has this text, or it has reappeared.
-    Text { text: String, back: bool },
-    /// It has disappeared.
+    Text {
+        text: String,
+        back: bool,
+    },
     Gone,
 }
 
@@ -98,7 +98,6 @@ pub(super) enum FileChange {
 /// write it.
 const GONE: u32 = 2;
 
-/// The metadata that changes with a file.
 type FileMetadata = (u64, Option<SystemTime>, u64);
 
 impl Watch {

@@ -153,7 +153,6 @@ pub fn run_screen(page: &mut impl Screen, pace: FramePace) -> Result<Ending, Lab
     Ok(ended?)
 }
 
-/// Restores the terminal when dropped.
 struct RestoreOnDrop(Arc<Terminal>);
 
 impl Drop for RestoreOnDrop {
@@ -170,7 +169,6 @@ struct FrameLoop<'a, E> {
     queue: Queue,
     size: Option<Size>,
     governor: Governor,
-    /// Whether the mouse is to be captured.
     mouse: bool,
     /// Whether the terminal knows the keyboard protocol.
     keyboard: bool,

@@ -27,7 +27,6 @@ pub(super) struct Loader {
 type LoadOutcome = Result<(String, Box<Prepared>), LoadError>;
 
 impl Loader {
-    /// Creates a loader with the presets of this catalog.
     pub(super) fn new(catalog: Arc<Catalog>) -> Self {
         Self { catalog, name: String::new(), request: 0, side: SideJob::new("loader") }
     }

@@ -36,16 +36,13 @@ pub enum LogFile {
 #[derive(Debug, thiserror::Error)]
 #[error("cannot write the log {}: {}", printable::path(.path), printable::why(.reason))]
 pub struct LogError {
-    /// The file.
     path: PathBuf,
-    /// The reason given by the system.
     reason: io::Error,
 }
 
 /// How long the end of the program waits for the last lines.
 const PATIENCE: Duration = Duration::from_millis(200);
 
-/// A log that is being written.
 #[derive(Debug)]
 pub(super) struct Log {
     writer: WorkerGuard,

@@ -13,7 +13,6 @@ use tempfile::NamedTempFile;
 use super::atomic_file::{self, Registered, USUAL, named, sync_folder};
 use crate::printable;
 
-/// The maximum number of names tried.
 const NAMES: u32 = 10_000;
 
 /// The number of bytes written at once.
@@ -113,7 +112,6 @@ impl NewFile {
         Err(io::Error::new(why.kind(), message))
     }
 
-    /// Returns the path with this number.
     fn place(&self, number: u32) -> PathBuf {
         self.folder.join(numbered(&self.stem, number, self.ending))
     }

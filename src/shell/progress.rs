@@ -41,7 +41,6 @@ impl Default for LessonProgress {
     }
 }
 
-/// The version of the file.
 const VERSION: u32 = 1;
 
 /// The greatest size of the file, in bytes.

@@ -19,10 +19,8 @@ pub struct Questions {
     pub keyboard: bool,
 }
 
-/// What a terminal has answered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum TerminalReply {
-    /// The colour of its background.
     Background(Rgb),
     /// It knows the keyboard protocol.
     Keyboard,
@@ -43,7 +41,6 @@ impl Questions {
         self.background || self.keyboard
     }
 
-    /// Returns the bytes that ask.
     pub(super) fn bytes(self) -> Vec<u8> {
         let asked = [(self.keyboard, KEYBOARD), (self.background, BACKGROUND)];
         let asked = asked.into_iter().filter(|(asked, _)| *asked).map(|(_, bytes)| bytes);

@@ -16,7 +16,6 @@ use crate::record::plain;
 use crate::view::frame::Frames;
 use crate::view::theme::Palette;
 
-/// A cast being recorded.
 #[derive(Debug)]
 pub(super) struct CastRecorder {
     cast: Cast<NewFile>,
@@ -38,7 +37,6 @@ impl CastRecorder {
         Ok(Self { cast, frames: Frames::new(false)?, began: Instant::now(), size })
     }
 
-    /// Records a screen.
     pub(super) fn take(&mut self, screen: &Buffer) -> io::Result<()> {
         let now = self.now();
         let size = screen.area.as_size();

@@ -11,15 +11,12 @@ use crate::job::{Job, Outcome};
 use crate::record::{CastEvent, Recording, RecordingSoFar, Script, called, play_while};
 use crate::worker::SideJob;
 
-/// A time in microseconds.
 type Micros = u64;
 
-/// What is new of a recording.
 #[derive(Debug)]
 pub(super) struct NewEvents {
     /// The events since the last ones.
     pub(super) events: Vec<(Micros, CastEvent)>,
-    /// The time that is reached.
     pub(super) reached: Micros,
     /// The number of claims that were checked, and those of them that are false.
     claims: usize,

@@ -51,21 +51,15 @@ pub(super) fn read_text(path: &Path, most: usize) -> io::Result<String> {
     text.map_err(|_| io::Error::new(ErrorKind::InvalidData, "it is not UTF-8 text"))
 }
 
-/// Reads a document from a file.
-///
-/// # Errors
-/// Returns an error if the file cannot be read or is not regular.
-pub(super) fn document(path: &Path) -> io::Result<Document> {
-    Document::open_regular(path)
-}
-
 /// Returns the document for a preset's name or a path.
 ///
 /// # Errors
 /// Returns an error if there is no such preset, or no regular file.
 pub(super) fn find(catalog: &Catalog, name: &str) -> Result<Document, NotFound> {
     match catalog.place(name) {
-        Some(path) => document(&path).map_err(|reason| NotFound::File { path, reason }),
+        Some(path) => {
+            Document::open_regular(&path).map_err(|reason| NotFound::File { path, reason })
+        }
         None => catalog.find(name),
     }
 }

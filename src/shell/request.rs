@@ -96,7 +96,6 @@ impl Request {
         if self.reduced_motion { CALM } else { MOST_FRAMES }
     }
 
-    /// Returns how frames are sent.
     pub(super) fn pace(&self, variable: &dyn Fn(&str) -> Option<String>) -> FramePace {
         let far = ["SSH_CONNECTION", "SSH_TTY"].iter().any(|name| variable(name).is_some());
         let frames = self.frames.unwrap_or(if far { FAR } else { NEAR }).min(self.most_frames());

@@ -6,7 +6,6 @@ use crate::view::colour::Rgb;
 use crate::view::{Detail, RenderStyle};
 
 pub(super) struct ScreenStyle {
-    /// The style in full detail.
     full: RenderStyle,
     detail: Detail,
     /// The style at the current level of detail.
@@ -14,12 +13,10 @@ pub(super) struct ScreenStyle {
 }
 
 impl ScreenStyle {
-    /// A style in full detail.
     pub(super) fn new(full: RenderStyle) -> Self {
         Self { drawn: full.clone(), full, detail: Detail::default() }
     }
 
-    /// The style in full detail.
     pub(super) fn full(&self) -> &RenderStyle {
         &self.full
     }

@@ -44,7 +44,6 @@ use crate::view::theme::PALETTES;
 use crate::view::{self, Detail, Painter, RenderStyle};
 use crate::worker::{SideJob, Worker};
 
-/// The running laboratory.
 pub(super) struct Session {
     app: App,
     style: ScreenStyle,
@@ -56,7 +55,6 @@ pub(super) struct Session {
     saving: Saving,
     /// Writes the file that a key requested.
     writer: Writer,
-    /// The background jobs of each asker.
     sides: HashMap<Asker, SideJob<Answer>>,
     /// A warning to repeat when the first system is loaded, since loading clears notifications.
     warning: Option<String>,
@@ -73,7 +71,7 @@ pub(super) struct Session {
     /// The screen's size when it was last drawn.
     size: Size,
     clipboard: Clipboard,
-    exit: Exit,
+    exit: ProgramEnd,
 }
 
 /// What saves the session while the laboratory is open.
@@ -85,23 +83,20 @@ struct Saving {
     stored_texts: u64,
 }
 
-/// The terminal's clipboard.
 struct Clipboard {
     is_there: bool,
-    /// The text to be put into it.
     text: Option<String>,
 }
 
 /// The end of the program.
 #[derive(Default)]
-struct Exit {
+struct ProgramEnd {
     /// The result of saving, once it was done.
     result: Option<ExitResult>,
     /// Whether the program was being terminated when it was saved.
     is_forced: bool,
 }
 
-/// The result of saving at the end.
 #[derive(Debug)]
 pub(super) struct ExitResult {
     pub(super) recorded: io::Result<()>,
@@ -167,7 +162,7 @@ impl Session {
                 is_there: clipboard::is_there(&|name| std::env::var(name).ok()),
                 text: None,
             },
-            exit: Exit::default(),
+            exit: ProgramEnd::default(),
         };
         session.find_guides();
         session.execute(effects);

@@ -23,7 +23,6 @@ struct UnsavedTexts {
     texts: Vec<Unsaved>,
 }
 
-/// The version of that format.
 const TEXTS_VERSION: u32 = 1;
 
 /// The maximum size of a session or of texts, in bytes: more than 30 texts of the greatest length, each with its

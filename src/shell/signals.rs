@@ -51,7 +51,6 @@ pub(super) struct Signals {
 /// The signals since the last check.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct PendingSignals {
-    /// Whether the program was asked to stop (SIGTSTP).
     pub(super) stop: bool,
     /// Whether it was stopped and has been resumed (SIGCONT).
     pub(super) resumed: bool,
@@ -105,7 +104,6 @@ impl Signals {
         &self.wake
     }
 
-    /// Takes the pending signals.
     pub(super) fn take(&self) -> PendingSignals {
         while matches!((&self.wake).read(&mut [0; 64]), Ok(64)) {}
         let mut pending = self.pending.lock().unwrap_or_else(PoisonError::into_inner);

@@ -173,7 +173,6 @@ impl Store {
         self.texts.as_deref()
     }
 
-    /// Whether texts are stored, as far as is known.
     pub(super) fn keeps_texts(&self) -> bool {
         self.texts.is_some() && !self.failed
     }

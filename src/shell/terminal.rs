@@ -120,7 +120,6 @@ impl Command for ReportMouse {
     }
 }
 
-/// The result of a wait.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Ready {
     pub(super) input: bool,

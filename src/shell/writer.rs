@@ -19,7 +19,6 @@ pub(super) struct Writer {
 }
 
 impl Writer {
-    /// Creates an idle writer.
     pub(super) fn new() -> Self {
         Self { side: SideJob::new("writer") }
     }
@@ -45,7 +44,6 @@ impl Writer {
         Ok(())
     }
 
-    /// Whether a file is being written.
     pub(super) fn is_busy(&self) -> bool {
         self.side.is_busy()
     }

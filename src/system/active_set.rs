@@ -24,7 +24,6 @@ pub(super) struct Constrained {
     pub(super) switched: bool,
 }
 
-/// Which constraints are enforced.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub(super) struct ActiveSet {
     /// The constraints that have not been released.

@@ -23,7 +23,6 @@ pub struct BatchEventSigns {
 /// How the functions follow from the motion.
 #[derive(Clone, Debug)]
 enum Functions {
-    /// They are these numbers of it.
     Numbers(Vec<usize>),
     Program {
         jet: Box<Jet<Batch>>,

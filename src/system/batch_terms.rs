@@ -112,8 +112,7 @@ impl BatchTerms {
         lanes.fold(true, |regular, (&finite, ordinary)| regular && ordinary && finite == 0.0)
     }
 
-    /// Whether a quantity (0 for the energy, then the conserved quantities in order) can be
-    /// evaluated.
+    /// Whether a quantity (0 for the energy, then the conserved quantities in order) can be evaluated.
     pub fn has(&self, quantity: usize) -> bool {
         self.places.get(quantity).is_some_and(Option::is_some)
     }
@@ -137,7 +136,6 @@ impl BatchTerms {
     }
 }
 
-/// The kernel of the evaluation.
 struct TermsKernel<'a> {
     terms: &'a mut BatchTerms,
     time: Batch,
@@ -166,7 +164,6 @@ impl Kernel for TermsKernel<'_> {
     }
 }
 
-/// The kernel of the sums.
 struct SumsKernel<'a> {
     terms: &'a BatchTerms,
     quantity: usize,

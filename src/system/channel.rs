@@ -23,7 +23,7 @@ pub struct Channel {
     pub is_place: bool,
 }
 
-/// What a channel measures.
+/// The quantity that a channel measures.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum ChannelKind {
     /// The coordinate of this index.

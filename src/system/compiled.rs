@@ -92,6 +92,9 @@ pub enum CompileError {
 impl System {
     /// Compiles `equations`, which were derived from `model`. All expressions, including those of
     /// the `extra` channels, belong to `equations.pool`.
+    ///
+    /// # Errors
+    /// Returns an error if an expression depends on a symbol that has no number in a state.
     pub fn compile(
         model: &Model,
         equations: &Equations,
@@ -174,13 +177,13 @@ impl System {
         })
     }
 
-    /// The same system, whose work another token cancels.
+    /// This system, with another token that cancels work with it.
     #[must_use]
     pub fn with_cancel(&self, cancel: Cancel) -> System {
         System { cancel, ..self.clone() }
     }
 
-    /// The same system, whose series are never computed by machine code. They have the same bits.
+    /// This system, with series that are never computed by machine code. They have the same bits.
     #[must_use]
     pub fn interpreted(&self) -> System {
         System { interpreted: true, ..self.clone() }

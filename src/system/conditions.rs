@@ -142,12 +142,10 @@ impl Conditions {
         self.sizes.set_parameters(parameters);
     }
 
-    /// The number of switches of the constraints.
     pub(super) fn switches(&self) -> usize {
         self.values.switches()
     }
 
-    /// The value of one of them.
     pub(super) fn switch(&self, i: usize) -> f64 {
         self.values.switch(i).high
     }
@@ -157,12 +155,10 @@ impl Conditions {
         !self.values.program().guards.is_empty()
     }
 
-    /// The number of coordinates.
     pub(super) fn degrees(&self) -> usize {
         self.degrees
     }
 
-    /// The number of constraints.
     pub(super) fn count(&self) -> usize {
         self.count
     }

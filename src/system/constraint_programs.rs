@@ -9,7 +9,7 @@ use super::program::Program;
 use super::rhs::ProgramBuilder;
 use crate::expr::{Expr, FunctionId, Node, Pool, Symbol};
 use crate::mechanics::Holonomy;
-use crate::num::Number;
+use crate::num::{Number, gcd};
 
 /// The number of values of each constraint beside its entries of A: A₀, f, g, a turn of f, and the jumps of f.
 pub(super) const VALUES: usize = 4 + JUMPS;
@@ -24,7 +24,6 @@ pub(super) const JUMPS: usize = 3;
 /// is so small that any residual would be near a multiple of it, and the constraint would not be kept.
 const MOST_PARTS: i64 = 100;
 
-/// The programs of the constraints, as functions of (q, t).
 #[derive(Clone, Debug)]
 pub(super) struct ConstraintPrograms {
     /// A, A₀, f and g of each constraint, by how much f jumps where any angle in it begins a new turn, and if there is no such
@@ -146,19 +145,12 @@ fn common_measure(pool: &mut Pool, jumps: &[Expr]) -> Option<(Expr, Number)> {
         let Some(Number::Rational(n, d)) = pool.as_number(ratio) else { return None };
         let Number::Rational(m, e) = multiple else { return None };
         let [n, d, m, e] = [n, d, m, e].map(i128::from);
-        multiple = Number::ratio(common_divisor(n * e, m * d), d * e);
+        let divisor = gcd((n * e).unsigned_abs(), (m * d).unsigned_abs());
+        multiple = Number::ratio(divisor as i128, d * e);
         ratios.push(Number::ratio(n, d));
     }
     let most = multiple * Number::integer(MOST_PARTS);
     ratios.iter().all(|ratio| ratio.abs() <= most).then_some((unit, multiple))
-}
-
-fn common_divisor(a: i128, b: i128) -> i128 {
-    let (mut a, mut b) = (a.abs(), b.abs());
-    while b != 0 {
-        (a, b) = (b, a % b);
-    }
-    a
 }
 
 /// Whether an expression is smooth everywhere and has one value: an angle of a point jumps, and a

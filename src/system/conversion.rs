@@ -43,6 +43,10 @@ impl System {
     }
 
     /// The initial state at these parameters; `given` values replace those of the file.
+    ///
+    /// # Errors
+    /// Returns an error if a value is not finite, no velocities belong to the momenta, or the constraints contradict the
+    /// values.
     pub fn initial(
         &self,
         start: f64,
@@ -146,6 +150,9 @@ impl System {
     /// The same state in another form. If several velocities belong to the momenta, the search
     /// starts from the file's initial velocities; [`System::convert_near`] takes a better guess, but
     /// leaves tangent vectors as they are.
+    ///
+    /// # Errors
+    /// Returns an error if the state has no such form: the mass matrix is singular, or no velocities belong to the momenta.
     pub fn convert(
         &self,
         state: &State,
@@ -195,6 +202,9 @@ impl System {
     /// Transfers a state across a jump of the parameters. q and p are unchanged, so q̇ may change.
     /// If the constraints change with the parameters, q moves by the least amount that satisfies
     /// them, and p changes by their reactions.
+    ///
+    /// # Errors
+    /// Returns an error if no state with these q and p exists at the new parameters.
     pub fn change_parameters(
         &self,
         state: &State,
@@ -256,7 +266,10 @@ impl System {
         Ok(result)
     }
 
-    /// The energy of a state in either form.
+    /// The energy of a state in either form, in the units of the file.
+    ///
+    /// # Errors
+    /// Returns an error if the state has no velocities or momenta that the energy needs.
     pub fn energy(&self, state: &State, parameters: &[f64]) -> Result<f64, MotionError> {
         let native = self.convert(state, self.form(), parameters)?;
         Ok(self.energy_of(&native, parameters)?.high)
@@ -264,6 +277,9 @@ impl System {
 
     /// The same state in the system's native form, near a state that already has it: on the same
     /// branch, if several velocities belong to the momenta.
+    ///
+    /// # Errors
+    /// Returns an error if the state has no such form near the other.
     pub fn convert_near(
         &self,
         state: &State,

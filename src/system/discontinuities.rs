@@ -31,7 +31,6 @@ pub struct Discontinuities {
     pub(super) steps: Arc<Program>,
     /// Whether a momentum of L, as a function of the velocities, jumps at a time, at such a zero or at a pole.
     pub momenta_jump: bool,
-    /// Whether L is quadratic in the velocities.
     quadratic: bool,
 }
 
@@ -44,7 +43,6 @@ pub struct CompiledEvent {
     pub direction: Direction,
     /// The action that an event triggers.
     pub action: EventAction,
-    /// Whether its function is constant between impulses.
     is_constant: bool,
     /// The constraint whose expression its function is, but for a factor.
     constraint: Option<usize>,
@@ -70,7 +68,6 @@ pub struct CompiledImpulse {
 }
 
 impl Discontinuities {
-    /// Whether L is quadratic in the velocities.
     pub(super) fn is_quadratic(&self) -> bool {
         self.quadratic
     }

@@ -32,7 +32,7 @@ impl fmt::Display for Passage {
     }
 }
 
-/// What happened.
+/// The kind of an error of a motion.
 #[derive(Clone, PartialEq, Debug)]
 pub enum MotionErrorKind {
     /// An error at a place that another method passes.

@@ -9,7 +9,10 @@ use super::{Form, State, System};
 use crate::num::DoubleDouble;
 
 impl System {
-    /// Returns an error if a number of a state is not finite.
+    /// Checks that every number of a state is finite.
+    ///
+    /// # Errors
+    /// Returns an error that names the first number that is not finite.
     pub fn check_finite(&self, state: &State) -> Result<(), MotionError> {
         match state.values.iter().position(|x| !x.is_finite()) {
             None => Ok(()),

@@ -43,8 +43,8 @@ impl EventFunctions {
         self.expansion = None;
     }
 
-    /// Whether the function of an event has zeros that are no rounding: it is neither constant along the motion nor what a
-    /// constraint in force keeps at zero.
+    /// Whether the zeros of an event's function are more than rounding: the function is neither constant along the motion
+    /// nor kept at zero by an active constraint.
     pub fn may_cross(&self, event: usize) -> bool {
         let is_active = |constraint: usize| !self.system.is_released(constraint);
         self.system.discontinuities().events[event].may_cross(is_active)
@@ -80,7 +80,6 @@ impl EventFunctions {
         self.expansion(series.order()).keep_signs(series, signs, within)
     }
 
-    /// The expansion up to an order.
     fn expansion(&mut self, order: usize) -> &mut Expansion {
         let (system, parameters) = (&self.system, self.native.parameters());
         let expansion = self.expansion.take().filter(|known| known.order() == order);
@@ -119,7 +118,10 @@ impl EventFunctions {
         self.resolution.after(&native, near)
     }
 
-    /// Evaluates every event's function at a state.
+    /// Writes the value of every event's function at a state into `out`, one for each event.
+    ///
+    /// # Errors
+    /// Returns an error if the state has no velocities or momenta that a function needs.
     pub fn observe(&mut self, state: &State, out: &mut [f64]) -> Result<(), MotionError> {
         self.native.write(state, &mut self.inputs)?;
         for (rounded, x) in self.rounded.iter_mut().zip(&self.inputs) {
@@ -137,6 +139,9 @@ impl EventFunctions {
     }
 
     /// The value of one event's function, in double-double.
+    ///
+    /// # Errors
+    /// Returns an error if the state has no velocities or momenta that the function needs.
     pub fn exactly(&mut self, event: usize, state: &State) -> Result<DoubleDouble, MotionError> {
         self.native.write(state, &mut self.inputs)?;
         let found = self.exact.evaluate(state.exact_time(), &self.inputs);
@@ -149,8 +154,8 @@ impl EventFunctions {
 }
 
 impl System {
-    /// The same system for motions of which nobody asks when the events and crossings happen that
-    /// change nothing; they are located only where others are.
+    /// This system for motions whose events and crossings without effect nobody observes: these are located only where
+    /// others are.
     #[must_use]
     pub fn without_marks(&self) -> System {
         let mark = |event: &CompiledEvent| {

@@ -33,6 +33,9 @@ impl ExactRates {
     }
 
     /// Evaluates at a time and at the numbers of a state.
+    ///
+    /// # Errors
+    /// Returns an error if the mass matrix is singular there, or no velocities belong to the momenta.
     pub fn evaluate(
         &mut self,
         time: DoubleDouble,

@@ -133,7 +133,6 @@ impl Expansion {
         }
     }
 
-    /// Sets those of one number, which are in a unit.
     fn take_in_one(&mut self, place: usize, (coefficients, unit): (&[f64], f64), x: f64) {
         if !self.read[place] {
             return;
@@ -176,7 +175,6 @@ impl Expansion {
             && arguments.into_iter().all(|i| stays(self.jet.output_series(i), time))
     }
 
-    /// The coefficients of an event's function.
     pub(super) fn function(&self, event: usize) -> &[f64] {
         if self.numbers.is_some() {
             return &self.shifted[event * self.moved.len()..][..self.moved.len()];

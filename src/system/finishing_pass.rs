@@ -71,7 +71,6 @@ pub(super) struct LinearSolve {
     pub(super) inner: u32,
 }
 
-/// One operation.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Step {
     Time(Register),
@@ -199,7 +198,6 @@ mod tests {
         (Step::Sum(LinearSum { register, first: 0, count }), needs.to_vec())
     }
 
-    /// The registers that each run writes.
     fn runs_of(steps: &[(Step, Vec<Register>)]) -> Vec<Vec<Register>> {
         let mut sorter = Sorter::new(16);
         for (step, needs) in steps {

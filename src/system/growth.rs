@@ -30,7 +30,6 @@ pub(super) enum Halt {
     Singular(Singular),
     /// No weights keep the switches at zero.
     Sticks,
-    /// The computation was cancelled.
     Cancelled,
 }
 
@@ -73,12 +72,10 @@ impl<R: Coefficient> SeriesBuilder<R> {
         &self.state[i * (self.order + 1)..][..=self.order]
     }
 
-    /// All coefficients of the state.
     pub(super) fn coefficients(&self) -> &[R] {
         &self.state
     }
 
-    /// The series of the state.
     pub(super) fn list(&self) -> SeriesList<'_, R> {
         SeriesList { coefficients: &self.state, stride: self.order + 1 }
     }
@@ -111,12 +108,10 @@ impl<R: Coefficient> SeriesBuilder<R> {
         self.state.len() / (self.order + 1)
     }
 
-    /// Sets a number at the origin.
     pub(super) fn set_origin(&mut self, i: usize, x: R) {
         self.state[i * (self.order + 1)] = x;
     }
 
-    /// A number at the origin.
     pub(super) fn origin_mut(&mut self, i: usize) -> &mut R {
         &mut self.state[i * (self.order + 1)]
     }

@@ -186,7 +186,6 @@ impl MapImage {
         }
     }
 
-    /// The image on the branch of a known one.
     fn follow(
         &mut self,
         known: &Known,

@@ -89,6 +89,9 @@ impl System {
     ///
     /// If a state carries the work done on the motion, the impulse's work is added by its law, Δh =
     /// ½(q̇⁻ + q̇⁺)·Q̂ − Λ̂·A₀ for an L that is quadratic in q̇, and from the energies otherwise.
+    ///
+    /// # Errors
+    /// Returns an error if no motion has the momenta after the impulse, or a number of it is not finite.
     pub fn apply_impulse(
         &self,
         impulse: usize,
@@ -146,7 +149,6 @@ impl System {
         Ok(ImpulseOutcome { after, jump, reaction })
     }
 
-    /// Adds the work of an impulse to the work of a state.
     fn add_work(
         &self,
         before: &State,

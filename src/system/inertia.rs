@@ -13,7 +13,6 @@ use crate::mechanics::principal;
 use crate::model::Model;
 use crate::num::DoubleDouble;
 
-/// The inertia of one body.
 #[derive(Clone, Debug)]
 pub(super) struct Inertia {
     /// Six tensor components, mass and three coordinates, as functions of the parameters alone.
@@ -44,7 +43,6 @@ impl Inertia {
         &self.names
     }
 
-    /// The values of these numbers.
     pub(super) fn values(&self, parameters: &[DoubleDouble]) -> Vec<DoubleDouble> {
         let mut values: Evaluator<DoubleDouble> = Evaluator::new(Arc::clone(&self.program));
         values.set_parameters(parameters);

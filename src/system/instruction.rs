@@ -39,7 +39,6 @@ pub(super) enum Instruction {
         sum: u8,
         to: u8,
     },
-    /// A longer sum.
     Sum {
         sum: u8,
         to: u8,

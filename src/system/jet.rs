@@ -130,6 +130,9 @@ impl<R: Coefficient> Jet<R> {
 
     /// Evaluates all registers at order `k`, at a time that advances in units of `scale`. The lower
     /// orders must have been evaluated, and the inputs' coefficients of order `k` set.
+    ///
+    /// # Errors
+    /// Returns the block of equations whose matrix is singular.
     pub fn advance(&mut self, k: usize, time: R, scale: R::Unit) -> Result<(), Singular> {
         vectorized(Advance { jet: self, orders: k..=k, time, scale })
     }
@@ -157,7 +160,6 @@ impl<R: Coefficient> Jet<R> {
         self.begin_by(&mut Interpreted, time)
     }
 
-    /// The same in parts.
     #[inline(always)]
     pub(super) fn begin_by(&mut self, parts: &mut impl Parts, time: R) -> Result<(), Singular> {
         let Jet { program, tables, .. } = self;
@@ -265,7 +267,6 @@ impl<R: Coefficient> Jet<R> {
         })
     }
 
-    /// The series of a register that is read as a whole.
     pub(super) fn series(&self, register: Register) -> &[R] {
         let Tables { series, stride, index, .. } = &self.tables;
         &series[index.start(register, *stride)..][..*stride]
@@ -280,6 +281,9 @@ impl<R: Coefficient> Jet<R> {
 impl<R: Real> Jet<R> {
     /// Copies the orders below `orders` from a jet of the same program in another precision, and
     /// factors the matrices that it has factored.
+    ///
+    /// # Errors
+    /// Returns the block of equations whose matrix is singular.
     pub fn take_over<S: Real>(&mut self, other: &Jet<S>, orders: usize) -> Result<(), Singular> {
         self.copy(other, orders);
         let (program, tables) = (&*self.program, &mut self.tables);

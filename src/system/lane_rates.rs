@@ -30,7 +30,7 @@ pub struct LaneRates<const N: usize> {
 }
 
 impl Rates {
-    /// The same rates for so many stages side by side; lanes without a stage must repeat the first. There are none where
+    /// These rates at so many stages side by side; lanes without a stage must repeat the first. `None` where
     /// velocities have to be solved for, where the program cannot be written as a list, and for more than [`STAGES`].
     pub fn of_stages(&self, count: usize) -> Option<StageRates> {
         let mut rates = self.in_lanes().filter(|_| (1..=STAGES).contains(&count))?;
@@ -38,8 +38,8 @@ impl Rates {
         Some(rates)
     }
 
-    /// The same rates for several orbits side by side. There are none where velocities have to be solved for, where the
-    /// program cannot be written as a list, and where an orbit may take another course than its neighbours.
+    /// These rates of several orbits side by side. `None` where velocities have to be solved for, where the program
+    /// cannot be written as a list, and where an orbit may take another course than its neighbours.
     pub fn of_orbits(&self) -> Option<OrbitRates> {
         let parts = |op: &Op| matches!(op, Op::Select { .. } | Op::ParametricPower(..));
         let system = self.system();
@@ -65,7 +65,7 @@ impl<const N: usize> LaneRates<N> {
         self.list.suits()
     }
 
-    /// The same for one lane.
+    /// Sets the parameters of one lane to those of `rates`. Returns false as [`LaneRates::set_parameters`] does.
     #[must_use]
     pub fn set_parameters_of(&mut self, lane: usize, rates: &Rates) -> bool {
         self.list.set_parameters_of(lane, &rates.values)

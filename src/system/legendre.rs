@@ -70,7 +70,6 @@ pub(super) fn program(builder: &mut ProgramBuilder<'_>) -> Result<Arc<Program>, 
 /// Why no solution was found.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum LegendreError {
-    /// The matrix of derivatives is singular.
     Singular,
     /// The iteration does not converge.
     NotConverging,
@@ -149,7 +148,6 @@ impl Legendre {
         self.values.set_parameters(parameters);
     }
 
-    /// The form that is solved for.
     pub(super) fn native(&self) -> Form {
         self.native
     }

@@ -75,8 +75,8 @@ fn never_negative(program: &Program) -> Vec<bool> {
 }
 
 impl Logarithms {
-    /// Whether none has a negative argument in a state. Always true for a state whose velocities cannot be found, of
-    /// which its own error tells.
+    /// Whether no logarithm has a negative argument in a state. Also true if the velocities of the state cannot be found,
+    /// which is reported as an error of its own.
     pub fn have_values(&mut self, state: &State) -> bool {
         let Ok(native) = self.system.convert(state, self.system.form(), &self.parameters) else {
             return true;

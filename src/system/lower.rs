@@ -54,14 +54,12 @@ impl<'a> Lowering<'a> {
         self.cuts = true;
     }
 
-    /// The register of the next input.
     pub(super) fn input(&mut self) -> Register {
         let register = self.push(Op::Input(self.program.inputs.len() as u32));
         self.program.inputs.push(register);
         register
     }
 
-    /// Binds the symbol to the register from here on.
     pub(super) fn bind(&mut self, symbol: Symbol, register: Register) {
         let e = self.pool.variable(symbol);
         self.known.insert(e, register);

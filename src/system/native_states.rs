@@ -37,7 +37,6 @@ impl NativeStates {
         self.legendre.set_parameters(inputs);
     }
 
-    /// The parameters in use.
     pub(super) fn parameters(&self) -> &[f64] {
         &self.parameters
     }

@@ -15,13 +15,11 @@ use crate::expr::{Expr, FunctionId, Node, Symbol};
 use crate::mechanics::{Equations, Flow, ImplicitMap};
 use crate::model::{self, Follow, Mechanics, Model, Shape};
 
-/// All observables of one system.
 #[derive(Clone, Debug)]
 pub(super) struct Observables {
     pub(super) channels: Vec<Channel>,
     /// The number of leading channels that are the columns of a run.
     pub(super) columns: usize,
-    /// The channel of each expression.
     pub(super) index: FxHashMap<Expr, usize>,
     /// The leading channels, as functions of (q, native rates, action, work).
     pub(super) precise: Arc<Program>,
@@ -42,7 +40,6 @@ pub(super) struct ObservableList {
 }
 
 impl ObservableList {
-    /// Lists the channels of a model.
     pub(super) fn of(
         model: &Model,
         equations: &mut Equations,
@@ -274,7 +271,6 @@ impl ObservableList {
         reached.into_iter().any(|e| equations.pool.as_symbol(e) == Some(symbol))
     }
 
-    /// Compiles the list.
     pub(super) fn compile(self, builder: &mut ProgramBuilder<'_>) -> Result<Observables, Symbol> {
         let equations = builder.equations;
         let maps = equations.supplements.maps.implicit.iter();
@@ -406,7 +402,6 @@ fn followed(model: &Model) -> Vec<Expr> {
     model.picture.follow.as_ref().map(numbers).unwrap_or_default()
 }
 
-/// The expressions that a shape is drawn from.
 fn numbers_of(shape: &Shape) -> Vec<Expr> {
     match shape {
         Shape::Line { from, to } | Shape::Spring { from, to } => [*from, *to].concat(),

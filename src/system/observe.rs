@@ -60,9 +60,11 @@ impl Observer {
         self.native.parameters()
     }
 
-    /// Writes the value of every channel, in order, into `out`, which must be as long as the
-    /// channels. The state may have either form. Undefined values are NaN. Returns an error only if
-    /// the state has no velocities (or momenta), or no accelerations although a channel needs them.
+    /// Writes the value of every channel, in order, into `out`, which must be as long as the channels.
+    /// The state may have either form. Undefined values are NaN.
+    ///
+    /// # Errors
+    /// Returns an error only if the state has no velocities (or momenta), or no accelerations although a channel needs them.
     pub fn observe(&mut self, state: &State, out: &mut [f64]) -> Result<(), MotionError> {
         let precise = self.system.watch().precise.outputs();
         let (first, others) = out.split_at_mut(precise);
@@ -81,7 +83,10 @@ impl Observer {
         Ok(())
     }
 
-    /// The same for the columns only: `out` must be as long as they are.
+    /// Writes the values of the columns only into `out`, which must be as long as they are.
+    ///
+    /// # Errors
+    /// As for [`Observer::observe`].
     pub fn observe_columns(&mut self, state: &State, out: &mut [f64]) -> Result<(), MotionError> {
         self.observe_leading(state, out)
     }

@@ -30,10 +30,8 @@ pub(super) enum Op {
     },
     /// A product whose first factor depends on parameters only.
     Scale(Register, Register),
-    /// A product.
     Multiply(Register, Register),
     Square(Register),
-    /// A quotient.
     Divide(Register, Register),
     /// A square root.
     Root(Register),
@@ -108,7 +106,6 @@ pub struct Program {
     pub(super) prologue: Vec<Register>,
     /// The operations that depend on time or inputs, in order.
     pub(super) body: Vec<Register>,
-    /// The switching surfaces, one register each.
     pub(super) switches: Vec<Register>,
     /// The functions whose branch must be checked.
     pub(super) guards: Vec<Guard>,
@@ -160,7 +157,6 @@ impl Program {
         self.body.iter().filter(|&&r| self.ops[r as usize] != Op::Time).count()
     }
 
-    /// Whether any output depends on the time.
     pub(super) fn depends_on_time(&self) -> bool {
         let mut timed = vec![false; self.ops.len()];
         for r in 0..self.ops.len() {

@@ -65,7 +65,6 @@ impl Projection {
         &mut self.conditions
     }
 
-    /// The indices of the enforced constraints.
     fn rows(&self) -> Vec<usize> {
         (0..self.enforced.len()).filter(|&k| self.enforced[k]).collect()
     }

@@ -45,8 +45,8 @@ impl ConstraintProjector {
         self.projection.set_parameters(&self.system.inputs(parameters));
     }
 
-    /// Takes what the constraints on the velocities keep constant, and the turns of angles in others, from a state where a motion begins
-    /// or continues.
+    /// Takes the values that constraints on the velocities keep constant, and the turns of angles in others, from a state
+    /// where a motion begins or continues.
     pub fn take_levels(&mut self, state: &State) {
         self.load(state);
         let conditions = self.projection.conditions();
@@ -109,7 +109,8 @@ impl ConstraintProjector {
         self.directions_at(state, 0, like)
     }
 
-    /// The same where the coordinates of the state begin at an index, as those of a comparison motion.
+    /// The directions of the constraints as [`ConstraintProjector::directions`] gives them, where the coordinates of the
+    /// state begin at an index, as those of a comparison motion.
     pub fn directions_at(
         &mut self,
         state: &State,

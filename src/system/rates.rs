@@ -68,7 +68,10 @@ impl System {
         rates
     }
 
-    /// Whether H = T(p) + V(q, t) with no other forces, and if not, why.
+    /// Checks that H = T(p) + V(q, t) with no other forces.
+    ///
+    /// # Errors
+    /// Returns the reason why it is not, as a sentence.
     pub fn separable(&self) -> Result<(), &str> {
         self.motion().split.as_ref().map(|_| ()).map_err(NotSeparable::why)
     }
@@ -131,8 +134,7 @@ impl Rates {
         }
     }
 
-    /// Begins the motion with these velocities if the momenta alone do not determine them, so that
-    /// it stays on their branch. Has no effect in another form.
+    /// Chooses the branch of these velocities if the momenta alone do not determine them. Has no effect in another form.
     pub fn begin_near(&mut self, state: &State) {
         if let Some(solver) = self.solver.as_mut().filter(|_| state.form == Form::Velocity) {
             for (i, x) in solver.native.iter_mut().enumerate() {
@@ -165,7 +167,7 @@ impl Rates {
         self.solver.is_none()
     }
 
-    /// What the rates are of.
+    /// The system whose rates these are.
     pub fn system(&self) -> &System {
         &self.system
     }
@@ -183,6 +185,9 @@ impl Rates {
 
     /// Writes the rates at a time and at the numbers of a state into `out`; the entries of numbers
     /// that do not move are left unchanged.
+    ///
+    /// # Errors
+    /// Returns an error if the mass matrix is singular there, or no velocities belong to the momenta.
     pub fn evaluate(
         &mut self,
         time: f64,

@@ -11,7 +11,6 @@ use super::register_map::RegisterMap;
 use super::registers::{Registers, StageNumber};
 use super::value::Evaluator;
 
-/// The list of one program, with its registers.
 #[derive(Clone, Debug)]
 pub(super) struct RatesList<R> {
     map: RegisterMap,
@@ -78,7 +77,6 @@ impl<R: StageNumber> RatesList<R> {
         self.map.time.map_or(R::ZERO, |place| self.registers.values[usize::from(place)])
     }
 
-    /// A number of the state.
     #[inline(always)]
     pub(super) fn number(&mut self, i: usize) -> &mut R {
         &mut self.registers.values[usize::from(self.map.numbers[i])]

@@ -56,7 +56,6 @@ pub(super) struct Registers<R> {
     pub(super) values: Box<[R; REGISTERS]>,
     /// What rounding cut off from the numbers of the state.
     pub(super) carries: Box<[R; REGISTERS]>,
-    /// The factors of the sums.
     pub(super) factors: Box<[R; REGISTERS]>,
     /// The blocks of equations, and room for the unknowns of one.
     factored: Vec<Factored<f64>>,
@@ -66,7 +65,6 @@ pub(super) struct Registers<R> {
 }
 
 impl<R: StageNumber> Registers<R> {
-    /// The registers of a list.
     pub(super) fn of(map: &RegisterMap) -> Registers<R> {
         let zeros = || Box::new([R::ZERO; REGISTERS]);
         let mut zero = R::ZERO;
@@ -169,7 +167,6 @@ impl<R: StageNumber> Registers<R> {
         }
     }
 
-    /// The same for one chunk.
     #[inline(always)]
     fn add_chunk<const TIMES: usize>(&mut self, factors: [R; TIMES], number: usize, rate: usize) {
         const CHUNKS: usize = REGISTERS / CHUNK;

@@ -12,7 +12,6 @@ use super::series::Series;
 use super::{State, System};
 use crate::num::DoubleDouble;
 
-/// The order of the series.
 const ORDER: usize = 12;
 
 /// The last terms may be this part of the largest one: a sine is then represented for half a
@@ -57,18 +56,18 @@ impl Resolution {
             }
             self.series.set_scale(unit);
             match self.expand(state) {
-                Attempt::Length(length) => {
+                LengthTrial::Length(length) => {
                     self.last = Some(length).filter(|length| length.is_finite());
                     return Some(length);
                 }
-                Attempt::OtherSides => {}
-                Attempt::NotFinite => unit *= 1e-4,
+                LengthTrial::OtherSides => {}
+                LengthTrial::NotFinite => unit *= 1e-4,
             }
         }
         None
     }
 
-    fn expand(&mut self, state: &State) -> Attempt {
+    fn expand(&mut self, state: &State) -> LengthTrial {
         let built = self.series.build(state).is_ok();
         let mut turned = false;
         for i in 0..self.series.switches() {
@@ -77,21 +76,20 @@ impl Resolution {
             self.series.set_side(i, side);
         }
         if turned {
-            return Attempt::OtherSides;
+            return LengthTrial::OtherSides;
         }
         if !built {
-            return Attempt::NotFinite;
+            return LengthTrial::NotFinite;
         }
         let length = self.expansion.expand(&self.series, 0.0, (CUT_OFF, f64::INFINITY));
         if length.is_nan() {
-            return Attempt::NotFinite;
+            return LengthTrial::NotFinite;
         }
-        Attempt::Length(length * self.series.scale().abs())
+        LengthTrial::Length(length * self.series.scale().abs())
     }
 }
 
-/// The result of one trial.
-enum Attempt {
+enum LengthTrial {
     Length(f64),
     /// Another branch applies at a kink.
     OtherSides,

@@ -48,7 +48,6 @@ pub(super) struct MotionPrograms {
     pub(super) split: Result<SplitHamiltonian, NotSeparable>,
 }
 
-/// The programs of a system with tangent vectors.
 #[derive(Debug)]
 pub(super) struct Tangents {
     pub(super) count: usize,
@@ -80,7 +79,6 @@ impl ProgramBuilder<'_> {
         lowering
     }
 
-    /// The form in which the equations are given.
     pub(super) fn native(&self) -> Form {
         match self.equations.flow {
             Flow::Lagrange { .. } => Form::Velocity,
@@ -132,7 +130,6 @@ impl ProgramBuilder<'_> {
         lowering.finish(outputs)
     }
 
-    /// Rates of change of a state in the native form.
     pub(super) fn native_rates(&mut self) -> Result<Arc<Program>, Symbol> {
         let (equations, quadratures) = (self.equations, self.quadratures);
         let (kkt, backwards) = (self.kkt.clone(), self.backwards);

@@ -62,7 +62,6 @@ pub(super) enum Ends {
     Both(Register, Register),
 }
 
-/// One convolution of a recurrence.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Summand {
     pub(super) factor: ConvolutionFactor,
@@ -112,7 +111,6 @@ pub(super) struct VaryingEntry {
     pub(super) register: Register,
 }
 
-/// The schedule of one program.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Schedule {
     pub(super) pairs: Vec<Pair>,
@@ -120,7 +118,6 @@ pub(super) struct Schedule {
     pub(super) runs: Vec<OperationRun>,
     pub(super) relations: Vec<Relation>,
     pub(super) summands: Vec<Summand>,
-    /// The varying entries of matrices.
     pub(super) entries: Vec<VaryingEntry>,
     /// The registers whose slope enters an inner product.
     pub(super) slopes: Vec<Register>,

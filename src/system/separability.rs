@@ -21,7 +21,6 @@ impl NotSeparable {
         NotSeparable { equations: Arc::clone(equations), why: OnceLock::new() }
     }
 
-    /// The reason, as a sentence for the user.
     pub(super) fn why(&self) -> &str {
         self.why.get_or_init(|| {
             let mut equations = Equations::clone(&self.equations);

@@ -141,6 +141,9 @@ impl Series {
     }
 
     /// Builds the series at a state of the native form.
+    ///
+    /// # Errors
+    /// Returns an error if a matrix is singular at the state, no velocities belong to its momenta, or the system is cancelled.
     pub fn build(&mut self, state: &State) -> Result<(), MotionError> {
         self.time = state.exact_time();
         let numbers = state.values.iter().zip(&state.carry);

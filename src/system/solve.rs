@@ -93,7 +93,6 @@ impl<R: Real> Factored<R> {
         true
     }
 
-    /// The number of unknowns.
     #[cfg(target_arch = "x86_64")]
     pub(super) fn size(&self) -> usize {
         self.size

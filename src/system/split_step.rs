@@ -62,8 +62,8 @@ impl SplitStep {
         })
     }
 
-    /// The same for at most [`BATCH`] steps. Writes the numbers at the end of each into its lane of
-    /// `seen`.
+    /// Moves the numbers of a state by at most [`BATCH`] steps, and writes the numbers at the end of each into its lane
+    /// of `seen`. Returns false as [`SplitStep::advance`] does.
     #[must_use]
     pub fn advance_seen(
         &mut self,
@@ -122,7 +122,6 @@ impl SplitStep {
     }
 }
 
-/// Writes the numbers of a state.
 fn copy_out(registers: &Registers<f64>, places: &[u8], out: &mut State) {
     let numbers = out.values.iter_mut().zip(&mut out.carry);
     for (&place, (value, carry)) in places.iter().zip(numbers) {

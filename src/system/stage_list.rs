@@ -19,7 +19,7 @@ use super::instruction::{Instruction, Moved};
 use super::rates::Rates;
 use super::register_map::RegisterMap;
 
-/// How a step is put together from kicks by V and drifts by T.
+/// The composition of a step of kicks by V and drifts by T.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Composition {
     /// Leapfrogs with these parts of the step, one after the other.
@@ -99,7 +99,6 @@ impl StageList {
         Some(())
     }
 
-    /// The factors of the sums for a step.
     pub(super) fn factors(&self, step: f64) -> impl Iterator<Item = f64> + '_ {
         let (weights, whole) = match &self.composition {
             Composition::Leapfrogs(weights) => (&weights[..], 0),

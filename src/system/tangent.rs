@@ -21,7 +21,6 @@ use crate::num::DoubleDouble;
 /// Where the tangent vectors of a program stand.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TangentLayout {
-    /// The number of tangent vectors.
     pub(super) count: usize,
     /// The number of leading inputs that vary; the others are constant in the derivative.
     pub(super) moving: usize,
@@ -109,7 +108,6 @@ impl Program {
     }
 }
 
-/// A program that is extended by derivatives.
 struct Builder {
     program: Program,
     /// The operations appended, so that equal ones share a register.

@@ -11,7 +11,6 @@ use super::program::{Op, Program, Register};
 /// The part of the size of an operand by which it is moved, to see how much of it reaches the value.
 const PART: f64 = 1.0 / (1 << 20) as f64;
 
-/// Writes the size of each register of a program whose registers have these values.
 pub(super) fn of(program: &Program, value: impl Fn(Register) -> f64, sizes: &mut Vec<f64>) {
     sizes.clear();
     sizes.resize(program.ops.len(), 0.0);

@@ -19,7 +19,6 @@ use crate::num::Number;
 pub(super) enum AtRest {
     /// The same value: the term does not depend on velocities or momenta.
     Same,
-    /// Zero.
     Nothing,
     /// Another value, which is the next output.
     Other,
@@ -82,7 +81,6 @@ fn still(equations: &Equations) -> Vec<Symbol> {
     coordinates.iter().enumerate().filter(is_still).map(variable).collect()
 }
 
-/// The compiled programs of these terms.
 #[derive(Clone, Debug)]
 pub(super) struct Terms {
     pub(super) places: Arc<[Option<OutputPlace>]>,

@@ -75,7 +75,10 @@ impl<R: Real> Evaluator<R> {
         self.underflow_may_count = underflow::may_count(&self.program, parameters, value);
     }
 
-    /// Evaluates at a time and inputs.
+    /// Evaluates at a time and at the inputs, one number for each.
+    ///
+    /// # Errors
+    /// Returns the block of equations whose matrix is singular.
     pub fn evaluate(&mut self, time: R, inputs: &[R]) -> Result<(), Singular> {
         let outcome = self.evaluate_here(time, inputs);
         if R::UNBOUNDED {
@@ -165,12 +168,10 @@ impl<R: Real> Evaluator<R> {
         self.registers[self.program.switches[i] as usize]
     }
 
-    /// The value of any register.
     pub(super) fn register(&self, register: Register) -> R {
         self.registers[register as usize]
     }
 
-    /// What it evaluates.
     pub(super) fn program(&self) -> &Program {
         &self.program
     }
@@ -204,7 +205,7 @@ impl<R: Real> Memory<'_, R> {
         time: R,
         range: Range<usize>,
     ) -> Result<(), Singular> {
-        vectorized(Interpreted { memory: self, program, time, range })
+        vectorized(InterpretedRange { memory: self, program, time, range })
     }
 
     #[inline(always)]
@@ -231,15 +232,14 @@ impl<R: Real> Memory<'_, R> {
     }
 }
 
-/// A range of the body of a program, to be evaluated.
-struct Interpreted<'a, 'm, R> {
+struct InterpretedRange<'a, 'm, R> {
     memory: &'a mut Memory<'m, R>,
     program: &'a Program,
     time: R,
     range: Range<usize>,
 }
 
-impl<R: Real> Kernel for Interpreted<'_, '_, R> {
+impl<R: Real> Kernel for InterpretedRange<'_, '_, R> {
     type Output = Result<(), Singular>;
 
     #[inline(always)]

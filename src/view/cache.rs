@@ -66,7 +66,6 @@ pub(super) struct TrailKey {
 /// The past of what is drawn.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Track {
-    /// Of two channels.
     Channels([usize; 2]),
     /// Of two channels from a time on.
     Recent([usize; 2], f64),
@@ -84,7 +83,6 @@ struct DrawnTrail {
     last: Vec<f64>,
 }
 
-/// Where level curves are drawn.
 #[derive(Debug)]
 struct LevelsKey {
     landscape: Arc<Landscape>,
@@ -284,7 +282,6 @@ impl DrawnTrail {
     }
 }
 
-/// Whether two layers are the same line.
 fn same_line((level, layer): &(Level, Layer), (other_level, other): &(Level, Layer)) -> bool {
     match (layer, other) {
         (Layer::Line(points, stroke), Layer::Line(others, other_stroke)) => {

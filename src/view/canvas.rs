@@ -30,7 +30,6 @@ pub(super) struct Canvas<'a> {
     pub(super) regions: Option<Vec<(Rect, ScreenRegion)>>,
     /// The masses of the picture drawn last that can be dragged: where each is, its index among the shapes, and the frame.
     pub(super) masses: Vec<(Rect, usize, PlotFrame)>,
-    /// The position of the terminal's cursor.
     pub(super) cursor: Option<Position>,
     /// Where the cursor of the focused plot is.
     pub(super) reading: Option<CursorReading>,
@@ -75,7 +74,6 @@ impl Canvas<'_> {
         self.style.shown(text).into_owned()
     }
 
-    /// A span in the style of a role.
     pub(super) fn span(&self, role: Role, text: impl AsRef<str>) -> Span {
         (self.text(text.as_ref()), self.style(role))
     }
@@ -124,13 +122,11 @@ impl Canvas<'_> {
         }
     }
 
-    /// Writes text at the left end of a row.
     pub(super) fn left(&mut self, row: Rect, role: Role, text: &str) -> u16 {
         let style = self.style(role);
         if row.is_empty() { 0 } else { self.write(row.as_position(), row.width, text, style) }
     }
 
-    /// Writes text at the right end of a row.
     pub(super) fn right(&mut self, row: Rect, role: Role, text: &str) -> u16 {
         let width = (self.text(text).width() as u16).min(row.width);
         let area = Rect { x: row.right() - width, width, ..row };
@@ -257,7 +253,6 @@ impl Canvas<'_> {
         Clear.render(area, self.buffer);
     }
 
-    /// Clears an area for an overlay.
     pub(super) fn clear(&mut self, area: Rect) {
         Clear.render(area, self.buffer);
         self.region(area, ScreenRegion::Blank);
@@ -286,14 +281,12 @@ impl Canvas<'_> {
         self.cursor = Some(at).filter(|at| self.buffer.area.contains(*at));
     }
 
-    /// Registers a region for the mouse.
     pub(super) fn region(&mut self, area: Rect, region: ScreenRegion) {
         if let Some(regions) = self.regions.as_mut().filter(|_| !area.is_empty()) {
             regions.push((area, region));
         }
     }
 
-    /// Registers an area with a single mouse target.
     pub(super) fn target(&mut self, area: Rect, target: HitTarget) {
         self.region(area, ScreenRegion::Plain(target));
     }

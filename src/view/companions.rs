@@ -20,12 +20,10 @@ use crate::num::math;
 /// come first.
 const SERIES: [usize; 6] = [4, 2, 5, 3, 6, 1];
 
-/// The series of colours of a companion.
 pub(super) fn series(number: usize) -> usize {
     SERIES[(number.max(1) - 1) % SERIES.len()]
 }
 
-/// The colour of a companion.
 pub(super) fn ink(theme: &Theme, number: usize) -> Style {
     theme.curve(series(number))
 }
@@ -54,7 +52,6 @@ pub(super) fn trails(
     }
 }
 
-/// Draws a channel of each against time.
 pub(super) fn curves(
     canvas: &mut Canvas<'_>,
     raster: &mut Raster,
@@ -95,7 +92,6 @@ pub(super) fn crossings(
     }
 }
 
-/// Draws the number of a companion.
 fn mark(
     raster: &mut Raster,
     frame: &PlotFrame,

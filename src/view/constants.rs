@@ -13,11 +13,9 @@ use crate::integrability::Proof;
 /// Formulas with more nodes than this are not written out.
 const MOST: u64 = 600;
 
-/// The headings.
 pub(super) const CONSTANTS: &str = "Further constants of the motion";
 pub(super) const BRACKETS: &str = "Brackets";
 
-/// Adds the verdict in a line.
 pub(super) fn verdict(lab: &Lab, page: &mut TextPage) {
     if let Some(status) = lab.searches.constants.status() {
         page.words(Role::Dim, status);

@@ -55,7 +55,6 @@ pub(super) fn draw(
     Some(CursorReading { at, place })
 }
 
-/// Half a dot.
 const HALF: f64 = 0.5;
 
 /// The place of a point in a frame, or at its edge if it is outside; the one before where the axes do not contain it at all.

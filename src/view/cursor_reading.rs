@@ -2,7 +2,6 @@
 //!
 //! In and out: its coordinates and its place. Never here: how it is drawn.
 
-/// Where the cursor of a plot is.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct CursorReading {
     /// Its data coordinates.

@@ -48,7 +48,6 @@ fn paired(
     out
 }
 
-/// The styles of a paragraph.
 #[derive(Clone, Copy)]
 pub(super) struct Styles {
     pub(super) plain: Style,

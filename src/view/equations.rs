@@ -20,7 +20,6 @@ const MOST: u64 = 4_000;
 /// Definitions of more characters than this, with all others substituted into them, are named but not written out.
 const LONGEST_DEFINITION: usize = 200;
 
-/// Builds the page.
 pub(super) fn document(lab: &Lab, style: &RenderStyle) -> TextPage {
     let report = Report::readable(&lab.loaded.model, &lab.loaded.equations);
     let mut writer = EquationRows { report: &report, style, page: TextPage::default() };

@@ -39,7 +39,6 @@ pub(super) fn keys(canvas: &Canvas<'_>, field: &Field) -> Vec<Span> {
     spans.collect()
 }
 
-/// Draws a field.
 pub(super) fn draw(canvas: &mut Canvas<'_>, frame: &PlotFrame, field: &Field) {
     let (theme, glyphs) = (&canvas.style.theme, canvas.style.glyphs);
     let ramp = theme.density();

@@ -175,7 +175,6 @@ mod tests {
         }
     }
 
-    /// Checks that a terminal shows what was drawn.
     fn check(terminal: &vt100::Screen, drawn: &Buffer) {
         for y in 0..SIZE.height {
             for x in 0..SIZE.width {

@@ -11,7 +11,6 @@ use crate::expr::{Expr, Symbol};
 /// Expressions with more nodes than this are not written out.
 const MOST: u64 = 1_000;
 
-/// Adds what is known of them.
 pub(super) fn rows(lab: &Lab, style: &RenderStyle, page: &mut TextPage) {
     if !lab.has_further() {
         return;

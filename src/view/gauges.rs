@@ -30,7 +30,6 @@ const VERDICT: u16 = single_row::VERDICT;
 const DRIFT: u16 = 9;
 const VALUE: u16 = 9;
 
-/// The width of the heading of the verdicts.
 const VERDICT_HEAD: u16 = 7;
 
 /// The greatest width of a history.
@@ -40,7 +39,6 @@ const HISTORY: u16 = 24;
 const FLOOR: f64 = 1e-17;
 const LEAST_RATIO: f64 = 100.0;
 
-/// The columns of single rows of this width.
 fn single_row(canvas: &Canvas<'_>, width: u16, gauges: &[Gauge]) -> SingleRow {
     let glyphs = canvas.style.glyphs;
     let name = |gauge: &Gauge| glyphs.pick(&*gauge.shown, &*gauge.name).width();
@@ -165,7 +163,6 @@ pub(super) fn departed(snapshot: &Snapshot, glyphs: Glyphs) -> Option<(Role, Str
     Some((role, format!("! {name} {word} {drift}")))
 }
 
-/// A sentence that explains a verdict.
 fn sentence(verdict: &Verdict, glyphs: Glyphs) -> String {
     match verdict {
         Verdict::Open => "the motion is too short for a verdict".to_owned(),
@@ -278,7 +275,6 @@ fn verdict(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge, (text, role): (&s
     used + 2
 }
 
-/// Describes a gauge's drift.
 pub(super) fn finding(gauge: &Gauge, glyphs: Glyphs) -> String {
     let sentence = sentence(&gauge.verdict, glyphs);
     match given_by_impulses(gauge) {

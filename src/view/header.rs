@@ -178,7 +178,6 @@ fn speed(snapshot: &Snapshot, glyphs: Glyphs) -> String {
     }
 }
 
-/// Returns the status as a sentence.
 pub(super) fn status_words(q: &Quantities<'_>) -> String {
     let (snapshot, glyphs) = (q.snapshot, q.style.glyphs);
     let status = match &snapshot.status {

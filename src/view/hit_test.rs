@@ -77,7 +77,6 @@ fn dragged_mass(index: usize, shape: usize, window: DragWindow, at: Position) ->
     mass(index, shape, &frame, Position::new(inside(at.x, x, wide), inside(at.y, y, tall)))
 }
 
-/// A mass of a picture at a position.
 fn mass(index: usize, shape: usize, frame: &PlotFrame, at: Position) -> HitTarget {
     let Rect { x, y, width, height } = frame.area;
     let place = [middle(at.x, x, width), 1.0 - middle(at.y, y, height)];

@@ -11,7 +11,6 @@ use super::plot::{Marker, Pen};
 use super::theme::Role;
 use crate::instrument::{Ink, Level, MarkerShape};
 
-/// The pen of an ink on a layer.
 pub(super) fn pen(canvas: &Canvas<'_>, ink: Ink, level: Level) -> Pen {
     let theme = &canvas.style.theme;
     match ink {

@@ -73,7 +73,6 @@ impl Slot {
     }
 }
 
-/// The areas of the lab's panes.
 pub(super) fn panes(area: Rect, lab: &Lab, glyphs: Glyphs) -> Vec<(Slot, Rect)> {
     let Rect { width, height, .. } = area;
     if lab.focus.zoomed {

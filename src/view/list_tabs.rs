@@ -32,7 +32,6 @@ fn among_others(pane: Pane, short: bool) -> &'static str {
 
 /// A row of titles. The shown one is highlighted and always there.
 pub(super) struct ListTabs {
-    /// The title of the frame.
     pub(super) title: Vec<Span>,
     /// The pane of every second span, if all titles are there.
     panes: Vec<Pane>,
@@ -67,7 +66,6 @@ impl ListTabs {
         Self { title, panes: Vec::new() }
     }
 
-    /// Makes the titles in a frame clickable.
     pub(super) fn add_targets(&self, canvas: &mut Canvas<'_>, frame: Rect) {
         add_targets(canvas, frame, &self.title, &self.panes);
     }

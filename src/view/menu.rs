@@ -121,13 +121,10 @@ fn keys_of(canvas: &Canvas<'_>, item: &Item) -> String {
     named(&item.keys, canvas.style)
 }
 
-/// The columns of the rows.
 struct MenuColumns {
-    /// The width of a row.
     width: u16,
     /// The width of the labels; the note begins after it unless the label is longer.
     label: u16,
-    /// The width of the longest keys.
     keys: u16,
 }
 

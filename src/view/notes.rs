@@ -8,7 +8,6 @@ use super::text_page::TextPage;
 use super::theme::Role;
 use crate::app::Lab;
 
-/// Builds the page.
 pub(super) fn document(lab: &Lab, style: &RenderStyle) -> TextPage {
     let model = &lab.loaded.model;
     let mut page = TextPage::default();

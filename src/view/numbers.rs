@@ -16,7 +16,6 @@ use crate::system::{Channel, ChannelKind};
 /// A heading, and the test for the channels listed under it.
 type ChannelGroup = (&'static str, fn(&ChannelKind) -> bool);
 
-/// Builds the page.
 pub(super) fn document(q: &Quantities<'_>) -> TextPage {
     let mut page = TextPage::default();
     let glyphs = q.style.glyphs;

@@ -13,10 +13,8 @@ use crate::app::keymap::{KEYS, KeyContext};
 use crate::app::{Lab, Pane, ValueId, ValueInfo};
 use crate::experiment::Snapshot;
 
-/// The contexts whose keys are listed.
 const CONTEXTS: [KeyContext; 3] = [KeyContext::Plain, KeyContext::Experiment, KeyContext::Anywhere];
 
-/// Builds the page.
 pub(super) fn document(q: &Quantities<'_>) -> TextPage {
     let mut page = TextPage::default();
     let mut write = |text: String| page.line(&q.style.glyphs.text(&text));
@@ -145,7 +143,6 @@ fn after(unit: &str) -> String {
     if unit.is_empty() { String::new() } else { format!(" {unit}") }
 }
 
-/// The spoken name of a key.
 fn spoken(name: String) -> String {
     let words = [
         ("↑", "Up"),

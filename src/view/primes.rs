@@ -50,7 +50,6 @@ fn belongs(c: char) -> bool {
     c.is_alphanumeric() || c == '_' || is_index(c)
 }
 
-/// Whether a character is a subscript.
 fn is_index(c: char) -> bool {
     matches!(c, '₀'..='₉')
 }

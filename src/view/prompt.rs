@@ -21,7 +21,6 @@ const MOST: u64 = 1_000;
 const HELP: &str = "Two expressions with a comma between them give Poisson's bracket; one alone asks whether it is \
 conserved. H is the energy, p_x a momentum, x' a velocity; observables of the file are written out.";
 
-/// Draws the prompt in the middle of an area.
 pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, prompt: &Prompt) {
     let width = area.width.saturating_sub(2).min(100);
     let lines = lines(canvas, lab, prompt, usize::from(width.saturating_sub(4)));
@@ -161,7 +160,6 @@ fn rate_head(lab: &Lab) -> &'static str {
     }
 }
 
-/// The rows being built.
 struct PromptRows<'a, 'b> {
     canvas: &'a Canvas<'b>,
     width: usize,

@@ -52,7 +52,6 @@ impl<'a> Quantities<'a> {
         self.lab.loaded.system.channels().get(channel).map_or("", |c| &c.unit)
     }
 
-    /// A channel's current value.
     pub(super) fn value(&self, channel: usize) -> f64 {
         self.snapshot.values.get(channel).copied().unwrap_or(f64::NAN)
     }
@@ -167,12 +166,9 @@ fn turn_of(lo: f64, hi: f64, period: f64) -> f64 {
     if hi - lo < 0.8 * period { (f64::midpoint(lo, hi) / half).round() * half } else { 0.0 }
 }
 
-/// The source of a number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum QuantitySource {
-    /// A constant.
     Number(f64),
-    /// The channel with this index.
     Channel(usize),
 }
 

@@ -12,7 +12,6 @@ pub(super) enum ScreenRegion {
     Blank,
     /// The whole region is one target.
     Plain(HitTarget),
-    /// The bar of a value.
     Bar(ValueId, Scale),
     /// The time bar, from one time to the other.
     Time([f64; 2]),

@@ -41,7 +41,7 @@ use annotation::{Label, LegendLine, compass, legend, legend_above};
 use body::Outline;
 use colours::colours;
 use filling::Filling;
-use mechanics::Mechanics;
+use mechanics::ComparedMechanics;
 use reference_frame::ReferenceFrame;
 use scene::Scene;
 use shading::Shading;
@@ -76,7 +76,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
     let outline = Outline::of(q, *eye);
     let scene = Scene::of((q, outline.as_ref()), *eye, reference_frame.as_ref());
     let colours = colours(q, *eye);
-    let mechanics = Mechanics::of(q, *eye, &colours);
+    let mechanics = ComparedMechanics::of(q, *eye, &colours);
     let whole = area;
     let lines = legend_lines(canvas, q, *eye, mechanics.as_ref());
     let (above, area) = legend_above(area, &lines);
@@ -150,7 +150,7 @@ fn legend_lines(
     canvas: &Canvas<'_>,
     q: &Quantities<'_>,
     eye: CameraPose,
-    mechanics: Option<&Mechanics>,
+    mechanics: Option<&ComparedMechanics>,
 ) -> Vec<LegendLine> {
     if is_colourless(canvas.style) {
         return Vec::new();
@@ -167,7 +167,6 @@ fn apparent<'a>(q: &Quantities<'a>, eye: CameraPose) -> &'a [Apparent] {
     eye.frame.and_then(|frame| frames.get(frame)).map_or(&[][..], Vec::as_slice)
 }
 
-/// Draws the shapes of a scene.
 struct ScenePainter<'a> {
     raster: Raster,
     /// The edges of shaded surfaces; where these are dots, their edges are on the raster.
@@ -176,13 +175,11 @@ struct ScenePainter<'a> {
     camera: Camera,
     q: &'a Quantities<'a>,
     reference_frame: Option<ReferenceFrame>,
-    /// Where it is seen from.
     eye: CameraPose,
     /// The index of the reference frame.
     seen: Option<usize>,
     /// The number of the motion beside the main one that is being drawn.
     beside: Option<usize>,
-    /// What hides what.
     depth: DepthBuffer,
     /// The surfaces as they are lit.
     shading: Shading,
@@ -196,12 +193,10 @@ struct ScenePainter<'a> {
     outline: Option<&'a Outline>,
     /// Styles, and how they look at each distance.
     receding: Vec<(Style, [Style; DISTANCES])>,
-    /// Names beside points.
     labels: Vec<Label>,
-    /// The points that have a colour of their own.
     colours: Vec<Point>,
     /// The right mechanics and the wrong one, where both are in the picture.
-    mechanics: Option<Mechanics>,
+    mechanics: Option<ComparedMechanics>,
 }
 
 impl<'a> ScenePainter<'a> {

@@ -45,7 +45,6 @@ fn distinct(q: &Quantities<'_>, plots: &[(usize, &Plot)]) -> Vec<String> {
     labels
 }
 
-/// A row of tabs.
 pub(super) struct Tabs {
     /// The names, with a line between neighbours.
     pub(super) spans: Vec<Span>,

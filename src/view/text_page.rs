@@ -21,7 +21,6 @@ const BETWEEN: u16 = 2;
 /// The rows above a match that is in view.
 const ABOVE: usize = 2;
 
-/// A page of text being built.
 #[derive(Default)]
 pub(super) struct TextPage {
     blocks: Vec<TextBlock>,
@@ -46,7 +45,6 @@ enum TextBlock {
 }
 
 impl TextPage {
-    /// Adds a heading with space above it.
     pub(super) fn heading(&mut self, text: &str) {
         if !self.blocks.is_empty() {
             self.blocks.push(TextBlock::Gap);
@@ -54,7 +52,6 @@ impl TextPage {
         self.blocks.push(TextBlock::Heading(text.to_owned()));
     }
 
-    /// Adds a paragraph.
     pub(super) fn words(&mut self, role: Role, text: impl Into<String>) {
         self.blocks.push(TextBlock::Words(role, text.into()));
     }

@@ -17,7 +17,6 @@ use crate::app::{HitTarget, InputField, Lab, Purpose, ValueId, ValueInfo};
 use crate::model;
 use crate::num::significant;
 
-/// Columns of a number.
 const NUMBER: u16 = 10;
 
 /// The greatest width of a name.
@@ -36,7 +35,6 @@ pub(super) struct ValueList<'a> {
     pub(super) kind: fn(usize) -> ValueId,
     /// The index of the selected value.
     pub(super) selected: usize,
-    /// Whether the list has the focus.
     pub(super) focused: bool,
     /// The field in which one of the values is being edited.
     pub(super) field: Option<&'a InputField>,

@@ -113,7 +113,6 @@ fn lines(canvas: &mut Canvas<'_>, area: Rect, file: &SourceBuffer) -> Drawn {
     Drawn { rows: area.height, columns: wide, ..Drawn::default() }
 }
 
-/// Draws one line from a column on.
 fn write(
     canvas: &mut Canvas<'_>,
     at: Rect,

@@ -16,7 +16,6 @@ const STACK: usize = 64 << 20;
 
 /// Runs one background job at a time.
 pub struct SideJob<T> {
-    /// The name of its threads.
     name: &'static str,
     sender: Sender<(u64, Outcome<T>)>,
     receiver: Receiver<(u64, Outcome<T>)>,

@@ -6,7 +6,6 @@ use std::time::Duration;
 /// The target length of a slice.
 const LENGTH: Duration = Duration::from_millis(2);
 
-/// The number of steps in a slice.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Slice {
     steps: u64,

@@ -16,9 +16,7 @@ use crate::experiment::{AdvanceOutcome, Command, RunError, Snapshot, Status};
 /// The least time between two snapshots that no command asked for.
 const BETWEEN_SNAPSHOTS: Duration = Duration::from_millis(16);
 
-/// A message to the worker.
 pub(super) enum Message {
-    /// A command for the subject.
     Execute(Command),
     /// A new subject with its epoch.
     Load(u64, Box<dyn Runnable>),
@@ -43,7 +41,6 @@ pub(super) fn run(messages: &Receiver<Message>, slot: &ArcSwapOption<Snapshot>) 
     while worker.iterate().is_ok() {}
 }
 
-/// The worker's state.
 struct WorkerLoop<'a> {
     messages: &'a Receiver<Message>,
     slot: &'a ArcSwapOption<Snapshot>,
@@ -159,7 +156,6 @@ impl WorkerLoop<'_> {
         Some((runnable.status() == Status::Running, runnable.time(), runnable.speed()))
     }
 
-    /// Publishes a snapshot.
     fn publish(&mut self) {
         if let Some(snapshot) = self.guarded(|runnable| runnable.snapshot()) {
             self.slot.store(Some(Arc::new(snapshot)));

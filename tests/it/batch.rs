@@ -165,7 +165,7 @@ fn orbits_of_a_smooth_system_stay_side_by_side() {
         assert_eq!(batch.begin(lane, state, &parameters), LaneStatus::Underway);
     }
     while (0..BATCH).any(|lane| batch.state(lane).time < 50.0) {
-        assert!(batch.step(&[50.0; BATCH]));
+        assert!(batch.steps_unobserved(&[50.0; BATCH], &[f64::NEG_INFINITY; BATCH]));
         assert!((0..BATCH).all(|lane| batch.status(lane) == LaneStatus::Underway));
     }
 }
@@ -188,7 +188,7 @@ fn orbits_with_far_to_go_stay_side_by_side() {
         // as far as this for some, and near for others
         let limits: [f64; BATCH] = std::array::from_fn(|i| [1e9, 2.0, 3e5][i % 3]);
         for _ in 0..20 {
-            assert!(batch.step(&limits));
+            assert!(batch.steps_unobserved(&limits, &[f64::NEG_INFINITY; BATCH]));
             assert!((0..BATCH).all(|lane| batch.status(lane) == LaneStatus::Underway), "{name}");
         }
         // more steps than are allowed before the end, so that it ends
@@ -379,7 +379,7 @@ fn events_are_found_in_the_lanes_themselves() {
     }
     let mut times = vec![Vec::new(); BATCH];
     while (0..BATCH).any(|lane| batch.state(lane).time < 30.0) {
-        assert!(batch.step(&[30.0; BATCH]));
+        assert!(batch.steps_unobserved(&[30.0; BATCH], &[f64::NEG_INFINITY; BATCH]));
         for (lane, times) in times.iter_mut().enumerate() {
             while let Some(event) = batch.next_event(lane, &mut here).unwrap() {
                 assert_eq!(here.time, event.time);

@@ -208,7 +208,7 @@ fn a_key_shows_the_exponent_where_there_is_no_section() {
     let mut regular = begun(&swing.replace("speed = 0.1", "speed = 1.0"));
     press(&mut regular, "v");
     // and its frequency is shown in place of an exponent that is always 0: √k
-    assert!(told(&mut regular).contains("every motion is regular"));
+    assert!(reported(&mut regular).contains("every motion is regular"));
     let of = |app: &App, kind: &str| {
         let plot = &app.lab.as_ref().unwrap().focused_plot().unwrap().1.clone();
         assert_eq!(plot.kind.name(), kind);
@@ -225,7 +225,7 @@ fn a_key_shows_the_exponent_where_there_is_no_section() {
     assert_eq!(measure(&regular, &diagram(&regular), "value"), 0.0);
 }
 
-fn told(app: &mut App) -> String {
+fn reported(app: &mut App) -> String {
     app.notifications.shown.take().map(|notice| notice.text).unwrap_or_default()
 }
 
@@ -391,11 +391,11 @@ fn sessions_have_it_with_its_parameter() {
 fn a_parameter_without_motions_says_why() {
     let wall = DRIVEN.replace("1/2*k*x^2", "1/2*k*sqrt(x - 1)");
     let app = begun(&wall);
-    let told = layers(&app, &diagram(&app)).into_iter().find_map(|layer| match layer {
+    let reported = layers(&app, &diagram(&app)).into_iter().find_map(|layer| match layer {
         Layer::Legend(lines) => Some(lines.concat()),
         _ => None,
     });
-    assert!(told.is_some_and(|why| !why.is_empty()));
+    assert!(reported.is_some_and(|why| !why.is_empty()));
     assert!(points(&app).is_empty());
 }
 

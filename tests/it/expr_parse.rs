@@ -98,8 +98,8 @@ fn numbers_are_exact_where_they_fit() {
 fn slip(text: &str) -> String {
     let error = parse(text).expect_err(text);
     assert!(text.get(error.span.start..error.span.end).is_some(), "{text}: {:?}", error.span);
-    let told = format!("{}..{} {error}", error.span.start, error.span.end);
-    error.help.map_or(told.clone(), |help| format!("{told}; {help}"))
+    let reported = format!("{}..{} {error}", error.span.start, error.span.end);
+    error.help.map_or(reported.clone(), |help| format!("{reported}; {help}"))
 }
 
 #[test]

@@ -117,7 +117,7 @@ fn a_file_has_families_over_the_energy() {
              [[views]]\nkind = \"family\"\nx = \"{x}\"\ny = \"q\"\n[run]\nuntil = 100.0\n"
         )
     };
-    let told = |x: &str| {
+    let reported = |x: &str| {
         let mut app = opened(&text(x), "family of orbits: q over E");
         let lab = app.lab.as_mut().unwrap();
         let views = Plot::opening(lab.loaded.physics());
@@ -125,8 +125,8 @@ fn a_file_has_families_over_the_energy() {
         assert_eq!(lab.plots.len(), 1);
         legend(&app)
     };
-    assert!(told("energy").contains("periodic orbit"), "{}", told("energy"));
-    assert!(told("q").contains("x = \"energy\""), "{}", told("q"));
+    assert!(reported("energy").contains("periodic orbit"), "{}", reported("energy"));
+    assert!(reported("q").contains("x = \"energy\""), "{}", reported("q"));
 }
 
 /// Variables given by their brackets have families over the energy, too: at y = 0 it is ½ x² + ¼ x⁴.

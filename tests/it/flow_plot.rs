@@ -48,9 +48,9 @@ fn after_a_change_the_map_is_that_of_the_motion_since_then() {
     assert!(!course.legend().contains("since"), "{}", course.legend());
     course.set(0, 2.0);
     course.go(2.0001);
-    let told = course.legend();
-    assert!(told.contains("since t = 1, where w was changed"), "{told}");
-    assert!(told.contains("M = (−0.4161 0.4546 | −1.819 −0.4161)"), "{told}");
+    let reported = course.legend();
+    assert!(reported.contains("since t = 1, where w was changed"), "{reported}");
+    assert!(reported.contains("M = (−0.4161 0.4546 | −1.819 −0.4161)"), "{reported}");
     // also in a session that is resumed
     let snapshot = course.experiment.snapshot();
     let (model, system) = (course.experiment.model(), course.experiment.system());
@@ -60,7 +60,7 @@ fn after_a_change_the_map_is_that_of_the_motion_since_then() {
     let mut later = Course::showing("flow", OSCILLATOR);
     later.experiment.execute(Command::Restore(Box::new(left)));
     later.go(2.0002);
-    assert_eq!(later.legend(), told);
+    assert_eq!(later.legend(), reported);
     // begun again it is one motion
     later.experiment.execute(Command::Reset);
     later.go(0.5);
@@ -112,11 +112,11 @@ fn after_a_change_of_the_method_the_map_is_that_of_the_motion_since_then() {
     course.experiment.execute(Command::Method("leapfrog".to_owned()));
     course.experiment.execute(Command::StepSize(h));
     course.go(2.01);
-    let told = course.legend();
-    assert!(told.contains("since t = 1, where the method was changed"), "{told}");
+    let reported = course.legend();
+    assert!(reported.contains("since t = 1, where the method was changed"), "{reported}");
     let written = |x: f64| phaselab::num::significant(x, 4, 1e-3..1e4).replace('-', "−");
     let [[a, b], [c, d]] = power.map(|row| row.map(written));
-    assert!(told.contains(&format!("M = ({a} {b} | {c} {d})")), "{told}");
+    assert!(reported.contains(&format!("M = ({a} {b} | {c} {d})")), "{reported}");
     // one that was chosen already is no change, nor is one before anything has moved
     course.experiment.execute(Command::Method("leapfrog".to_owned()));
     course.go(2.51);
@@ -134,8 +134,8 @@ fn a_motion_that_an_event_ends_has_its_map_until_then() {
         format!("{OSCILLATOR}[[events]]\nname = \"end\"\nwhen = \"t - 3\"\naction = \"stop\"\n");
     let mut course = Course::showing("flow", &text);
     course.go(2.0001);
-    let told = course.legend();
-    assert!(told.contains("M = (−0.4161 0.9093 | −0.9093 −0.4161)"), "{told}");
+    let reported = course.legend();
+    assert!(reported.contains("M = (−0.4161 0.9093 | −0.9093 −0.4161)"), "{reported}");
     near(course.measure("determinant"), 1.0, 1e-13);
 }
 
@@ -246,9 +246,9 @@ fn rounding_is_a_floor() {
     let mut course = Course::showing("flow", OSCILLATOR);
     course.experiment.execute(Command::Method("leapfrog".to_owned()));
     course.go(3.0);
-    let told = course.legend();
-    assert_eq!(told.matches("at rounding (").count(), 2, "{told}");
-    assert!(told.contains("of |M|²) by leapfrog"), "{told}");
+    let reported = course.legend();
+    assert_eq!(reported.matches("at rounding (").count(), 2, "{reported}");
+    assert!(reported.contains("of |M|²) by leapfrog"), "{reported}");
     let curves: Vec<Vec<[f64; 2]>> = (course.layers().into_iter())
         .filter_map(|layer| match layer {
             Layer::Line(points, stroke) if matches!(stroke.ink, Ink::Curve(_)) => Some(points),
@@ -264,8 +264,8 @@ fn rounding_is_a_floor() {
     }
     course.experiment.execute(Command::Method("rk4".to_owned()));
     course.go(4.0);
-    let told = course.legend();
-    assert!(told.contains("by rk4, at rounding ("), "{told}");
+    let reported = course.legend();
+    assert!(reported.contains("by rk4, at rounding ("), "{reported}");
 }
 
 /// While it is paused a motion is varied, and true paths are searched for, up to the very time that is seen.
@@ -302,8 +302,8 @@ fn a_law_with_a_ramp_has_its_flow_and_its_action() {
         + "[[ramps]]\nparameter = \"w\"\nto = 2\nstart = 0.3\nduration = 1.1\nform = \"linear\"\n";
     let mut course = Course::showing("action", &text);
     course.go(2.01);
-    let told = course.legend();
-    assert!(told.contains("= p, ∂S/∂t") && told.contains("= −H"), "{told}");
+    let reported = course.legend();
+    assert!(reported.contains("= p, ∂S/∂t") && reported.contains("= −H"), "{reported}");
     let mut course = Course::showing("flow", &text);
     course.go(2.01);
     near(course.measure("determinant"), 1.0, 1e-13);

@@ -242,8 +242,8 @@ fn bars_in_line_are_told_at_every_tolerance() {
         let words = format!("--until 3 --method dop853 --tolerance {tolerance:e}");
         let words: Vec<&str> = words.split(' ').collect();
         let message = said(PARALLELOGRAM, &words);
-        let told = "passed a singular configuration of the constraints at t = ";
-        let time = message.split(told).nth(1).and_then(|rest| rest.split(':').next());
+        let reported = "passed a singular configuration of the constraints at t = ";
+        let time = message.split(reported).nth(1).and_then(|rest| rest.split(':').next());
         let time: f64 = time.and_then(|time| time.parse().ok()).expect("it is told");
         // a step may be off by a hundred tolerances here, and four digits are said
         let error = 200.0 * tolerance + 1e-3;
@@ -332,9 +332,9 @@ fn a_velocity_beside_a_momentum_gives_one_start() {
              L = \"1/2*(x'^2 + y'^2) + x'*y'/2{further}\"\n"
         );
         let given = ["--init", "x'=1", "--init", "p_y=0.25", "--at", "0", "--until", "1"];
-        let told = with_file(&coupled, &[&["run", "system.toml"][..], &given].concat()).text();
-        let row = told.lines().find(|line| line.starts_with("0.0,")).expect(&told);
-        assert!(row.starts_with("0.0,0.0,0.0,1.0,-0.25,"), "{told}");
+        let reported = with_file(&coupled, &[&["run", "system.toml"][..], &given].concat()).text();
+        let row = reported.lines().find(|line| line.starts_with("0.0,")).expect(&reported);
+        assert!(row.starts_with("0.0,0.0,0.0,1.0,-0.25,"), "{reported}");
     }
 }
 

@@ -158,11 +158,11 @@ fn every_kind_is_drawn_told_of_and_kept() {
         let words = shown.words(lab.loaded.physics());
         assert!(!words.trim().is_empty() && !kind.words(&shown, present.physics).is_empty());
         press(&mut app, "9 G");
-        let told = (0..40).any(|_| {
+        let reported = (0..40).any(|_| {
             press(&mut app, "Up");
             screen(&app, 80, 24).iter().any(|row| row.contains(&words))
         });
-        assert!(told, "{kind:?}: {words}");
+        assert!(reported, "{kind:?}: {words}");
     }
 }
 
@@ -355,16 +355,16 @@ fn a_motion_that_leaves_its_level_curves_is_still_seen() {
 #[test]
 fn a_job_that_takes_long_is_shown_with_its_progress() {
     let (mut app, asked) = aside();
-    let told = |app: &App| screen(app, 160, 50).concat().contains("level curves of the energy");
+    let reported = |app: &App| screen(app, 160, 50).concat().contains("level curves of the energy");
     app.update(AppEvent::Tick(Duration::from_millis(290)));
-    assert!(!told(&app), "what is there at once is not worth a word");
+    assert!(!reported(&app), "what is there at once is not worth a word");
     app.update(AppEvent::Tick(Duration::from_millis(20)));
-    assert!(told(&app));
+    assert!(reported(&app));
     let share = Share { done: 1, total: Some(4) };
     app.update(AppEvent::Progress { ticket: asked[0].ticket, share });
     assert!(screen(&app, 160, 50).concat().contains("energy 25 %"));
     app.update(ran(&asked[0]));
-    assert!(!told(&app));
+    assert!(!reported(&app));
 }
 
 #[test]

@@ -176,7 +176,7 @@ fn word(text: &str) -> Option<String> {
 }
 
 /// The violation in a use of one room by another.
-fn refusal(table: &Table, from: &str, to: &str) -> Option<String> {
+fn violation(table: &Table, from: &str, to: &str) -> Option<String> {
     let allowed = table.get(from)?;
     if from == to || !table.contains_key(to) || allowed.contains(to) {
         return None;
@@ -190,7 +190,7 @@ fn every_room_uses_only_what_it_may() {
     let mut wrong = Vec::new();
     for file in &files() {
         for named in rooms_named(&file.code, file.depth) {
-            wrong.extend(refusal(&table, &file.room, &named).map(|why| (file.path.clone(), why)));
+            wrong.extend(violation(&table, &file.room, &named).map(|why| (file.path.clone(), why)));
         }
     }
     assert!(wrong.is_empty(), "{wrong:#?}");
@@ -214,7 +214,7 @@ fn no_row_allows_what_its_room_does_not_use() {
 #[test]
 fn the_table_is_read_as_it_is_meant() {
     let table = table();
-    let refused = |from: &str, to: &str| refusal(&table, from, to).is_some();
+    let is_violation = |from: &str, to: &str| violation(&table, from, to).is_some();
     for (from, to) in [
         ("mechanics", "preset"),
         ("preset", "mechanics"),
@@ -228,7 +228,7 @@ fn the_table_is_read_as_it_is_meant() {
         ("shell", "cli"),
         ("cli", "worker"),
     ] {
-        assert!(refused(from, to), "{from} → {to}");
+        assert!(is_violation(from, to), "{from} → {to}");
     }
     for (from, to) in [
         ("mechanics", "model"),
@@ -239,7 +239,7 @@ fn the_table_is_read_as_it_is_meant() {
         ("cli", "shell"),
         ("app", "App"),
     ] {
-        assert!(!refused(from, to), "{from} → {to}");
+        assert!(!is_violation(from, to), "{from} → {to}");
     }
 }
 
@@ -373,13 +373,13 @@ fn elementary_calls(code: &str) -> Vec<&'static str> {
 
 #[test]
 fn no_elementary_function_is_left_to_the_platform() {
-    let refused = |file: &File| {
+    let misplaced = |file: &File| {
         let path = file.path.to_string_lossy().replace('\\', "/");
         let other = OTHER_NUMBERS.iter().any(|place| path.contains(place));
         let calls = if other { Vec::new() } else { elementary_calls(&file.code) };
         (!calls.is_empty()).then(|| format!("{path}: {calls:?}: use num::math"))
     };
-    let wrong: Vec<String> = files().iter().filter_map(refused).collect();
+    let wrong: Vec<String> = files().iter().filter_map(misplaced).collect();
     assert!(wrong.is_empty(), "{wrong:#?}");
     assert_eq!(elementary_calls("let y = 2.0 * x.powi(3) + pool.powi(a, 2);"), ["powi"]);
     assert_eq!(elementary_calls("values.map(f64::sin).map(|x| (x + 1.0).ln())"), ["sin", "ln"]);

@@ -27,7 +27,7 @@ fn drawn(app: &App) -> Vec<Layer> {
     layers.into_iter().map(|(_, layer)| layer).collect()
 }
 
-fn told(app: &App) -> String {
+fn reported(app: &App) -> String {
     let legend = drawn(app).into_iter().find_map(|layer| match layer {
         Layer::Legend(lines) => Some(lines.join("\n")),
         _ => None,
@@ -45,7 +45,7 @@ fn the_slope_is_the_momentum_and_the_intercept_minus_the_hamiltonian() {
     // γ = 1/0.8: p = γ v, H = γ − x
     near(measure(&app, &plot(&app), "slope"), 0.75);
     near(measure(&app, &plot(&app), "intercept"), -(1.25 - 0.5));
-    assert_eq!(told(&app), "slope p_x = 0.75\nintercept −H = −0.75");
+    assert_eq!(reported(&app), "slope p_x = 0.75\nintercept −H = −0.75");
     // the tangent touches the curve from below, and meets the axis at the intercept
     let lines = drawn(&app).into_iter().filter_map(|layer| match layer {
         Layer::Line(points, _) => Some(points),
@@ -67,15 +67,19 @@ fn a_hamiltonian_is_transformed_back() {
     // x' = p/2, L = x'² − x²
     near(measure(&app, &plot(&app), "slope"), 0.3);
     near(measure(&app, &plot(&app), "intercept"), -(0.09 - 0.25));
-    assert_eq!(told(&app), "slope ẋ = 0.3\nintercept −L = 0.16");
+    assert_eq!(reported(&app), "slope ẋ = 0.3\nintercept −L = 0.16");
 }
 
 #[test]
 fn a_slope_that_several_velocities_have_is_told() {
     let app = begun(&law("lagrangian", "L = \"x'^4/4 - x'^2/2\"", "velocity"));
-    assert!(told(&app).contains("not convex: several ẋ may have one p_x"), "{}", told(&app));
+    assert!(
+        reported(&app).contains("not convex: several ẋ may have one p_x"),
+        "{}",
+        reported(&app)
+    );
     let app = begun(&law("hamiltonian", "H = \"x*p_x\"", "momentum"));
-    assert!(told(&app).contains("straight: ẋ does not determine p_x"), "{}", told(&app));
+    assert!(reported(&app).contains("straight: ẋ does not determine p_x"), "{}", reported(&app));
 }
 
 #[test]
@@ -88,7 +92,7 @@ fn of_several_velocities_one_is_transformed() {
     near(measure(&app, &plot(&app), "slope"), 1.1);
     let lagrangian = 0.5 * (0.72 + 0.01) - 0.06 - 2.0;
     near(measure(&app, &plot(&app), "intercept"), lagrangian - 1.1 * 0.6);
-    assert_eq!(told(&app), "slope p_x = 1.1\nintercept L − p_x ẋ = −2.355");
+    assert_eq!(reported(&app), "slope p_x = 1.1\nintercept L − p_x ẋ = −2.355");
 }
 
 #[test]

@@ -205,8 +205,8 @@ fn the_line_of_doubts_has_what_is_run_together_apart() {
         typed(&model, &mut pool, "1/2 (m + l)x'^2 + 1/2 ml^2 theta'^2 + mgl x").unwrap_err();
     assert_eq!(errors.len(), 4, "{errors:?}");
     let line = "1/2*(m + l)*x'^2 + 1/2*m*l^2*theta'^2 + m*g*l*x";
-    let told = format!("read from left to right, all of it is `{line}`");
-    assert!(errors[3].ends_with(&told), "{errors:?}");
+    let reported = format!("read from left to right, all of it is `{line}`");
+    assert!(errors[3].ends_with(&reported), "{errors:?}");
     assert_eq!(errors.iter().filter(|error| error.contains("all of it")).count(), 1, "{errors:?}");
     assert!(typed(&model, &mut pool, line).is_ok());
 }

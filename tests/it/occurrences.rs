@@ -409,7 +409,7 @@ fn a_pole_is_no_crossing() {
 #[test]
 fn a_function_faster_than_the_clock_is_an_error() {
     // at t = 10⁴ the digits of the clock are 1.8e-12 apart
-    for (speed, told) in [("1e10", false), ("1e13", true)] {
+    for (speed, reported) in [("1e10", false), ("1e13", true)] {
         let text = format!(
             "{FREE}\n[[events]]\nname = 'e'\nwhen = 'sin({speed}*(t - 10000))'\n[run]\nstart = 10000.0\n"
         );
@@ -417,7 +417,7 @@ fn a_function_faster_than_the_clock_is_an_error() {
         free.advance(10_000.000_001, 10_000);
         assert_eq!(
             matches!(free.status(), Status::Failed(_)),
-            told,
+            reported,
             "{speed}: {:?}",
             free.status()
         );
@@ -459,10 +459,10 @@ fn an_impulse_waits_for_its_key() {
 fn what_happens_is_reported_once_and_forgotten_at_a_reset() {
     let mut ball = file(BALL);
     run(&mut ball, 4.0);
-    let told = ball.snapshot().notices;
-    assert_eq!(told.len(), 1, "{told:?}");
-    assert!(told[0].starts_with("bounce at t = 1:"), "{told:?}");
-    assert!(told[0].contains("energy −"), "a bounce takes energy: {told:?}");
+    let reported = ball.snapshot().notices;
+    assert_eq!(reported.len(), 1, "{reported:?}");
+    assert!(reported[0].starts_with("bounce at t = 1:"), "{reported:?}");
+    assert!(reported[0].contains("energy −"), "a bounce takes energy: {reported:?}");
     ball.execute(Command::Reset);
     assert!(ball.snapshot().notices.is_empty());
     run(&mut ball, 1.5);

@@ -107,10 +107,15 @@ fn a_singular_configuration_that_is_passed_is_reported_each_time() {
         assert_eq!(bars.singular_passages(), None, "{method}");
         // a = 1 − t vanishes at 1 and is −π at 1 + π
         bars.advance(6.0, 100_000);
-        let Some(told) = bars.singular_passages() else { panic!("{method}: {:?}", bars.status()) };
-        assert!(told.contains("t = 1") || told.contains("t = 0.99"), "{method}: {told}");
+        let Some(reported) = bars.singular_passages() else {
+            panic!("{method}: {:?}", bars.status())
+        };
+        assert!(
+            reported.contains("t = 1") || reported.contains("t = 0.99"),
+            "{method}: {reported}"
+        );
         if error(&bars).is_none() {
-            assert!(told.contains("and 1 more"), "{method}: {told}");
+            assert!(reported.contains("and 1 more"), "{method}: {reported}");
         }
     }
     let cross = "title = 'cross'\n[coordinates]\nx = { initial = -1, velocity = 1 }\n\
@@ -118,7 +123,7 @@ fn a_singular_configuration_that_is_passed_is_reported_each_time() {
                  [[constraints]]\nname = 'lines'\nexpression = 'x^2 - y^2'\n";
     let mut cross = build(cross, |_| ());
     run(&mut cross, 3.0);
-    assert!(cross.singular_passages().is_some_and(|told| told.contains("t = 1")));
+    assert!(cross.singular_passages().is_some_and(|reported| reported.contains("t = 1")));
     assert!(cross.snapshot().notices.iter().any(|n| n.contains("singular configuration")));
 }
 

@@ -151,8 +151,8 @@ fn in_the_active_view_the_point_is_moved_and_the_coordinates_stay() {
     assert_eq!(app.lab.as_ref().expect("a lab").focus.pane, Pane::Plot(phase), "the focus stays");
     let mut app = in_lab();
     press(&mut app, "Q");
-    let told = app.notifications.shown.take().map(|notice| notice.text).unwrap_or_default();
-    assert!(told.contains("Q does nothing here"), "{told}");
+    let reported = app.notifications.shown.take().map(|notice| notice.text).unwrap_or_default();
+    assert!(reported.contains("Q does nothing here"), "{reported}");
 }
 
 #[test]

@@ -23,13 +23,11 @@ pub struct PotentialProfile {
     pub(super) tops: Vec<[f64; 2]>,
     /// The greatest size of an energy at a bottom or a top: beyond them a potential may fall without end.
     pub(super) height: f64,
-    /// The period of the coordinate.
     pub(super) period: Option<f64>,
     /// Between which places its tops are given.
     pub(super) resolved: [f64; 2],
     /// The walls around the start; infinite where there is none.
     pub(super) walls: [f64; 2],
-    /// Where the coordinate begins.
     pub(super) begin: f64,
 }
 
@@ -48,7 +46,6 @@ impl PotentialProfile {
         }
     }
 
-    /// The rounding of an energy.
     pub(super) fn noise(&self, energy: f64) -> f64 {
         NOISE * (energy.abs() + self.height)
     }

@@ -11,7 +11,6 @@ use crate::num::bisect;
 const FARTHER: f64 = 4.0;
 const FARTHEST: f64 = 1e150;
 
-/// Halvings of an interval.
 const HALVINGS: u32 = 200;
 
 impl EffectivePotential<'_> {

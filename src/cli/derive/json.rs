@@ -276,7 +276,6 @@ impl JsonReport<'_> {
         all.collect()
     }
 
-    /// The complete integral.
     fn hamilton_jacobi(&self, known: &HamiltonJacobi) -> Value {
         let model = self.report.model;
         let coordinates = model.coordinates.iter().zip(&known.momenta);

@@ -129,7 +129,6 @@ impl<'a> PathStudy<'a> {
         Ok(is_given.then_some(PathVariation { positions, momenta }))
     }
 
-    /// A path that was written.
     pub(super) fn along(&mut self, along: PathFunctions) -> BasePath {
         let (model, equations) = (&self.laid.model, &mut self.equations);
         let is_stationary = stationary(model, equations, &along, &self.constants, self.duration);

@@ -58,7 +58,6 @@ impl Adiabatic {
         self.model.ramped.functions().map(change).fold(0.0, f64::max)
     }
 
-    /// The invariant from the first to the last state of a run.
     pub(super) fn invariant(
         &self,
         system: &System,

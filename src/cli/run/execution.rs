@@ -193,7 +193,6 @@ impl Run<'_> {
         }
     }
 
-    /// Reports that a signal has ended the run.
     fn already_ended(&self) -> Result<(), CommandError> {
         self.interrupt.signal().map_or(Ok(()), |signal| Err(CommandError::Signal(signal)))
     }
@@ -323,7 +322,6 @@ mod tests {
         std::fs::read_to_string(path).expect("it is there")
     }
 
-    /// A table with one row.
     fn begun(path: &Path, format: RowFormat) -> PendingRows {
         let form = if format == RowFormat::Csv { OutputForm::Text } else { OutputForm::Json };
         let out = Output::open(Some(path), form).expect("it can be written");

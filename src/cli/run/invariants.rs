@@ -6,7 +6,6 @@ use crate::cli::report::Invariant;
 use crate::experiment::{Gauge, MethodFact};
 use crate::num::short;
 
-/// Converts each gauge to an invariant.
 pub(super) fn of(gauges: &[Gauge]) -> Vec<Invariant> {
     let invariant = |gauge: &Gauge| Invariant {
         name: gauge.name.clone(),
@@ -79,7 +78,6 @@ fn underflowing(gauges: &[Gauge]) -> Option<String> {
     ))
 }
 
-/// A description of the drift.
 fn description(gauge: &Gauge, about: &str) -> String {
     let (name, drift) = (&gauge.name, size(gauge.max_drift));
     let since = gauge.left.map_or_else(String::new, |time| format!(" since t = {}", short(time)));

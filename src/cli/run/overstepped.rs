@@ -18,7 +18,6 @@ const BY_SERIES: &str = "taylor";
 /// about as far), and for so many more to a singularity.
 const MORE_STEPS: u64 = 2000;
 
-/// The most steps for which it is followed.
 const MOST_STEPS: u64 = 20_000;
 
 /// Whether a method may not see where a motion ends.

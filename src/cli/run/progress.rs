@@ -13,7 +13,6 @@ const PATIENCE: Duration = Duration::from_millis(500);
 /// The least time between two updates of the bar.
 const BETWEEN: Duration = Duration::from_millis(100);
 
-/// The number of parts of the bar.
 const PARTS: f64 = 1000.0;
 
 /// A bar on standard error, shown only on a terminal and only if the run is long.
@@ -31,7 +30,6 @@ impl Bar {
         Bar { start, length: end - start, due: Instant::now() + PATIENCE, shown: None, watched }
     }
 
-    /// Shows the current time of the run.
     pub(crate) fn show(&mut self, time: f64) {
         if !self.watched || Instant::now() < self.due {
             return;

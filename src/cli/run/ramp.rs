@@ -47,7 +47,6 @@ impl FromStr for RampArgument {
     }
 }
 
-/// The ramps of a model.
 pub(super) fn of(
     model: &Model,
     named: &[RampArgument],

@@ -6,7 +6,6 @@ use crate::integrate::spacing;
 use crate::model::RunSettings;
 use crate::printable;
 
-/// The default length of a run.
 const LENGTH: f64 = 10.0;
 
 /// The default number of intervals between rows.
@@ -137,12 +136,10 @@ impl Times {
         Ok(())
     }
 
-    /// The time of the initial values.
     pub(super) fn start(&self) -> f64 {
         self.start
     }
 
-    /// The time at which the run ends.
     pub(super) fn end(&self) -> f64 {
         self.end
     }
@@ -153,7 +150,6 @@ impl Times {
         if length > 0.0 { length } else { 1.0 }
     }
 
-    /// The times of the rows.
     pub(super) fn rows(&self) -> Box<dyn Iterator<Item = f64>> {
         let Times { start, end, .. } = *self;
         match &self.rows {

@@ -18,7 +18,6 @@ impl Shard {
         self.index - 1 + place * self.of
     }
 
-    /// How many of so many rows it has.
     pub(super) fn count(self, rows: usize) -> usize {
         if self.index > rows { 0 } else { (rows - self.index) / self.of + 1 }
     }
@@ -43,14 +42,12 @@ impl Identity {
         Identity { digest, rows: table.count(), shard }
     }
 
-    /// The line in a file.
     pub(super) fn line(&self) -> String {
         let Identity { digest, rows, shard } = self;
         let shard = shard.map_or(String::new(), |s| format!(" shard={}/{}", s.index, s.of));
         format!("{LEAD}digest={digest} rows={rows}{shard}")
     }
 
-    /// Reads a line of a file.
     pub(super) fn read(line: &str) -> Option<Identity> {
         let mut fields = line.strip_prefix(LEAD)?.split(' ');
         let digest = fields.next()?.strip_prefix("digest=")?.to_owned();

@@ -63,7 +63,6 @@ impl<F: Write + Cut> Lines<F> {
     }
 }
 
-/// The journal of an output file.
 fn path_of(output: &Path) -> PathBuf {
     let mut name = output.file_name().unwrap_or_default().to_owned();
     name.push(".journal");
@@ -170,7 +169,6 @@ impl Journal {
         lines.add(&format!("{remark}{place} {line}"))
     }
 
-    /// Its name in messages.
     pub(super) fn name(&self) -> String {
         printable::path(&self.path)
     }

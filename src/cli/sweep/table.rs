@@ -169,7 +169,6 @@ impl SweepTable {
         Ok(SweepTable { laid, plan, names, set, starts: all, until, measures, text })
     }
 
-    /// The number of rows.
     pub(super) fn count(&self) -> usize {
         self.starts.len()
     }
@@ -185,7 +184,6 @@ impl SweepTable {
         advice(method.name, settings.step, settings.tolerance)
     }
 
-    /// The names of the columns.
     pub(super) fn columns(&self) -> Vec<String> {
         let set = self.names.iter().cloned();
         let end = self.header().columns;

@@ -6,7 +6,6 @@ use super::search::{EquilibriumSearch, LawAtRest, size_of};
 use crate::dynamics::halton::halton;
 use crate::system::Form;
 
-/// The number of beginnings of the search in each radius.
 const BEGINNINGS: usize = 200;
 
 /// The number of the beginning at the origin.
@@ -37,7 +36,6 @@ impl EquilibriumSearch<'_> {
         if ordinary { &RADII[..ORDINARY_RADII] } else { &RADII }
     }
 
-    /// The number of its beginnings.
     pub(super) fn beginnings(&self) -> usize {
         BEGINNINGS * self.radii().len()
     }

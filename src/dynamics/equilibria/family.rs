@@ -407,7 +407,6 @@ fn shortest(
     Some(along * parts)
 }
 
-/// Whether places are the same, in the size of one.
 fn is_same(apart: f64, size: f64) -> bool {
     apart <= SAME * size
 }
@@ -422,7 +421,6 @@ fn is_elsewhere(moved: f64) -> bool {
     moved > 1.0 / MOVED
 }
 
-/// Whether a part of a direction is rounding of the largest one.
 fn is_rounding(part: f64, largest: f64) -> bool {
     part.abs() <= EXACT * largest.abs()
 }

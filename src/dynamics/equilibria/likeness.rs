@@ -7,7 +7,7 @@ use nalgebra::DVector;
 
 use super::search::{EquilibriumSearch, LawAtRest, size_of};
 use crate::dynamics::equilibrium::Equilibrium;
-use crate::dynamics::kind::Kind;
+use crate::dynamics::kind::EquilibriumKind;
 use crate::dynamics::linear;
 
 /// Two energies are the same up to this part of what V changes by in the next unit beyond the two places, on the line through them.
@@ -29,7 +29,7 @@ const SAME: f64 = 1e-7;
 impl EquilibriumSearch<'_> {
     /// Whether two equilibria at which V changes by less than a square differ by rounding alone: V is the same between them.
     pub(super) fn is_flat_between(&self, known: &Equilibrium, one: &Equilibrium) -> bool {
-        let degenerate = |one: &Equilibrium| one.kind == Some(Kind::Degenerate);
+        let degenerate = |one: &Equilibrium| one.kind == Some(EquilibriumKind::Degenerate);
         if !degenerate(known) || !degenerate(one) {
             return false;
         }

@@ -43,11 +43,9 @@ pub(super) struct EquilibriumSearch<'a> {
     pub(super) middle: Vec<f64>,
     /// The variables that are searched for, by index.
     pub(super) unknowns: Vec<usize>,
-    /// The cyclic coordinates.
     pub(super) cyclic: Vec<usize>,
     /// The number of coordinates, or of the variables of brackets.
     pub(super) degrees: usize,
-    /// The unit of each variable.
     pub(super) units: Vec<f64>,
     /// The values of the Casimirs, which are those of the start.
     pub(super) casimirs: Vec<f64>,
@@ -269,7 +267,6 @@ impl<'a> EquilibriumSearch<'a> {
     }
 }
 
-/// The cyclic coordinates of canonical variables.
 fn cyclic(space: &PhaseSpace) -> Vec<usize> {
     if space.form() == Form::Momentum { space.cyclic().to_vec() } else { Vec::new() }
 }

@@ -12,7 +12,6 @@ use nalgebra::{DMatrix, DVector};
 
 use super::search::{EquilibriumSearch, size_of};
 
-/// The number of steps.
 const STEPS: usize = 80;
 
 /// The distance over which rates are compared with their derivative, in the size of the place.
@@ -227,7 +226,6 @@ impl Correction {
         step.iter().all(|x| x.is_finite()).then_some(Correction { step, slopes })
     }
 
-    /// What is left of rates, by these slopes.
     fn left(&self, rates: &DVector<f64>) -> f64 {
         rates.component_div(&self.slopes).amax()
     }

@@ -9,7 +9,6 @@ use crate::analysis::{History, LEFT};
 /// The distances from the reference since it was taken.
 #[derive(Clone, Debug)]
 pub(super) struct DriftRecord {
-    /// The last distance.
     pub(super) last: f64,
     /// The mean size of the moving part.
     pub(super) moving: Mean,
@@ -24,7 +23,6 @@ pub(super) struct DriftRecord {
     pub(super) left: Option<f64>,
     /// The first distances beyond rounding, as long as it is not known how much moves.
     pub(super) early: Early,
-    /// The signed distances.
     pub(super) distances: History,
 }
 
@@ -105,7 +103,6 @@ pub(super) struct Early {
 }
 
 impl Early {
-    /// That of a motion that has moved.
     pub(super) fn over() -> Early {
         Early { observations: OBSERVATIONS_TO_KNOW + 1, distances: Vec::new() }
     }

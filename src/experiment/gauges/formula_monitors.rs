@@ -21,7 +21,6 @@ pub(super) struct FormulaMonitors {
     since: f64,
 }
 
-/// A formula that should be constant.
 pub(super) struct Formula {
     pub(super) name: String,
     pub(super) shown: String,
@@ -32,7 +31,6 @@ pub(super) struct Formula {
     pub(super) expression: Expr,
 }
 
-/// The values of the channels at a time.
 #[derive(Clone, Copy)]
 pub(super) struct ChannelValues<'a> {
     pub(super) time: f64,
@@ -52,7 +50,6 @@ impl ChannelValues<'_> {
     }
 }
 
-/// The values of all formulas at one time.
 struct FormulaValues {
     values: Vec<f64>,
     /// The rounding error of each, in units of ε, and whether it underflows.

@@ -28,7 +28,6 @@ const LARGE: f64 = 1e3;
 /// error and no motion: a quantity each of whose terms is constant.
 const ERROR: f64 = 1e3;
 
-/// The state of one gauge.
 #[derive(Clone, Debug)]
 pub(super) struct InvariantMonitor {
     pub(super) invariant: MonitoredInvariant,
@@ -75,7 +74,6 @@ pub(in crate::experiment) struct MonitoredStep {
     pub(in crate::experiment) dense: bool,
 }
 
-/// The quantity that a monitor watches.
 #[derive(Clone, Debug)]
 pub(super) struct MonitoredInvariant {
     pub(super) name: String,
@@ -179,7 +177,6 @@ impl InvariantMonitor {
         Some(terms.sums(quantity, &self.reference.at_rest))
     }
 
-    /// Its value, given the sum of its terms.
     fn rough(&self, sum: f64, work: f64) -> f64 {
         if self.jumps { sum } else { sum - work }
     }

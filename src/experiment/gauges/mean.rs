@@ -22,7 +22,6 @@ impl Mean {
         self.time
     }
 
-    /// A mean with an earlier weight.
     pub(super) fn of(value: f64, weight: f64, time: f64) -> Mean {
         Mean { time, value, weight }
     }

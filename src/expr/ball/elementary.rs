@@ -14,7 +14,6 @@ const SMALL: i64 = -30;
 const LARGE: i64 = 40;
 
 impl Ball {
-    /// The value of a function.
     pub(in crate::expr) fn call(function: FunctionId, arguments: &[Ball]) -> Option<Ball> {
         let u = arguments[0];
         match function {
@@ -93,7 +92,6 @@ impl Ball {
         Ball::of(value, spread * (1.0 + ROUNDING) + ELEMENTARY * value.abs(), 0)
     }
 
-    /// The angle of the point (x, self).
     fn angle(self, x: Ball) -> Option<Ball> {
         if self.is_zero() && x.is_zero() {
             return None;
@@ -131,7 +129,6 @@ impl Ball {
         }
     }
 
-    /// The exponential function.
     pub(in crate::expr) fn exponential(self) -> Option<Ball> {
         if self.exponent > 39 {
             return None;
@@ -149,7 +146,6 @@ impl Ball {
         Ball::of(value, value * (spread * (1.0 + 16.0 * ROUNDING) + 2.0 * off), k as i64)
     }
 
-    /// The natural logarithm.
     pub(in crate::expr) fn logarithm(self) -> Option<Ball> {
         if self.sign()? <= 0.0 {
             return None;

@@ -8,7 +8,6 @@ use crate::dynamics::{
     conjugate_points_at_energy, varied_abbreviated_action, varied_action, varied_phase_action,
 };
 use crate::ensemble::SystemFlow;
-use crate::instrument::accurate::accurate;
 use crate::instrument::conditions::PlotConditions;
 use crate::integrate::Method;
 use crate::mechanics::Equations;
@@ -21,7 +20,6 @@ const MOST_STEP_ENDS: usize = 20_000;
 /// Where on the way a motion is held against one without the errors of its method.
 const PARTS: [f64; 8] = [0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1.0];
 
-/// The action beside a motion.
 pub(super) struct ActionAlongMotion {
     pub(super) varied: VariedAction,
     /// The times from its beginning at which it passes a kinetic focus of the principle; none are searched for where forces
@@ -56,7 +54,6 @@ impl Actions {
     }
 }
 
-/// The action beside a motion up to a duration.
 pub(super) fn beside(
     space: &PhaseSpace,
     mut actions: Actions,
@@ -93,7 +90,7 @@ pub(super) fn beside(
     };
     let varied = varied.map_err(|why| why.to_string())?;
     let times = PARTS.map(|part| part * duration);
-    let exact = accurate(&flow).and_then(|exact| followed(&exact, &times));
+    let exact = flow.by_default_method().and_then(|exact| followed(&exact, &times));
     let method_errors = match exact.zip(motion(&times)) {
         None => [0.0; 2],
         Some((exact, seen)) => {

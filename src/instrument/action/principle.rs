@@ -14,7 +14,6 @@ pub(in crate::instrument) enum Principle {
 }
 
 impl Principle {
-    /// The name of the action.
     pub(super) fn action(self) -> &'static str {
         match self {
             Principle::Hamilton => "action",
@@ -37,7 +36,6 @@ impl Principle {
         }
     }
 
-    /// The letter of the action.
     pub(super) fn letter(self) -> &'static str {
         match self {
             Principle::Hamilton => "S",

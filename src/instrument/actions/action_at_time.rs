@@ -17,7 +17,6 @@ pub(super) struct ActionAtTime {
 }
 
 impl ActionAtTime {
-    /// That of a motion which returns.
     pub(super) fn of(
         motion: &FrozenMotion<'_>,
         own: &OwnMotion,

@@ -26,7 +26,6 @@ const ANOTHER_ENERGY: f64 = 0.02;
 const LATER: f64 = 0.01;
 const OF_A_PERIOD: f64 = 0.25;
 
-/// What was found, and of what.
 pub(super) struct ComputedActions {
     pub(super) course: FrozenCourse<ActionAtTime>,
     pub(super) found: Result<Found, String>,
@@ -45,7 +44,6 @@ pub(super) struct Found {
 }
 
 impl ComputedActions {
-    /// Whether it is still what is to be seen in a state of the motion.
     pub(super) fn holds_at(&self, now: &CoordinateState) -> bool {
         let FrozenCourse { state, .. } = &self.course;
         if !self.course.is_of_this_law() {

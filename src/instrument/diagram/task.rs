@@ -26,7 +26,6 @@ const IDLE: u64 = 4000;
 /// An exponent is followed over so many seconds of the wall clock at the file's own speed.
 const SECONDS: f64 = 120.0;
 
-/// What is shown of each motion.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(in super::super) enum DiagramQuantity {
     /// Its crossings of a surface, or its largest exponent where there is none.

@@ -73,7 +73,6 @@ impl Cloud {
         self.error.is_some() || self.began(now) && beyond > 0.5 * (self.end - self.asked)
     }
 
-    /// Whether it is known from this time on.
     pub(super) fn began(&self, now: f64) -> bool {
         self.frames.first().is_some_and(|frame| frame.time <= now)
     }

@@ -9,14 +9,12 @@ use crate::ensemble::Circulation;
 /// How far from the middle half of the cloud its bulk reaches, in widths of that half. Evenly spread points reach half of one.
 const FENCES: f64 = 3.0;
 
-/// What is seen at one time.
 #[derive(Clone)]
 pub(super) struct CloudFrame {
     pub(super) time: f64,
     pub(super) cloud: Arc<Vec<[f64; 2]>>,
     pub(super) curve: Arc<Vec<[f64; 2]>>,
     pub(super) action: Option<Circulation>,
-    /// The motion at this time.
     pub(super) own: [f64; 2],
 }
 

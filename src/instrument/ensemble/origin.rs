@@ -19,11 +19,9 @@ const OF_TURN: f64 = 0.08;
 const AROUND: f64 = 1.5;
 const TRIES: usize = 64;
 
-/// Where a cloud began.
 #[derive(Clone)]
 pub(super) struct CloudOrigin {
     pub(super) time: f64,
-    /// The motion there.
     base: Vec<InitialOverride>,
     pub(super) centre: [f64; 2],
     radii: [f64; 2],
@@ -32,7 +30,6 @@ pub(super) struct CloudOrigin {
     pub(super) again: bool,
 }
 
-/// What a cloud fills.
 #[derive(Clone)]
 enum CloudShape {
     Disc,

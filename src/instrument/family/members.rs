@@ -54,7 +54,6 @@ pub(super) struct FollowedFamily {
     way: Option<FamilyWay>,
 }
 
-/// A family under way.
 #[derive(Clone)]
 struct FamilyWay {
     space: PhaseSpace,
@@ -76,7 +75,6 @@ impl FollowedFamily {
 /// What is drawn and written of an orbit.
 pub(super) struct FamilyMember {
     pub(super) value: f64,
-    /// The greatest value of the quantity.
     pub(super) greatest: f64,
     pub(super) period: f64,
     pub(super) energy: f64,
@@ -256,7 +254,6 @@ fn rate(physics: Physics<'_>, channel: usize) -> usize {
     found.unwrap_or(channel)
 }
 
-/// The flow along an orbit.
 fn flow(
     system: &System,
     (method, parameters): (&'static Method, Vec<f64>),

@@ -34,14 +34,12 @@ pub(super) struct ComputedMap {
     pub(super) refused: Option<String>,
 }
 
-/// The number of a motion that is shown.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum MapNumber {
     /// Its largest Lyapunov exponent.
     Exponent,
     /// When it first crosses the surface of section of this index.
     FirstCrossing(usize),
-    /// A channel at its end.
     AtTheEnd(usize),
 }
 
@@ -91,7 +89,6 @@ impl MapTask {
         ComputedMap { conditions, length, values, field, refused }
     }
 
-    /// The numbers of a place.
     fn at(&self, place: [usize; 2]) -> [f64; 2] {
         coordinates(&self.motions.conditions.window, place)
     }
@@ -106,7 +103,6 @@ impl MapTask {
         }
     }
 
-    /// The numbers of motions.
     fn numbers(&self, system: &System, starts: Vec<Start>) -> Vec<Result<f64, String>> {
         match self.number {
             MapNumber::Exponent => {
@@ -145,7 +141,6 @@ impl MapTask {
         found.into_iter().map(time).collect()
     }
 
-    /// A channel at the end of each motion.
     fn at_the_end(
         &self,
         system: &System,
@@ -186,7 +181,6 @@ impl MapTask {
     }
 }
 
-/// The numbers of a place of a window.
 pub(super) fn coordinates(window: &[[f64; 2]], place: [usize; 2]) -> [f64; 2] {
     [0, 1].map(|axis| {
         let [from, to] = window[axis];

@@ -60,7 +60,6 @@ impl Portrait {
         answer?.of::<Portrait>()
     }
 
-    /// How many crossings its orbits have.
     pub(super) fn crossings(&self) -> usize {
         self.orbits.iter().map(|orbit| orbit.points.len()).sum()
     }
@@ -139,7 +138,7 @@ pub(super) struct SectionTask {
     pub(super) plan: SectionPlan,
     pub(super) columns: [usize; 2],
     pub(super) transient: usize,
-    pub(super) known: Option<Begun>,
+    pub(super) known: Option<StartedPortrait>,
     pub(super) given: [Option<[f64; 2]>; 2],
     /// The initial values of the motion, and the range of each axis that it has reached so far.
     pub(super) own: Start,
@@ -148,8 +147,7 @@ pub(super) struct SectionTask {
     pub(super) seeds: Vec<Seed>,
 }
 
-/// A picture that was begun.
-pub(super) struct Begun {
+pub(super) struct StartedPortrait {
     pub(super) region: Region,
     pub(super) orbits: Vec<DrawnOrbit>,
     pub(super) pending: (Vec<[f64; 2]>, u64),
@@ -254,7 +252,6 @@ impl SectionTask {
         (count, from..from + count * TRIES)
     }
 
-    /// Points of a window that are starts.
     fn starts(
         &self,
         system: &System,

@@ -6,7 +6,6 @@ use crate::expr::Expr;
 use crate::instrument::{Physics, Plot};
 use crate::model::{Direction, View};
 
-/// The view of the file that has the surface.
 pub(super) fn view<'a>(plot: &Plot, physics: Physics<'a>) -> Option<&'a View> {
     physics.model.views.get(plot.view?).filter(|view| view.section.is_some())
 }

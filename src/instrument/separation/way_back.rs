@@ -15,7 +15,6 @@ use crate::job::Job;
 use crate::num::significant;
 use crate::system::State;
 
-/// The level of the line of what is expected.
 const LINE: Level = 2;
 
 /// The pieces of the line of what is expected.

@@ -33,7 +33,6 @@ pub(super) struct Branches {
     old: Old,
     main: Vec<GridNode>,
     others: Vec<Vec<GridNode>>,
-    /// The lines of the other branches.
     pub(super) lines: Vec<Vec<[f64; 2]>>,
 }
 
@@ -47,7 +46,6 @@ pub(super) struct OtherImages {
 }
 
 impl OtherImages {
-    /// All of them.
     pub(super) fn all(&self) -> Vec<[f64; 2]> {
         self.on_grids.iter().chain(&self.beside).copied().collect()
     }
@@ -86,12 +84,10 @@ impl Branches {
         Some((lines, branches))
     }
 
-    /// The number of other branches.
     pub(super) fn others(&self) -> usize {
         self.others.len()
     }
 
-    /// The images of a point on the other branches.
     pub(super) fn images(&self, at: &Valuation) -> OtherImages {
         let own = self.new.map(|s| at.at(s));
         let mut found = OtherImages::default();

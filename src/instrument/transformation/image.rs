@@ -6,17 +6,14 @@
 use crate::model::{Transformation, TransformationLaw};
 use crate::num::significant;
 
-/// The image of the moving point.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ImageOrigin {
     /// Whether it is found by Newton's method.
     pub(super) solved: bool,
-    /// Whether there is one.
     pub(super) exists: bool,
 }
 
 impl ImageOrigin {
-    /// What is said of it.
     pub(super) fn lines(self, law: &Transformation) -> &'static [&'static str] {
         match (&law.law, self) {
             (_, ImageOrigin { solved: true, exists: true }) => &["solved numerically"],

@@ -15,7 +15,6 @@ use crate::model::{GeneratingType, Model};
 use crate::num::significant;
 use crate::system::System;
 
-/// What is known of a map.
 #[derive(Clone)]
 pub(super) struct MapVerdict {
     /// The verdict, and K, in lines.
@@ -119,7 +118,6 @@ fn is_unknown(verdict: &CanonicalVerdict) -> bool {
     verdict.residual.is_none() && verdict.failing.is_empty()
 }
 
-/// What is said of a transformation.
 fn lines(pool: &Pool, report: &TransformationReport) -> Vec<String> {
     let verdict = &report.verdict;
     let off = verdict.residual.map_or_else(String::new, |x| significant(x, 1, 1e-3..1e3));

@@ -12,16 +12,15 @@ const FENCES: f64 = 3.0;
 const WIDER: f64 = 4.0;
 
 /// What may be shown, in numbers along one axis.
-pub(super) struct Along<'a> {
+pub(super) struct ShownCoordinates<'a> {
     pub(super) own: &'a [Vec<[f64; 2]>],
     pub(super) others: &'a [Vec<[f64; 2]>],
     /// The other images of the moving point.
     pub(super) images: &'a [[f64; 2]],
-    /// What the motion has reached.
     pub(super) reached: [f64; 2],
 }
 
-impl Along<'_> {
+impl ShownCoordinates<'_> {
     /// The range of an axis; `None` without a grid.
     pub(super) fn range(&self, axis: usize) -> Option<[f64; 2]> {
         let own = Bulk::of(self.own, axis)?;
@@ -70,12 +69,12 @@ mod tests {
     #[test]
     fn a_pole_does_not_make_the_picture_flat() {
         let own = [line(|x| 1.0 / (x * x + 1e-12))];
-        let along = Along { own: &own, others: &[], images: &[], reached: [1.0, 8e10] };
+        let along = ShownCoordinates { own: &own, others: &[], images: &[], reached: [1.0, 8e10] };
         let [lo, hi] = along.range(1).expect("a range");
         assert!(lo > -100.0 && (10.0..100.0).contains(&hi), "{lo} {hi}");
         // nor is anything cut that is spread evenly
         let own = [line(|x| x)];
-        let along = Along { own: &own, others: &[], images: &[], reached: [-1.2, 0.5] };
+        let along = ShownCoordinates { own: &own, others: &[], images: &[], reached: [-1.2, 0.5] };
         assert_eq!(along.range(0).expect("a range")[0], -1.2);
         assert!(along.range(0).expect("a range")[1] > 0.9);
     }
@@ -86,7 +85,8 @@ mod tests {
         let own = [line(|x| x)];
         for (image, shown) in [(-2.5, true), (-33.0, false)] {
             let images = [[0.0, image]];
-            let along = Along { own: &own, others: &[], images: &images, reached: [-1.0, 1.0] };
+            let along =
+                ShownCoordinates { own: &own, others: &[], images: &images, reached: [-1.0, 1.0] };
             assert_eq!(along.range(1).expect("a range")[0] <= image, shown);
         }
     }

@@ -55,7 +55,6 @@ impl DormandPrince {
         if here.iter().zip(&later).any(is_near) { self.follow_kink() } else { Ok(()) }
     }
 
-    /// From here on the motion follows a kink.
     pub(super) fn follow_kink(&mut self) -> Result<(), MotionError> {
         let Ok(mut taylor) = Taylor::new(&self.system, &Settings::default()) else {
             return Ok(());

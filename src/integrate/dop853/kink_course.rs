@@ -9,7 +9,6 @@ use crate::integrate::taylor::Taylor;
 pub(super) enum KinkCourse {
     /// The motion is on no kink.
     Away,
-    /// The motion is on a kink.
     Along(Box<Taylor>),
     /// On none since the end of the last step, which belongs to the other method still.
     Left(Box<Taylor>),

@@ -13,7 +13,6 @@ pub(super) struct Stage {
     pub(super) from: &'static [WeightedStage],
 }
 
-/// The number of stages of the method.
 pub(super) const METHOD_STAGES: usize = 12;
 
 /// The stages: those of the method, then its result, whose slope is the first of the next step,

@@ -147,7 +147,6 @@ impl EventLocator {
     }
 }
 
-/// The rates of the numbers of a state.
 fn rates(system: &System, state: &State, parameters: &[f64]) -> Option<Vec<f64>> {
     let mut rates = system.native_rates();
     rates.set_parameters(parameters);

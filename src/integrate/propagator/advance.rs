@@ -28,8 +28,8 @@ impl Propagator {
         self.reach_unexplained(time, limit, budget).map_err(|error| self.explained(error))
     }
 
-    /// The same, but the cause of an error is not searched for: what could pass it takes more than most motions to find out, and of
-    /// many orbits nobody reads it.
+    /// Advances as [`Propagator::reach`] does, without searching for the cause of an error, which takes longer than most
+    /// motions and which nobody reads for one of many orbits.
     ///
     /// # Errors
     /// Returns an error if the motion cannot continue.
@@ -228,7 +228,6 @@ impl Propagator {
         self.date_beside_step_in_time()
     }
 
-    /// Projects the current state onto the constraints.
     fn project_state(&mut self) -> Result<(), MotionError> {
         match (&mut self.projector, self.state.form) {
             (Some(projector), Form::Velocity) => projector.project(&mut self.state),

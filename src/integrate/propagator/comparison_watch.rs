@@ -119,7 +119,6 @@ impl Propagator {
         }
     }
 
-    /// Coordinates of the comparison motion with their names.
     fn of_comparison(&self, values: &[f64]) -> Vec<(String, f64)> {
         let names =
             self.system.channels().iter().map(|channel| format!("{} (wrong)", channel.shown));

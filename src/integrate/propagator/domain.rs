@@ -27,12 +27,10 @@ impl MotionDomain {
         self.branch.is_none() && self.logarithms.is_none()
     }
 
-    /// Whether the velocities of a state are on the branch.
     pub(super) fn is_on_branch(&mut self, state: &State) -> bool {
         self.branch.as_mut().is_none_or(|branch| branch.holds(state))
     }
 
-    /// Whether the energy of a state has a value.
     pub(super) fn has_energy(&mut self, state: &State) -> bool {
         self.logarithms.as_mut().is_none_or(|logarithms| logarithms.have_values(state))
     }

@@ -6,7 +6,7 @@ use super::Propagator;
 use crate::integrate::Stepping;
 use crate::integrate::narrow_place::PassedPlaces;
 
-/// A step that may not have seen what the law does within it.
+/// A step that may have missed a narrow feature of the law.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct NarrowPassage {
     /// When it ended.
@@ -30,7 +30,6 @@ impl Propagator {
         self.note_narrow_place();
     }
 
-    /// Records the end of a step.
     pub(super) fn note_narrow_place(&mut self) {
         let Some(places) = self.narrow.as_mut().filter(|_| self.narrow_passage.is_none()) else {
             return;

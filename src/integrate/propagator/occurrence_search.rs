@@ -14,15 +14,12 @@ use crate::system::{MotionError, State, System};
 pub(super) struct OccurrenceSearch {
     pub(super) events: Option<EventLocator>,
     pub(super) impulses: ImpulseSchedule,
-    /// The time at which the motion began.
     start: f64,
     /// The time up to which the last step contains no unknown event.
     pub(super) clear: f64,
-    /// The event at that time.
     pub(super) waiting: Option<LocatedEvent>,
     /// Whether events may happen at the time of the last impulse that are known only after the next step.
     pub(super) unsettled: bool,
-    /// The accumulation detector of each event.
     accumulation: Vec<AccumulationDetector>,
 }
 
@@ -50,7 +47,6 @@ impl OccurrenceSearch {
         self.impulses.reschedule(system.schedule(parameters));
     }
 
-    /// Changes the parameters of the system.
     pub(super) fn set_parameters(&mut self, system: &System, parameters: &[f64]) {
         self.impulses.reschedule(system.schedule(parameters));
         if let Some(events) = &mut self.events {
@@ -110,7 +106,6 @@ impl OccurrenceSearch {
         self.accumulation[found.event].record(found.exact.high, self.start)
     }
 
-    /// The value of the function of an event.
     pub(super) fn value(&mut self, event: usize, state: &State) -> Option<f64> {
         self.events.as_mut()?.value(event, state)
     }

@@ -41,7 +41,6 @@ impl Propagator {
         }
     }
 
-    /// Records the end of a step.
     pub(super) fn note_side(&mut self) {
         let Some(open) = self.passed.open.take() else { return };
         let value = self.search.value(open.event, self.stepper.state());

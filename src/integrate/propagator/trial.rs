@@ -10,7 +10,6 @@ use crate::system::{MotionErrorKind, Passage, State};
 /// A method that may pass a singular configuration is tried with about this many steps to it.
 const STEPS_THERE: f64 = 50.0;
 
-/// The most steps of such a trial.
 const MOST_STEPS: u32 = 4000;
 
 /// The results of a trial and of another one with half the step may differ by this part. It is also the part of the
@@ -140,7 +139,6 @@ impl Propagator {
         None
     }
 
-    /// Integrates the motion from a state to a time by a method.
     pub(super) fn trial(
         &mut self,
         method: &'static crate::integrate::Method,

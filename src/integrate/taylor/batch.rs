@@ -16,7 +16,6 @@ use crate::integrate::method::{Method, Settings};
 use crate::num::{BATCH, DoubleDouble};
 use crate::system::{BatchSeries, State, System};
 
-/// One orbit.
 #[derive(Clone, Debug)]
 struct TaylorLane {
     status: LaneStatus,
@@ -63,7 +62,6 @@ impl TaylorBatch {
         })
     }
 
-    /// Puts an orbit into a lane.
     pub(in crate::integrate) fn start(
         &mut self,
         lane: usize,

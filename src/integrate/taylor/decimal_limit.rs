@@ -12,11 +12,9 @@ pub(super) struct DecimalLimit {
 }
 
 impl DecimalLimit {
-    /// No limit yet.
     pub(super) const NONE: DecimalLimit =
         DecimalLimit { rounded: f64::NAN, exact: DoubleDouble::ZERO };
 
-    /// The number of this limit.
     pub(super) fn exact(&mut self, limit: f64) -> DoubleDouble {
         if self.rounded != limit {
             *self = DecimalLimit { rounded: limit, exact: DoubleDouble::from_decimal(limit) };

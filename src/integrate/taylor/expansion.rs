@@ -89,7 +89,6 @@ pub(super) struct UnitTrials {
     tried: u32,
 }
 
-/// What has come of a trial.
 pub(super) enum UnitTrial {
     /// The unit represents the step well, which is this long.
     Fits(f64),

@@ -123,7 +123,6 @@ impl Kinks {
         Ok(())
     }
 
-    /// Whether the motion is on a switching surface.
     pub(super) fn is_on_surface(&self) -> bool {
         !self.on_surface.is_empty()
     }

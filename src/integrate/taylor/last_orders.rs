@@ -31,10 +31,8 @@ pub(super) const CLEARLY: f64 = 1.001;
 /// The number of lanes for the last orders, in whole chunks. The highest order is in the last lane.
 pub(super) const WIDTH: usize = (LAST + BEFORE).next_multiple_of(LANES);
 
-/// The number of these chunks.
 pub(super) const CHUNKS: usize = WIDTH / LANES;
 
-/// A number for each of the last orders.
 pub(super) type LastOrders = [[f64; LANES]; CHUNKS];
 
 /// By how much the logarithm of the step may be longer for the k-th of p orders.

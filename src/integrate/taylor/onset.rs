@@ -20,7 +20,6 @@ use crate::system::{ExactRates, MotionError, MotionErrorKind, State};
 /// The number of points; five points of Gauss integrate its polynomials exactly.
 const STAGES: usize = 10;
 
-/// The maximal number of Newton iterations.
 const ITERATIONS: u32 = 30;
 
 /// A correction below this part of the velocities is the last.
@@ -243,7 +242,6 @@ impl Onset {
         self.begin() + DoubleDouble::from(self.step)
     }
 
-    /// The state at a time in between.
     pub(super) fn at(&self, time: DoubleDouble) -> State {
         let part = ((time - self.begin()).high / self.step).clamp(0.0, 1.0);
         let (_, numbers) = self.place(part, &weights(part));

@@ -71,7 +71,6 @@ impl LowestBounds {
         place: 0,
     };
 
-    /// That in a lane.
     pub(super) fn bound(&self, lane: usize) -> f64 {
         self.logs[lane / LANES][lane % LANES]
     }

@@ -24,7 +24,6 @@ pub(super) const FIRST: f64 = 1e-8;
 /// the work of a friction that does none.
 const CANCELLED: f64 = 1e-20;
 
-/// A motion at rest.
 #[derive(Debug)]
 pub(super) struct RestUnderFriction {
     /// The state at the beginning of the last step.
@@ -34,11 +33,9 @@ pub(super) struct RestUnderFriction {
     degrees: usize,
     /// The place of the first auxiliary number.
     moving: usize,
-    /// The size of the trial velocities.
     size: f64,
     /// The length of a step within which the forces are followed in time.
     stride: f64,
-    /// That of the next one to try.
     next: f64,
     /// The beginning of the motion after rest.
     onset: Option<Onset>,

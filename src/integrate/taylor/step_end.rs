@@ -265,7 +265,6 @@ impl Taylor {
         self.system.check_finite(&self.state)
     }
 
-    /// Evaluates the rates at the current state.
     pub(super) fn evaluate_rates(&mut self) -> Result<(), MotionError> {
         let state = &self.state;
         let numbers: Vec<DoubleDouble> = (0..state.values.len()).map(|i| state.exact(i)).collect();

@@ -11,7 +11,6 @@ const LEAST: f64 = 1e-15;
 /// Steps that lead away from a point do not shrink by more than this factor.
 const SHRINKING: f64 = 0.1;
 
-/// The steps of a motion so far.
 #[derive(Debug)]
 pub(super) struct StepHistory {
     pub(super) unit: UnitOfTime,

@@ -129,7 +129,6 @@ impl StepSize {
     }
 }
 
-/// The shortest step that some series allow.
 struct ShortestStep {
     /// Its logarithm, and its powers.
     log: f64,

@@ -34,7 +34,6 @@ const DRY: f64 = 0.5;
 /// The maximal number of degrees of freedom that are tested in all directions.
 const MOST: usize = 12;
 
-/// The result of the test.
 pub(super) enum Sticking {
     /// The motion stays at rest: it is held by dry friction, or by a force that vanishes with the velocity.
     Stays { still: RestUnderFriction, dry: bool },

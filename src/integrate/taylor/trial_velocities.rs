@@ -41,7 +41,6 @@ pub(super) struct TrialVelocities<'a> {
     pub(super) parameters: &'a [f64],
     pub(super) still: State,
     pub(super) n: usize,
-    /// The size of these velocities.
     pub(super) size: f64,
 }
 

@@ -2,7 +2,6 @@
 //!
 //! In: the size of each step. Out: the scale of the series. Never here: the series.
 
-/// What is known of the unit of time of a motion.
 #[derive(Clone, Debug, Default)]
 pub(super) struct UnitOfTime {
     /// The size of the last step, until the next series takes its unit from it. The current series still represents the states

@@ -2,7 +2,6 @@
 
 use crate::expr::{Expr, Symbol};
 
-/// The meaning of a name.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Meaning {
     Symbol(Symbol),

@@ -7,7 +7,6 @@ use crate::num::instruction_set::{Kernel, vectorized};
 use crate::num::math;
 use crate::num::real::{Analytic, Real};
 
-/// ln 2.
 const LN_2: DoubleDouble =
     DoubleDouble { high: std::f64::consts::LN_2, low: 2.319_046_813_846_299_6e-17 };
 

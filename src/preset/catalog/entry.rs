@@ -4,8 +4,8 @@ use std::cmp::Ordering;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use super::NotFound;
 use super::shipped::{self, Listed};
+use super::{NotFound, is_path};
 use crate::diagnostic::Diagnostics;
 use crate::diagnostic::{Diagnostic, Document, Severity};
 use crate::model::Info;
@@ -37,6 +37,17 @@ pub struct CatalogEntry {
 }
 
 impl CatalogEntry {
+    /// The path of what a user names, which need not exist; `None` for a shipped preset or an unknown name.
+    pub fn place_among(entries: &[CatalogEntry], wanted: &str) -> Option<PathBuf> {
+        if is_path(wanted) {
+            return Some(PathBuf::from(wanted));
+        }
+        match &entries.iter().find(|entry| entry.name == wanted)?.origin {
+            PresetOrigin::User(path) => Some(path.clone()),
+            PresetOrigin::Shipped => None,
+        }
+    }
+
     pub(super) fn shipped(listed: &Listed) -> CatalogEntry {
         let path = Path::new(listed.path);
         CatalogEntry {

@@ -15,7 +15,6 @@ pub(super) const MOST: usize = 4096;
 
 #[derive(Default)]
 pub(super) struct FolderContents {
-    /// The presets.
     pub(super) files: Vec<PathBuf>,
     /// Whether the limits were exceeded.
     pub(super) cut: bool,

@@ -8,7 +8,6 @@ use include_dir::{Dir, include_dir};
 
 static FOLDER: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/presets");
 
-/// The head of a shipped preset.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Listed {
     /// Its path below `presets/`.
@@ -20,7 +19,6 @@ pub(super) struct Listed {
     pub(super) topics: &'static [&'static str],
 }
 
-/// The shipped presets by path.
 pub(super) const INDEX: &[Listed] = include!(concat!(env!("OUT_DIR"), "/catalog_index.rs"));
 
 /// The text of an embedded file, by its path below `presets/`.

@@ -50,7 +50,6 @@ impl ModelBuilder<'_> {
         symbol
     }
 
-    /// Reads the pieces of the body.
     pub(super) fn body(&mut self, written: &DraftBody) {
         let mut scope = Scope::new(&self.model, Allowed::Pieces, "a piece of a body");
         let pieces: Vec<Option<Piece>> =
@@ -150,7 +149,6 @@ impl ModelBuilder<'_> {
         value >= 0.0
     }
 
-    /// Reads the attitude of the body.
     pub(super) fn attitude(&mut self, written: &DraftAttitude) {
         let source = match (&written.euler, &written.omega) {
             (Some(angles), None) => {

@@ -26,7 +26,6 @@ const DEGREE: u32 = 2;
 const HIGHEST: f64 = 6.0;
 
 impl ModelBuilder<'_> {
-    /// Reads what the file expects of the motion.
     pub(super) fn expect(&mut self, written: &DraftExpect) {
         let mut scope = Scope::new(&self.model, Allowed::Observable, "an expectation");
         let mut expect = Expect::default();
@@ -56,7 +55,6 @@ impl ModelBuilder<'_> {
         self.model.expect = expect;
     }
 
-    /// Reads the time of an expected occurrence.
     fn expected_event(&mut self, written: &DraftOccurrence) -> Option<ExpectedEvent> {
         let name = written.name.as_ref().and_then(|name| self.occurrence(name));
         let nth = match &written.nth {
@@ -76,7 +74,6 @@ impl ModelBuilder<'_> {
         })
     }
 
-    /// Reads the number of expected occurrences.
     fn expected_count(&mut self, written: &DraftCount) -> Option<ExpectedCount> {
         let name = written.name.as_ref().and_then(|name| self.occurrence(name));
         self.not_before_the_start(written.until.as_ref());
@@ -91,7 +88,6 @@ impl ModelBuilder<'_> {
         })
     }
 
-    /// Reads the expected value of a bracket.
     fn expected_bracket(
         &mut self,
         written: &DraftBracketClaim,
@@ -115,7 +111,6 @@ impl ModelBuilder<'_> {
         })
     }
 
-    /// Reads which transformation is a step of which method.
     fn expected_step(&mut self, written: &DraftStep, scope: &mut Scope) -> Option<ExpectedStep> {
         self.tolerance(written.within.as_ref());
         let name = written.transformation.as_ref().and_then(|name| self.transformation_named(name));
@@ -250,7 +245,6 @@ impl ModelBuilder<'_> {
         None
     }
 
-    /// The Casimirs of the file.
     fn casimirs_by_name(&self) -> &[(String, Expr, SourceRange)] {
         match &self.model.mechanics {
             Mechanics::Poisson { casimirs, .. } => casimirs,

@@ -11,7 +11,6 @@ use crate::model::{Allowed, Frame, Point, Scope};
 use crate::preset::draft::{DraftFrame, Formulas};
 
 impl ModelBuilder<'_> {
-    /// Reads the frames of the file.
     pub(super) fn frames(&mut self, written: &[DraftFrame]) {
         let mut scope = Scope::new(&self.model, Allowed::Configuration, "a frame");
         let mut fixed = Scope::new(&self.model, Allowed::Parameters, "the axis of a frame");
@@ -66,7 +65,6 @@ impl ModelBuilder<'_> {
         Some(axis)
     }
 
-    /// The index of the frame that a view names.
     pub(super) fn frame_of_view(&mut self, name: &Spanned<String>) -> Option<usize> {
         let found = self.model.frames.iter().position(|frame| frame.name == *name.get_ref());
         if found.is_none() {

@@ -135,7 +135,6 @@ impl Names {
         self.taken.get(name).map(|(kind, _)| *kind)
     }
 
-    /// The meaning of a reserved name.
     fn reserved(&self, name: &str) -> Option<String> {
         let of = |prefix: &str| {
             let coordinate = name.strip_prefix(prefix)?;

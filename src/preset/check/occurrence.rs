@@ -31,7 +31,6 @@ impl ModelBuilder<'_> {
         }
     }
 
-    /// Reads the impulses.
     pub(super) fn impulses(&mut self, written: &[DraftImpulse]) {
         let mut times = Scope::new(&self.model, Allowed::Parameters, "the time of an impulse");
         let allowed = match self.model.mechanics {
@@ -151,7 +150,6 @@ impl ModelBuilder<'_> {
         })
     }
 
-    /// Reads the events.
     pub(super) fn events(&mut self, written: &[DraftEvent]) {
         let mut scope = Scope::new(&self.model, Allowed::Event, "an event");
         for event in written {

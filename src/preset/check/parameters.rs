@@ -11,7 +11,6 @@ use crate::num::math;
 use crate::preset::draft::DraftParameter;
 
 impl ModelBuilder<'_> {
-    /// Adds a parameter to the model.
     pub(super) fn parameter(&mut self, written: &DraftParameter) {
         let name = written.name.get_ref();
         let shown =

@@ -89,7 +89,6 @@ impl ModelBuilder<'_> {
         }
     }
 
-    /// The index of a parameter by its name.
     fn parameter_of_view(&mut self, name: &Spanned<String>) -> Option<usize> {
         let found = self.model.parameter(name.get_ref());
         if found.is_none() {
@@ -253,7 +252,6 @@ impl ModelBuilder<'_> {
             Viewpoint { azimuth: angle(&written.azimuth), elevation: angle(&written.elevation) };
     }
 
-    /// Reads the point that the camera follows.
     fn follow(&mut self, written: &DraftFollow) -> Option<Follow> {
         let mut scope = Scope::new(&self.model, Allowed::Observable, "the camera");
         let at = self.point(written.at.as_ref(), &mut scope);

@@ -51,7 +51,6 @@ impl ModelBuilder<'_> {
         matrix
     }
 
-    /// The index of a variable; an unknown name is reported.
     fn variable(&mut self, name: &Spanned<String>) -> Option<usize> {
         let found = self.model.coordinate(name.get_ref());
         if found.is_none() {

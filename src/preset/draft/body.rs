@@ -11,12 +11,10 @@ use crate::preset::schema::{Key, PIECE, SOLIDS, TURN};
 
 /// `[body]` as written.
 pub(in crate::preset) struct DraftBody {
-    /// The range of the table.
     pub(in crate::preset) place: SourceRange,
     pub(in crate::preset) pieces: Vec<DraftPiece>,
 }
 
-/// A piece as written.
 pub(in crate::preset) struct DraftPiece {
     /// One of the [`SOLIDS`]; `None` for a point.
     pub(in crate::preset) solid: Option<&'static str>,
@@ -25,7 +23,6 @@ pub(in crate::preset) struct DraftPiece {
     pub(in crate::preset) mass: Option<Formula>,
     pub(in crate::preset) at: Option<Formulas>,
     pub(in crate::preset) turn: DraftTurn,
-    /// The range of the piece.
     pub(in crate::preset) place: SourceRange,
 }
 
@@ -38,7 +35,6 @@ pub(in crate::preset) enum DraftTurn {
 
 /// `[attitude]` as written.
 pub(in crate::preset) struct DraftAttitude {
-    /// The range of the table.
     pub(in crate::preset) place: SourceRange,
     pub(in crate::preset) euler: Option<Formulas>,
     pub(in crate::preset) omega: Option<Formulas>,
@@ -47,7 +43,6 @@ pub(in crate::preset) struct DraftAttitude {
 
 /// `[comparison]` as written.
 pub(in crate::preset) struct DraftComparison {
-    /// The range of the table.
     pub(in crate::preset) place: SourceRange,
     pub(in crate::preset) list: SourceRange,
     pub(in crate::preset) eliminate: Vec<Spanned<String>>,

@@ -6,7 +6,6 @@ use super::table::Table;
 use super::{Formula, value};
 use crate::diagnostic::SourceRange;
 
-/// An observable as written.
 pub(in crate::preset) struct DraftObservable {
     pub(in crate::preset) name: Option<Spanned<String>>,
     pub(in crate::preset) expression: Option<Formula>,
@@ -14,7 +13,6 @@ pub(in crate::preset) struct DraftObservable {
     pub(in crate::preset) unit: String,
 }
 
-/// The claims as written.
 #[derive(Default)]
 pub(in crate::preset) struct DraftExpect {
     pub(in crate::preset) conserves: Vec<Spanned<String>>,
@@ -27,14 +25,12 @@ pub(in crate::preset) struct DraftExpect {
     pub(in crate::preset) degree: Option<Spanned<f64>>,
 }
 
-/// The time of an expected occurrence, as written.
 pub(in crate::preset) struct DraftOccurrence {
     pub(in crate::preset) name: Option<Spanned<String>>,
     pub(in crate::preset) nth: Option<Spanned<f64>>,
     pub(in crate::preset) at: Option<Spanned<f64>>,
     pub(in crate::preset) within: Option<Spanned<f64>>,
     pub(in crate::preset) source: String,
-    /// The range of the entry.
     pub(in crate::preset) place: SourceRange,
 }
 
@@ -44,17 +40,14 @@ pub(in crate::preset) struct DraftCount {
     pub(in crate::preset) until: Option<Spanned<f64>>,
     pub(in crate::preset) is: Option<Spanned<f64>>,
     pub(in crate::preset) source: String,
-    /// The range of the entry.
     pub(in crate::preset) place: SourceRange,
 }
 
-/// The expected value of a bracket, as written.
 pub(in crate::preset) struct DraftBracketClaim {
     pub(in crate::preset) f: Option<Formula>,
     pub(in crate::preset) g: Option<Formula>,
     pub(in crate::preset) is: Option<Formula>,
     pub(in crate::preset) source: String,
-    /// The range of the entry.
     pub(in crate::preset) place: SourceRange,
 }
 
@@ -65,11 +58,9 @@ pub(in crate::preset) struct DraftStep {
     pub(in crate::preset) step: Option<Formula>,
     pub(in crate::preset) within: Option<Spanned<f64>>,
     pub(in crate::preset) source: String,
-    /// The range of the entry.
     pub(in crate::preset) place: SourceRange,
 }
 
-/// An expected value, as written.
 pub(in crate::preset) struct DraftValue {
     pub(in crate::preset) name: String,
     pub(in crate::preset) expression: Option<Formula>,
@@ -77,7 +68,6 @@ pub(in crate::preset) struct DraftValue {
     pub(in crate::preset) is: Option<Spanned<f64>>,
     pub(in crate::preset) within: Option<Spanned<f64>>,
     pub(in crate::preset) source: String,
-    /// The range of the entry.
     pub(in crate::preset) place: SourceRange,
 }
 

@@ -6,13 +6,11 @@ use super::Formula;
 use super::table::Table;
 use crate::diagnostic::SourceRange;
 
-/// A constraint as written.
 pub(in crate::preset) struct DraftConstraint {
     pub(in crate::preset) name: Option<Spanned<String>>,
     pub(in crate::preset) expression: Option<Formula>,
     pub(in crate::preset) unit: String,
     pub(in crate::preset) about: String,
-    /// The range of the entry.
     pub(in crate::preset) place: SourceRange,
 }
 

@@ -7,12 +7,9 @@ use super::system::formulas;
 use super::table::Table;
 use crate::diagnostic::{Diagnostic, SourceRange};
 
-/// A name of an equilibrium as written.
 pub(in crate::preset) struct DraftEquilibrium {
     pub(in crate::preset) name: Option<Spanned<String>>,
-    /// Coordinates near which it is.
     pub(in crate::preset) near: Vec<NamedFormula>,
-    /// The range of the entry.
     pub(in crate::preset) place: SourceRange,
 }
 

@@ -7,7 +7,6 @@ use super::vector::{self, Formulas};
 use super::{Formula, value};
 use crate::diagnostic::{Diagnostic, SourceRange};
 
-/// A frame as written.
 pub(in crate::preset) struct DraftFrame {
     pub(in crate::preset) name: Option<Spanned<String>>,
     pub(in crate::preset) axis: Option<Formulas>,
@@ -17,7 +16,6 @@ pub(in crate::preset) struct DraftFrame {
     pub(in crate::preset) particles: Vec<(Option<Formulas>, Option<Formula>)>,
     /// The range of the key that makes it the frame of the body.
     pub(in crate::preset) attitude: Option<SourceRange>,
-    /// The range of the entry.
     pub(in crate::preset) place: SourceRange,
 }
 

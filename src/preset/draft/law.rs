@@ -9,34 +9,27 @@ use super::value::Value;
 use super::{Formula, NamedFormula, value};
 use crate::diagnostic::{Diagnostic, Diagnostics, SourceRange};
 
-/// A law of motion as written.
 pub(in crate::preset) struct DraftMechanics {
     pub(in crate::preset) law: LawTable,
     /// The range of the table's name.
     pub(in crate::preset) place: SourceRange,
     /// L or H.
     pub(in crate::preset) function: Option<Formula>,
-    /// The Rayleigh dissipation function.
     pub(in crate::preset) dissipation: Option<Formula>,
     /// Coordinates and forces.
     pub(in crate::preset) forces: Vec<NamedFormula>,
-    /// The brackets of variables.
     pub(in crate::preset) brackets: Vec<DraftBracket>,
     pub(in crate::preset) brackets_place: SourceRange,
     pub(in crate::preset) casimirs: Vec<NamedFormula>,
 }
 
-/// A bracket of two variables, as written.
 pub(in crate::preset) struct DraftBracket {
     /// The two variables.
     pub(in crate::preset) pair: [Spanned<String>; 2],
-    /// The value of the bracket.
     pub(in crate::preset) value: Formula,
-    /// The range of the entry.
     pub(in crate::preset) place: SourceRange,
 }
 
-/// The tables that give a law of motion.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(in crate::preset) enum LawTable {
     Lagrangian,
@@ -45,7 +38,6 @@ pub(in crate::preset) enum LawTable {
 }
 
 impl LawTable {
-    /// The name of its table.
     pub(in crate::preset) fn table(self) -> &'static str {
         match self {
             LawTable::Lagrangian => "lagrangian",

@@ -8,26 +8,21 @@ use super::table::Table;
 use super::{Formula, NamedFormula, value};
 use crate::diagnostic::{Diagnostic, SourceRange};
 
-/// An impulse as written.
 pub(in crate::preset) struct DraftImpulse {
     pub(in crate::preset) name: Option<Spanned<String>>,
-    /// The times, one by one.
     pub(in crate::preset) at: Vec<Formula>,
     pub(in crate::preset) every: Option<Formula>,
     /// The jumps by name; `None` if they could not be read.
     pub(in crate::preset) change: Option<Vec<NamedFormula>>,
     pub(in crate::preset) about: String,
-    /// The range of the entry.
     pub(in crate::preset) place: SourceRange,
 }
 
-/// An event as written.
 pub(in crate::preset) struct DraftEvent {
     pub(in crate::preset) name: Option<Spanned<String>>,
     pub(in crate::preset) when: Option<Formula>,
     pub(in crate::preset) direction: Option<Spanned<String>>,
     pub(in crate::preset) action: Option<Spanned<String>>,
-    /// The range of the entry.
     pub(in crate::preset) place: SourceRange,
 }
 

@@ -10,9 +10,7 @@ use crate::diagnostic::nearest;
 use crate::diagnostic::{Diagnostic, Diagnostics, SourceRange};
 use crate::instrument::{Axis, INSTRUMENTS, Instrument, listed, named};
 
-/// A view as written.
 pub(in crate::preset) struct DraftView {
-    /// The range of the entry.
     pub(in crate::preset) place: SourceRange,
     pub(in crate::preset) kind: &'static dyn Instrument,
     pub(in crate::preset) title: String,
@@ -22,7 +20,6 @@ pub(in crate::preset) struct DraftView {
     pub(in crate::preset) frame: Option<Spanned<String>>,
     /// The shapes drawn in place of those of `[space]`.
     pub(in crate::preset) shapes: Option<Vec<DraftShape>>,
-    /// The surface of a section.
     pub(in crate::preset) section: Option<DraftSection>,
     /// The parameter over whose range it runs.
     pub(in crate::preset) over: Option<Spanned<String>>,
@@ -32,19 +29,16 @@ pub(in crate::preset) struct DraftView {
     pub(in crate::preset) slope: bool,
 }
 
-/// The surface of a section as written.
 pub(in crate::preset) struct DraftSection {
     /// The expression that vanishes on it.
     pub(in crate::preset) on: Option<Formula>,
     /// Which crossings count.
     pub(in crate::preset) direction: Option<Spanned<String>>,
-    /// The ranges of the axes.
     pub(in crate::preset) ranges: [Option<[Formula; 2]>; 2],
 }
 
 /// A shape as written; parts that could not be read, or that its kind does not have, are `None`.
 pub(in crate::preset) struct DraftShape {
-    /// The range of the entry.
     pub(in crate::preset) place: SourceRange,
     pub(in crate::preset) kind: ShapeKind,
     /// The value of the key that names the kind: a point, or the curve of a path.
@@ -61,7 +55,6 @@ pub(in crate::preset) struct DraftShape {
     pub(in crate::preset) text: String,
 }
 
-/// The point that the camera follows, as written.
 pub(in crate::preset) struct DraftFollow {
     pub(in crate::preset) at: Option<Formulas>,
     pub(in crate::preset) reach: Option<Formula>,
@@ -75,7 +68,6 @@ pub(in crate::preset) struct DraftCamera {
     pub(in crate::preset) elevation: Option<Spanned<f64>>,
 }
 
-/// A kind of shape.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(in crate::preset) enum ShapeKind {
     Line,
@@ -246,7 +238,6 @@ pub(super) fn space(top: &mut Table<'_>) -> (Vec<DraftShape>, DraftCamera) {
     (all, DraftCamera { follow, azimuth, elevation })
 }
 
-/// The list of shapes of a table.
 fn shapes_of(table: &mut Table<'_>) -> Vec<DraftShape> {
     let mut all = Vec::new();
     for item in table.list("shapes") {

@@ -12,7 +12,6 @@ use crate::preset::schema::{COORDINATE, PARAMETER, VARIABLE};
 /// A name with its expression, if that could be read.
 pub(in crate::preset) type NamedFormula = (Spanned<String>, Option<Formula>);
 
-/// A coordinate as written.
 pub(in crate::preset) struct DraftCoordinate {
     pub(in crate::preset) name: Spanned<String>,
     pub(in crate::preset) symbol: String,
@@ -40,7 +39,6 @@ impl DraftCoordinate {
     }
 }
 
-/// A parameter as written.
 pub(in crate::preset) struct DraftParameter {
     pub(in crate::preset) name: Spanned<String>,
     pub(in crate::preset) value: Option<Spanned<f64>>,

@@ -13,13 +13,11 @@ use crate::preset::schema::{Key, SchemaTable, ValueKind};
 const LAWS: [(&str, &str); 3] =
     [("L", "[lagrangian]"), ("H", "[hamiltonian]"), ("dissipation", "[lagrangian]")];
 
-/// A table that is being read.
 pub(in crate::preset) struct Table<'d> {
     /// Its name in messages: `[run]`, `the coordinate x`.
     pub(super) called: String,
     pub(super) place: SourceRange,
     entries: &'d DeTable<'d>,
-    /// What is wrong with the file.
     pub(super) diagnostics: &'d Diagnostics,
     /// Its description in the schema; `None` if only its reader knows the keys.
     section: Option<&'static SchemaTable>,

@@ -7,7 +7,6 @@ use super::table::Table;
 use super::{Formula, NamedFormula, value};
 use crate::diagnostic::SourceRange;
 
-/// A transformation as written.
 pub(in crate::preset) struct DraftTransformation {
     pub(in crate::preset) name: Option<Spanned<String>>,
     pub(in crate::preset) kind: Option<Spanned<String>>,
@@ -20,23 +19,18 @@ pub(in crate::preset) struct DraftTransformation {
     pub(in crate::preset) new: Vec<Spanned<String>>,
     /// The name of its largest entry of |M 𝕁 Mᵀ − 𝕁|.
     pub(in crate::preset) residual: Option<Spanned<String>>,
-    /// The range of the entry.
     pub(in crate::preset) place: SourceRange,
 }
 
-/// A generator as written.
 pub(in crate::preset) struct DraftGenerator {
     pub(in crate::preset) name: Option<Spanned<String>>,
     pub(in crate::preset) function: Option<Formula>,
-    /// The range of the entry.
     pub(in crate::preset) place: SourceRange,
 }
 
-/// A complete integral as written.
 pub(in crate::preset) struct DraftIntegral {
     pub(in crate::preset) function: Option<Formula>,
     pub(in crate::preset) constants: Vec<Spanned<String>>,
-    /// The range of the table.
     pub(in crate::preset) place: SourceRange,
 }
 

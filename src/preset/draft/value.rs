@@ -9,10 +9,8 @@ use crate::model::{Allowed, Model, Scope};
 use crate::preset::number_help::number_with_unit;
 use crate::printable::is_steering;
 
-/// A value of TOML with its span.
 pub(in crate::preset) type Value<'d> = Spanned<DeValue<'d>>;
 
-/// The kind of a value, with its article.
 pub(in crate::preset) fn kind(value: &DeValue<'_>) -> &'static str {
     match value {
         DeValue::String(_) => "a text in quotes",

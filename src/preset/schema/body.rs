@@ -26,7 +26,6 @@ pub(in crate::preset) const SOLIDS: &[&str] = &[
     "cuboid",
 ];
 
-/// A piece of a body.
 pub(in crate::preset) const PIECE: SchemaTable = SchemaTable {
     head: "a piece",
     about: "A solid or a point. Edges are full edges; the axis of a solid is its z.",

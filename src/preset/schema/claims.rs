@@ -90,7 +90,6 @@ pub(in crate::preset) const EXPECTED_BRACKET: SchemaTable = SchemaTable {
     ],
 };
 
-/// An expected step of a method.
 pub(in crate::preset) const EXPECTED_STEP: SchemaTable = SchemaTable {
     head: "`steps` of [expect]",
     about: "A transformation that is one step of a method: the same images, and the same derivatives of them.",

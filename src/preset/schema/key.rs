@@ -14,13 +14,11 @@ use crate::instrument::{INSTRUMENTS, Instrument, listed};
 pub(in crate::preset) struct SchemaTable {
     /// Its heading: `[run]`, `[[events]]`, or what its entries are called.
     pub(in crate::preset) head: &'static str,
-    /// Its purpose.
     pub(in crate::preset) about: &'static str,
     /// Its keys in the order of reporting; empty if the file chooses the names.
     pub(in crate::preset) keys: &'static [Key],
 }
 
-/// A key of a table.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::preset) struct Key {
     pub(in crate::preset) name: &'static str,
@@ -68,9 +66,7 @@ impl Only {
 pub(in crate::preset) enum ValueKind {
     /// A text in quotes.
     Text,
-    /// The name of a kind of plot.
     PlotKind,
-    /// A list of texts.
     Texts,
     /// `true` or `false`.
     Flag,
@@ -96,7 +92,6 @@ pub(in crate::preset) enum ValueKind {
     Tables(&'static SchemaTable),
     /// Tables of several kinds, whose keys are known to their own readers.
     Kinds(&'static SchemaTable),
-    /// A list of tables in braces.
     List(&'static SchemaTable),
 }
 
@@ -148,7 +143,6 @@ pub(super) const FORCES: Key =
 pub(super) const H: Key = key("H", Formula, "the Hamiltonian").needed("write H = \"T + V\"");
 
 impl ValueKind {
-    /// A short description of the kind.
     pub(super) fn words(self) -> &'static str {
         match self {
             Text | PlotKind => "text",

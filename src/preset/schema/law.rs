@@ -22,7 +22,6 @@ pub(in crate::preset) const COORDINATE: SchemaTable = SchemaTable {
     ],
 };
 
-/// A variable of brackets.
 pub(in crate::preset) const VARIABLE: SchemaTable = SchemaTable {
     head: "[variables]",
     about: "The variables of a `[poisson]` file in order: a number or an expression, or a table. `L1'` is the rate of `L1`.",

@@ -19,7 +19,6 @@ pub(super) const FRAME: SchemaTable = SchemaTable {
     ],
 };
 
-/// A particle of a frame.
 pub(in crate::preset) const PARTICLE: SchemaTable = SchemaTable {
     head: "`particles` of a frame",
     about: "On which the apparent forces are drawn.",
@@ -67,7 +66,6 @@ pub(super) const VIEW: SchemaTable = SchemaTable {
     ],
 };
 
-/// Whether a view of this kind is given an axis by the key.
 fn has_axis(plot: &dyn Instrument, key: &str) -> bool {
     plot.written().iter().any(|axis| axis.key == key)
 }

@@ -6,13 +6,10 @@
 /// The width and height of a cell.
 pub(super) const CELL: (f64, f64) = (8.0, 16.0);
 
-/// The radius of a dot.
 pub(super) const DOT: f64 = 1.45;
 
-/// A character as shapes.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum GlyphShape {
-    /// The centres of dots.
     Dots(Vec<(f64, f64)>),
     /// Rectangles as left, top, width and height; and their opacity.
     Blocks(Vec<[f64; 4]>, f64),
@@ -50,7 +47,6 @@ fn dots(bits: u32) -> Vec<(f64, f64)> {
     (0..8).filter(|bit| bits >> bit & 1 == 1).map(|bit| PLACES[bit as usize]).collect()
 }
 
-/// The rectangles of a block character.
 fn blocks(character: char) -> Option<Vec<[f64; 4]>> {
     let code = character as u32;
     let quadrants = |bits: u32| {
@@ -92,7 +88,6 @@ fn blocks(character: char) -> Option<Vec<[f64; 4]>> {
     })
 }
 
-/// The stroke of a box-drawing character.
 fn stroke(character: char) -> Option<(&'static str, bool)> {
     Some(match character {
         '─' => ("M0 8H8", false),

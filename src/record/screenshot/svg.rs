@@ -24,7 +24,6 @@ struct GlyphStyle {
     dim: bool,
 }
 
-/// Writes the drawing.
 pub(super) fn write(screen: &Buffer, palette: &Palette, title: &str) -> String {
     let (columns, rows) = (screen.area.width, screen.area.height);
     let (width, height) = (f64::from(columns) * CELL.0, f64::from(rows) * CELL.1);

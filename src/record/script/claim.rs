@@ -35,7 +35,6 @@ const MEASURES: [(&str, AssertedNumber); 5] = [
     ("time", AssertedNumber::Time),
 ];
 
-/// The words for the status of an experiment.
 const STATUS: [Word; 4] = ["running", "paused", "ended", "stopped"];
 
 const VERDICTS: [Word; 7] = ["exact", "bounded", "secular", "lost", "open", "unknown", "released"];
@@ -63,7 +62,6 @@ fn verdict(line: &mut ScriptLine<'_>) -> Result<Word, Diagnostic> {
     line.one_of(what, &VERDICTS)
 }
 
-/// A claim, to the end of the line.
 pub(super) fn claim(line: &mut ScriptLine<'_>) -> Result<Assert, Diagnostic> {
     if line.take("status") {
         let word = line.one_of("how an experiment stands", &STATUS)?;

@@ -39,7 +39,6 @@ impl<'a> ScriptLine<'a> {
         self.at += self.text[self.at..].len() - self.text[self.at..].trim_start().len();
     }
 
-    /// Whether nothing is left.
     pub(super) fn is_over(&mut self) -> bool {
         self.skip();
         self.at == self.text.len()
@@ -177,7 +176,6 @@ impl<'a> ScriptLine<'a> {
         Ok((seconds * unit as f64).round() as Micros)
     }
 
-    /// One of a few words.
     pub(super) fn one_of(
         &mut self,
         what: &str,

@@ -34,16 +34,12 @@ pub(super) enum Prefix {
 /// The reports that the terminal was asked to send.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Expected {
-    /// Bracketed pastes.
     pub(super) pastes: bool,
-    /// Mouse reports.
     pub(super) mouse: bool,
-    /// Focus reports.
     pub(super) focus: bool,
     pub(super) answers: Questions,
 }
 
-/// The output of the parser.
 #[derive(Default)]
 pub(super) struct Sink {
     pub(super) events: VecDeque<Event>,
@@ -146,7 +142,6 @@ impl Sink {
         }
     }
 
-    /// Handles keys that end in a letter.
     fn lettered(&mut self, letter: char, modifiers: u16) {
         let code = match letter {
             'A' => KeyCode::Up,

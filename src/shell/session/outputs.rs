@@ -54,7 +54,6 @@ impl Session {
         }
     }
 
-    /// Reports the outcome of writing a file.
     pub(super) fn report(&mut self, report: WriteReport) {
         info!("{report:?}");
         self.app.update(AppEvent::Written(report));
@@ -152,7 +151,6 @@ impl Session {
         }
     }
 
-    /// Returns the palette shown.
     fn palette(&self) -> &'static Palette {
         let named = |p: &&Palette| Some(p.name) == self.app.theme_shown();
         PALETTES.iter().find(named).unwrap_or_else(|| self.style.full().theme.palette())

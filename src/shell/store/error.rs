@@ -16,13 +16,7 @@ pub(in crate::shell) enum StoreError {
     NoHome,
     /// The file cannot be written.
     #[error("the session will not be saved: cannot write {}: {}", .path.display(), printable::why(.reason))]
-    Refused {
-        /// The file.
-        path: PathBuf,
-        /// The reason given by the system.
-        reason: io::Error,
-    },
-    /// Other programs have taken all files.
+    Refused { path: PathBuf, reason: io::Error },
     #[error("the session will not be saved: {PROGRAMS} others are running and save their own")]
     Taken,
 }

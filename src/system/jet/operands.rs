@@ -42,7 +42,6 @@ impl<R: Analytic> Operands<R> {
         }
     }
 
-    /// The same as slices.
     #[inline(always)]
     pub(super) fn slices(&mut self) -> OperandSlices<'_, R> {
         OperandSlices {

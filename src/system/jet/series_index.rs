@@ -7,7 +7,6 @@ use std::collections::BTreeMap;
 use crate::expr::FunctionId;
 use crate::system::program::{Op, PARAMETRIC_POWER_BITS, Program, Register};
 
-/// The registers that are read as whole series.
 #[derive(Debug)]
 pub(super) struct SeriesIndex {
     pub(super) registers: Vec<Register>,
@@ -25,7 +24,6 @@ pub(super) struct SeriesIndex {
 /// A factor of high negative power, c/u^n.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SteepPole {
-    /// u.
     pub(super) base: Register,
     pub(super) degree: PoleDegree,
     /// c, if it depends on parameters only; else it counts as 1.

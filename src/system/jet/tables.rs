@@ -14,7 +14,6 @@ use crate::system::operation::value_of;
 use crate::system::program::{Block, Op, Program, Register, Singular};
 use crate::system::schedule::Schedule;
 
-/// What a jet computes with.
 #[derive(Clone, Debug)]
 pub(super) struct Tables<R: Coefficient> {
     /// The number of orders.
@@ -92,7 +91,7 @@ impl<R: Coefficient> Tables<R> {
         time: R,
         range: Range<usize>,
     ) -> Result<(), Singular> {
-        vectorized(Begun { tables: self, program, time, range })
+        vectorized(FirstOrder { tables: self, program, time, range })
     }
 
     #[inline(always)]
@@ -150,14 +149,14 @@ impl<R: Coefficient> Tables<R> {
 }
 
 /// A range of the body of a program, to be evaluated at order 0.
-struct Begun<'a, R: Coefficient> {
+struct FirstOrder<'a, R: Coefficient> {
     tables: &'a mut Tables<R>,
     program: &'a Program,
     time: R,
     range: Range<usize>,
 }
 
-impl<R: Coefficient> Kernel for Begun<'_, R> {
+impl<R: Coefficient> Kernel for FirstOrder<'_, R> {
     type Output = Result<(), Singular>;
     const OF_SEVERAL: bool = R::OF_SEVERAL;
 

@@ -10,7 +10,6 @@ use crate::num::{Batch, DoubleDouble};
 use crate::system::growth::{SeriesBuilder, SeriesClock};
 use crate::system::program::Singular;
 
-/// No functions.
 #[derive(Clone, Debug)]
 pub(in crate::system) struct CodeCache;
 
@@ -25,12 +24,10 @@ impl CodeCache {
 pub(in crate::system) struct CompiledGrowth;
 
 impl CompiledGrowth {
-    /// Nothing, for a system.
     pub(in crate::system) fn new(_: Option<&CodeCache>) -> CompiledGrowth {
         CompiledGrowth
     }
 
-    /// False.
     pub(in crate::system) fn has_grown(&self) -> bool {
         false
     }

@@ -22,7 +22,6 @@ use super::pen::TerminalPen;
 /// to change a colour, so cells of one style are written one after the other.
 const WINDOW: usize = 64;
 
-/// Encodes frames.
 #[derive(Debug)]
 pub(super) struct Encoder {
     bytes: Vec<u8>,
@@ -68,7 +67,6 @@ impl Encoder {
         std::mem::take(&mut self.bytes)
     }
 
-    /// Whether cells remain to be written.
     pub(super) fn has_pending(&self) -> bool {
         !self.pending.is_empty()
     }
@@ -213,7 +211,6 @@ impl Backend for Encoder {
         Ok(WindowSize { columns_rows: self.size, pixels: Size::default() })
     }
 
-    /// Ends the frame.
     fn flush(&mut self) -> io::Result<()> {
         if self.synchronized && !self.bytes.is_empty() {
             queue!(self.bytes, EndSynchronizedUpdate)?;

@@ -33,7 +33,6 @@ pub(super) struct TerminalPen {
     ink: Option<CellStyle>,
 }
 
-/// The style of characters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct CellStyle {
     fg: Color,
@@ -79,7 +78,6 @@ impl TerminalPen {
         moves + if style == 0 { 0 } else { style + 2 }
     }
 
-    /// Whether the cursor is at a cell.
     pub(super) fn is_at(&self, place: (u16, u16)) -> bool {
         self.at == Some(place)
     }
@@ -122,7 +120,6 @@ impl TerminalPen {
         ink
     }
 
-    /// Switches to the style of a cell.
     fn set_style(&mut self, out: &mut Vec<u8>, cell: &Cell) {
         let ink = self.wanted(cell);
         if self.ink == Some(ink) {
@@ -170,7 +167,6 @@ fn back(columns: u16) -> Vec<u8> {
     }
 }
 
-/// A control sequence.
 fn sequence(numbers: &[u16], last: char) -> Vec<u8> {
     let numbers: Vec<_> = numbers.iter().map(u16::to_string).collect();
     format!("\x1b[{}{last}", numbers.join(";")).into_bytes()

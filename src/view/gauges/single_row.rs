@@ -17,7 +17,6 @@ pub(super) struct SingleRow {
     pub(super) value: u16,
     pub(super) drift: Option<u16>,
     pub(super) verdict: u16,
-    /// Whether it is the row of a residual.
     pub(super) residual: bool,
 }
 
@@ -39,7 +38,6 @@ impl SingleRow {
         SingleRow { value, drift: None, verdict, residual: false }
     }
 
-    /// The width of the verdicts in a row of this width.
     pub(super) fn verdicts(self, width: u16) -> u16 {
         width.saturating_sub(self.verdict)
     }

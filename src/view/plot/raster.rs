@@ -304,7 +304,6 @@ impl Raster {
         self.set((index, bit), pen, sign);
     }
 
-    /// Sets a dot of a cell by its bit.
     fn set(&mut self, (index, bit): (usize, u8), pen: &Pen, sign: Option<char>) {
         let cell = &mut self.cells[index];
         cell.dots |= bit;

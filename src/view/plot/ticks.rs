@@ -88,7 +88,6 @@ impl TickStep {
         }
     }
 
-    /// The next smaller step.
     fn previous(self) -> Self {
         match self.digit {
             5 => Self { digit: 2, ..self },

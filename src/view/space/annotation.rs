@@ -63,7 +63,6 @@ pub(super) fn compass(canvas: &mut Canvas<'_>, area: Rect, camera: &Camera) {
 /// Where the name of an arm may stand, from its tip in columns to the right and rows down, best first.
 const BESIDE: [(i32, i32); 7] = [(0, 0), (2, 0), (0, 1), (0, -1), (-2, 0), (2, 1), (2, -1)];
 
-/// A name beside a point.
 pub(super) struct Label {
     /// The point in the coordinates of the picture.
     pub(super) tip: [f64; 2],
@@ -171,7 +170,6 @@ pub(super) fn legend_above(area: Rect, lines: &[LegendLine]) -> (Rect, Rect) {
     split_rows(area, rows - area.y)
 }
 
-/// Draws a legend in the rows that are left for it.
 pub(super) fn legend(canvas: &mut Canvas<'_>, area: Rect, lines: &[LegendLine]) {
     for (place, (text, curve)) in legend_places(area, lines).zip(lines) {
         if area.contains(place.as_position()) {

@@ -6,7 +6,7 @@
 use std::f64::consts::TAU;
 use std::sync::LazyLock;
 
-use super::solid::{self, Occluder, Piece as DrawnPiece, Surface};
+use super::solid::{self, DrawnPiece, Occluder, Surface};
 use crate::expr::Expr;
 use crate::instrument::CameraPose;
 use crate::mechanics::principal;
@@ -34,7 +34,6 @@ pub(super) struct Outline {
     pub(super) pieces: Vec<DrawnPiece>,
     /// The principal axes, from the centre of mass.
     pub(super) axes: Vec<Polyline3>,
-    /// Pieces that are points.
     pub(super) points: Vec<[f64; 3]>,
 }
 

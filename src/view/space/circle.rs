@@ -7,7 +7,6 @@ use std::sync::LazyLock;
 
 use crate::num::math;
 
-/// The number of sides of a circle.
 const SIDES: i32 = 96;
 
 /// The sine and cosine of the direction of each corner.

@@ -9,7 +9,7 @@ use super::annotation::legend_above;
 use super::body::Outline;
 use super::colours::colours;
 use super::legend_lines;
-use super::mechanics::Mechanics;
+use super::mechanics::ComparedMechanics;
 use super::reference_frame::ReferenceFrame;
 use super::scene::Scene;
 use crate::instrument::CameraPose;
@@ -39,7 +39,7 @@ fn length_of_column(canvas: &Canvas<'_>, area: Rect, q: &Quantities<'_>, eye: Ca
     let outline = Outline::of(q, eye);
     let reference_frame = ReferenceFrame::of(q, eye.frame);
     let scene = Scene::of((q, outline.as_ref()), eye, reference_frame.as_ref());
-    let mechanics = Mechanics::of(q, eye, &colours(q, eye));
+    let mechanics = ComparedMechanics::of(q, eye, &colours(q, eye));
     let (_, below) = legend_above(area, &legend_lines(canvas, q, eye, mechanics.as_ref()));
     let frame = scene.frame(&camera, below);
     (frame.x.hi - frame.x.lo).abs() / f64::from(below.width.max(1))

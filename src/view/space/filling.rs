@@ -16,7 +16,6 @@ pub(super) enum PieceStyle {
     Lines,
     /// Thin from one side: blocks between lines along its edges.
     Sheet,
-    /// Blocks.
     Solid,
 }
 
@@ -44,7 +43,6 @@ pub(super) fn is_small([least, other]: [f64; 2], column: f64) -> bool {
     other / column < most
 }
 
-/// A surface that is filled.
 pub(super) struct Filling {
     pub(super) pen: Pen,
     /// The shares of its dots in the shade and in full light.

@@ -50,7 +50,6 @@ impl ScenePainter<'_> {
         self.raster.polyline_in(&self.frame, line, &pens);
     }
 
-    /// How a style looks at each distance.
     pub(super) fn receding(&mut self, style: Style) -> [Style; DISTANCES] {
         if let Some((_, styles)) = self.receding.iter().find(|(known, _)| *known == style) {
             return *styles;

@@ -9,7 +9,7 @@ use crate::model::{Point, Shape};
 use crate::view::quantity::Quantities;
 
 /// Two mechanics side by side, each with a trace.
-pub(super) struct Mechanics {
+pub(super) struct ComparedMechanics {
     /// The colours of the trace of the right one and of the wrong one.
     pub(super) colours: [usize; 2],
     symbols: Symbols,
@@ -21,7 +21,7 @@ struct Symbols {
     neither: Vec<Symbol>,
 }
 
-impl Mechanics {
+impl ComparedMechanics {
     /// The two mechanics of a picture, or `None` where they are not compared or only one leaves a trace.
     pub(super) fn of(q: &Quantities<'_>, eye: CameraPose, points: &[Point]) -> Option<Self> {
         let (model, pool) = (&q.lab.loaded.model, &q.lab.loaded.equations.pool);

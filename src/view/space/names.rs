@@ -54,7 +54,6 @@ impl ScenePainter<'_> {
         own.map_or(theme[Role::Accent], |index| theme.curve(self.colours.len() + index))
     }
 
-    /// The trace whose colour a vector has.
     fn trace_of_vector(&self, at: &Point, components: &Point) -> Option<Point> {
         let pool = &self.q.lab.loaded.equations.pool;
         let from_origin = at.iter().all(|e| pool.as_number(*e).is_some_and(|n| n.value() == 0.0));

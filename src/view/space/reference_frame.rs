@@ -111,7 +111,6 @@ impl ReferenceFrame {
     }
 }
 
-/// How a frame turns.
 enum FrameRotation {
     Not,
     /// About the vertical.

@@ -14,7 +14,6 @@ use crate::num::{OrientationPolytope, math};
 use crate::view::plot::{Bounds, Camera, Extent, PlotFrame};
 use crate::view::quantity::{Quantities, QuantitySource};
 
-/// The contents of the picture.
 pub(super) struct Scene {
     /// The box that contains everything.
     bounds: Bounds,

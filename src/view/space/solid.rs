@@ -7,13 +7,13 @@ use crate::num::math;
 
 /// A piece: its surfaces, the lines along its edges, and its two smaller extents, the smallest first.
 #[derive(Clone, Debug)]
-pub(super) struct Piece {
+pub(super) struct DrawnPiece {
     pub(super) surfaces: Vec<Surface>,
     pub(super) edges: Vec<Vec<[f64; 3]>>,
     pub(super) extents: [f64; 2],
 }
 
-impl Piece {
+impl DrawnPiece {
     /// The same piece with its points at other places; they keep their distances.
     pub(super) fn moved(self, place: impl Fn([f64; 3]) -> [f64; 3]) -> Self {
         let surfaces = self.surfaces.into_iter().map(|surface| surface.moved(&place)).collect();
@@ -48,11 +48,22 @@ pub(super) enum Surface {
     /// A face or a ball.
     Plain(Occluder),
     /// A cylinder about the line between two points, with its ends or without.
-    Cylinder { ends: [[f64; 3]; 2], radius: f64, closed: bool },
-    /// A cone with its base.
-    Cone { tip: [f64; 3], base: [f64; 3], radius: f64 },
+    Cylinder {
+        ends: [[f64; 3]; 2],
+        radius: f64,
+        closed: bool,
+    },
+    Cone {
+        tip: [f64; 3],
+        base: [f64; 3],
+        radius: f64,
+    },
     /// A disc about a centre, and a point above it.
-    Disc { centre: [f64; 3], above: [f64; 3], radius: f64 },
+    Disc {
+        centre: [f64; 3],
+        above: [f64; 3],
+        radius: f64,
+    },
 }
 
 impl Surface {

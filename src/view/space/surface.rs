@@ -4,7 +4,7 @@
 
 use super::circle;
 use super::filling::{Filling, PieceStyle, is_small};
-use super::solid::{self, Occluder, Piece, Surface};
+use super::solid::{self, DrawnPiece, Occluder, Surface};
 use super::{BODY, SOLID, SURFACE, ScenePainter};
 use crate::model::Shape;
 use crate::view::colour::ColourDepth;
@@ -42,7 +42,7 @@ impl ScenePainter<'_> {
             (Pen::new(style, SURFACE), opaque)
         };
         let piece =
-            |surface, extents| Piece { surfaces: vec![surface], edges: Vec::new(), extents };
+            |surface, extents| DrawnPiece { surfaces: vec![surface], edges: Vec::new(), extents };
         let ((pen, shares), pieces) = match shape {
             Shape::Disc { centre, radius, normal, shade } => {
                 let own = self.own_colour(centre);

@@ -23,7 +23,7 @@ fn kepler() -> (Model, Equations) {
 }
 
 fn ask((model, equations): &(Model, Equations), text: &str) -> Inquiry {
-    Inquiry::of(model, equations, text)
+    Inquiry::of(model, equations, text, equations.pool.cancel())
         .unwrap_or_else(|diagnostic| panic!("{text}: {diagnostic:?}"))
 }
 
@@ -96,7 +96,7 @@ fn an_error_is_reported_at_its_place_in_the_whole_text() {
         ("x, ", "", "missing"),
         ("x 2", "x 2", "in front"),
     ] {
-        let Err(diagnostic) = Inquiry::of(&model, &equations, text) else {
+        let Err(diagnostic) = Inquiry::of(&model, &equations, text, equations.pool.cancel()) else {
             panic!("{text} is read")
         };
         assert!(diagnostic.span.start <= text.len(), "{text}: {diagnostic:?}");
@@ -115,7 +115,7 @@ fn a_bracket_is_answered_in_the_new_variables_too() {
     let equations = derive(&model).unwrap();
     let inquiry = ask(&(model, equations), "X, p_x");
     let InquiryAnswer::Bracket { charts, .. } = &inquiry.answer else { panic!("a bracket") };
-    let told: Vec<(String, String)> = charts
+    let reported: Vec<(String, String)> = charts
         .iter()
         .map(|chart| {
             let bracket = chart.bracket.as_ref().expect("a closed form");
@@ -123,5 +123,5 @@ fn a_bracket_is_answered_in_the_new_variables_too() {
         })
         .collect();
     let expected = [("X, Y, P_X, P_Y", "cos(Omega*t)"), ("x1, x2, p1, p2", "cos(Omega*t)")];
-    assert_eq!(told, expected.map(|(a, b)| (a.to_owned(), b.to_owned())));
+    assert_eq!(reported, expected.map(|(a, b)| (a.to_owned(), b.to_owned())));
 }

@@ -33,11 +33,11 @@ fn what_is_found_becomes_a_gauge_with_its_reason() {
     let mut real = Real::with(lowered(&kepler("k = 1.0", "")));
     assert!(found(&real).is_empty() && real.lab().findings().is_none());
     real.press("2");
-    let told = summary(&real.app);
+    let reported = summary(&real.app);
     assert!(
-        told.starts_with("superintegrable: 3 independent")
-            && told.ends_with("every bounded orbit closes"),
-        "{told}"
+        reported.starts_with("superintegrable: 3 independent")
+            && reported.ends_with("every bounded orbit closes"),
+        "{reported}"
     );
     let gauges = found(&real);
     assert!(!gauges.is_empty());
@@ -197,8 +197,8 @@ fn numbers_of_the_file_are_searched_like_parameters() {
         real.press("2");
         let gauges: Vec<(String, bool)> =
             found(&real).into_iter().map(|g| (g.reason, g.proved)).collect();
-        let told = summary(&real.app);
-        (told, gauges)
+        let reported = summary(&real.app);
+        (reported, gauges)
     };
     let by_name = of(&named);
     assert!(by_name.0.starts_with("superintegrable: 3 independent"), "{by_name:?}");

@@ -18,20 +18,20 @@ use crate::hand::{at_picker, in_lab, loaded, pendulum, press, snapshot};
 
 #[test]
 fn no_key_means_two_things_at_once() {
-    let mut told = Vec::new();
+    let mut reported = Vec::new();
     for chain in CHAINS {
         let rows: Vec<_> = KEYS.iter().filter(|row| chain.contains(&row.context)).collect();
         for (index, first) in rows.iter().enumerate() {
             for second in &rows[index + 1..] {
                 let shared = first.keys.iter().filter(|key| second.keys.contains(key));
                 let name = phaselab::app::key::name;
-                told.extend(
+                reported.extend(
                     shared.map(|k| format!("{}: {} | {}", name(k), first.help, second.help)),
                 );
             }
         }
     }
-    assert!(told.is_empty(), "{told:#?}");
+    assert!(reported.is_empty(), "{reported:#?}");
 }
 
 #[test]
@@ -318,9 +318,9 @@ fn the_palette_lists_every_row_and_does_what_its_key_does() {
                 }
                 if !here || !app.offers(row.action) {
                     press(&mut open, "Enter");
-                    let told =
+                    let reported =
                         open.notifications.shown.map(|notice| notice.text).unwrap_or_default();
-                    assert!(told.contains(item.unavailable.as_ref().unwrap()), "{told}");
+                    assert!(reported.contains(item.unavailable.as_ref().unwrap()), "{reported}");
                     continue;
                 }
                 if near {
@@ -462,9 +462,9 @@ fn the_palette_acts_on_the_nearest_pane() {
         assert_eq!((app.page, lab.focus.pane), (Page::Lab, Pane::Plot(1)), "{begin}");
         let cursor = lab.plots[1].viewport().unwrap().cursor;
         assert_eq!(cursor, Some([0.5, 0.5]), "{begin}");
-        let told =
+        let reported =
             app.notifications.shown.as_ref().map(|notice| notice.text.clone()).unwrap_or_default();
-        assert_eq!(told, "The focus moved to the phase plane, p_θ against θ.", "{begin}");
+        assert_eq!(reported, "The focus moved to the phase plane, p_θ against θ.", "{begin}");
     }
     // The motion in space is another pane; a plot that was focused is the nearest.
     let mut app = in_lab();

@@ -113,9 +113,9 @@ fn an_unsaved_text_of_a_wrong_file_is_listed_among_the_systems() {
     rest(&mut app);
     press(&mut app, "x Esc");
     assert_eq!(app.page, Page::Picker);
-    let told =
+    let reported =
         app.notifications.shown.as_ref().map(|notice| notice.text.clone()).unwrap_or_default();
-    assert_eq!(told, "wrong.toml has unsaved changes; Enter returns to it.");
+    assert_eq!(reported, "wrong.toml has unsaved changes; Enter returns to it.");
     assert_eq!(app.picker.selected_above(), Some(Above::Unsaved));
     assert!(text_of(&app).contains("Unsaved: ./wrong.toml"), "{}", text_of(&app));
     let (mut again, _) = App::new(catalog(), None);

@@ -160,7 +160,7 @@ fn what_is_no_ramp_is_refused() {
             "{:?}",
             field.diagnostic
         );
-        real.strike(key("Esc"));
+        real.press_key(key("Esc"));
         assert!(text(&mut real).is_none());
     }
 }

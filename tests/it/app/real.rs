@@ -55,11 +55,11 @@ impl Real {
 
     pub(crate) fn press(&mut self, keys: &str) {
         for word in keys.split_whitespace() {
-            self.strike(key(word));
+            self.press_key(key(word));
         }
     }
 
-    pub(crate) fn strike(&mut self, key: KeyEvent) {
+    pub(crate) fn press_key(&mut self, key: KeyEvent) {
         let effects = self.app.update(AppEvent::Key(key));
         self.execute(effects);
         self.look();
@@ -217,16 +217,16 @@ fn what_is_taken_back_is_shown() {
 
 #[test]
 fn undo_and_redo_tell_what_went_where() {
-    let told = |real: &Real| {
+    let reported = |real: &Real| {
         real.app.notifications.shown.as_ref().map(|n| n.text.clone()).unwrap_or_default()
     };
     let check = |keys: &str, undone: &str, redone: &str| {
         let mut real = Real::of("pendulum");
         real.press(keys);
         real.press("u");
-        assert_eq!(told(&real), undone, "{keys}");
+        assert_eq!(reported(&real), undone, "{keys}");
         real.press("U");
-        assert_eq!(told(&real), redone, "{keys}");
+        assert_eq!(reported(&real), redone, "{keys}");
     };
     check("Right", "undone: m 1.02 → 1", "redone: m 1 → 1.02");
     // a motion under way has been another one meanwhile, and is brought back
@@ -236,7 +236,7 @@ fn undo_and_redo_tell_what_went_where() {
     real.run(60);
     real.press("u");
     let whole = "undone: m 1.02 → 1, the motion of t = 1";
-    assert_eq!(told(&real), whole);
+    assert_eq!(reported(&real), whole);
     check("Tab Right", "undone: initial θ 2.01 → 2", "redone: initial θ 2 → 2.01");
     check("m Down Enter", "undone: method leapfrog → taylor", "redone: method taylor → leapfrog");
     check(

@@ -242,13 +242,13 @@ fn snapshots_of_another_system_are_dropped() {
 #[test]
 fn news_of_the_experiment_is_reported_once() {
     let mut app = in_lab();
-    let mut told = snapshot(&pendulum(), 2.5);
-    told.notices = ["the energy jumped".to_owned()].into();
-    app.update(AppEvent::Snapshot(Arc::new(told.clone())));
+    let mut reported = snapshot(&pendulum(), 2.5);
+    reported.notices = ["the energy jumped".to_owned()].into();
+    app.update(AppEvent::Snapshot(Arc::new(reported.clone())));
     assert!(
         app.notifications.shown.take().is_some_and(|notice| notice.text == "the energy jumped")
     );
-    app.update(AppEvent::Snapshot(Arc::new(told)));
+    app.update(AppEvent::Snapshot(Arc::new(reported)));
     assert_eq!(app.notifications.shown, None);
 }
 

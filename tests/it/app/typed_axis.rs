@@ -152,8 +152,8 @@ fn a_quantity_that_is_there_is_taken_as_it_is() {
 fn what_is_no_expression_is_refused_and_the_list_stays() {
     let mut app = lab("double-pendulum", 1.0);
     ask(&mut app, "thetta1 - theta2");
-    let told = app.notifications.shown.take().map(|notice| notice.text).unwrap_or_default();
-    assert!(told.contains("unknown name `thetta1`"), "{told}");
+    let reported = app.notifications.shown.take().map(|notice| notice.text).unwrap_or_default();
+    assert!(reported.contains("unknown name `thetta1`"), "{reported}");
     assert!(matches!(app.overlay, Some(Overlay::Menu(_))));
 }
 

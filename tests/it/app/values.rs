@@ -38,7 +38,7 @@ fn a_typed_value_may_be_any_expression_in_parameters() {
 
 #[test]
 fn a_bad_value_is_reported_and_nothing_is_lost() {
-    for (text, told) in [
+    for (text, reported) in [
         ("2x", "`2x` is not a number"),
         ("", "is not a number"),
         ("theta", "is not a number"),
@@ -49,7 +49,7 @@ fn a_bad_value_is_reported_and_nothing_is_lost() {
         let (effects, diagnostic, kept) = typed(text);
         assert_eq!(effects, [], "{text}");
         let diagnostic = diagnostic.unwrap_or_default();
-        assert!(diagnostic.contains(told), "{text}: {diagnostic}");
+        assert!(diagnostic.contains(reported), "{text}: {diagnostic}");
         assert_eq!(kept, text);
     }
 }
@@ -69,14 +69,14 @@ fn steps_and_tolerances_must_be_positive() {
 /// A method asks only for the settings that it uses, and the others are refused with an explanation.
 #[test]
 fn a_method_is_asked_only_for_what_it_uses() {
-    for (keys, told) in [
+    for (keys, reported) in [
         ("s", "taylor chooses its steps itself; its tolerance is set by a."),
         (": m e t h o d Space r k 4 Enter a", "rk4 has no tolerance; its step is set by s."),
     ] {
         let mut app = in_lab();
         press(&mut app, keys);
         assert!(app.overlay.is_none(), "{keys}");
-        assert_eq!(app.notifications.shown.map(|notice| notice.text).as_deref(), Some(told));
+        assert_eq!(app.notifications.shown.map(|notice| notice.text).as_deref(), Some(reported));
     }
 }
 

@@ -88,17 +88,17 @@ fn a_change_is_checked_when_typing_rests_and_the_motion_goes_on() {
 /// Whoever left the editor and asks to undo is told where changes of the text are undone.
 #[test]
 fn undo_in_the_lab_says_where_the_text_is_undone() {
-    let told =
+    let reported =
         |app: &App| app.notifications.shown.as_ref().map(|n| n.text.clone()).unwrap_or_default();
     let mut app = in_lab();
     press(&mut app, "u");
-    assert_eq!(told(&app), "Nothing to undo.");
+    assert_eq!(reported(&app), "Nothing to undo.");
     press(&mut app, "E Ctrl-End x Backspace Esc u");
-    assert_eq!(told(&app), "Nothing to undo.");
+    assert_eq!(reported(&app), "Nothing to undo.");
     press(&mut app, "E Ctrl-End # Esc u");
-    assert!(told(&app).ends_with("in the editor: E, then Ctrl-u."), "{}", told(&app));
+    assert!(reported(&app).ends_with("in the editor: E, then Ctrl-u."), "{}", reported(&app));
     press(&mut app, "E Ctrl-u Esc u");
-    assert_eq!(told(&app), "Nothing to undo.");
+    assert_eq!(reported(&app), "Nothing to undo.");
 }
 
 #[test]
@@ -540,7 +540,7 @@ fn reading_anew_gives_a_shipped_text_back() {
 
 #[test]
 fn saving_what_has_an_error_says_so() {
-    let told =
+    let reported =
         |app: &App| app.notifications.shown.clone().map(|notice| notice.text).unwrap_or_default();
     let saved = |app: &mut App| {
         let [Effect::Save { place, text, .. }] = &press(app, "Ctrl-s")[..] else { panic!("no") };
@@ -551,19 +551,19 @@ fn saving_what_has_an_error_says_so() {
     replace(&mut app, "cos(theta)", "cos(thet)");
     rest(&mut app);
     saved(&mut app);
-    let with = told(&app);
+    let with = reported(&app);
     assert!(with.starts_with("Saved: ./my.toml, with 1 error: "), "{with}");
     assert!(with.contains("thet"), "{with}");
     // one that was saved before it was checked
     replace(&mut app, "thet)", "thetta)");
     saved(&mut app);
-    assert_eq!(told(&app), "Saved: ./my.toml");
+    assert_eq!(reported(&app), "Saved: ./my.toml");
     rest(&mut app);
-    assert!(told(&app).starts_with("Saved: ./my.toml, with 1 error: "), "{}", told(&app));
+    assert!(reported(&app).starts_with("Saved: ./my.toml, with 1 error: "), "{}", reported(&app));
     replace(&mut app, "thetta)", "theta)");
     saved(&mut app);
     rest(&mut app);
-    assert_eq!(told(&app), "Saved: ./my.toml");
+    assert_eq!(reported(&app), "Saved: ./my.toml");
 }
 
 #[test]
@@ -595,15 +595,15 @@ fn of_a_paste_that_is_too_long_the_beginning_is_taken() {
 #[test]
 fn what_becomes_of_a_watched_file_is_reported() {
     let mut app = own_file();
-    let told =
+    let reported =
         |app: &App| app.notifications.shown.clone().map(|notice| notice.text).unwrap_or_default();
     let text = app.lab.as_ref().unwrap().loaded.document.text.clone();
     app.update(AppEvent::FileThere(false));
-    assert_eq!(told(&app), "./my.toml no longer exists; its last valid version keeps running.");
+    assert_eq!(reported(&app), "./my.toml no longer exists; its last valid version keeps running.");
     app.update(AppEvent::FileThere(true));
     app.update(file(&text));
-    assert_eq!(told(&app), "./my.toml exists again.");
+    assert_eq!(reported(&app), "./my.toml exists again.");
     app.update(file(&text.replace("9.81", "1.62")));
     rest(&mut app);
-    assert_eq!(told(&app), "./my.toml: rebuilt in 7 ms; the motion continues.");
+    assert_eq!(reported(&app), "./my.toml: rebuilt in 7 ms; the motion continues.");
 }

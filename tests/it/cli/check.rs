@@ -150,7 +150,7 @@ fn what_cannot_start_is_said_with_the_coordinate_and_the_reason() {
     let late = "x = { initial = 1, velocity = 0.5 }";
     let two = "x = { initial = 1, velocity = 0.5 }\ny = { initial = 1 }";
     let l = |law: &str| format!("[lagrangian]\nL = \"{law}\"");
-    for (start, law, told) in [
+    for (start, law, reported) in [
         (rest, l("1/2*x'^2 - 1/x"), ["`1/x` has no finite value at x = 0", ":3:1"]),
         (rest, "[hamiltonian]\nH = \"p_x^2/2 + 1/x\"".to_owned(), ["`1/x` has no", ":3:"]),
         (rest, l("-sqrt(1 - x'^2)"), ["has no finite value at x' = 1.5", ":3:1"]),
@@ -179,8 +179,8 @@ fn what_cannot_start_is_said_with_the_coordinate_and_the_reason() {
         } else {
             one(start, &law)
         };
-        let told = ["the motion cannot start", told[0], told[1]];
-        with_file(&law, &["check", "system.toml"]).fails(65, &told);
+        let reported = ["the motion cannot start", reported[0], reported[1]];
+        with_file(&law, &["check", "system.toml"]).fails(65, &reported);
     }
 }
 
@@ -220,8 +220,9 @@ fn constraints_that_only_touch_at_the_start_cannot_be_kept() {
     let text = "title = \"T\"\n[coordinates]\nx = { initial = 0, velocity = 1 }\ny = { initial = 0, velocity = 0 }\n\
                 [lagrangian]\nL = \"1/2*(x'^2 + y'^2)\"\n[[constraints]]\nname = \"a\"\nexpression = \"y\"\n\
                 [[constraints]]\nname = \"b\"\nexpression = \"y - x^2\"\n";
-    let told = ["the motion cannot begin", "`b`", "contradicts them after t = 0, x = 0", ":12:"];
-    with_file(text, &["check", "system.toml"]).fails(65, &told);
+    let reported =
+        ["the motion cannot begin", "`b`", "contradicts them after t = 0, x = 0", ":12:"];
+    with_file(text, &["check", "system.toml"]).fails(65, &reported);
     let run = with_file(text, &["run", "system.toml"]);
     assert!(run.code == 1 && run.stderr.contains("after t = 0, x = 0"), "{}", run.stderr);
 }
@@ -451,8 +452,11 @@ fn what_a_law_changes_is_not_conserved_however_little_is_seen() {
             .fails(65, &["`G` is claimed to be conserved, but it is not", seen]);
         assert_eq!(with_file(&file("false"), &["check", "system.toml"]).success(), "");
         // and it stands in one place only
-        let told = with_file(&file("true"), &["derive", "system.toml"]).success();
-        assert!(!told.contains("(stated by the file)") && told.contains("d(G)/dt"), "{told}");
+        let reported = with_file(&file("true"), &["derive", "system.toml"]).success();
+        assert!(
+            !reported.contains("(stated by the file)") && reported.contains("d(G)/dt"),
+            "{reported}"
+        );
     }
 }
 

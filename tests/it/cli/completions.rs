@@ -31,8 +31,8 @@ fn the_scripts_are_right_in_their_shells() {
         let path = folder.path().join(shell);
         fs::write(&path, phaselab(&["completions", shell]).success()).unwrap();
         let Ok(output) = Command::new(shell).arg("-n").arg(&path).output() else { continue };
-        let told = String::from_utf8_lossy(&output.stderr);
-        assert!(output.status.success() && told.is_empty(), "{shell}: {told}");
+        let reported = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success() && reported.is_empty(), "{shell}: {reported}");
         read += 1;
     }
     assert!(read > 0, "not even bash is here");

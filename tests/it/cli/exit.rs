@@ -28,8 +28,8 @@ fn signalled(signal: &str) -> i32 {
         assert!(Instant::now() < deadline, "no output within a minute");
         std::thread::yield_now();
     }
-    let told = Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap();
-    assert!(told.success());
+    let reported = Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap();
+    assert!(reported.success());
     child.wait().unwrap().code().unwrap()
 }
 

@@ -140,18 +140,21 @@ fn a_comment_beside_an_error_is_written_out_and_the_caret_stands_under_its_place
     );
     fs::write(home.path().join("system.toml"), text).unwrap();
     let output = harmless(home.path(), &words(&["check", "system.toml"]), &[65]);
-    let told = String::from_utf8(output.stderr).unwrap();
-    assert!(told.contains("\\u{9b}\\u{202e}") && told.contains("# \\u{9b}31m\\u{200b}"), "{told}");
+    let reported = String::from_utf8(output.stderr).unwrap();
+    assert!(
+        reported.contains("\\u{9b}\\u{202e}") && reported.contains("# \\u{9b}31m\\u{200b}"),
+        "{reported}"
+    );
 
     let text =
         PENDULUM.replace("title = ", &format!("notes = 'x' # {before}\ntitle = 3 # {after}\n#"));
     fs::write(home.path().join("system.toml"), text).unwrap();
     let output = harmless(home.path(), &words(&["check", "system.toml"]), &[65]);
-    let told = String::from_utf8(output.stderr).unwrap();
-    let lines: Vec<&str> = told.lines().collect();
+    let reported = String::from_utf8(output.stderr).unwrap();
+    let lines: Vec<&str> = reported.lines().collect();
     let shown = lines.iter().position(|line| line.contains("title = 3")).unwrap();
     let column = |line: &str, part: &str| line.find(part).unwrap();
-    assert_eq!(column(lines[shown], "3 #"), column(lines[shown + 1], "^"), "{told}");
+    assert_eq!(column(lines[shown], "3 #"), column(lines[shown + 1], "^"), "{reported}");
 }
 
 #[test]
@@ -163,17 +166,17 @@ fn the_caret_and_the_column_are_right_behind_what_is_written_out() {
     );
     fs::write(home.path().join("system.toml"), text).unwrap();
     let output = harmless(home.path(), &words(&["check", "system.toml"]), &[65]);
-    let told = String::from_utf8(output.stderr).unwrap();
-    let shown = told.lines().position(|line| line.contains("\"nonsense\"")).expect("the line");
-    let lines: Vec<&str> = told.lines().collect();
+    let reported = String::from_utf8(output.stderr).unwrap();
+    let shown = reported.lines().position(|line| line.contains("\"nonsense\"")).expect("the line");
+    let lines: Vec<&str> = reported.lines().collect();
     let place = lines.iter().rposition(|line| line.contains("`nonsense`")).expect("the error");
     let line = lines[place..].iter().position(|l| l.contains("\"nonsense\"")).unwrap() + place;
     assert!(shown <= line);
     let caret = lines[line + 1].find('^').unwrap();
-    assert_eq!(lines[line].find("nonsense").unwrap(), caret, "{told}");
+    assert_eq!(lines[line].find("nonsense").unwrap(), caret, "{reported}");
     // the column is that of the file
     let column = "forces = { 'c\u{9b}' = 1, theta = \"".chars().count() + 1;
-    assert!(lines[place + 1].ends_with(&format!(":{column}")), "{told}");
+    assert!(lines[place + 1].ends_with(&format!(":{column}")), "{reported}");
 }
 
 #[test]
@@ -209,11 +212,13 @@ fn no_name_of_a_file_steers_the_terminal() {
     }
     call(&["run", "system.toml", "--at", "0", "-o"], &name, &[2]);
     fs::write(home.path().join("system.toml"), PENDULUM).unwrap();
-    let told = call(&["run", "system.toml", "--at", "0", "-o"], &name, &[2]);
-    assert!(String::from_utf8_lossy(&told.stderr).contains("describes a system"));
+    let reported = call(&["run", "system.toml", "--at", "0", "-o"], &name, &[2]);
+    assert!(String::from_utf8_lossy(&reported.stderr).contains("describes a system"));
     fs::write(home.path().join(&name), "rows\n").unwrap();
-    let told = call(&["run", "system.toml", "--at", "0", "-o"], &name, &[0]);
-    assert!(String::from_utf8_lossy(&told.stderr).ends_with("\\n\\r\\xff\\xfe.toml is replaced\n"));
+    let reported = call(&["run", "system.toml", "--at", "0", "-o"], &name, &[0]);
+    assert!(
+        String::from_utf8_lossy(&reported.stderr).ends_with("\\n\\r\\xff\\xfe.toml is replaced\n")
+    );
     let mut folder = name.clone();
     folder.push("/x.csv");
     call(&["run", "system.toml", "--at", "0", "-o"], &folder, &[74]);
@@ -369,8 +374,8 @@ fn nothing_is_reported_at_any_length() {
         &[&long],
     ] {
         let output = harmless(home.path(), &words(arguments), &[2]);
-        let told = String::from_utf8(output.stderr).unwrap();
-        let longest = told.lines().map(|line| line.chars().count()).max();
+        let reported = String::from_utf8(output.stderr).unwrap();
+        let longest = reported.lines().map(|line| line.chars().count()).max();
         assert!(longest.is_some_and(|longest| longest < 500), "{:?}: {longest:?}", arguments[0]);
     }
 }

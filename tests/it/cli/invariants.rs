@@ -196,7 +196,7 @@ fn constants_are_the_same_in_any_units() {
         ("k*(exp(a*(x - y)) + exp(-a*(x + y)))", [1, 2, -2], 2),
         ("k*(1 - exp(-a*x))^2 + k*(1 - exp(-a*y))^2", [1, 2, -2], 2),
     ] {
-        let told = UNITS.map(|units| {
+        let reported = UNITS.map(|units| {
             let text = in_units(units, potential, dimension);
             let out = with_file(&text, &["invariants", "system.toml", "--degree", "2"]).success();
             let independent = out.lines().nth(1).unwrap_or_default();
@@ -209,7 +209,7 @@ fn constants_are_the_same_in_any_units() {
                 out.lines().filter(|line| line.starts_with("  I") && line.contains('='));
             constants.collect::<Vec<_>>().join("\n")
         });
-        assert!(told.iter().all(|text| *text == told[0]), "{potential}: {told:#?}");
+        assert!(reported.iter().all(|text| *text == reported[0]), "{potential}: {reported:#?}");
     }
 }
 
@@ -244,7 +244,7 @@ fn numbers_with_many_digits_find_what_short_ones_find() {
     let plane = "1/2*M*(x'^2 + y'^2) - 1/2*C*(x^2 + y^2) - K*(x^2 + y^2)^2";
     let quartic = "1/2*M*x'^2 + 1/2*K*y'^2 - 1/4*C*(x - y)^4";
     for (law, degrees) in [(kepler, 3), (springs, 3), (plane, 2), (quartic, 2)] {
-        let told = |numbers: [&str; 3], named: bool| {
+        let reported = |numbers: [&str; 3], named: bool| {
             let values = ["M", "K", "C"].iter().zip(numbers);
             let mut text = "title = \"Digits\"\n".to_owned();
             let mut law = law.to_owned();
@@ -267,10 +267,10 @@ fn numbers_with_many_digits_find_what_short_ones_find() {
                 found.iter().map(|c| (c["degree"].clone(), c["independent"].clone())).collect();
             (answer["independent"].clone(), found, answer["in_involution"].clone())
         };
-        let short = told(["1", "16", "5"], false);
+        let short = reported(["1", "16", "5"], false);
         let long = ["1.00794123457", "15.99491461956", "5.1234567891234"];
         for named in [false, true] {
-            assert_eq!(told(long, named), short, "{law}, named: {named}");
+            assert_eq!(reported(long, named), short, "{law}, named: {named}");
         }
     }
 }

@@ -19,8 +19,8 @@ fn shown(page: &str) -> String {
         .arg(&path)
         .output()
         .expect("there is no groff: install it (Debian: apt-get install groff-base)");
-    let told = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert!(output.status.success() && told.is_empty(), "{told}");
+    let reported = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(output.status.success() && reported.is_empty(), "{reported}");
     let text = String::from_utf8(output.stdout).unwrap();
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }

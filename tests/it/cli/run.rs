@@ -348,11 +348,11 @@ fn a_motion_that_cannot_begin_is_an_error() {
         (rows(&object).len(), done.stderr)
     };
     // there is a state at the start, but the motion cannot continue
-    let (count, told) = run(&[]);
-    assert!(count == 1 && told.contains("the mass matrix is singular at t = 0"), "{told}");
+    let (count, reported) = run(&[]);
+    assert!(count == 1 && reported.contains("the mass matrix is singular at t = 0"), "{reported}");
     // there is not even an initial state
-    let (count, told) = run(&["--init", "p_x=1"]);
-    assert!(count == 0 && told.contains("singular"), "{told}");
+    let (count, reported) = run(&["--init", "p_x=1"]);
+    assert!(count == 0 && reported.contains("singular"), "{reported}");
 }
 
 /// A particle that hits a wall at x = 2 at t = 2 and receives an impulse on its way.
@@ -476,16 +476,16 @@ fn a_run_tells_of_the_singular_configurations_it_passed() {
         name = "lines"
         expression = "x^2 - y^2"
     "#;
-    let told = |until: &str| with_file(file, &["run", "system.toml", "--until", until]).stderr;
-    assert_eq!(told("0.9"), "");
-    let passed = told("3");
+    let reported = |until: &str| with_file(file, &["run", "system.toml", "--until", until]).stderr;
+    assert_eq!(reported("0.9"), "");
+    let passed = reported("3");
     assert!(
         passed.contains("passed a singular configuration of the constraints at t = 1"),
         "{passed}"
     );
 }
 /// Finds the one line that reports a lost quantity, and checks its words; other lines may explain why.
-fn told(done: &Done, words: &[&str]) {
+fn reported(done: &Done, words: &[&str]) {
     let mut lines = done.stderr.lines().filter(|line| line.contains("of what moves"));
     let line = lines.next().unwrap_or_default();
     assert_eq!(lines.next(), None, "{}", done.stderr);
@@ -499,7 +499,7 @@ fn an_invariant_that_is_lost_is_reported_in_one_line() {
     let coarse = ["--method", "leapfrog", "--step", "2.5", "--until", "100"];
     let done = run(&coarse);
     assert_eq!(done.code, 0, "{}", done.stderr);
-    told(&done, &["`energy` is lost", "of what moves since t = ", "--step below 2.5"]);
+    reported(&done, &["`energy` is lost", "of what moves since t = ", "--step below 2.5"]);
     assert_eq!(csv(&done.stdout).len(), 201);
     let strict = run(&[&coarse[..], &["--strict"]].concat());
     assert_eq!(strict.code, 1, "{}", strict.stderr);
@@ -513,7 +513,7 @@ fn an_invariant_that_is_lost_is_reported_in_one_line() {
 fn a_symplectic_swing_is_reported_as_what_it_is() {
     let done = run(&["--method", "leapfrog", "--step", "0.1", "--until", "60", "--strict"]);
     assert_eq!(done.code, 1, "{}", done.stderr);
-    told(&done, &["`energy` swings without trend, by "]);
+    reported(&done, &["`energy` swings without trend, by "]);
     let fine = run(&["--method", "yoshida8", "--step", "0.05", "--until", "60", "--strict"]);
     assert_eq!((fine.code, fine.stderr.as_str()), (0, ""));
 }
@@ -663,7 +663,7 @@ fn an_impulse_that_turns_nothing_back_is_reported() {
              direction = \"{direction}\"\naction = \"impulse:bounce\"\n"
         )
     };
-    let told = |text: &str, method: &str| {
+    let reported = |text: &str, method: &str| {
         let done = with_file(text, &["run", "system.toml", "--until", "0.6", "--method", method]);
         assert_eq!(done.code, 0, "{}", done.stderr);
         done.stderr
@@ -671,7 +671,7 @@ fn an_impulse_that_turns_nothing_back_is_reported() {
     // √(2/9.81) = 0.4515236
     let words = "the impulse of `floor` at t = 0.4515 ";
     for method in ["taylor", "rk4"] {
-        let said = told(&file(1.0, 0.0, "falling", "-y'"), method);
+        let said = reported(&file(1.0, 0.0, "falling", "-y'"), method);
         assert!(said.contains(words) && said.contains("not turn the motion back"), "{said}");
     }
     let quiet = [
@@ -682,7 +682,7 @@ fn an_impulse_that_turns_nothing_back_is_reported() {
         file(-0.1, 3.0, "rising", "-y'"),
     ];
     for text in &quiet {
-        assert_eq!(told(text, "taylor"), "");
+        assert_eq!(reported(text, "taylor"), "");
     }
 }
 
@@ -718,7 +718,7 @@ fn a_constant_in_the_potential_hides_no_drift() {
             "json",
         ];
         let done = with_file(&file, &arguments);
-        told(&done, &["`energy` swings without trend"]);
+        reported(&done, &["`energy` swings without trend"]);
         let object: Value = serde_json::from_str(&done.stdout).expect("JSON");
         assert_eq!(object["invariants"][0]["verdict"], "bounded");
         object["invariants"][0]["max_drift"].as_f64().expect("a number")
@@ -801,7 +801,9 @@ fn a_start_of_several_motions_is_told_with_the_one_that_is_followed() {
 /// An angle that is folded back has a kink that no switch shows.
 #[test]
 fn kinks_of_folded_angles_are_told() {
-    for (angle, told) in [("acos(cos(x))", true), ("asin(sin(2*x))", true), ("asin(x/9)", false)] {
+    for (angle, reported) in
+        [("acos(cos(x))", true), ("asin(sin(2*x))", true), ("asin(x/9)", false)]
+    {
         let text = format!(
             "title = \"Folded\"\n[coordinates]\nx = {{ initial = 1 }}\n[lagrangian]\nL = \"1/2*x'^2 - {angle}\"\n"
         );
@@ -810,7 +812,7 @@ fn kinks_of_folded_angles_are_told() {
             let done = with_file(&text, &arguments);
             assert_eq!(done.code, 0, "{}", done.stderr);
             let said = format!("{method} steps over the kinks of this motion");
-            assert_eq!(done.stderr.contains(&said), told, "{angle} {method}: {}", done.stderr);
+            assert_eq!(done.stderr.contains(&said), reported, "{angle} {method}: {}", done.stderr);
         }
     }
 }
@@ -818,7 +820,7 @@ fn kinks_of_folded_angles_are_told() {
 /// A force that changes smoothly has no kink where it begins or ends to change. What else the law has is none of its concern.
 #[test]
 fn a_smooth_ramp_is_no_kink() {
-    let told = |law: &str, ramps: &[&str], option: Option<&str>| {
+    let reported = |law: &str, ramps: &[&str], option: Option<&str>| {
         let mut text = format!(
             "title = \"A swing\"\n[coordinates]\nx = {{ initial = 1 }}\n[parameters]\ng = 1.0\nh = 1.0\n\
              [lagrangian]\nL = \"1/2*x'^2 - {law}\"\n"
@@ -844,24 +846,24 @@ fn a_smooth_ramp_is_no_kink() {
     let linear = part("g", 2.0, 1.0, "linear");
     let other = part("h", 2.0, 1.0, "linear");
     let law = "1/2*(g + h)*x^2";
-    assert!(!told(law, &[smooth], None));
-    assert!(!told(law, &[smooth, &later], None));
-    assert!(!told("1/2*max(h, 2)*g*x^2", &[smooth], None), "a number");
-    assert!(!told(law, &[], Some("g=1:2:0:2")));
+    assert!(!reported(law, &[smooth], None));
+    assert!(!reported(law, &[smooth, &later], None));
+    assert!(!reported("1/2*max(h, 2)*g*x^2", &[smooth], None), "a number");
+    assert!(!reported(law, &[], Some("g=1:2:0:2")));
     assert!(
-        !told("x*atan2(x, 1) + x*atan2(x^2, g)", &[], None),
+        !reported("x*atan2(x, 1) + x*atan2(x^2, g)", &[], None),
         "the cut is where the second is negative"
     );
-    assert!(told("x*atan2(x, x - 3)", &[], None));
-    assert!(told("x*atan2(x, -g)", &[], None));
-    assert!(told("abs(x)", &[], None));
-    assert!(told("g*abs(x)", &[smooth], None));
-    assert!(told("g*abs(x)", &[], Some("g=1:2:0:2")));
-    assert!(told("1/2*(g + max(t - 1, 0))*x^2", &[smooth], None), "the same switch");
-    assert!(told(law, &[&linear], None));
-    assert!(told(law, &[], Some("g=1:2:0:2:linear")));
-    assert!(told(law, &[smooth, &other], None), "at the same times");
-    assert!(told(law, &[smooth, &sooner], None), "stopped half-way");
+    assert!(reported("x*atan2(x, x - 3)", &[], None));
+    assert!(reported("x*atan2(x, -g)", &[], None));
+    assert!(reported("abs(x)", &[], None));
+    assert!(reported("g*abs(x)", &[smooth], None));
+    assert!(reported("g*abs(x)", &[], Some("g=1:2:0:2")));
+    assert!(reported("1/2*(g + max(t - 1, 0))*x^2", &[smooth], None), "the same switch");
+    assert!(reported(law, &[&linear], None));
+    assert!(reported(law, &[], Some("g=1:2:0:2:linear")));
+    assert!(reported(law, &[smooth, &other], None), "at the same times");
+    assert!(reported(law, &[smooth, &sooner], None), "stopped half-way");
 }
 
 /// With E = 0.2 a particle would be thrown back by a step of 0.6 that is a slope; of −0.3 sign x no derivative shows the force.
@@ -906,8 +908,8 @@ fn a_law_that_jumps_at_the_cut_of_an_angle_is_told() {
     for jumping in ["atan2(y, x)", "k*atan2(2*y, 2*x + 1)^3", "sin(atan2(y, x)/2)", "atan2(y, -1)"]
     {
         let done = law(jumping);
-        let told = done.stderr.contains("phaselab: L jumps at the cut of atan2(");
-        assert!(done.code == 0 && told && !done.stderr.contains("lost"), "{}", done.stderr);
+        let reported = done.stderr.contains("phaselab: L jumps at the cut of atan2(");
+        assert!(done.code == 0 && reported && !done.stderr.contains("lost"), "{}", done.stderr);
     }
     for continuous in [
         "atan2(y, x)^2/10",

@@ -428,8 +428,8 @@ fn a_section_without_a_surface_is_the_one_of_the_file() {
     {
         let own = section(&[name, "--count", "3"]);
         assert_eq!((own["on"].as_str(), own["direction"].as_str()), (Some(on), Some(direction)));
-        let told = section(&[name, "--on", on, "--direction", direction, "--count", "3"]);
-        assert_eq!(own["rows"], told["rows"]);
+        let reported = section(&[name, "--on", on, "--direction", direction, "--count", "3"]);
+        assert_eq!(own["rows"], reported["rows"]);
     }
     let other = section(&["kicked-rotor", "--direction", "rising", "--count", "1"]);
     assert_eq!(other["direction"], "rising");

@@ -177,16 +177,16 @@ fn a_force_that_jumps_with_the_mass_is_followed_or_that_is_told() {
     }
     let text =
         format!("title = \"T\"\n[coordinates]\nx = {{ initial = 0.3, velocity = 0.8 }}\n{law}");
-    let told = |text: &str, method: &str| {
+    let reported = |text: &str, method: &str| {
         with_file(text, &["run", "system.toml", "--at", "3", "--method", method]).stderr
     };
-    assert!(told(&text, "yoshida4").contains("yoshida4 steps over the kinks"));
+    assert!(reported(&text, "yoshida4").contains("yoshida4 steps over the kinks"));
     // elsewhere no step ends
     let apart = text.replace("x^2*(3 - sign(t - 1))", "x^2*(3 - sign(t - 1.5))");
     for method in ["dop853", "rk4", "gauss6"] {
-        assert!(told(&apart, method).contains(" steps over the kinks"), "{method}");
+        assert!(reported(&apart, method).contains(" steps over the kinks"), "{method}");
     }
-    assert!(!told(&apart, "taylor").contains(" kinks "));
+    assert!(!reported(&apart, "taylor").contains(" kinks "));
 }
 
 /// At a pole no function that can be evaluated shows the step: the velocities are kept, and that is told.

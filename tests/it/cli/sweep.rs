@@ -416,14 +416,14 @@ fn a_conserved_quantity_that_leaves_its_value_is_told_in_one_line() {
     let coarse = ["--method=rk4", "--step=1.5"];
     for (name, quantity) in [("harmonic-oscillator", "J"), ("damped-oscillator", "energy balance")]
     {
-        let told = swept(name, &coarse);
+        let reported = swept(name, &coarse);
         let expected = "in 3 rows a conserved quantity leaves its value, most in row ";
         assert!(
-            told.contains(expected) && told.contains(&format!("`{quantity}` is off by ")),
-            "{told}"
+            reported.contains(expected) && reported.contains(&format!("`{quantity}` is off by ")),
+            "{reported}"
         );
-        assert!(told.contains("try a --step below 1.5, or the default method"), "{told}");
-        assert_eq!(told.lines().count(), 1, "{told}");
+        assert!(reported.contains("try a --step below 1.5, or the default method"), "{reported}");
+        assert_eq!(reported.lines().count(), 1, "{reported}");
         assert_eq!(swept(name, &[]), "");
         assert_eq!(swept(name, &["--tolerance=fast"]), "");
     }
@@ -432,7 +432,7 @@ fn a_conserved_quantity_that_leaves_its_value_is_told_in_one_line() {
     let rows = home.path().join("rows.csv");
     let rows = format!("--output={}", rows.display());
     for more in [rows.as_str(), "--format=json"] {
-        let told = swept("harmonic-oscillator", &[&coarse[..], &[more]].concat());
-        assert!(told.contains("a conserved quantity leaves its value"), "{told}");
+        let reported = swept("harmonic-oscillator", &[&coarse[..], &[more]].concat());
+        assert!(reported.contains("a conserved quantity leaves its value"), "{reported}");
     }
 }

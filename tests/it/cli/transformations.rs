@@ -272,8 +272,8 @@ fn generators_are_conserved_where_they_commute_with_h() {
                 [[generators]]\nname = \"Runge-Lenz\"\nG = \"p_y*(x*p_y - y*p_x) - m*k*x/sqrt(x^2+y^2)\"\n";
     let found = derived(PLANE, rest);
     let all = &found["generators"];
-    let told: Vec<_> = (0..3).map(|i| all[i]["conserved"].as_bool().unwrap()).collect();
-    assert_eq!(told, [true, false, true]);
+    let reported: Vec<_> = (0..3).map(|i| all[i]["conserved"].as_bool().unwrap()).collect();
+    assert_eq!(reported, [true, false, true]);
     assert_eq!(all[0]["bracket_with_H"], "0");
     assert_eq!(all[0]["expression"], "x*p_y - p_x*y");
     // the boost is conserved of a free particle, though [H, G] is not 0

@@ -40,13 +40,13 @@ fn a_still_that_cannot_be_drawn_is_told_at_once() {
         done(program(home.path()).args(words))
     };
     assert_eq!(record(&[]).code, 65);
-    for (still, told) in [
+    for (still, reported) in [
         (&["--still", "a.png"][..], "a still ends in .svg, .txt or .ans"),
         (&["--still", "a.svg", "--at", "Nowhere"], "there is no marker `Nowhere`"),
     ] {
         let refused = record(still);
         assert_eq!(refused.code, 2, "{}", refused.stderr);
-        assert!(refused.stderr.contains(told), "{}", refused.stderr);
+        assert!(refused.stderr.contains(reported), "{}", refused.stderr);
     }
 }
 

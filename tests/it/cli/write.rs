@@ -37,10 +37,10 @@ fn a_failure_leaves_the_old_file_alone() {
 fn what_is_replaced_is_reported() {
     let home = folder();
     let run = || done(program(home.path()).args(["run", "system.toml", "-o", "out.csv"]));
-    let told = |done: super::Done| (done.code, done.stdout, done.stderr);
-    assert_eq!(told(run()), (0, String::new(), String::new()));
+    let reported = |done: super::Done| (done.code, done.stdout, done.stderr);
+    assert_eq!(reported(run()), (0, String::new(), String::new()));
     let replaced = "phaselab: out.csv is replaced\n".to_owned();
-    assert_eq!(told(run()), (0, String::new(), replaced));
+    assert_eq!(reported(run()), (0, String::new(), replaced));
     // a device is not a file with content
     let null = ["run", "system.toml", "-o", "/dev/null"];
     assert_eq!(done(program(home.path()).args(null)).stderr, "");
@@ -91,9 +91,9 @@ fn a_full_standard_output_is_exit_74() {
             .stderr(Stdio::piped())
             .output()
             .expect("the program can be started");
-        let told = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(74), "{arguments:?}: {told}");
-        assert!(told.contains("cannot write standard output"), "{told}");
+        let reported = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(74), "{arguments:?}: {reported}");
+        assert!(reported.contains("cannot write standard output"), "{reported}");
     }
 }
 
@@ -144,11 +144,11 @@ fn a_signal_ends_a_run_with_its_rows_written() {
         assert!(std::time::Instant::now() < deadline, "no output within a minute");
         std::thread::yield_now();
     }
-    let told = std::process::Command::new("kill")
+    let reported = std::process::Command::new("kill")
         .args(["-INT", &child.id().to_string()])
         .status()
         .expect("kill can be started");
-    assert!(told.success());
+    assert!(reported.success());
     assert_eq!(child.wait().expect("it ends").code(), Some(130));
     let written = fs::read_to_string(home.path().join("out.csv")).expect("the file is there");
     assert!(written.ends_with("# stopped: stopped by a signal\n"), "{written}");

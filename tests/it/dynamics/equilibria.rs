@@ -1,7 +1,7 @@
 //! Equilibria and small oscillations.
 
 use phaselab::dynamics::{
-    DynamicsError, Equilibrium, Kind, PhaseSpace, equilibria, with_virtual_work,
+    DynamicsError, Equilibrium, EquilibriumKind, PhaseSpace, equilibria, with_virtual_work,
 };
 
 use super::{Case, case_in, file, preset};
@@ -23,8 +23,16 @@ fn close(a: f64, b: f64, within: f64) {
 fn the_double_pendulum_has_four() {
     let found = of(&preset("double-pendulum", &[], &[]));
     let kinds: Vec<_> = found.iter().map(|one| (one.kind.unwrap(), one.stable)).collect();
-    let saddle = (Kind::Saddle, Some(false));
-    assert_eq!(kinds, [(Kind::Minimum, Some(true)), saddle, saddle, (Kind::Maximum, Some(false))]);
+    let saddle = (EquilibriumKind::Saddle, Some(false));
+    assert_eq!(
+        kinds,
+        [
+            (EquilibriumKind::Minimum, Some(true)),
+            saddle,
+            saddle,
+            (EquilibriumKind::Maximum, Some(false))
+        ]
+    );
     // ω² = (2 ∓ √2) g/l, and the amplitudes 1 : ±√2
     let g = 9.81;
     let modes = &found[0].modes;
@@ -58,13 +66,13 @@ fn the_points_of_lagrange_are_found_and_judged() {
     let collinear = [root(0.5, 0.95), root(1.01, 1.5), root(-1.5, -0.5)];
     for (one, x) in found.iter().zip(collinear) {
         close(one.variables[0], x, 1e-13);
-        assert_eq!((one.kind, one.stable), (Some(Kind::Saddle), Some(false)));
+        assert_eq!((one.kind, one.stable), (Some(EquilibriumKind::Saddle), Some(false)));
     }
     for one in &found[3..] {
         close(one.variables[0], 0.5 - mu, 1e-12);
         close(one.variables[1].abs(), 3.0_f64.sqrt() / 2.0, 1e-12);
         // a maximum beside which all oscillates: λ⁴ + λ² + (27/4) μ (1 − μ) = 0, which proves nothing of the full motion
-        assert_eq!((one.kind, one.stable), (Some(Kind::Maximum), None));
+        assert_eq!((one.kind, one.stable), (Some(EquilibriumKind::Maximum), None));
         assert_eq!(one.stability(), "linearly stable");
         let root = (1.0 - 27.0 * mu * (1.0 - mu)).sqrt();
         let expected = [(0.5 * (1.0 - root)).sqrt(), (0.5 * (1.0 + root)).sqrt()];
@@ -75,7 +83,9 @@ fn the_points_of_lagrange_are_found_and_judged() {
     // beyond Routh's ratio they are not
     let found = of(&preset("restricted-three-body", &[("mu", 0.05), ("x0", 0.5)], &[]));
     assert!(
-        found[3..].iter().all(|one| one.stable == Some(false) && one.kind == Some(Kind::Maximum))
+        found[3..]
+            .iter()
+            .all(|one| one.stable == Some(false) && one.kind == Some(EquilibriumKind::Maximum))
     );
 }
 
@@ -91,7 +101,7 @@ fn equal_frequencies_have_two_modes() {
     assert_eq!((&a[..], &b[..]), (&[1.0, 0.0][..], &[0.0, 1.0][..]));
     assert!([first, second].iter().all(|mode| mode.quadrature == [0.0, 0.0]));
     for saddle in &found[1..] {
-        assert_eq!(saddle.kind, Some(Kind::Saddle));
+        assert_eq!(saddle.kind, Some(EquilibriumKind::Saddle));
         close(saddle.energy, 1.0 / 6.0, 1e-14);
     }
 }
@@ -145,7 +155,7 @@ fn oscillations_of_the_linearised_motion_prove_nothing() {
     let verdict = |force: &str, function: &str| {
         let found = pushed(force, function);
         let [one] = &found[..] else { panic!("{found:?}") };
-        assert_eq!(one.kind, Some(Kind::Minimum));
+        assert_eq!(one.kind, Some(EquilibriumKind::Minimum));
         (one.stable, one.stability())
     };
     let open = (None, "linearly stable");
@@ -221,7 +231,7 @@ fn what_is_cyclic_goes_on() {
     };
     let (a, c, mgl) = (parameter("I1"), parameter("I3"), parameter("Mgl"));
     close(a * cos * precession * precession - c * whole * precession + mgl, 0.0, 1e-12);
-    assert_eq!((one.kind, one.stable), (Some(Kind::Minimum), Some(true)));
+    assert_eq!((one.kind, one.stable), (Some(EquilibriumKind::Minimum), Some(true)));
     // of a planet: a circle of radius p²/mk, whose radial frequency is that of the revolution
     let found = of(&preset("planet", &[], &[]));
     let [circle] = &found[..] else { panic!("{found:?}") };
@@ -236,7 +246,10 @@ fn friction_damps_and_brackets_have_eigenvalues_only() {
                 [hamiltonian]\nH = \"1/2*p_x^2 - cos(x)\"\nforces = { x = \"-0.2*p_x\" }\n";
     let found = of(&file(text, &[]));
     let low = found.iter().find(|one| one.variables[0] == 0.0).unwrap();
-    assert_eq!((low.kind, low.stable, low.modes.len()), (Some(Kind::Minimum), Some(true), 0));
+    assert_eq!(
+        (low.kind, low.stable, low.modes.len()),
+        (Some(EquilibriumKind::Minimum), Some(true), 0)
+    );
     close(low.eigenvalues[0][0], -0.1, 1e-13);
     close(low.eigenvalues[0][1], 0.99_f64.sqrt(), 1e-13);
     // none where there is a force everywhere, or where the law depends on time
@@ -266,7 +279,7 @@ fn units_do_not_change_what_is_found() {
         let places: Vec<f64> = found.iter().map(|one| one.variables[0]).collect();
         assert_eq!(found.len(), 1, "{places:?}");
         assert!(places[0].abs() <= 1e-9 / rate, "{places:?}");
-        assert_eq!((found[0].kind, found[0].stable), (Some(Kind::Minimum), Some(true)));
+        assert_eq!((found[0].kind, found[0].stable), (Some(EquilibriumKind::Minimum), Some(true)));
         let frequency = rate * (2.0 * depth / mass).sqrt();
         close(found[0].modes[0].frequency / frequency, 1.0, 1e-10);
     }
@@ -284,9 +297,11 @@ fn two_wells_of_an_atom_are_two() {
     found.sort_by(|a, b| a.variables[0].total_cmp(&b.variables[0]));
     assert_eq!(found.len(), 3);
     let well = (k / c).sqrt();
-    for (one, (x, kind)) in
-        found.iter().zip([(-well, Kind::Minimum), (0.0, Kind::Maximum), (well, Kind::Minimum)])
-    {
+    for (one, (x, kind)) in found.iter().zip([
+        (-well, EquilibriumKind::Minimum),
+        (0.0, EquilibriumKind::Maximum),
+        (well, EquilibriumKind::Minimum),
+    ]) {
         close(one.variables[0], x, 1e-12 * well);
         assert_eq!(one.kind, Some(kind));
     }
@@ -337,7 +352,8 @@ fn modes_of_one_frequency_differ_in_any_units() {
             0.15 * length
         );
         let found = of(&file(&text, &[]));
-        let rest = found.iter().find(|one| one.kind == Some(Kind::Minimum)).expect("a minimum");
+        let rest =
+            found.iter().find(|one| one.kind == Some(EquilibriumKind::Minimum)).expect("a minimum");
         assert_eq!(rest.modes.len(), 2, "{text}");
         for frequency in frequencies(rest) {
             close(frequency * time, 1.0, 1e-9);
@@ -388,13 +404,16 @@ fn held(text: &str, start: &[f64]) -> Vec<Equilibrium> {
     equilibria(&case.space, &case.start).unwrap().found
 }
 
-fn kinds(found: &[Equilibrium]) -> Vec<(Option<Kind>, Option<bool>)> {
+fn kinds(found: &[Equilibrium]) -> Vec<(Option<EquilibriumKind>, Option<bool>)> {
     found.iter().map(|one| (one.kind, one.stable)).collect()
 }
 
-const MINIMUM: (Option<Kind>, Option<bool>) = (Some(Kind::Minimum), Some(true));
-const SADDLE: (Option<Kind>, Option<bool>) = (Some(Kind::Saddle), Some(false));
-const MAXIMUM: (Option<Kind>, Option<bool>) = (Some(Kind::Maximum), Some(false));
+const MINIMUM: (Option<EquilibriumKind>, Option<bool>) =
+    (Some(EquilibriumKind::Minimum), Some(true));
+const SADDLE: (Option<EquilibriumKind>, Option<bool>) =
+    (Some(EquilibriumKind::Saddle), Some(false));
+const MAXIMUM: (Option<EquilibriumKind>, Option<bool>) =
+    (Some(EquilibriumKind::Maximum), Some(false));
 
 #[test]
 fn a_rod_holds_a_bob_below_and_above() {
@@ -625,7 +644,7 @@ fn kinds_in_units(
     start: [[f64; 2]; 2],
     units: [f64; 3],
     named: bool,
-) -> Vec<Kind> {
+) -> Vec<EquilibriumKind> {
     let size =
         |powers: [i32; 3]| -> f64 { units.iter().zip(powers).map(|(u, n)| u.powi(n)).product() };
     let (mut law, mut parameters) = (law.to_owned(), String::new());
@@ -660,7 +679,12 @@ fn a_law_has_the_same_equilibria_in_any_units() {
     for (units, named) in UNITS.map(|units| (units, false)).into_iter().chain([(UNITS[2], true)]) {
         let start = [[0.0, 0.42], [0.1, 0.15]];
         let found = kinds_in_units(henon, &[[1, 0, 0], energy(2), energy(3)], start, units, named);
-        let four = [Kind::Minimum, Kind::Saddle, Kind::Saddle, Kind::Saddle];
+        let four = [
+            EquilibriumKind::Minimum,
+            EquilibriumKind::Saddle,
+            EquilibriumKind::Saddle,
+            EquilibriumKind::Saddle,
+        ];
         assert_eq!(found, four, "{units:?} {named}");
         let start = [[1.0, 0.2], [0.3, 0.9]];
         let found = kinds_in_units(fall, &[[1, 0, 0], energy(1)], start, units, named);
@@ -679,7 +703,10 @@ fn a_zero_of_higher_order_is_one_equilibrium() {
             ),
             &[],
         );
-        assert!(found.iter().all(|one| one.kind == Some(Kind::Degenerate)), "{potential}");
+        assert!(
+            found.iter().all(|one| one.kind == Some(EquilibriumKind::Degenerate)),
+            "{potential}"
+        );
         found.iter().map(|one| one.variables[0]).collect()
     };
     for potential in ["x^4", "1e12*x^4", "x^3", "x^6", "x^20", "cosh(x) - 1 - x^2/2", "x^4 + x^8"] {
@@ -691,10 +718,10 @@ fn a_zero_of_higher_order_is_one_equilibrium() {
     // π is not a floating-point number
     let text = "title = \"one\"\n[coordinates]\nx = { initial = 1.0 }\n[lagrangian]\nL = \"1/2*x'^2 - V\"\n";
     let found = held(&text.replace('V', "sin(x)^4"), &[]);
-    assert!(found.iter().any(|one| one.kind == Some(Kind::Maximum)));
+    assert!(found.iter().any(|one| one.kind == Some(EquilibriumKind::Maximum)));
     for one in found {
         let flat = one.variables[0].sin().abs() < 0.5;
-        let kind = if flat { Kind::Degenerate } else { Kind::Maximum };
+        let kind = if flat { EquilibriumKind::Degenerate } else { EquilibriumKind::Maximum };
         assert_eq!(one.kind, Some(kind), "{:?}", one.variables);
         assert!(one.modes.is_empty(), "{:?}", one.modes);
     }
@@ -708,7 +735,9 @@ fn a_zero_of_higher_order_is_one_equilibrium() {
         found.iter().map(|one| one.variables[0]).filter(|x| x.abs() < 2.0).collect();
     assert_eq!(places, [1.0, -1.0, 0.0], "{found:?}");
     // at x = 0 there is a maximum or a minimum; beyond it the force falls, and is 0 only for want of smaller numbers
-    for (potential, kind) in [("exp(-x^2)", Kind::Maximum), ("(1 - exp(-x^4))", Kind::Degenerate)] {
+    for (potential, kind) in
+        [("exp(-x^2)", EquilibriumKind::Maximum), ("(1 - exp(-x^4))", EquilibriumKind::Degenerate)]
+    {
         let loaded = lowered(&text.replace('V', potential));
         let case = case_in(&loaded, &[], &[], PhaseSpace::without_impulses);
         let mut found = equilibria(&case.space, &case.start).unwrap().found;
@@ -836,7 +865,7 @@ fn a_curve_of_equilibria_is_a_family() {
     close(along[0] * circle.variables[0] + along[1] * circle.variables[1], 0.0, 1e-12);
     assert_eq!(zeros(circle), 2);
     close(frequencies(circle)[0], 8.0_f64.sqrt(), 1e-12);
-    assert_eq!(found[1].kind, Some(Kind::Maximum));
+    assert_eq!(found[1].kind, Some(EquilibriumKind::Maximum));
     // two circles of one energy are two, a valley is one, and so is a line
     let circles = plane("(x^2 + y^2 - 1)^2*(x^2 + y^2 - 4)^2");
     assert_eq!(circles.iter().filter(|one| one.family.len() == 1).count(), 3, "{circles:?}");
@@ -990,7 +1019,7 @@ fn a_cyclic_coordinate_may_rest() {
     assert_eq!(found.len(), 2);
     for (one, r) in found.iter().zip([radius, -radius]) {
         close(one.variables[0], r, 1e-13);
-        assert_eq!((one.kind, one.rates[0]), (Some(Kind::Minimum), (1, 0.0)));
+        assert_eq!((one.kind, one.rates[0]), (Some(EquilibriumKind::Minimum), (1, 0.0)));
         // the frequency of a cyclotron
         close(one.modes[0].frequency, 0.7, 1e-12);
     }
@@ -1051,7 +1080,10 @@ fn families_may_be_flat_and_may_cross() {
     close(circle.variables[0].hypot(circle.variables[1]), 1.0, 1e-9);
     close(circle.variables[1] / circle.variables[0], 0.15, 1e-5);
     close(circle.family[0][0] / circle.family[0][1], -0.15, 1e-5);
-    assert_eq!((found[1].kind, &found[1].variables[..2]), (Some(Kind::Maximum), &[0.0, 0.0][..]));
+    assert_eq!(
+        (found[1].kind, &found[1].variables[..2]),
+        (Some(EquilibriumKind::Maximum), &[0.0, 0.0][..])
+    );
     let found = in_plane("(x*y - 1)^2*(x^2 + y^2 - 9)^2", [0.5, 0.4]);
     let (families, others): (Vec<_>, Vec<_>) = found.iter().partition(|one| !one.family.is_empty());
     let [circle, branch, opposite] = families[..] else { panic!("{families:?}") };
@@ -1085,7 +1117,7 @@ fn a_soft_direction_is_seen_beside_a_stiff_one() {
     ] {
         let found = in_plane(potential, [0.3, 0.3]);
         let flat = found.iter().find(|one| one.variables[0].abs() < 0.1).expect("at 0");
-        let kind = Some(Kind::Degenerate);
+        let kind = Some(EquilibriumKind::Degenerate);
         assert_eq!((flat.kind, flat.stable), (kind, stable), "{potential}: {found:?}");
     }
     for stiffness in ["1e12", "1e17"] {
@@ -1274,7 +1306,7 @@ fn a_flat_minimum_of_even_powers_is_stable() {
             "[coordinates]\nx = {{ initial = 0.6 }}\ny = {{ initial = 0.3 }}\n[parameters]\nk = 2\n[lagrangian]\n{law}"
         ))
     };
-    let flat = |stable| (Some(Kind::Degenerate), stable);
+    let flat = |stable| (Some(EquilibriumKind::Degenerate), stable);
     for (law, stable) in [
         ("L = \"1/2*(x'^2 + y'^2) - k*(x - y)^4 - (x + y - 1)^6\"", Some(true)),
         ("L = \"1/2*(1 + x^2)*x'^2 + x'*y' + y'^2 + x*y' - k*x^4 - y^2 + 3\"", Some(true)),

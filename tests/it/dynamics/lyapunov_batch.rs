@@ -10,7 +10,7 @@ use super::{Case, case, case_in, method, taylor};
 use crate::hand::{loaded, lowered};
 
 /// Everything that was found of a motion, with its bits, or why nothing was.
-fn told(found: &Result<Lyapunov, DynamicsError>) -> String {
+fn reported(found: &Result<Lyapunov, DynamicsError>) -> String {
     match found {
         Err(why) => why.to_string(),
         Ok(found) => {
@@ -51,7 +51,7 @@ fn agree(orbits: &[LyapunovOrbit], by: (&'static Method, Settings), name: &str) 
     assert_eq!(together.len(), orbits.len());
     for (i, (orbit, together)) in orbits.iter().zip(&together).enumerate() {
         let alone = lyapunov(&orbit.space, by, &orbit.start, orbit.until, &mut |_| ());
-        assert_eq!(told(together), told(&alone), "{name} {} {i}", by.0.name);
+        assert_eq!(reported(together), reported(&alone), "{name} {} {i}", by.0.name);
     }
 }
 

@@ -121,8 +121,8 @@ fn a_chaotic_orbit_has_none_and_is_told_why() {
             let wrapped: Vec<[f64; 2]> =
                 orbit.iter().map(|at| at.map(|x| x.rem_euclid(TAU))).collect();
             let around = rotation(&wrapped, [None; 2]);
-            let told = matches!(around, Err(NoRotation::Diverges(_) | NoRotation::AllTurns));
-            assert!(told || open, "{kick} {count}: {around:?}");
+            let reported = matches!(around, Err(NoRotation::Diverges(_) | NoRotation::AllTurns));
+            assert!(reported || open, "{kick} {count}: {around:?}");
         }
     }
 }

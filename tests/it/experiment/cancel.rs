@@ -41,10 +41,10 @@ fn what_is_cancelled_before_it_begins_is_not_begun() {
 fn a_derivation_ends_soon_after_it_is_cancelled() {
     for links in [40, 64] {
         let cancel = Cancel::new();
-        let (told, ended) = channel();
+        let (reported, ended) = channel();
         let token = cancel.clone();
         thread::spawn(move || {
-            let _ = told.send(Prepared::with(&chain(links), &token).is_err());
+            let _ = reported.send(Prepared::with(&chain(links), &token).is_err());
         });
         thread::sleep(Duration::from_millis(50));
         cancel.cancel();

@@ -58,8 +58,8 @@ fn energy_broken_by_the_physics_names_its_law_and_the_ledger_holds() {
         run(&mut system, time);
         let snapshot = system.snapshot();
         let energy = gauge(&snapshot, "energy");
-        let Verdict::Broken(told) = &energy.verdict else { panic!("{preset}: {energy:?}") };
-        assert!(told.starts_with(law), "{preset}: {told}");
+        let Verdict::Broken(reported) = &energy.verdict else { panic!("{preset}: {energy:?}") };
+        assert!(reported.starts_with(law), "{preset}: {reported}");
         assert!(energy.reason.contains(cause), "{preset}: {}", energy.reason);
         assert!(energy.max_drift > 1e-3, "{preset}: {energy:?}");
         let balance = gauge(&snapshot, "energy balance");

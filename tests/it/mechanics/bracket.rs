@@ -51,7 +51,7 @@ fn look(model: &Model, equations: &mut Equations, text: &str) -> Expr {
 }
 
 /// The bracket of two observables as text, and how its form was established.
-fn told(model: &Model, equations: &mut Equations, f: &str, g: &str) -> (String, Zero) {
+fn reported(model: &Model, equations: &mut Equations, f: &str, g: &str) -> (String, Zero) {
     let (f, g) = (look(model, equations, f), look(model, equations, g));
     let e = bracket(model, equations, f, g).expect("a closed form");
     match recognise(model, equations, e) {
@@ -82,11 +82,11 @@ fn kepler_has_the_algebra_of_rotations_in_four_dimensions() {
             ("L_z", "energy", "0"),
             ("x*L_x + y*L_y", "L_z", "0"),
         ] {
-            assert_eq!(told(&model, &mut e, f, g), proved(is), "[{f}, {g}]");
+            assert_eq!(reported(&model, &mut e, f, g), proved(is), "[{f}, {g}]");
         }
-        assert_eq!(told(&model, &mut e, "x", "p_x").0, "1");
-        assert_eq!(told(&model, &mut e, "x", "p_y"), proved("0"));
-        assert_eq!(told(&model, &mut e, "x'", "x").0, "-1/m");
+        assert_eq!(reported(&model, &mut e, "x", "p_x").0, "1");
+        assert_eq!(reported(&model, &mut e, "x", "p_y"), proved("0"));
+        assert_eq!(reported(&model, &mut e, "x'", "x").0, "-1/m");
     }
 }
 
@@ -97,12 +97,12 @@ fn what_a_bracket_is_called_by_parameters_and_names() {
     observe(&mut model, "L", "x*p_y - y*p_x");
     observe(&mut model, "D", "x*p_x + y*p_y");
     let mut e = mechanics::derive(&model).expect("derivable");
-    assert_eq!(told(&model, &mut e, "spread", "energy").0, "2*w*D");
-    assert_eq!(told(&model, &mut e, "D", "energy").0, "2*energy");
-    assert_eq!(told(&model, &mut e, "D", "spread^2").0, "-4*spread^2");
+    assert_eq!(reported(&model, &mut e, "spread", "energy").0, "2*w*D");
+    assert_eq!(reported(&model, &mut e, "D", "energy").0, "2*energy");
+    assert_eq!(reported(&model, &mut e, "D", "spread^2").0, "-4*spread^2");
     // an expression without a name is written out
-    assert_eq!(told(&model, &mut e, "L", "x").0, "y");
-    assert_eq!(told(&model, &mut e, "x", "p_x^3"), ("3*p_x^2".to_owned(), Zero::No));
+    assert_eq!(reported(&model, &mut e, "L", "x").0, "y");
+    assert_eq!(reported(&model, &mut e, "x", "p_x^3"), ("3*p_x^2".to_owned(), Zero::No));
 }
 
 #[test]

@@ -139,7 +139,7 @@ fn the_forms_are_the_same_whoever_asks_first() {
 }
 
 /// Why leapfrog does not fit a system, or `None` if it does.
-fn refusal(model: &Model) -> Option<String> {
+fn why_not_separable(model: &Model) -> Option<String> {
     let (_, system) = motion(model);
     let leapfrog = METHODS.iter().find(|method| method.name == "leapfrog").expect("in the table");
     (leapfrog.fits)(&system).err().map(|why| why.reason)
@@ -147,7 +147,7 @@ fn refusal(model: &Model) -> Option<String> {
 
 #[test]
 fn whether_h_separates_is_known_without_eliminating() {
-    let of = |names: &[&str], l: &str| refusal(&lagrangian(names, &[], l));
+    let of = |names: &[&str], l: &str| why_not_separable(&lagrangian(names, &[], l));
     // M constant, written plainly and in disguise
     assert_eq!(of(&["x", "y"], "1/2*(x'^2 + x'*y' + y'^2) - x^2*y"), None);
     assert_eq!(of(&["x"], "1/2*x'^2*((1 + x)^2 - x^2 - 2*x) - x^4"), None);
@@ -161,8 +161,11 @@ fn whether_h_separates_is_known_without_eliminating() {
     // M constant, but not what is linear in the velocities
     assert_eq!(of(&["x", "y"], "1/2*(x'^2 + y'^2) + x*y'"), why("y", "x"));
     let damped = dissipative(&["x"], &[], "1/2*x'^2 - 1/2*x^2", "1/10*x'^2", &["0"]);
-    assert_eq!(refusal(&damped).as_deref(), Some("a force acts that does not come from H"));
-    let why = refusal(&chain(6)).expect("not separable");
+    assert_eq!(
+        why_not_separable(&damped).as_deref(),
+        Some("a force acts that does not come from H")
+    );
+    let why = why_not_separable(&chain(6)).expect("not separable");
     assert!(why.contains("couples 6 coordinates"), "{why}");
 }
 

@@ -127,8 +127,8 @@ fn what_changes_is_never_called_conserved() {
 #[test]
 fn what_nobody_saw_is_not_known() {
     let narrow = l("1/2*x'^2 - 1e-3*max(0, 1e-30 - abs(x - 5.123456))");
-    let told = class(LINE, &narrow, "x'");
-    assert!(matches!(told, Class::Unknown | Class::Changing), "{told}");
+    let reported = class(LINE, &narrow, "x'");
+    assert!(matches!(reported, Class::Unknown | Class::Changing), "{reported}");
     // a step: its force is an impulse, which no derivative shows
     let step = l("1/2*x'^2 - (1 + sign(x - 77))");
     assert_eq!(class(LINE, &step, "x'"), Class::Unknown);

@@ -10,7 +10,7 @@ use crate::system::compile;
 use super::{Case, case, double_pendulum, fixed, named, pendulum, quartic};
 
 /// The reason why a method refuses a system.
-fn refusal(case: &Case, name: &str) -> String {
+fn method_error(case: &Case, name: &str) -> String {
     let method = named(name);
     let why = (method.fits)(&case.system).expect_err("does not fit");
     let made = (method.make)(&case.system, &Settings::default()).err();
@@ -22,23 +22,23 @@ fn refusal(case: &Case, name: &str) -> String {
 fn splitting_refuses_what_does_not_split_and_says_why() {
     let polar = hamiltonian(&["r", "phi"], &[], "p_r^2/2 + p_phi^2/(2*r^2) - 1/r");
     assert_eq!(
-        refusal(&case(polar, Form::Momentum, &[1.0, 0.0, 0.0, 1.0]), "leapfrog"),
+        method_error(&case(polar, Form::Momentum, &[1.0, 0.0, 0.0, 1.0]), "leapfrog"),
         "leapfrog cannot be used here: H is not of the form T(p) + V(q, t): ∂²H/∂p_phi∂r does \
          not vanish"
     );
     let damped = dissipative(&["x"], &["c"], "1/2*x'^2 - 1/2*x^2", "1/2*c*x'^2", &["0"]);
     assert_eq!(
-        refusal(&case(damped, Form::Velocity, &[1.0, 0.0]), "yoshida4"),
+        method_error(&case(damped, Form::Velocity, &[1.0, 0.0]), "yoshida4"),
         "yoshida4 cannot be used here: a force acts that does not come from H"
     );
     assert_eq!(
-        refusal(&quartic(), "yoshida8"),
+        method_error(&quartic(), "yoshida8"),
         "yoshida8 cannot be used here: there is no H in closed form: L is not quadratic in the \
          velocities"
     );
     let growing = hamiltonian(&["x"], &[], "p_x^2*exp(t)/2 + x^2/2");
     assert_eq!(
-        refusal(&case(growing, Form::Momentum, &[1.0, 0.0]), "yoshida6"),
+        method_error(&case(growing, Form::Momentum, &[1.0, 0.0]), "yoshida6"),
         "yoshida6 cannot be used here: H is not of the form T(p) + V(q, t): ∂²H/∂p_x∂t does not \
          vanish"
     );

@@ -41,8 +41,8 @@ fn the_limit_told_is_where_amplitudes_begin_to_grow() {
         assert!(go(case.stepper(method, 0.98 * limit).as_mut(), 4000) < 30.0, "{name} {limit}");
         let mut beyond = case.stepper(method, 1.02 * limit);
         assert!(go(beyond.as_mut(), 4000) > 1e3, "{name} {limit}");
-        let told = beyond.unstable().unwrap_or_else(|| panic!("{name}"));
-        assert_eq!((told.time, told.step), (0.0, 1.02 * limit));
+        let reported = beyond.unstable().unwrap_or_else(|| panic!("{name}"));
+        assert_eq!((reported.time, reported.step), (0.0, 1.02 * limit));
         let mut within = case.stepper(method, 0.98 * limit);
         go(within.as_mut(), 600);
         assert_eq!(within.unstable(), None, "{name}");

@@ -195,8 +195,8 @@ fn every_method_moves_it_and_splitting_is_refused_by_name() {
     };
     let mut refused = Vec::new();
     for method in METHODS {
-        if let Err(refusal) = (method.fits)(&system) {
-            let text = refusal.to_string();
+        if let Err(error) = (method.fits)(&system) {
+            let text = error.to_string();
             assert!(text.contains(method.name) && text.contains("brackets"), "{text}");
             refused.push(method.name);
             continue;

@@ -6,7 +6,7 @@ use phaselab::{mechanics, preset};
 use super::{BODY, LOTKA_VOLTERRA, TOP};
 
 /// The reports on a file's brackets and Casimirs, each with the text at its position.
-fn told(text: &str) -> Vec<String> {
+fn reported(text: &str) -> Vec<String> {
     let model = preset::read(text).unwrap_or_else(|diagnostics| panic!("{diagnostics:?}")).model;
     let equations = mechanics::derive(&model).expect("derivable");
     let found = structure_diagnostics(&model, &equations);
@@ -22,23 +22,23 @@ fn told(text: &str) -> Vec<String> {
 #[test]
 fn what_is_a_structure_is_silent() {
     for text in [BODY, TOP, LOTKA_VOLTERRA] {
-        assert_eq!(told(text), Vec::<String>::new());
+        assert_eq!(reported(text), Vec::<String>::new());
     }
     // any table of two variables is a structure, and so is any function times a structure of three
-    assert!(told(&LOTKA_VOLTERRA.replace("\"x*y\"", "\"exp(x*y) + 3\"")).is_empty());
+    assert!(reported(&LOTKA_VOLTERRA.replace("\"x*y\"", "\"exp(x*y) + 3\"")).is_empty());
     let scaled = BODY.replace("\"-L3\"", "\"-L3*(1 + L1^2)\"");
     let scaled = scaled.replace("\"-L1\"", "\"-L1*(1 + L1^2)\"");
-    assert!(told(&scaled.replace("\"-L2\"", "\"-L2*(1 + L1^2)\"")).is_empty());
+    assert!(reported(&scaled.replace("\"-L2\"", "\"-L2*(1 + L1^2)\"")).is_empty());
     // no proof is found that this is zero, so it is decided numerically
     let hidden = BODY.replace("\"-L3\"", "\"-L3 + L1*L2*(exp(ln(2 + L3^2)) - 2 - L3^2)\"");
-    assert!(told(&hidden).is_empty());
+    assert!(reported(&hidden).is_empty());
 }
 
 #[test]
 fn the_triple_that_fails_is_named_where_the_brackets_stand() {
     let wrong = BODY.replace("[\"L1\", \"L2\", \"-L3\"]", "[\"L1\", \"L2\", \"L1\"]");
     let wrong = wrong.replace("casimirs", "# casimirs");
-    let all = told(&wrong);
+    let all = reported(&wrong);
     assert_eq!(all.len(), 1, "{all:?}");
     assert!(all[0].starts_with("[[\"L1\", \"L2\", \"L1\"]"), "{all:?}");
     let said = "these brackets break Jacobi's identity for L1, L2, L3; \
@@ -46,18 +46,18 @@ fn the_triple_that_fails_is_named_where_the_brackets_stand() {
     assert!(all[0].ends_with(said), "{all:?}");
     // a wrong sign in the top's table
     let wrong = TOP.replace("[\"L1\", \"G3\", \"G2\"]", "[\"L1\", \"G3\", \"-G2\"]");
-    let all = told(&wrong);
+    let all = reported(&wrong);
     assert!(all[0].contains("break Jacobi's identity for L1, "), "{all:?}");
     assert!(all[0].contains(" other threes"), "{all:?}");
     // refused numerically
     let wrong = BODY.replace("\"-L3\"", "\"-L3 + 1e-8*exp(ln(2 + L1^2))\"");
-    assert!(told(&wrong)[0].contains("break Jacobi's identity"), "{:?}", told(&wrong));
+    assert!(reported(&wrong)[0].contains("break Jacobi's identity"), "{:?}", reported(&wrong));
 }
 
 #[test]
 fn a_false_casimir_is_reported_with_the_bracket_that_does_not_vanish() {
     let casimir = "\"|L|²\" = \"L1^2 + L2^2 + L3^2\"";
-    let all = told(&BODY.replace(casimir, "C = \"L1^2 + 2*L2^2 + L3^2\""));
+    let all = reported(&BODY.replace(casimir, "C = \"L1^2 + 2*L2^2 + L3^2\""));
     assert_eq!(
         all,
         [
@@ -65,6 +65,6 @@ fn a_false_casimir_is_reported_with_the_bracket_that_does_not_vanish() {
         ]
     );
     let energy = "C = \"L1^2/I1 + L2^2/I2 + L3^2/I3\"";
-    let all = told(&BODY.replace(casimir, energy));
+    let all = reported(&BODY.replace(casimir, energy));
     assert!(all[0].ends_with("not 0; but this H conserves it: it is an observable"), "{all:?}");
 }

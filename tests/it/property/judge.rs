@@ -163,7 +163,7 @@ struct Gauge {
 }
 
 /// The program's results for a case, in natural units.
-struct Told {
+struct RunReport {
     end: End,
     time: f64,
     state: Vec<f64>,
@@ -183,8 +183,8 @@ enum End {
     Error(String),
 }
 
-/// Runs a case; a refusal is an outcome.
-fn run(case: &Case, budget: Budget, cancel: &Cancel) -> Result<Told, Outcome> {
+/// Runs a case; an error is an outcome.
+fn run(case: &Case, budget: Budget, cancel: &Cancel) -> Result<RunReport, Outcome> {
     let document = Document::new("case.toml", case.toml());
     let refused = |what: String| failed(Kind::Refused, what);
     let checked = document.read().map_err(|m| refused(document.report(&m, false)))?;
@@ -246,7 +246,7 @@ fn run(case: &Case, budget: Budget, cancel: &Cancel) -> Result<Told, Outcome> {
         max_drift: gauge.max_drift,
         farthest: gauge.farthest / case.units.energy,
     };
-    Ok(Told {
+    Ok(RunReport {
         end: reached,
         time: snapshot.time / case.units.time,
         state,
@@ -334,13 +334,13 @@ fn judge(
     budget: Budget,
     cancel: &Cancel,
 ) -> Outcome {
-    let told = match run(as_run, budget, cancel) {
-        Ok(told) => told,
+    let reported = match run(as_run, budget, cancel) {
+        Ok(reported) => reported,
         Err(outcome) => return outcome,
     };
-    if let End::Error(message) = &told.end {
+    if let End::Error(message) = &reported.end {
         let has_place = [" at t = ", " after t = "].iter().any(|place| message.contains(place));
-        if !has_place && told.time > 0.0 || message.is_empty() {
+        if !has_place && reported.time > 0.0 || message.is_empty() {
             return failed(Kind::NoPlace, message);
         }
         if message.contains("belongs to several starts") {
@@ -349,15 +349,16 @@ fn judge(
         let fixed = !["auto", "taylor", "dop853"].contains(&case.method.as_str());
         let says_what_helps =
             message.contains("try a smaller step") || fixed && message.contains(" passes it");
-        if told.time == 0.0
-            && told.check.is_empty()
+        if reported.time == 0.0
+            && reported.check.is_empty()
             && case.by_momentum.is_empty()
             && !says_what_helps
         {
             return failed(Kind::DoesNotStart, format!("`check` is silent; {message}"));
         }
     }
-    if let (End::Error(_), true) = (&told.end, told.time == 0.0 && !told.check.is_empty())
+    if let (End::Error(_), true) =
+        (&reported.end, reported.time == 0.0 && !reported.check.is_empty())
         && !energy(case, 0.0, &case.start).0.is_finite()
     {
         // a pole, as `check` says
@@ -366,13 +367,13 @@ fn judge(
     let known = match known {
         Ok(known) => known,
         Err(Lost::AtStart) => {
-            return match told.end {
+            return match reported.end {
                 End::Error(_) => Outcome::Stopped,
                 _ => failed(Kind::Wrong, "it runs from where nothing is finite"),
             };
         }
         Err(why) => {
-            return match (told.end, why) {
+            return match (reported.end, why) {
                 (End::Error(_), _) => Outcome::Stopped,
                 (_, Lost::NotFinite) => Outcome::Undecided("a pole"),
                 (_, Lost::TooLong) => Outcome::Undecided("too long"),
@@ -383,7 +384,7 @@ fn judge(
     };
     let adaptive = ["auto", "taylor", "dop853"].contains(&case.method.as_str());
     let default = case.method == "auto";
-    match &told.end {
+    match &reported.end {
         End::Error(message) if default => {
             return failed(Kind::GivesUp, message);
         }
@@ -394,19 +395,19 @@ fn judge(
         }
         End::Error(_) => return Outcome::Stopped,
         End::OutOfBudget if adaptive && known.arrival.way.len() < 1000 => {
-            let message = format!("{} steps to t = {}", told.steps, told.time);
+            let message = format!("{} steps to t = {}", reported.steps, reported.time);
             return failed(Kind::Slow, message);
         }
         End::OutOfBudget => return Outcome::Undecided("out of budget"),
         End::Completed | End::Stopped => {}
     }
-    if !told.check.is_empty() {
-        return failed(Kind::CheckRefuses, told.check.join("; "));
+    if !reported.check.is_empty() {
+        return failed(Kind::CheckRefuses, reported.check.join("; "));
     }
-    if let Some(failure) = energy_failure(case, &known, &told) {
+    if let Some(failure) = energy_failure(case, &known, &reported) {
         return Outcome::Failed(failure);
     }
-    if let Some(failure) = form_failure(case, &told) {
+    if let Some(failure) = form_failure(case, &reported) {
         return Outcome::Failed(failure);
     }
     if !adaptive {
@@ -415,18 +416,18 @@ fn judge(
     let least = if case.method == "dop853" { 1e-13 } else { 1e-15 };
     let asked = case.tolerance.unwrap_or(least).max(least);
     let room = if case.method == "dop853" { 30.0 } else { 100.0 };
-    let steps = (10 + told.steps) as f64;
+    let steps = (10 + reported.steps) as f64;
     let allowed = 1e-11 + room * steps * asked * known.growth + 10.0 * known.error;
     if allowed.is_nan() || allowed > UNREPORTED {
         return Outcome::Undecided("too sensitive");
     }
-    if matches!(told.end, End::Stopped) != known.arrival.stopped {
-        let (t, end) = (told.time, known.arrival.time);
+    if matches!(reported.end, End::Stopped) != known.arrival.stopped {
+        let (t, end) = (reported.time, known.arrival.time);
         return failed(Kind::Wrong, format!("the event is missed: t = {t} in place of {end}"));
     }
-    let off = distance(&told.state, &known.arrival.state) / known.scale;
+    let off = distance(&reported.state, &known.arrival.state) / known.scale;
     // `run` says in a line that the energy has left its value by so much
-    let is_said = told.gauges.iter().any(|gauge| {
+    let is_said = reported.gauges.iter().any(|gauge| {
         gauge.name == "energy" && gauge.max_drift > REPORTED && gauge.max_drift > 0.1 * off
     });
     if case.tolerance.is_some() && off > allowed && is_said {
@@ -435,11 +436,11 @@ fn judge(
     if off.is_nan() || off > allowed {
         let message = format!(
             "off by {off:.1e} where {allowed:.1e} is allowed (growth {:.1e}, {} steps): {:?} in place of {:?}",
-            known.growth, told.steps, told.state, known.arrival.state
+            known.growth, reported.steps, reported.state, known.arrival.state
         );
         return failed(Kind::Wrong, message);
     }
-    let late = (told.time - known.arrival.time).abs() / case.length;
+    let late = (reported.time - known.arrival.time).abs() / case.length;
     if late > allowed {
         return failed(Kind::Wrong, format!("the event is {late:.1e} of the run late"));
     }
@@ -453,22 +454,22 @@ fn judge(
     };
     let limit = 1e-8_f64.max(1000.0 * allowed);
     let drifts = |g: &&Gauge| !g.broken && g.max_drift > limit && !is_named(g);
-    if let Some(gauge) = told.gauges.iter().find(drifts) {
+    if let Some(gauge) = reported.gauges.iter().find(drifts) {
         let Gauge { name, word, max_drift, .. } = gauge;
         let message = format!("`{name}` drifts by {max_drift:.1e}, {word}");
         return failed(Kind::FalselyConserved, message);
     }
     let allowed = allowed * known.scale;
-    let failure = twin_failure(as_run, &told, allowed, budget, cancel);
+    let failure = twin_failure(as_run, &reported, allowed, budget, cancel);
     failure.map_or(Outcome::Accurate, Outcome::Failed)
 }
 
 /// Checks the energy at the end, and the reports about it.
-fn energy_failure(case: &Case, known: &Known, told: &Told) -> Option<Failure> {
-    let (now, size) = energy(case, told.time, &told.state);
+fn energy_failure(case: &Case, known: &Known, reported: &RunReport) -> Option<Failure> {
+    let (now, size) = energy(case, reported.time, &reported.state);
     let wrong = |kind, message: String| Some(Failure { kind, message });
-    let shown = told.energy?;
-    let rounding = rounding_of_energy(case, told.time, &told.state);
+    let shown = reported.energy?;
+    let rounding = rounding_of_energy(case, reported.time, &reported.state);
     if size.is_finite() && (shown - now).abs() > 1e-9 * size + 10.0 * rounding + 1e-300 {
         return wrong(Kind::EnergyWrong, format!("{shown} is shown, {now} it is"));
     }
@@ -478,13 +479,13 @@ fn energy_failure(case: &Case, known: &Known, told: &Told) -> Option<Failure> {
     let (first, first_size) = energy(case, 0.0, &case.start);
     let way = known.arrival.way.iter().map(|(t, state)| energy(case, *t, state).1);
     let size = way.fold(first_size, f64::max).max(1e-300);
-    if !(now.is_finite() && size.is_finite()) && told.state.iter().all(|x| x.is_finite()) {
+    if !(now.is_finite() && size.is_finite()) && reported.state.iter().all(|x| x.is_finite()) {
         // the terms overflow as they are written here
         return None;
     }
     // NaN stays NaN
     let drift = ((now - first).abs() - 10.0 * rounding) / size;
-    let gauge = told.gauges.iter().find(|g| g.name == "energy")?;
+    let gauge = reported.gauges.iter().find(|g| g.name == "energy")?;
     let said = gauge.max_drift;
     // a drift is relative to what moves, also where the motion is wrong
     if drift > 1e-3 && said < 0.1 * drift.min(1.0) {
@@ -513,22 +514,22 @@ fn rounding_of_energy(case: &Case, time: f64, state: &[f64]) -> f64 {
 }
 
 /// Finds a quantity that is conserved by the form of the law but not reported as such.
-fn form_failure(case: &Case, told: &Told) -> Option<Failure> {
+fn form_failure(case: &Case, reported: &RunReport) -> Option<Failure> {
     let wrong = |message: String| Some(Failure { kind: Kind::NotConserved, message });
-    let gauge = told.gauges.iter().find(|g| g.name == "energy");
+    let gauge = reported.gauges.iter().find(|g| g.name == "energy");
     if case.keeps_energy() && gauge.is_none_or(|g| g.broken) {
         return wrong("the energy".to_owned());
     }
     let momentum = |i: &usize| format!("p_{}", case.names[*i]);
     let mut cyclic = (0..case.count()).filter(|i| case.is_cyclic(*i)).map(|i| momentum(&i));
-    let missed = cyclic.find(|name| !told.conserved.contains(name));
+    let missed = cyclic.find(|name| !reported.conserved.contains(name));
     missed.and_then(wrong)
 }
 
 /// Compares the result with that in natural units.
 fn twin_failure(
     case: &Case,
-    told: &Told,
+    reported: &RunReport,
     allowed: f64,
     budget: Budget,
     cancel: &Cancel,
@@ -541,11 +542,11 @@ fn twin_failure(
     let Ok(vakonomic) = run(&natural, budget, cancel) else {
         return wrong("the twin is refused".to_owned());
     };
-    if vakonomic.conserved != told.conserved {
-        let (here, there) = (told.conserved.join(", "), vakonomic.conserved.join(", "));
+    if vakonomic.conserved != reported.conserved {
+        let (here, there) = (reported.conserved.join(", "), vakonomic.conserved.join(", "));
         return wrong(format!("conserved are {here}; in natural units {there}"));
     }
-    let off = distance(&vakonomic.state, &told.state);
+    let off = distance(&vakonomic.state, &reported.state);
     if off.is_nan() || off > 2.0 * allowed {
         return wrong(format!("off by {off:.1e} in natural units"));
     }
@@ -554,17 +555,20 @@ fn twin_failure(
     // stepped over are as large as chance has it
     let on_the_border = |a: &Gauge, b: &Gauge| {
         // and whether they have turned often enough to be called anything
-        let words: &[&str] =
-            if told.over_kinks { &["bounded", "secular", "open"] } else { &["bounded", "secular"] };
+        let words: &[&str] = if reported.over_kinks {
+            &["bounded", "secular", "open"]
+        } else {
+            &["bounded", "secular"]
+        };
         let alike = a.max_drift.max(b.max_drift) < 10.0 * a.max_drift.min(b.max_drift);
-        (told.over_kinks || case.tolerance.is_some() && alike)
+        (reported.over_kinks || case.tolerance.is_some() && alike)
             && words.contains(&a.word)
             && words.contains(&b.word)
     };
     let differs = |(a, b): &(&Gauge, &Gauge)| {
         a.word != b.word && a.max_drift.max(b.max_drift) > 1e-10 && !on_the_border(a, b)
     };
-    let pairs = told.gauges.iter().zip(&vakonomic.gauges);
+    let pairs = reported.gauges.iter().zip(&vakonomic.gauges);
     let (a, b) = pairs.into_iter().find(differs)?;
     wrong(format!("`{}` is {} and in natural units {}", a.name, a.word, b.word))
 }

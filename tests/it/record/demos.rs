@@ -61,8 +61,8 @@ fn demos_show_what_they_claim() {
     on_all_cores(&demos(), |name| {
         let recording = shipped(name);
         let source = demo(name).expect("listed");
-        let told = source.report(&recording.false_claims, false);
-        assert!(recording.false_claims.is_empty(), "{told}");
+        let reported = source.report(&recording.false_claims, false);
+        assert!(recording.false_claims.is_empty(), "{reported}");
         let seconds = recording.end / 1_000_000;
         assert!((15..=45).contains(&seconds), "{name} lasts {seconds} s");
         replay::check(&recording);

@@ -121,8 +121,8 @@ fn a_window_too_small_for_a_cast_is_reported() {
     assert!(text.lines().nth(1).is_some_and(|row| row.contains("0:00")), "{text}");
     let mut large = projector(&CAST.replace("\"cols\":30", "\"cols\":200"));
     let text = shown(&mut large, (100, 10));
-    let told = "the cast is 200×3, the window 100×10: enlarge it, or use a smaller font";
-    assert!(text.contains(told), "{text}");
+    let reported = "the cast is 200×3, the window 100×10: enlarge it, or use a smaller font";
+    assert!(text.contains(reported), "{text}");
 }
 
 #[test]

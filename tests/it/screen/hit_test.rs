@@ -728,8 +728,8 @@ fn a_motion_in_a_plane_does_not_turn_under_the_mouse() {
     act(&mut real, size, Drag(Left), (x + 6, y - 1));
     act(&mut real, size, Up(Left), (x + 6, y - 1));
     assert_eq!(real.lab().plots, before);
-    let told = real.app.notifications.shown.as_ref().map(|notice| notice.text.as_str());
-    assert!(told.is_some_and(|text| text.contains("stays in a plane")), "{told:?}");
+    let reported = real.app.notifications.shown.as_ref().map(|notice| notice.text.as_str());
+    assert!(reported.is_some_and(|text| text.contains("stays in a plane")), "{reported:?}");
     // Keys still turn it, and then the last line says how it is turned back.
     let footer =
         |real: &Real| super::rows(&super::screen(&real.app, &super::rich(), (160, 40)))[39].clone();

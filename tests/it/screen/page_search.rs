@@ -55,8 +55,8 @@ fn the_next_match_is_brought_into_view_and_scrolling_leaves_it() {
     look(&mut real, size);
     assert!(real.app.text.scroll == 0);
     real.press("n");
-    let told = real.app.notifications.shown.take().map(|n| n.text).unwrap_or_default();
-    assert!(told.contains("/ searches"), "{told}");
+    let reported = real.app.notifications.shown.take().map(|n| n.text).unwrap_or_default();
+    assert!(reported.contains("/ searches"), "{reported}");
     real.press("/");
     real.app.update(AppEvent::Paste("Hamiltonian".to_owned()));
     real.press("Enter");

@@ -938,9 +938,9 @@ fn a_notice_leaves_the_keys_in_sight() {
         let after = rows(&screen(&app, &rich(), size));
         let last = usize::from(size.1) - 1;
         assert_eq!(after[last - 1..], before[last - 1..], "status and keys are as they were");
-        let told: String = after[..last - 1].join(" ");
+        let reported: String = after[..last - 1].join(" ");
         for word in text.split_whitespace() {
-            assert!(told.contains(word), "{after:#?}");
+            assert!(reported.contains(word), "{after:#?}");
         }
         assert_eq!(after[..last - 4], before[..last - 4], "it takes a few rows at most");
     }

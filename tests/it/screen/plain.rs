@@ -41,36 +41,38 @@ fn everything_on_the_screen_can_be_read() {
         app.update(AppEvent::Snapshot(Arc::new(seen)));
         press(&mut app, "1 9");
         let text = text(&app);
-        let told = |what: &str| {
+        let reported = |what: &str| {
             let what = Glyphs::Braille.text(what);
             let what = what.split_whitespace().collect::<Vec<_>>().join(" ");
             assert!(text.contains(&what), "{name}: {what} in {text}");
         };
-        told(&system.model.info.title);
-        told(&system.model.info.summary);
-        told("Time 1");
-        told("running, speed ×1, method taylor");
+        reported(&system.model.info.title);
+        reported(&system.model.info.summary);
+        reported("Time 1");
+        reported("running, speed ×1, method taylor");
         for parameter in &system.model.parameters {
-            told(&format!("{} is ", parameter.shown));
-            told(&parameter.about);
-            told(&parameter.unit);
+            reported(&format!("{} is ", parameter.shown));
+            reported(&parameter.about);
+            reported(&parameter.unit);
         }
         let lab = app.lab.as_ref().unwrap();
         for index in 0..lab.count(ValueId::Initial) {
-            told(&format!("{} is ", lab.value_info(ValueId::Initial(index)).unwrap().shown));
+            reported(&format!("{} is ", lab.value_info(ValueId::Initial(index)).unwrap().shown));
         }
         let channels = system.system.channels();
         for (index, channel) in channels.iter().enumerate().filter(|(_, c)| !c.name.is_empty()) {
             // A quantity that a file expects something of is watched under its own name.
             if channels[..index].iter().all(|before| before.name != channel.name) {
-                told(&format!("{} is ", channel.shown));
+                reported(&format!("{} is ", channel.shown));
             }
         }
-        told("E (energy) is 0.25000000; changed by 0 since t = 0; not conserved: by the physics");
-        told("−2F along the whole way that it went. Reason: ∂L/∂t = 0.");
-        told("latest news first news");
+        reported(
+            "E (energy) is 0.25000000; changed by 0 since t = 0; not conserved: by the physics",
+        );
+        reported("−2F along the whole way that it went. Reason: ∂L/∂t = 0.");
+        reported("latest news first news");
         for row in KEYS.iter().filter(|row| row.context == KeyContext::Experiment) {
-            told(row.help);
+            reported(row.help);
         }
         assert!(!text.contains(['⣿', '●', '━']), "no pictures");
     }

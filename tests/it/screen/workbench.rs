@@ -177,17 +177,18 @@ proptest! {
 #[test]
 fn what_is_reported_leaves_the_keys_in_sight() {
     let mut app = edited();
-    let told = "Saved: /home/somebody/a/long/way/to/a/file.toml, with 1 error: 12:3 no such name";
+    let reported =
+        "Saved: /home/somebody/a/long/way/to/a/file.toml, with 1 error: 12:3 no such name";
     for size in [(80, 24), (120, 40), (200, 60)] {
         for look in [rich(), plain()] {
             app.notifications.dismiss();
             let before = rows(&screen(&app, &look, size));
-            app.notifications.show(Notification::error(told));
+            app.notifications.show(Notification::error(reported));
             let after = rows(&screen(&app, &look, size));
             assert_eq!(before.last(), after.last(), "{size:?}");
             assert!(after.last().unwrap().contains("F1 help"), "{after:#?}");
             let shown: Vec<&str> = after.iter().flat_map(|row| row.split_whitespace()).collect();
-            let words: Vec<&str> = told.split_whitespace().collect();
+            let words: Vec<&str> = reported.split_whitespace().collect();
             assert!(words.iter().all(|word| shown.contains(word)), "{after:#?}");
         }
     }
@@ -238,15 +239,15 @@ fn several_errors_are_told_at_once() {
     };
     sheet.diagnostics = vec![error(0, None), error(2, Some("mend it")), error(4, None)];
     sheet.state = BufferState::Wrong;
-    let told = |app: &App| {
+    let reported = |app: &App| {
         let rows = rows(&screen(app, &rich(), (80, 24)));
         let row = |text: &str| rows.iter().position(|row| row.contains(text)).expect("it is told");
         [row("1:1 wrong number 0"), row("3:1 wrong number 2"), row("5:1 wrong number 4")]
     };
-    let [first, second, third] = told(&app);
+    let [first, second, third] = reported(&app);
     assert!(first < second && second < third);
     press(&mut app, "Down Down");
-    let [first, second, third] = told(&app);
+    let [first, second, third] = reported(&app);
     assert!(second + 1 < third && third < first, "its help is in the row below");
 }
 

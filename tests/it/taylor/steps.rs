@@ -130,8 +130,8 @@ fn tolerances_out_of_range_are_refused() {
     for tolerance in [0.0, -1.0, 2.0, f64::NAN] {
         let settings = Settings { step: None, tolerance: Some(tolerance) };
         let outcome = (METHODS[0].make)(&system, &settings);
-        let refusal = outcome.err().expect("out of range").to_string();
-        assert!(refusal.starts_with("taylor cannot be used here: the tolerance"), "{refusal}");
+        let error = outcome.err().expect("out of range").to_string();
+        assert!(error.starts_with("taylor cannot be used here: the tolerance"), "{error}");
     }
 }
 

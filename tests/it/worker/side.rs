@@ -105,8 +105,8 @@ fn progress_never_becomes_less() {
 fn a_panic_on_the_side_is_reported() {
     let mut side: SideJob<()> = SideJob::new("test");
     side.begin(1, Job::new("the search", |_| panic!("there is a hole")));
-    let told = "the search stopped by a bug in phaselab: there is a hole".to_owned();
-    assert_eq!(until(|| side.take()), (1, Outcome::Failed(told)));
+    let reported = "the search stopped by a bug in phaselab: there is a hole".to_owned();
+    assert_eq!(until(|| side.take()), (1, Outcome::Failed(reported)));
     // and another job can begin
     side.begin(2, Job::new("nothing", |_| ()));
     assert_eq!(until(|| side.take()), (2, Outcome::Done(())));

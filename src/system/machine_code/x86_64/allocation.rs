@@ -17,7 +17,6 @@ const REGISTERS: usize = 16;
 /// What is not read again.
 const NEVER: u32 = u32::MAX;
 
-/// Where a number is.
 #[derive(Clone, Copy, Debug, Default)]
 struct Location {
     register: Option<Vector>,

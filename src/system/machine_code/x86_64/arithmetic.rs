@@ -143,7 +143,6 @@ pub(super) const APART: usize = 4;
 /// The number of inner products of one orbit side by side.
 pub(super) const SIDE: usize = 4;
 
-/// The four of a list.
 pub(super) fn four_of<T: Copy>(numbers: &[T]) -> [T; SIDE] {
     std::array::from_fn(|lane| numbers[lane])
 }
@@ -170,12 +169,10 @@ pub(super) trait Arithmetic {
     fn shared(code: &mut Code, divisor: Self::Number) -> Self::Number;
     /// [`Analytic::divided_by_shared`](crate::num::Analytic::divided_by_shared).
     fn over_shared(code: &mut Code, a: Self::Number, shared: Self::Number) -> Self::Number;
-    /// The product with a constant.
     fn times(code: &mut Code, a: Self::Number, factor: DoubleDouble) -> Self::Number {
         let factor = Self::constant(code, factor);
         Self::product(code, a, factor)
     }
-    /// Twice a number.
     fn twice(code: &mut Code, a: Self::Number) -> Self::Number {
         Self::sum(code, a, a)
     }
@@ -202,7 +199,6 @@ pub(super) trait Arithmetic {
     fn inner_products(code: &mut Code, operands: (Address, Address), terms: usize) -> Self::Number;
     /// Stores such inner products where they are overwritten later.
     fn store_inner_products(code: &mut Code, products: Self::Number, to: Address);
-    /// One of the inner products that were stored.
     fn inner_product(stored: Address, lane: usize) -> Self::Number;
     /// One of those that were not.
     fn lane(code: &mut Code, products: Self::Number, lane: usize) -> Self::Number;

@@ -34,7 +34,6 @@ pub(super) enum Width {
 }
 
 impl Width {
-    /// How many these are.
     pub(super) fn numbers(self) -> usize {
         match self {
             Width::One => 1,
@@ -167,7 +166,6 @@ impl BasicBlock {
         self.push(|made| MachineInstruction::Zero { width, made })
     }
 
-    /// What lies in memory.
     pub(super) fn load(&mut self, width: Width, from: Address) -> Value {
         self.push(|made| MachineInstruction::Load { width, from, made })
     }
@@ -185,7 +183,6 @@ impl BasicBlock {
         }
     }
 
-    /// An operation on two operands.
     pub(super) fn binary(
         &mut self,
         operation: Operation,
@@ -202,7 +199,6 @@ impl BasicBlock {
         self.push(|made| MachineInstruction::Binary { operation, width, left, right, made })
     }
 
-    /// The rounding error of a product.
     pub(super) fn product_error(
         &mut self,
         width: Width,
@@ -220,7 +216,6 @@ impl BasicBlock {
 }
 
 impl BasicBlock {
-    /// Inner products by a loop.
     pub(super) fn inner_products(&mut self, products: InnerProducts) -> Value {
         self.push(|made| MachineInstruction::InnerProducts { products, made })
     }

@@ -16,7 +16,6 @@ pub(in crate::system) struct CodeCache {
     known: Arc<Mutex<Vec<CacheEntry>>>,
 }
 
-/// Whether there is a function.
 #[derive(Clone, Debug)]
 pub(super) enum Availability {
     /// It does not pay yet.
@@ -32,7 +31,6 @@ struct CacheEntry {
     /// The numbers of orders, exact ones second.
     orders: [usize; 2],
     extent: Extent,
-    /// For how many orbits it was wanted.
     wanted: usize,
     code: Availability,
 }

@@ -27,7 +27,6 @@ impl Code {
         (high, self.binary(Operation::Add, width, a_error, b_error))
     }
 
-    /// The same for a difference.
     fn exact_difference(&mut self, a: Operand, b: Operand) -> Parts {
         let width = Width::One;
         let high = self.binary(Operation::Subtract, width, a, b);

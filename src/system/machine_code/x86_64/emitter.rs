@@ -32,7 +32,6 @@ pub(super) struct Emitter<'a, A: Arithmetic> {
     now: Vec<Option<A::Number>>,
     /// The inner products at it, where they are not stored.
     kept: Vec<KeptProducts<A::Number>>,
-    /// What was divided by, as it is divided by again.
     divisors: Vec<(SharedDivisor, A::Number)>,
 }
 
@@ -53,7 +52,6 @@ pub(super) enum SharedDivisor {
     /// The value of a register, or twice that.
     Value(Register),
     Twice(Register),
-    /// A pivot of a block.
     Pivot(u32, u32),
 }
 

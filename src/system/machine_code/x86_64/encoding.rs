@@ -8,7 +8,6 @@
 use super::basic_block::{Operation, Width};
 use super::layout::{Address, Area};
 
-/// A vector register.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct Vector(pub(super) u8);
 
@@ -39,7 +38,6 @@ impl From<Address> for Place {
     }
 }
 
-/// A general register.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct General(u8);
 
@@ -74,7 +72,6 @@ struct Opcode {
     code: u8,
 }
 
-/// The bytes so far.
 #[derive(Debug, Default)]
 pub(super) struct Bytes(pub(super) Vec<u8>);
 
@@ -135,7 +132,6 @@ impl Bytes {
         self.vex(opcode, to, right, Source::Register(product));
     }
 
-    /// Copies a register.
     pub(super) fn copy(&mut self, to: Vector, from: Vector) {
         // vmovapd
         let width = Width::Four;
@@ -150,12 +146,10 @@ impl Bytes {
         self.vex(opcode, to, to, Source::Register(to));
     }
 
-    /// Loads what lies in memory.
     pub(super) fn load(&mut self, width: Width, to: Vector, from: impl Into<Place>) {
         self.vex(moves(width, 0x10), to, NONE, Source::Memory(from.into()));
     }
 
-    /// Stores a register.
     pub(super) fn store(&mut self, width: Width, from: Vector, to: Address) {
         self.vex(moves(width, 0x11), from, NONE, Source::Memory(to.into()));
     }
@@ -182,13 +176,11 @@ impl Bytes {
         self.back();
     }
 
-    /// Returns.
     pub(super) fn back(&mut self) {
         // ret
         self.0.push(0xC3);
     }
 
-    /// Points a register to a place.
     pub(super) fn point(&mut self, register: General, place: impl Into<Place>) {
         // lea
         let place = place.into();
@@ -204,7 +196,6 @@ impl Bytes {
         self.0.extend((8 * count as i32).to_le_bytes());
     }
 
-    /// Sets a register to a number of repetitions.
     pub(super) fn count(&mut self, register: General, repetitions: u32) {
         // mov, of the lower half, which clears the upper one
         if register.0 >= 8 {
@@ -226,7 +217,7 @@ impl Bytes {
         self.distance_to(from);
     }
 
-    /// Calls what will begin elsewhere, and returns what is to be [told](Bytes::begins) of that.
+    /// Calls what will begin elsewhere, and returns the call, which [`Bytes::begins`] completes.
     pub(super) fn call(&mut self) -> Call {
         // call
         self.0.push(0xE8);
@@ -235,7 +226,7 @@ impl Bytes {
         call
     }
 
-    /// Says where what is called begins.
+    /// Completes a call with the place at which the called code begins.
     pub(super) fn begins(&mut self, Call(at): Call, place: usize) {
         let distance = place as i32 - (at as i32 + 4);
         self.0[at..at + 4].copy_from_slice(&distance.to_le_bytes());

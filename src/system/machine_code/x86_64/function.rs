@@ -78,14 +78,12 @@ impl Drop for Pages {
     }
 }
 
-/// The values that a function begins with.
 #[derive(Clone, Copy)]
 pub(super) enum Values<'a> {
     Plain(&'a [f64]),
     Exact(&'a [DoubleDouble]),
 }
 
-/// The memory of one call.
 pub(super) struct Stretches<'a> {
     pub(super) values: Values<'a>,
     pub(super) work: &'a mut Work,
@@ -108,7 +106,6 @@ pub(super) struct Work {
 }
 
 impl Work {
-    /// One with these numbers.
     pub(super) fn of(numbers: &[f64]) -> Work {
         let mut work = Work {
             lines: vec![Line([0.0; LINE]); numbers.len().div_ceil(LINE)],
@@ -131,7 +128,6 @@ impl Work {
         }
     }
 
-    /// Sets a number.
     pub(super) fn set(&mut self, i: usize, number: f64) {
         self.lines[i / LINE].0[i % LINE] = number;
     }
@@ -150,13 +146,11 @@ pub(super) fn widest() -> Width {
     if V4::try_new().is_some() { Width::Eight } else { Width::Four }
 }
 
-/// A function in memory.
 #[derive(Debug)]
 pub(super) struct CompiledFunction {
     pages: Pages,
     /// How many orbits one call serves.
     lanes: usize,
-    /// The lengths of the stretches.
     lengths: [usize; 6],
 }
 

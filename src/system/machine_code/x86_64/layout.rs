@@ -52,7 +52,6 @@ pub(super) struct FactoredPlace {
     pub(super) right: usize,
 }
 
-/// The places of series in one precision.
 #[derive(Clone, Debug)]
 pub(super) struct SeriesPlaces {
     /// The number of `f64` of a number.
@@ -73,12 +72,10 @@ pub(super) struct SeriesPlaces {
 }
 
 impl SeriesPlaces {
-    /// The value of a register.
     pub(super) fn value(&self, register: usize) -> Address {
         self.values.plus(register * self.size)
     }
 
-    /// A coefficient of a number of the state.
     pub(super) fn of_state(&self, number: usize, k: usize) -> Address {
         Address { area: self.state, offset: (number * self.stride + k) * self.size }
     }
@@ -184,7 +181,6 @@ impl MemoryLayout {
         Address { area: Area::Work, offset }
     }
 
-    /// The stretch of work as it is at first.
     pub(super) fn first_work(&self) -> Vec<f64> {
         let mut work = vec![0.0; self.work];
         for (place, numbers) in &self.constants {

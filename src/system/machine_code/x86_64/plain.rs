@@ -12,10 +12,8 @@ use crate::num::{BATCH, DoubleDouble};
 #[derive(Debug)]
 pub(super) struct Floats<const ORBITS: usize>;
 
-/// Those of one orbit.
 pub(super) type Plain = Floats<1>;
 
-/// Those of several.
 pub(super) type Lanes = Floats<BATCH>;
 
 impl<const ORBITS: usize> Floats<ORBITS> {

@@ -24,7 +24,6 @@ const LEFT: General = General::RAX;
 const RIGHT: General = General::R10;
 const COUNT: General = General::R11;
 
-/// One kind of loop.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 struct Kind {
     width: Width,
@@ -33,7 +32,6 @@ struct Kind {
     rest: usize,
 }
 
-/// The loops that were called.
 #[derive(Debug, Default)]
 pub(super) struct ProductLoops {
     calls: Vec<(Kind, Call)>,

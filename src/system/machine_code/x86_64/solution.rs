@@ -54,7 +54,6 @@ impl<A: Arithmetic> Emitter<'_, A> {
         Ok(())
     }
 
-    /// A sum less a product.
     fn less_product(&mut self, sum: A::Number, a: A::Number, b: A::Number) -> A::Number {
         let product = A::product(self.code, b, a);
         A::difference(self.code, sum, product)

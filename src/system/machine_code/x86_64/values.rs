@@ -92,7 +92,6 @@ impl CompiledValues {
     }
 }
 
-/// The body of a program in parts.
 fn parts_of(program: &Program) -> Vec<Part> {
     let mut parts = Vec::new();
     let mut interpreted = 0;
@@ -170,7 +169,6 @@ fn compile(program: &Program, range: Range<usize>) -> Result<Part, NotCompiled> 
     Ok(Part::Compiled { function, work: Work::of(&first_work) })
 }
 
-/// Where a register lies.
 fn place(register: Register) -> Address {
     Address { area: Area::State, offset: register as usize }
 }

@@ -17,7 +17,6 @@ pub(super) struct Inked<Ink> {
 }
 
 impl<Ink> Inked<Ink> {
-    /// The dot at the centre of those drawn as one.
     pub(super) fn centre(&self, dot: [i32; 2]) -> [i32; 2] {
         [0, 1].map(|i| dot[i] * self.grid[i] + self.grid[i] / 2)
     }

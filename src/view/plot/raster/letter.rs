@@ -47,7 +47,6 @@ fn lower(middle: u8, bottom: u8) -> char {
     }
 }
 
-/// The character for dots from the top to the bottom.
 fn steep(top: u8, middle: u8, bottom: u8) -> char {
     let falls = top & LEFT != 0 && bottom & RIGHT != 0;
     let rises = top & RIGHT != 0 && bottom & LEFT != 0;
