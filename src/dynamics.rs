@@ -94,7 +94,7 @@ pub use close_lines::CloseLines;
 pub use conformal::conformal_rate;
 pub use conjugate::{conjugate_points, conjugate_points_at_energy};
 pub use continuation::DrivePeriod;
-pub use drive::drive_period;
+pub use drive::{common_turn, drive_period};
 pub use driven_orbit::{driven_orbit, nearest_driven_orbit};
 pub use equilibria::{equilibria, equilibria_watched, with_virtual_work};
 pub use equilibrium::{Equilibria, Equilibrium};

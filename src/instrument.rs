@@ -16,6 +16,7 @@ mod ensemble;
 mod equilibria;
 mod exponents;
 mod family;
+mod field_plane;
 mod flow;
 mod frequency;
 mod kind;
@@ -46,12 +47,14 @@ mod table;
 mod time;
 mod transformation;
 mod varied;
+mod vector_field;
 
 pub use answer::{Answer, Need};
 pub use equilibria::{
     FoundEquilibria, classes, described, described_mode, displaced, equilibria_search, start_along,
     start_at, value_at,
 };
+pub use field_plane::{NoField, has_field};
 pub use kind::{
     Axis, Columns, Instrument, Measure, MotionCurve, NoStart, Offer, Plot, PlotContext, StartValues,
 };
@@ -66,3 +69,4 @@ pub use saved::{Quantity, SavedPlot, SavedVariations};
 pub use seed::{MOST_SEEDS, Seed};
 pub use sight::{CameraPose, Sight, Viewport};
 pub use table::{INSTRUMENTS, listed, named, offers};
+pub use vector_field::{FieldRates, PlaneField};

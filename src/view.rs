@@ -68,6 +68,7 @@ pub mod theme;
 mod time_window;
 mod timeline;
 mod values;
+mod vector_field;
 mod verdict;
 mod workbench;
 mod wrap;

@@ -137,6 +137,8 @@ pub enum Action {
     Diagram,
     /// Lets a transformation move the point in place of the coordinates, or the coordinates again.
     Active,
+    /// Show or hide the vector field of a phase portrait, with its nullclines.
+    VectorField,
     /// Colours the orbits of a section by whether they are regular, or each in its own colour.
     ByChaos,
     /// Keep the current run beside what follows.

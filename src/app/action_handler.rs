@@ -2,6 +2,7 @@
 //!
 //! In: an [`Action`]. Out: the changed state and the effects. Never here: keys; the contents of pop-up lists.
 
+use super::kept_window::KeptWindow;
 use super::speed::{faster, slower};
 use super::{Action, App, Effect, Notification, Overlay, Page, Pane, Purpose, SourceBuffer};
 use crate::experiment::{Command, Status};
@@ -104,11 +105,11 @@ impl App {
                 vec![Effect::Execute(Command::Speed(speed))]
             }
             Action::Reset => {
-                lab.bounds_before.clear();
+                lab.kept = KeptWindow::default();
                 vec![Effect::Execute(Command::Reset)]
             }
             Action::FullReset => {
-                lab.bounds_before.clear();
+                lab.kept = KeptWindow::default();
                 lab.full_reset()
             }
             Action::Reference => vec![Effect::Execute(Command::Reference)],
@@ -196,6 +197,7 @@ impl App {
                 _ => self.notify("Equal scales need a plot of one quantity against another."),
             },
             Action::Active => self.other_way(),
+            Action::VectorField => self.toggle_field(),
             Action::ByChaos => match lab.focused_plot() {
                 Some((_, plot)) if plot.kind.classifies_orbits() => {
                     self.with_viewport(|viewport| viewport.by_chaos = !viewport.by_chaos)

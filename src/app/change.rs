@@ -4,6 +4,7 @@
 //! them. Never here: which key triggers a change, or how the history is stored.
 
 use super::history::Change;
+use super::kept_window::KeptWindow;
 use super::{App, Effect, Lab, Loaded, Pane, ValueId};
 use crate::experiment::{Checkpoint, Command, Snapshot, Status, with_override};
 use crate::instrument::Plot;
@@ -89,20 +90,20 @@ impl Lab {
 
     /// Starts the motion with several initial values at once.
     pub(super) fn start(&mut self, values: &[InitialOverride]) -> Vec<Effect> {
-        let windows_before = self.bounds_before.clone();
+        let kept_before = self.kept.clone();
         self.keep_windows();
-        self.start_in_window(values, windows_before)
+        self.start_in_window(values, kept_before)
     }
 
     /// Does so in the window that the pictures have now, given the ranges that they kept before.
     pub(super) fn start_in_window(
         &mut self,
         values: &[InitialOverride],
-        windows_before: Vec<(f64, f64)>,
+        kept_before: KeptWindow,
     ) -> Vec<Effect> {
         let after = self.given_with(values);
         let given = [self.given(), after.clone()];
-        let windows = [windows_before, self.bounds_before.clone()];
+        let windows = [kept_before, self.kept.clone()];
         self.note(Change::Start { given, windows });
         vec![self.begin_with(after)]
     }
@@ -300,7 +301,7 @@ impl Lab {
                 vec![effect]
             }
             Change::Start { given, windows } => {
-                self.bounds_before = side.of(windows);
+                self.kept = side.of(windows);
                 vec![self.begin_with(side.of(given))]
             }
             Change::Flow(given) => {

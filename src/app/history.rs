@@ -6,6 +6,7 @@
 
 use std::time::Duration;
 
+use super::kept_window::KeptWindow;
 use crate::experiment::Checkpoint;
 use crate::instrument::Plot;
 use crate::integrate::Settings;
@@ -37,7 +38,7 @@ pub(super) enum Change {
         /// All overrides before and after.
         given: [Vec<InitialOverride>; 2],
         /// The ranges that the pictures keep, before and after.
-        windows: [Vec<(f64, f64)>; 2],
+        windows: [KeptWindow; 2],
     },
     /// A flow has carried the state to another orbit: all overrides before and after.
     Flow([Vec<InitialOverride>; 2]),

@@ -290,6 +290,7 @@ pub const KEYS: &[Binding] = &[
     row(KeyContext::Lab, &[c('b')], Action::ApplyImpulse, "impulse", "apply an impulse that waits for a key"),
     row(KeyContext::Lab, &[c('f')], Action::NextFrame, "frame", "view the motion in space in the next reference frame of the file, or in the original one again"),
     row(KeyContext::Lab, &[c('Q')], Action::Active, "", "switch between the active view of a transformation (the point moves) and the passive one (the coordinates do); of an action, the next principle: Hamilton, Maupertuis, phase space; of a diagram, frequency or period"),
+    row(KeyContext::Lab, &[c('*')], Action::VectorField, "", "show or hide the vector field of a phase portrait, with its nullclines: the curves on which one of the two rates vanishes; they cross at the equilibria"),
     row(KeyContext::Lab, &[c('z')], Action::Zoom, "zoom", "zoom the focused pane until it fills the page, or put it back"),
 
     row(KeyContext::Space, &[LEFT, c('h')], Action::Move(ArrowDirection::Left), "turn", "turn the picture to the left"),

@@ -7,7 +7,9 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use super::answers::{Answers, Derivations, Searches};
+use super::dragged_mass::{DraggedMass, draggable};
 use super::history::UndoHistory;
+use super::kept_window::KeptWindow;
 use super::pane::Focus;
 use super::pending::PendingChanges;
 use super::restoration::Restoration;
@@ -17,7 +19,8 @@ use crate::experiment::{Snapshot, Status};
 use crate::expr::Zero;
 use crate::instrument::{CameraPose, MotionCurve, Plot, Present, Returned};
 use crate::mechanics::Valuation;
-use crate::model::Shape;
+use crate::model::{Model, Shape};
+use crate::num::OrientationPolytope;
 use crate::preset::NewObservable;
 
 /// A loaded system and its view.
@@ -36,7 +39,12 @@ pub struct Lab {
     /// The number of rows by which the law of motion is scrolled.
     pub law_scroll: u16,
     pub(super) drawn: DrawnPanes,
-    rods: Rods,
+    /// Whether each shape is a rod, a line of constant length.
+    rods: OfShapes,
+    /// Whether each shape is a mass that can be dragged.
+    draggable: OfShapes,
+    /// The mass that is dragged.
+    pub(super) dragged: Option<Box<DraggedMass>>,
     /// The results computed in the background for the pictures, and the jobs under way.
     pub(super) answers: Answers,
     pub(super) derivations: Derivations,
@@ -56,24 +64,35 @@ pub struct Lab {
     pub typed: Vec<NewObservable>,
     /// The motion that the experiment is to restore.
     pub(super) restoration: Restoration,
-    /// The least and greatest value that each channel has had before the motion was begun elsewhere.
-    pub(super) bounds_before: Vec<(f64, f64)>,
+    /// What the pictures keep in view of the motions before the current one was begun elsewhere.
+    pub(super) kept: KeptWindow,
 }
 
-/// For each shape whether it is a rod, a line of constant length: of the spatial picture, then of each view with
-/// shapes of its own.
+/// Something of each shape: of the spatial picture, then of each view with shapes of its own.
 #[derive(Clone, Debug)]
-struct Rods {
+struct OfShapes {
     space: Vec<bool>,
     views: Vec<Vec<bool>>,
 }
 
-fn rods(loaded: &Loaded) -> Rods {
-    let views = loaded.model.views.iter();
-    Rods {
-        space: rods_among(loaded, &loaded.model.picture.shapes),
-        views: views.map(|v| rods_among(loaded, v.shapes.as_deref().unwrap_or_default())).collect(),
+impl OfShapes {
+    fn new(loaded: &Loaded, among: impl Fn(&Loaded, &[Shape]) -> Vec<bool>) -> Self {
+        let views = loaded.model.views.iter();
+        Self {
+            space: among(loaded, &loaded.model.picture.shapes),
+            views: views.map(|v| among(loaded, v.shapes.as_deref().unwrap_or_default())).collect(),
+        }
     }
+
+    /// Of the shapes that a camera sees.
+    fn seen_by(&self, eye: CameraPose, model: &Model) -> &[bool] {
+        eye.own_shapes(model).map_or(&self.space, |view| &self.views[view])
+    }
+}
+
+/// Returns for each shape whether it is a mass that can be dragged.
+fn draggable_among(loaded: &Loaded, shapes: &[Shape]) -> Vec<bool> {
+    shapes.iter().map(|shape| draggable(loaded, shape).is_some()).collect()
 }
 
 /// Returns for each line whether it is a rod, which turns: its length is independent of the coordinates, its direction is not.
@@ -101,10 +120,13 @@ impl Lab {
     /// Creates the initial view of a system.
     pub fn new(loaded: Loaded) -> Self {
         let plots = Plot::opening(loaded.physics());
-        let rods = rods(&loaded);
+        let rods = OfShapes::new(&loaded, rods_among);
+        let draggable = OfShapes::new(&loaded, draggable_among);
         Self {
             loaded,
             rods,
+            draggable,
+            dragged: None,
             snapshot: None,
             plots,
             focus: Focus::default(),
@@ -122,7 +144,7 @@ impl Lab {
             marks: Vec::new(),
             typed: Vec::new(),
             restoration: Restoration::default(),
-            bounds_before: Vec::new(),
+            kept: KeptWindow::default(),
         }
     }
 
@@ -176,17 +198,18 @@ impl Lab {
 
     /// Returns the range that a channel had before the motion was begun at a point of a picture.
     pub fn window_before(&self, channel: usize) -> Option<(f64, f64)> {
-        self.bounds_before.get(channel).copied()
+        self.kept.bounds(channel)
+    }
+
+    /// The hull that a point in space has kept from before the motion was begun elsewhere.
+    pub fn hull_before(&self, channels: [Option<usize>; 3]) -> Option<&OrientationPolytope> {
+        self.kept.hull(channels)
     }
 
     /// Keeps what the pictures show for the motion that is begun next.
     pub(super) fn keep_windows(&mut self) {
         let Some(snapshot) = &self.snapshot else { return };
-        let joined = |(k, &(lo, hi)): (usize, &(f64, f64))| {
-            let (least, greatest) = self.window_before(k).unwrap_or((lo, hi));
-            (least.min(lo), greatest.max(hi))
-        };
-        self.bounds_before = snapshot.bounds.iter().enumerate().map(joined).collect();
+        self.kept = self.kept.with(snapshot);
     }
 
     /// Returns the current values of the system's symbols, which are empty before the first snapshot.
@@ -197,9 +220,13 @@ impl Lab {
     /// Returns each shape that a camera sees, and whether it is a rod.
     pub fn shapes(&self, eye: CameraPose) -> impl Iterator<Item = (&Shape, bool)> {
         let model = &self.loaded.model;
-        let own = eye.own_shapes(model).map(|view| &self.rods.views[view]);
-        let rods = own.unwrap_or(&self.rods.space).iter().copied();
-        eye.shapes(model).iter().zip(rods)
+        eye.shapes(model).iter().zip(self.rods.seen_by(eye, model).iter().copied())
+    }
+
+    /// Whether a shape is a mass that can be dragged in a picture.
+    pub fn can_drag(&self, eye: CameraPose, shape: usize) -> bool {
+        let found = self.draggable.seen_by(eye, &self.loaded.model).get(shape);
+        eye.frame.is_none() && found.copied().unwrap_or(false)
     }
 
     /// Returns the newest snapshot, if it is complete; one that reports a panic is not.

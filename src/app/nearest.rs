@@ -103,6 +103,33 @@ impl App {
         });
         Vec::new()
     }
+
+    /// Shows the vector field of the nearest phase portrait that has one, or hides it; says why the focused one has none.
+    pub(super) fn toggle_field(&mut self) -> Vec<Effect> {
+        let Some(lab) = &mut self.lab else { return Vec::new() };
+        let focused = lab.focused_plot().filter(|(_, plot)| plot.kind.has_vector_field());
+        let focused = focused.map(|(index, _)| index);
+        let Some(index) = focused.or_else(|| lab.with_vector_field()) else {
+            return self.notify("No phase portrait here has a vector field; v chooses one.");
+        };
+        let plot = &lab.plots[index];
+        if let Some(why) = plot.lacks_field(lab.loaded.physics()) {
+            return self.notify(format!("This plane has no vector field: {why}."));
+        }
+        let shown = if plot.shows_field() { "hidden" } else { "shown" };
+        let name = lab.spoken(Pane::Plot(index));
+        let is_elsewhere = focused.is_none();
+        lab.redraw(index, |plot, _| {
+            if let Some(viewport) = plot.viewport_mut() {
+                viewport.field = !viewport.field;
+            }
+        });
+        if is_elsewhere {
+            let sentence = format!("The vector field of {name} is {shown}.");
+            self.notifications.show(Notification::info(sentence));
+        }
+        Vec::new()
+    }
 }
 
 /// Whether a picture shows a transformation, which moves the coordinates or the point.
@@ -114,6 +141,14 @@ impl Lab {
     /// The nearest picture of a transformation, of an action, or over a range.
     pub(super) fn with_other_way(&self) -> Option<usize> {
         self.nearest_fitting(|plot| moves_points(plot) || plot.kind.other().is_some())
+    }
+
+    /// The nearest phase portrait that has a vector field.
+    pub(super) fn with_vector_field(&self) -> Option<usize> {
+        let physics = self.loaded.physics();
+        self.nearest_fitting(|plot| {
+            plot.kind.has_vector_field() && plot.lacks_field(physics).is_none()
+        })
     }
 
     /// Whether the focused picture of a motion in space is seen otherwise than at the beginning.

@@ -123,6 +123,9 @@ impl App {
             Action::Active if lab.with_other_way().is_none() => {
                 Some("no picture here is of a transformation or of an action")
             }
+            Action::VectorField if lab.with_vector_field().is_none() => {
+                Some("no picture here is a phase portrait with a vector field")
+            }
             Action::NextFrame if lab.loaded.model.frames.is_empty() => {
                 Some("this system has no frames to look from")
             }

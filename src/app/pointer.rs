@@ -124,6 +124,9 @@ impl App {
                 lab.focus.pane = Pane::Plot(index);
                 lab.history.begin_group();
                 let resumes = lab.seen().is_some_and(|seen| seen.status != Status::Paused);
+                if let Some(eye) = lab.plots.get(index).and_then(Plot::eye) {
+                    lab.take_mass(eye, shape);
+                }
                 let grab = Grab::Mass { index, shape, window, resumes, moved: false };
                 self.mouse.drag = Some(grab);
             }
@@ -150,13 +153,10 @@ impl App {
                 HitTarget::Mass { at, .. },
             ) => {
                 let Some(lab) = &mut self.lab else { return Vec::new() };
-                let eye = lab.plots.get(index).and_then(Plot::eye);
-                let Some(values) = eye.and_then(|eye| lab.dragged_to(eye, shape, at)) else {
-                    return Vec::new();
-                };
+                let Some(values) = lab.dragged_to(at) else { return Vec::new() };
                 self.mouse.drag = Some(Grab::Mass { index, shape, window, resumes, moved: true });
                 if moved {
-                    return lab.start_in_window(&values, lab.bounds_before.clone());
+                    return lab.start_in_window(&values, lab.kept.clone());
                 }
                 // what is dragged does not move by itself
                 let mut effects = vec![Effect::Execute(Command::Pause)];
@@ -210,6 +210,10 @@ impl App {
                     }
                 }
             }
+            (Some(Grab::Mass { moved: true, .. }), _) => match lab.release_mass() {
+                Some(values) => lab.start_in_window(&values, lab.kept.clone()),
+                None => Vec::new(),
+            },
             _ => Vec::new(),
         };
         if let Some(lab) = &mut self.lab {

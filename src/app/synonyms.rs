@@ -16,6 +16,7 @@ pub fn synonyms(action: Action) -> &'static [&'static str] {
         Action::Exponents => &["chaos", "Lyapunov", "predictable", "sensitive"],
         Action::AddNeighbour => &["butterfly effect", "sensitive"],
         Action::ByChaos => &["chaos"],
+        Action::VectorField => &["direction field", "slope field", "arrows", "phase flow"],
         Action::Reset => {
             &["restart", "back to the start", "start over", "start again", "clear the trail"]
         }

@@ -46,9 +46,20 @@ pub(super) fn coordinate_period(
     parameters: &[f64],
     coordinate: usize,
 ) -> Option<f64> {
+    common_turn((model, equations), parameters, coordinate, Vec::new())
+}
+
+/// The period in a coordinate of the law, its energy and further expressions of its pool, where it enters by sines and cosines alone,
+/// of a (q + b), that have a common one.
+pub fn common_turn(
+    (model, equations): (&Model, &Equations),
+    parameters: &[f64],
+    coordinate: usize,
+    mut open: Vec<Expr>,
+) -> Option<f64> {
     let symbol = equations.coordinates.get(coordinate)?.position;
     let values = Valuation::of_parameters(model, parameters);
-    let mut open = law(equations);
+    open.extend(law(equations));
     open.push(equations.energy);
     common_period(&turning_rates(equations, open, (symbol, &values))?)
 }

@@ -161,7 +161,8 @@ pub struct Gauge {
     pub max_drift: f64,
     /// Since when the drift has exceeded a millionth, if the physics conserves the quantity.
     pub left: Option<f64>,
-    /// The drift at past times (evenly thinned), the oldest first, for the sparkline.
+    /// The drift at past times (evenly thinned), the oldest first, for the sparkline; of what the physics does not conserve its
+    /// change, with the sign.
     pub history: Arc<[f32]>,
     /// What the history of its drift shows.
     pub verdict: Verdict,

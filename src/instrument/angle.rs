@@ -44,6 +44,10 @@ impl Instrument for AnglePlot {
         const { &[Axis { heading: "Coordinate", coordinate: true, ..Axis::ACROSS }] }
     }
 
+    fn is_over_time(&self) -> bool {
+        true
+    }
+
     fn offers(&self, physics: Physics<'_>) -> Vec<Offer> {
         let about = "w over the time, and how far it is from growing evenly";
         motion_state::offers(physics, "angle variable", about)

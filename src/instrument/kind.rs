@@ -70,6 +70,11 @@ pub trait Instrument: Sync {
         None
     }
 
+    /// Whether it is a curve over the time, which a wide and flat pane suits.
+    fn is_over_time(&self) -> bool {
+        self.curve() == Some(MotionCurve::AgainstTime)
+    }
+
     /// Whether its axes are new variables of a transformation.
     fn is_transformed(&self) -> bool {
         self.written().iter().any(|axis| axis.transformed)
@@ -115,6 +120,11 @@ pub trait Instrument: Sync {
 
     /// Whether it can colour its orbits by whether they are regular.
     fn classifies_orbits(&self) -> bool {
+        false
+    }
+
+    /// Whether it draws the vector field of its plane, where that has one.
+    fn has_vector_field(&self) -> bool {
         false
     }
 

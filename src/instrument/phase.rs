@@ -7,21 +7,27 @@
 use std::sync::Arc;
 
 use super::equilibria::marks;
+use super::field_plane::{NULLCLINES, nullcline_names};
 use super::{
     Across, Answer, Axis, Columns, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape,
-    Measure, MotionCurve, Need, NoStart, Offer, Physics, Picture, Plot, PlotContext, Present,
-    StartValues, Upwards, value_at,
+    Measure, MotionCurve, Need, NoStart, Offer, Physics, Picture, PlaneField, Plot, PlotContext,
+    Present, StartValues, Upwards, value_at,
 };
 use crate::analysis::{Landscape, Plane};
 use crate::dynamics::Equilibrium;
 use crate::job::Job;
 use crate::system::{ChannelKind, Form, InitialOverride, System};
 
-/// The levels of the picture; separatrices lie between the first two.
-const LEVELS: Level = 0;
-const TRAIL: Level = 2;
-const MARK: Level = 3;
-const NOW: Level = 4;
+/// The levels of the picture; separatrices lie between those of the level curves and of the nullclines.
+const FIELD: Level = 0;
+const LEVELS: Level = 1;
+const NULLCLINE: Level = 3;
+const TRAIL: Level = 4;
+const MARK: Level = 5;
+const NOW: Level = 6;
+
+/// One in so many levels is drawn beside a vector field.
+const FEWER_LEVELS: usize = 4;
 
 pub(super) struct Phase;
 
@@ -48,6 +54,10 @@ impl Instrument for Phase {
     }
 
     fn has_equal_axes(&self) -> bool {
+        true
+    }
+
+    fn has_vector_field(&self) -> bool {
         true
     }
 
@@ -82,11 +92,14 @@ impl Instrument for Phase {
 
     fn heading(&self, plot: &Plot, present: &Present<'_>) -> Option<Heading> {
         let otherwise = if plot.is_plane(present.physics) { "Plane" } else { "Phase" };
-        let entries = vec![
-            Entry::Channel(plot.column(0)?),
-            Entry::Channel(plot.column(1)?),
-            Entry::Occurrences,
-        ];
+        let names = Some(plot).filter(|plot| plot.shows_field());
+        let names = names.and_then(|plot| nullcline_names(plot, present.physics));
+        let nullclines = names.into_iter().flat_map(|names| NULLCLINES.into_iter().zip(names));
+        let entries = [Entry::Channel(plot.column(0)?), Entry::Channel(plot.column(1)?)]
+            .into_iter()
+            .chain(nullclines.map(|(index, name)| Entry::Line(index, name)))
+            .chain([Entry::Occurrences])
+            .collect();
         Some(plot.heading(present.physics, otherwise, entries))
     }
 
@@ -101,13 +114,20 @@ impl Instrument for Phase {
         let PlotContext { plot, present, answer } = context;
         let [x, y] = [plot.column(0)?, plot.column(1)?];
         let landscape = landscape(answer);
-        let levels = landscape.map(|l| (LEVELS, Layer::Landscape(Arc::clone(l))));
+        // a field needs room between them
+        let every = if plot.shows_field() { FEWER_LEVELS } else { 1 };
+        let levels = landscape.map(|l| (LEVELS, Layer::Landscape(Arc::clone(l), every)));
         let now = Layer::Point([x, y].map(|k| present.value(k)), MarkerShape::Disc, Ink::Accent);
         let equilibria = marks(present, MARK, |one| {
             let at = |channel| value_at(present.physics, one, channel);
             Some([at(x)?, at(y)?])
         });
-        let layers = levels.into_iter().chain([
+        let field = plot.shows_field().then(|| PlaneField::of(context).ok()).flatten();
+        let field = field.map(Arc::new);
+        let nullclines = field.clone().map(|field| Layer::Nullclines(field, NULLCLINES));
+        let strokes = field.map(|field| (FIELD, Layer::VectorField(field)));
+        let levels = strokes.into_iter().chain(levels);
+        let layers = levels.chain(nullclines.map(|layer| (NULLCLINE, layer))).chain([
             (TRAIL, Layer::Companions([x, y])),
             (TRAIL, Layer::Trail([x, y])),
             (NOW, now),

@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use super::CameraPose;
+use super::{CameraPose, PlaneField};
 use crate::analysis::Landscape;
 
 /// The line above a picture.
@@ -97,8 +97,12 @@ pub type Level = u8;
 /// A layer drawn on axes.
 #[derive(Clone, Debug)]
 pub enum Layer {
-    /// Level curves and separatrices; the separatrices and saddles are one level higher.
-    Landscape(Arc<Landscape>),
+    /// Level curves, one in so many, and separatrices; the separatrices and saddles are one level higher.
+    Landscape(Arc<Landscape>, usize),
+    /// Arrows along a vector field, where nothing else is drawn.
+    VectorField(Arc<PlaneField>),
+    /// The nullclines of a vector field, as the curves of two indices.
+    Nullclines(Arc<PlaneField>, [usize; 2]),
     /// The past of two channels, fading with age.
     Trail([usize; 2]),
     /// Their past since a time, if one is given: what they were before is another quantity.

@@ -45,8 +45,12 @@ impl Plot {
             })
             .collect();
         let whole = columns.iter().all(|column| !column.is_empty());
-        let view = (chosen.is_empty() || kind.shows_a_view()).then_some(index);
-        whole.then(|| Self::new(kind, (columns, view), physics.model).opened(physics))
+        let shown = (chosen.is_empty() || kind.shows_a_view()).then_some(index);
+        let mut plot = Self::new(kind, (columns, shown), physics.model).opened(physics);
+        if let Some(viewport) = plot.viewport_mut() {
+            viewport.field = view.field;
+        }
+        whole.then_some(plot)
     }
 
     /// The same plot as it is first shown: a plane has equal units.
@@ -263,8 +267,8 @@ impl Plot {
         self.sight = match self.sight {
             Sight::Camera(eye) => Sight::Camera(eye.at_first(model)),
             Sight::Axes(viewport) => {
-                let Viewport { equal, active, by_chaos, .. } = viewport;
-                Sight::Axes(Viewport { equal, active, by_chaos, ..Viewport::WHOLE })
+                let Viewport { equal, active, by_chaos, field, .. } = viewport;
+                Sight::Axes(Viewport { equal, active, by_chaos, field, ..Viewport::WHOLE })
             }
         };
     }

@@ -54,6 +54,9 @@ pub struct Viewport {
     /// Whether orbits are coloured by whether they are regular, in place of each in its own colour.
     #[serde(default)]
     pub by_chaos: bool,
+    /// Whether the vector field and its nullclines are shown.
+    #[serde(default)]
+    pub field: bool,
     /// The cursor, in fractions of the width from the left and of the height from below.
     pub cursor: Option<[f64; 2]>,
     /// The data coordinates of the cursor since it was drawn: it stays there when the axes change.
@@ -70,6 +73,7 @@ impl Viewport {
         equal: false,
         active: false,
         by_chaos: false,
+        field: false,
         cursor: None,
         cursor_at: None,
     };
@@ -84,8 +88,8 @@ impl Viewport {
     /// The same window with the smooth settings at their defaults.
     pub(super) fn at_rest(self) -> Self {
         let cursor = self.cursor.map(|_| [0.0; 2]);
-        let Self { log, equal, active, by_chaos, .. } = self;
-        Self { log, equal, active, by_chaos, cursor, ..Self::WHOLE }
+        let Self { log, equal, active, by_chaos, field, .. } = self;
+        Self { log, equal, active, by_chaos, field, cursor, ..Self::WHOLE }
     }
 
     /// Puts the cursor at a place in the window, or takes it away.

@@ -35,6 +35,8 @@ pub struct View {
     pub ranges: [Option<[Expr; 2]>; 2],
     /// Whether a diagram has the straight line of least squares through its points.
     pub slope: bool,
+    /// Whether the vector field of its plane is drawn, with the nullclines.
+    pub field: bool,
 }
 
 /// A number that differs between the motions of one picture.

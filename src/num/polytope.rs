@@ -57,6 +57,16 @@ impl OrientationPolytope {
         self.ranges[0][0] > self.ranges[0][1]
     }
 
+    /// The polytope around the points of both.
+    #[must_use]
+    pub fn joined(&self, other: &Self) -> Self {
+        let join = |k: usize| {
+            let ([low, high], [least, greatest]) = (self.ranges[k], other.ranges[k]);
+            [low.min(least), high.max(greatest)]
+        };
+        Self { ranges: std::array::from_fn(join) }
+    }
+
     /// The polytope around the sums of a point of this one and a point of the other.
     #[must_use]
     pub fn plus(&self, other: &Self) -> Self {

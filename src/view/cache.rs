@@ -15,7 +15,7 @@ use super::quantity::QuantitySource;
 use super::theme::{Dash, Shade};
 use crate::analysis::Landscape;
 use crate::experiment::Trail;
-use crate::instrument::{Layer, Level};
+use crate::instrument::{Layer, Level, PlaneField};
 use crate::mechanics::Equations;
 
 /// The widths at which the text of the law is kept.
@@ -30,6 +30,7 @@ pub(super) struct FrameCache {
     style: Option<CachedStyle>,
     trails: Vec<CachedEntry<TrailKey, DrawnTrail>>,
     levels: Vec<CachedEntry<LevelsKey, Raster>>,
+    fields: Vec<CachedEntry<FieldKey, Raster>>,
     lines: Vec<CachedEntry<LinesKey, Raster>>,
     /// The law as laid out for a pane, and for its first line alone.
     law: Vec<(LawKey, Vec<Row>)>,
@@ -88,6 +89,16 @@ struct LevelsKey {
     landscape: Arc<Landscape>,
     frame: PlotFrame,
     level: u8,
+    /// Which part of the levels is drawn: one in so many.
+    every: usize,
+}
+
+/// Where the strokes or the nullclines of a vector field are drawn.
+#[derive(Debug)]
+struct FieldKey {
+    field: Arc<PlaneField>,
+    frame: PlotFrame,
+    level: u8,
 }
 
 /// Lines of a picture, and where they are drawn.
@@ -117,6 +128,7 @@ impl FrameCache {
         }
         self.trails.iter_mut().for_each(|entry| entry.used = false);
         self.levels.iter_mut().for_each(|entry| entry.used = false);
+        self.fields.iter_mut().for_each(|entry| entry.used = false);
         self.lines.iter_mut().for_each(|entry| entry.used = false);
     }
 
@@ -124,6 +136,7 @@ impl FrameCache {
     pub(super) fn end(&mut self) {
         self.trails.retain(|entry| entry.used);
         self.levels.retain(|entry| entry.used);
+        self.fields.retain(|entry| entry.used);
         self.lines.retain(|entry| entry.used);
     }
 
@@ -165,21 +178,40 @@ impl FrameCache {
     pub(super) fn levels(
         &mut self,
         landscape: &Arc<Landscape>,
-        (frame, level): (&PlotFrame, u8),
+        (frame, level, every): (&PlotFrame, u8, usize),
         draw: impl FnOnce() -> Raster,
     ) -> &Raster {
         let same = |entry: &CachedEntry<LevelsKey, Raster>| {
             Arc::ptr_eq(&entry.key.landscape, landscape)
                 && entry.key.frame == *frame
-                && entry.key.level == level
+                && (entry.key.level, entry.key.every) == (level, every)
         };
         let index = self.levels.iter().position(same).unwrap_or_else(|| {
-            let key = LevelsKey { landscape: Arc::clone(landscape), frame: *frame, level };
+            let key = LevelsKey { landscape: Arc::clone(landscape), frame: *frame, level, every };
             self.levels.push(CachedEntry { key, value: draw(), used: true });
             self.levels.len() - 1
         });
         self.levels[index].used = true;
         &self.levels[index].value
+    }
+
+    /// The raster of what a level shows of a vector field, drawn where it is not known yet.
+    pub(super) fn field(
+        &mut self,
+        field: &Arc<PlaneField>,
+        (frame, level): (&PlotFrame, u8),
+        draw: impl FnOnce() -> Raster,
+    ) -> &Raster {
+        let same = |entry: &CachedEntry<FieldKey, Raster>| {
+            entry.key.field.is_same(field) && entry.key.frame == *frame && entry.key.level == level
+        };
+        let index = self.fields.iter().position(same).unwrap_or_else(|| {
+            let key = FieldKey { field: Arc::clone(field), frame: *frame, level };
+            self.fields.push(CachedEntry { key, value: draw(), used: true });
+            self.fields.len() - 1
+        });
+        self.fields[index].used = true;
+        &self.fields[index].value
     }
 
     /// The raster of lines, drawn where they are not those of the last frame.

@@ -143,7 +143,7 @@ fn heads(canvas: &mut Canvas<'_>, area: Rect, single: Option<SingleRow>) {
         if let Some(drift) = row.drift {
             canvas.right(columns(area, drift, single_row::DRIFT), Role::Dim, "change");
         }
-        canvas.right(columns(area, row.value, single_row::VALUE), Role::Dim, "value");
+        canvas.right(columns(area, row.value, row.value_width), Role::Dim, "value");
     } else {
         canvas.right(columns(area, 0, VALUE + 2), Role::Dim, "value");
         canvas.right(columns(area, VALUE + 3, DRIFT), Role::Dim, "change");
@@ -218,7 +218,8 @@ fn name_and_reason(
     }
 }
 
-/// Draws value, drift, and the history of the drift on a logarithmic scale. A residual is its own drift, and is shown once.
+/// Draws value, drift, and the history of the drift on a logarithmic scale; of what is not conserved that of the value, on a linear
+/// one. A residual is its own drift, and is shown once.
 fn numbers_and_history(canvas: &mut Canvas<'_>, area: Rect, (gauge, residual): (&Gauge, bool)) {
     value(canvas, columns(area, 0, VALUE + 2), shown_value(gauge, residual), 6);
     if !residual {
@@ -226,15 +227,25 @@ fn numbers_and_history(canvas: &mut Canvas<'_>, area: Rect, (gauge, residual): (
     }
     let room = area.width.saturating_sub(VALUE + DRIFT + 5);
     let sparkline = columns(area, area.width.saturating_sub(room.min(HISTORY)), HISTORY);
-    let values: Vec<f64> = gauge.history.iter().map(|v| f64::from(*v).abs()).collect();
+    let is_broken = matches!(gauge.verdict, Verdict::Broken(_));
+    let value =
+        |change: &f32| if is_broken { f64::from(*change) } else { f64::from(*change).abs() };
+    let values: Vec<f64> = gauge.history.iter().map(value).collect();
     let shown = || values.iter().copied().filter(|drift| *drift >= FLOOR && drift.is_finite());
+    let ends = values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[lo, hi], &value| {
+        [lo.min(value), hi.max(value)]
+    });
     // what rounding leaves is flat, however little it is
     let is_rounding = matches!(gauge.verdict, Verdict::Exact(_));
     let most = shown().fold(if is_rounding { ROUNDING } else { FLOOR * LEAST_RATIO }, f64::max);
     let least = shown().fold(most / LEAST_RATIO, f64::min);
     let history = Sparkline {
         values: &values,
-        scale: Scale::log(if is_rounding { FLOOR } else { least }, most),
+        scale: if is_broken {
+            Scale::linear(ends[0], ends[1])
+        } else {
+            Scale::log(if is_rounding { FLOOR } else { least }, most)
+        },
         style: canvas.style(drift_role(gauge)),
         glyphs: canvas.style.glyphs,
     };
@@ -254,9 +265,9 @@ fn in_one_row(
         drift(canvas, columns(area, at, single_row::DRIFT), gauge);
     }
     let shown = shown_value(gauge, row.residual);
-    let used = value(canvas, columns(area, row.value, single_row::VALUE), shown, 4);
+    let used = value(canvas, columns(area, row.value, row.value_width), shown, 4);
     // The name has the columns that the value leaves blank, too.
-    let room = (row.value + single_row::VALUE).saturating_sub(used + 1);
+    let room = (row.value + row.value_width).saturating_sub(used + 1);
     name(canvas, columns(area, 0, room), (gauge, all), here);
 }
 

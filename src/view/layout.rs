@@ -229,13 +229,13 @@ fn meaning(lab: &Lab, width: u16) -> u16 {
 fn chosen(lab: &Lab, room: usize) -> Vec<Pane> {
     let kind = |index: &usize| lab.plots[*index].kind;
     let mut shown: Vec<usize> = (0..lab.plots.len().min(room)).collect();
-    let against_time = (0..lab.plots.len()).find(|index| is_against_time(kind(index)));
+    let against_time = (0..lab.plots.len()).find(|index| kind(index).is_over_time());
     if let (Some(time), Some(last)) = (against_time.filter(|t| *t >= room), shown.get_mut(2..))
         && let Some(last) = last.last_mut().filter(|last| is_portrait(kind(last)))
     {
         *last = time;
     }
-    shown.sort_by_key(|index| is_against_time(kind(index)));
+    shown.sort_by_key(|index| kind(index).is_over_time());
     let is_motion = |index: &usize| lab.shows_motion(&lab.plots[*index]);
     if !shown.iter().any(is_motion)
         && let Some(motion) = view_of_motion(lab)
@@ -245,10 +245,10 @@ fn chosen(lab: &Lab, room: usize) -> Vec<Pane> {
         let maps = shown.iter().filter(|index| kind(index).is_transformed()).count();
         let replaced = match (maps, shown.len()) {
             (0, _) | (_, ..=2) => last(&is_portrait),
-            (1, _) => last(&is_against_time),
-            _ => last(&is_against_time).or(last(&|kind| kind.is_transformed())),
+            (1, _) => last(&|kind| kind.is_over_time()),
+            _ => last(&|kind| kind.is_over_time()).or(last(&|kind| kind.is_transformed())),
         };
-        let replaced = replaced.or(last(&|kind| !is_against_time(kind)));
+        let replaced = replaced.or(last(&|kind| !kind.is_over_time()));
         if let Some(place) = replaced.or(shown.len().checked_sub(1)) {
             shown[place] = motion;
         }
@@ -268,10 +268,6 @@ fn chosen(lab: &Lab, room: usize) -> Vec<Pane> {
         *last = front;
     }
     shown.into_iter().map(Pane::Plot).collect()
-}
-
-fn is_against_time(kind: &dyn Instrument) -> bool {
-    kind.curve() == Some(MotionCurve::AgainstTime)
 }
 
 fn is_portrait(kind: &dyn Instrument) -> bool {

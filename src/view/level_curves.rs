@@ -16,12 +16,12 @@ const CROWDED: [f64; 2] = [0.25, 0.35];
 /// The number of dots above which all levels are drawn.
 const ROOMY: u32 = 16_000;
 
-/// Draws separatrices, and as many energy levels as fit beside each other.
+/// Draws separatrices, and one in so many energy levels, as many as fit beside each other.
 pub(super) fn draw(
     canvas: &Canvas<'_>,
     raster: &mut Raster,
     frame: &PlotFrame,
-    landscape: &Landscape,
+    (landscape, every): (&Landscape, usize),
     lowest: Level,
 ) {
     let style = canvas.style;
@@ -35,15 +35,16 @@ pub(super) fn draw(
     let parting = pen(canvas, Ink::Separatrix, lowest + 1);
     trace(raster, &landscape.separatrices, &parting);
     let faint = pen(canvas, Ink::Level, lowest);
+    let levels = landscape.levels.iter().step_by(every.max(1));
     let (wide, high) = style.glyphs.dots();
     let dots = frame.area.area() * u32::from(wide) * u32::from(high);
     if dots > ROOMY && !style.glyphs.is_ascii() {
-        landscape.levels.iter().for_each(|level| trace(raster, level, &faint));
+        levels.for_each(|level| trace(raster, level, &faint));
     } else {
         let blank = Raster::new(frame.area, style.glyphs);
         let mut drawn = blank.clone();
         trace(&mut drawn, &landscape.separatrices, &plain);
-        for level in &landscape.levels {
+        for level in levels {
             // Curves that share most of their cells cannot be distinguished.
             let mut alone = blank.clone();
             trace(&mut alone, level, &plain);

@@ -17,7 +17,9 @@ use super::plot::{Ages, Axes, DrawnAxis, Pen, PlotFrame, Raster, Scale};
 use super::quantity::{Quantities, through};
 use super::theme::Role;
 use super::time_window::time_window;
-use super::{companions, cursor, field, legend, level_curves, placeholder, prediction, space};
+use super::{
+    companions, cursor, field, legend, level_curves, placeholder, prediction, space, vector_field,
+};
 use crate::instrument::{Across, Ink, Layer, Level, MarkerShape, Picture, Plot, Upwards, Viewport};
 
 /// The rows above the axes that keys may take.
@@ -153,6 +155,7 @@ pub(super) fn draw(
         marks
     });
     prediction::draw(canvas, &mut raster, &frame, (q, plot));
+    draw_field(canvas, &mut raster, &frame, &layers);
     raster.draw(canvas.buffer);
     prediction::label(canvas, &frame, (q, plot));
     names::draw(canvas, &frame, &layers);
@@ -219,6 +222,26 @@ fn axis_upwards(q: &Quantities<'_>, upwards: &Upwards, viewport: Viewport) -> Dr
     }
 }
 
+/// Draws the arrows of a vector field where nothing else is.
+fn draw_field(
+    canvas: &mut Canvas<'_>,
+    raster: &mut Raster,
+    frame: &PlotFrame,
+    layers: &[(Level, Layer)],
+) {
+    for (level, layer) in layers {
+        let Layer::VectorField(field) = layer else { continue };
+        let mut cache = std::mem::take(&mut canvas.cache);
+        let arrows = cache.field(field, (frame, *level), || {
+            let mut fresh = Raster::new(frame.area, canvas.style.glyphs);
+            vector_field::arrows(canvas, &mut fresh, (frame, field), *level);
+            fresh
+        });
+        raster.lay_blank(arrows);
+        canvas.cache = cache;
+    }
+}
+
 /// Draws lines that often are those of the last frame.
 fn draw_lines(
     canvas: &mut Canvas<'_>,
@@ -245,11 +268,21 @@ fn draw_layer(
 ) {
     let style = canvas.style;
     match layer {
-        Layer::Landscape(landscape) => {
+        Layer::Landscape(landscape, every) => {
+            let every = *every;
             let mut cache = std::mem::take(&mut canvas.cache);
-            raster.lay(cache.levels(landscape, (frame, level), || {
+            raster.lay(cache.levels(landscape, (frame, level, every), || {
                 let mut fresh = Raster::new(frame.area, style.glyphs);
-                level_curves::draw(canvas, &mut fresh, frame, landscape, level);
+                level_curves::draw(canvas, &mut fresh, frame, (landscape, every), level);
+                fresh
+            }));
+            canvas.cache = cache;
+        }
+        Layer::Nullclines(field, curves) => {
+            let mut cache = std::mem::take(&mut canvas.cache);
+            raster.lay(cache.field(field, (frame, level), || {
+                let mut fresh = Raster::new(frame.area, style.glyphs);
+                vector_field::nullclines(canvas, &mut fresh, (frame, field), *curves, level);
                 fresh
             }));
             canvas.cache = cache;
@@ -331,7 +364,7 @@ fn draw_layer(
             companions::crossings(canvas, raster, (frame, q), (*section, *channels, level));
         }
         // written when the dots are there
-        Layer::Legend(_) | Layer::Name(..) => {}
+        Layer::Legend(_) | Layer::Name(..) | Layer::VectorField(_) => {}
         Layer::Point(at, shape, ink) => {
             raster.marker(frame, *at, marker(*shape), &pen(canvas, *ink, level));
         }
@@ -353,12 +386,21 @@ fn common_axis(q: &Quantities<'_>, channels: &[usize], viewport: Viewport) -> Dr
     if let [only] = channels {
         return q.axis(*only, None, (viewport, 1));
     }
-    let axes: Vec<DrawnAxis> =
-        channels.iter().map(|c| q.axis(*c, None, (Viewport::WHOLE, 1))).collect();
-    let lo = axes.iter().map(|axis| axis.scale.lo).fold(f64::INFINITY, f64::min);
-    let hi = axes.iter().map(|axis| axis.scale.hi).fold(f64::NEG_INFINITY, f64::max);
-    let unit = axes.first().map_or("", |axis| &axis.unit);
-    let shared = axes.iter().all(|axis| axis.unit == unit);
+    let axis = |channel: &usize| q.axis(*channel, None, (Viewport::WHOLE, 1));
+    // what is zero but for rounding has room beside what is not
+    let is_zero = |channel: &&usize| q.is_rounding_error(**channel);
+    let zero = channels.iter().any(|channel| is_zero(&channel)).then_some(0.0);
+    let moving: Vec<DrawnAxis> = channels.iter().filter(|c| !is_zero(c)).map(axis).collect();
+    let (axes, zero) = if moving.is_empty() {
+        (channels.iter().map(axis).collect(), None)
+    } else {
+        (moving, zero)
+    };
+    let ends = |end: fn(&Scale) -> f64| axes.iter().map(move |axis| end(&axis.scale)).chain(zero);
+    let lo = ends(|scale| scale.lo).fold(f64::INFINITY, f64::min);
+    let hi = ends(|scale| scale.hi).fold(f64::NEG_INFINITY, f64::max);
+    let unit = channels.first().map_or("", |channel| q.unit(*channel));
+    let shared = channels.iter().all(|channel| q.unit(*channel) == unit);
     DrawnAxis::new(
         "",
         if shared { unit } else { "" },

@@ -63,9 +63,19 @@ impl<'a> Quantities<'a> {
 
     /// The range of a channel. If it is only rounding error beside channels of the same kind and unit, their range.
     fn extent(&self, channel: usize) -> (f64, f64) {
-        let (lo, hi) = self.bounds(channel);
+        let greatest = self.greatest_beside_rounding(channel);
+        greatest.map_or_else(|| self.bounds(channel), |greatest| (-greatest, greatest))
+    }
+
+    /// Whether a channel is only rounding error beside channels of the same kind and unit.
+    pub(super) fn is_rounding_error(&self, channel: usize) -> bool {
+        self.greatest_beside_rounding(channel).is_some()
+    }
+
+    /// The greatest value of channels of the same kind and unit, if this one is only rounding error beside it.
+    fn greatest_beside_rounding(&self, channel: usize) -> Option<f64> {
         let channels = self.lab.loaded.system.channels();
-        let Some(own) = channels.get(channel) else { return (lo, hi) };
+        let own = channels.get(channel)?;
         let size = |channel: usize| {
             let (lo, hi) = self.bounds(channel);
             lo.abs().max(hi.abs())
@@ -76,7 +86,7 @@ impl<'a> Quantities<'a> {
         });
         let greatest =
             alike.map(|(index, _)| size(index)).filter(|s| s.is_finite()).fold(0.0, f64::max);
-        if size(channel) < ROUNDING * greatest { (-greatest, greatest) } else { (lo, hi) }
+        (size(channel) < ROUNDING * greatest).then_some(greatest)
     }
 
     pub(super) fn period(&self, channel: usize) -> Option<f64> {

@@ -65,6 +65,7 @@ mod terminal;
 mod thresholds;
 mod transformation;
 mod units;
+mod vector_field;
 mod worker;
 
 use proptest::test_runner::Config;

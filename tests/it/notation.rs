@@ -384,7 +384,7 @@ L = "1/2*(m + M)*(x1'^2 + x2'^2 + l^2*theta'^2) - m*g*a*cos(theta)"
     check("g/(1 - l)^3", "g/(1 − l)³", r"\frac{g}{{\left(1 - l\right)}^{3}}");
     check("a*(1 - cos(theta))", "a (1 − cos θ)", r"a \left(1 - \cos \theta\right)");
     check("-a*(x1 - 1)", "−a (x₁ − 1)", r"-a \left(x_{1} - 1\right)");
-    check("a*(l - 1)", "−a (1 − l)", r"-a \left(1 - l\right)");
+    check("a*(l - 1)", "a (l − 1)", r"a \left(l - 1\right)");
     check("sqrt(a*(l - 1))", "√(a (l − 1))", r"\sqrt{a \left(l - 1\right)}");
     check("m*sin(theta)^2 + M", "M + m sin² θ", r"M + m \sin^{2} \theta");
     check("-(-x1 - a)", "x₁ + a", "x_{1} + a");

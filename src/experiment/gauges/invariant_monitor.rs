@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use super::drift_record::{Distance, DriftRecord, Early};
 use super::mean::Mean;
-use crate::analysis::{self, Errors, LEFT, LOST, Stretch, Unseen, Verdict};
+use crate::analysis::{self, Errors, LEFT, LOST, Unseen, Verdict};
 use crate::experiment::{Gauge, Reference};
 use crate::expr::Expr;
 use crate::system::{BatchTerms, TermSums, TermWatch};
@@ -366,7 +366,15 @@ impl InvariantMonitor {
                 }
             }
         };
-        let history = self.drift.distances.stretches().iter().map(Stretch::peak);
+        let is_broken = self.invariant.broken.is_some();
+        let history = self.drift.distances.stretches().iter().map(|stretch| {
+            // what changes by the physics is seen rising and falling
+            if is_broken {
+                drift(stretch.mean.abs()).copysign(stretch.mean)
+            } else {
+                drift(stretch.peak())
+            }
+        });
         Gauge {
             name: self.invariant.name.clone(),
             shown: self.invariant.shown.clone(),
@@ -389,7 +397,7 @@ impl InvariantMonitor {
             history: if is_unknown {
                 Arc::default()
             } else {
-                history.map(|peak| drift(peak) as f32).collect()
+                history.map(|drift| drift as f32).collect()
             },
             verdict,
         }

@@ -8,7 +8,7 @@ use super::ModelBuilder;
 use crate::diagnostic::{Diagnostic, nearest};
 use crate::ensemble::section_name;
 use crate::expr::{Expr, Symbol};
-use crate::instrument::Instrument;
+use crate::instrument::{Instrument, has_field};
 use crate::model::{
     Allowed, Direction, EventAction, Follow, Mechanics, MotionEvent, Point, Scope, Shape,
     Variation, View, Viewpoint, WrittenExpr,
@@ -51,6 +51,9 @@ impl ModelBuilder<'_> {
                 }
                 axes.push(channels);
             }
+            if let Some(field) = view.field.as_ref().filter(|field| *field.get_ref()) {
+                self.has_field(&axes, field);
+            }
             let (kind, title) = (view.kind.name().to_owned(), view.title.clone());
             let frame = view.frame.as_ref().and_then(|name| self.frame_of_view(name));
             let shapes = view.shapes.as_ref().map(|written| self.shapes(written, nodes));
@@ -85,7 +88,18 @@ impl ModelBuilder<'_> {
                 until,
                 ranges,
                 slope: view.slope,
+                field: view.field.as_ref().is_some_and(|field| *field.get_ref()),
             });
+        }
+    }
+
+    /// The plane of a view must have a vector field.
+    fn has_field(&mut self, axes: &[Vec<WrittenExpr>], written: &Spanned<bool>) {
+        let [Some(x), Some(y)] = [0, 1].map(|axis| axes.get(axis)?.first()) else { return };
+        if let Err(why) = has_field(&self.model, [x, y]) {
+            let why = format!("this plane has no vector field: {why}");
+            let help = "leave out `field`";
+            self.diagnostics.push(Diagnostic::error(written.span(), why).with_help(help));
         }
     }
 

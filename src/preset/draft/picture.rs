@@ -27,6 +27,8 @@ pub(in crate::preset) struct DraftView {
     pub(in crate::preset) until: Option<Formula>,
     /// Whether a straight line is drawn through the points of a diagram.
     pub(in crate::preset) slope: bool,
+    /// Whether the vector field of its plane is drawn.
+    pub(in crate::preset) field: Option<Spanned<bool>>,
 }
 
 pub(in crate::preset) struct DraftSection {
@@ -115,7 +117,7 @@ fn view(mut table: Table<'_>) -> Option<DraftView> {
         let axes = INSTRUMENTS.into_iter().flat_map(Instrument::written);
         for key in axes
             .map(|axis| axis.key)
-            .chain(["title", "frame", "shapes", "over", "of", "until", "slope"])
+            .chain(["title", "frame", "shapes", "over", "of", "until", "slope", "field"])
             .chain(SECTION_KEYS)
         {
             table.take(key);
@@ -153,8 +155,9 @@ fn view(mut table: Table<'_>) -> Option<DraftView> {
         }
         slope = table.flag("slope").is_some_and(|flag| *flag.get_ref());
     }
+    let field = if kind.has_vector_field() { table.flag("field") } else { None };
     table.finish();
-    Some(DraftView { place, kind, title, axes, frame, shapes, section, over, until, slope })
+    Some(DraftView { place, kind, title, axes, frame, shapes, section, over, until, slope, field })
 }
 
 /// The keys of a section besides its axes.

@@ -60,6 +60,8 @@ pub(super) const VIEW: SchemaTable = SchemaTable {
             .of_plots(|plot| plot.follows_motions()),
         key("slope", Flag, "`true` draws the straight line of least squares, with its slope")
             .of_plots(|plot| plot.is_over_a_parameter()),
+        key("field", Flag, "`true` draws the vector field of the plane, with its nullclines")
+            .of_plots(|plot| plot.has_vector_field()),
         key("frame", Text, "the frame it is seen from").of_plots(|plot| plot.is_scene()),
         key("shapes", List(&SHAPE), "what is drawn in place of the shapes of [space]")
             .of_plots(|plot| plot.is_scene()),

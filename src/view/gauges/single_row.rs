@@ -6,15 +6,17 @@
 pub(super) const VERDICT: u16 = 8;
 const LEAST_VERDICT: u16 = 5;
 
-/// The widths of a drift and of a value.
+/// The width of a drift, and the least and the most of a value: four digits, with an exponent where names leave room.
 pub(super) const DRIFT: u16 = 8;
-pub(super) const VALUE: u16 = 8;
+const VALUE: u16 = 8;
+const MOST_VALUE: u16 = 11;
 
 /// Where the columns begin. A name says more than a drift, which the page of numbers has too and which gives way to names that are
 /// long, as what room the verdicts leave does.
 #[derive(Clone, Copy)]
 pub(super) struct SingleRow {
     pub(super) value: u16,
+    pub(super) value_width: u16,
     pub(super) drift: Option<u16>,
     pub(super) verdict: u16,
     pub(super) residual: bool,
@@ -26,16 +28,22 @@ impl SingleRow {
         let verdict = width.saturating_sub(widest.max(VERDICT));
         let drift = verdict.saturating_sub(DRIFT + 1);
         let value = drift.saturating_sub(VALUE + 1);
+        // a value ends at the same column, and begins where the names leave room
+        let row = |value: u16, drift, verdict| {
+            let spare = value.saturating_sub(u16::try_from(longest + 1).unwrap_or(u16::MAX));
+            let more = spare.min(MOST_VALUE - VALUE);
+            let (value, value_width) = (value - more, VALUE + more);
+            SingleRow { value, value_width, drift, verdict, residual: false }
+        };
         if longest < usize::from(value) {
-            return SingleRow { value, drift: Some(drift), verdict, residual: false };
+            return row(value, Some(drift), verdict);
         }
         let value = verdict.saturating_sub(VALUE + 1);
         if longest < usize::from(value) {
-            return SingleRow { value, drift: None, verdict, residual: false };
+            return row(value, None, verdict);
         }
         let verdict = width.saturating_sub(widest.max(LEAST_VERDICT));
-        let value = verdict.saturating_sub(VALUE + 1);
-        SingleRow { value, drift: None, verdict, residual: false }
+        row(verdict.saturating_sub(VALUE + 1), None, verdict)
     }
 
     pub(super) fn verdicts(self, width: u16) -> u16 {

@@ -6,6 +6,7 @@
 
 mod bands;
 mod cached_trail;
+mod character;
 mod cloud;
 mod course;
 mod halo;

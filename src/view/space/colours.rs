@@ -9,7 +9,7 @@ use crate::view::quantity::Quantities;
 use crate::view::theme::Shade;
 
 /// The points of the masses and of the traces of other points, in the order of their colours: what moves comes first,
-/// and the second colour, an amber, is left to the first mass whose place is fixed by numbers and parameters.
+/// and the second colour, an amber, is left to the masses whose places are fixed by numbers and parameters.
 pub(super) fn colours(q: &Quantities<'_>, eye: CameraPose) -> Vec<Point> {
     let stays = |at: &Point| at.iter().all(|e| is_constant(q, *e));
     let shapes = || q.lab.shapes(eye).map(|(shape, _)| shape);
@@ -29,8 +29,9 @@ pub(super) fn colours(q: &Quantities<'_>, eye: CameraPose) -> Vec<Point> {
             points.push(at);
         }
     }
-    for (index, at) in fixed.into_iter().enumerate() {
-        points.insert((1 + index).min(points.len()), at);
+    // one of them holds the place of all
+    if let Some(first) = fixed.first() {
+        points.insert(1.min(points.len()), *first);
     }
     points
 }
@@ -39,7 +40,9 @@ pub(super) fn colours(q: &Quantities<'_>, eye: CameraPose) -> Vec<Point> {
 pub(super) fn colour(q: &Quantities<'_>, points: &[Point], at: &Point) -> usize {
     let own = points.iter().position(|other| other == at);
     let shadow = || points.iter().position(|mass| is_shadow(q, at, mass));
-    own.or_else(shadow).unwrap_or(points.len())
+    let stays = |point: &Point| point.iter().all(|e| is_constant(q, *e));
+    let fixed = || points.iter().position(|other| stays(other)).filter(|_| stays(at));
+    own.or_else(shadow).or_else(fixed).unwrap_or(points.len())
 }
 
 /// The shades of the trace of a point, from its oldest part to its newest: those of a shadow are the dim ones.

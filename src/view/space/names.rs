@@ -8,8 +8,13 @@ use super::annotation::Label;
 use super::{ScenePainter, is_colourless, scene};
 use crate::expr::Expr;
 use crate::model::{Point, Shape};
+use crate::num::math;
+use crate::view::number::brief;
 use crate::view::plot::{Pen, Visibility};
 use crate::view::theme::Role;
+
+/// The rows at the lower edge that the names of the axes have.
+const ABOVE_COMPASS: u16 = 5;
 
 impl ScenePainter<'_> {
     /// Writes beside a point with which of two mechanics it moves, if colours do not say it.
@@ -23,6 +28,29 @@ impl ScenePainter<'_> {
         if let Some(label) = self.labels.last_mut() {
             label.apart = true;
         }
+    }
+
+    /// Says at the edge where the comparison motion is that the picture no longer follows, and how far away.
+    pub(super) fn name_parted(&mut self) {
+        let follow = self.q.lab.loaded.model.picture.follow.as_ref();
+        let Some((follow, both)) = follow.zip(self.mechanics.as_ref()) else { return };
+        let Some(beside) = follow.beside else { return };
+        let style = self.q.style.theme.curve(both.colours[1]);
+        let (at, other) = (self.point(&follow.at), self.point(&beside));
+        let flat = self.flat(other);
+        let edges = [self.frame.x, self.frame.y].map(|axis| [axis.lo, axis.hi]);
+        if (0..2).all(|k| (edges[k][0]..=edges[k][1]).contains(&flat[k])) {
+            return;
+        }
+        let apart = (0..3).map(|k| math::powi(other[k] - at[k], 2)).sum::<f64>().sqrt();
+        let glyphs = self.q.style.glyphs;
+        let text = format!("wrong mechanics, {} away", brief(apart, 2, glyphs));
+        let mut tip = [0, 1].map(|k| flat[k].max(edges[k][0]).min(edges[k][1]));
+        // the names of the axes have the lower left corner
+        let row = (edges[1][1] - edges[1][0]) / f64::from(self.frame.area.height.max(1));
+        tip[1] = tip[1].max(edges[1][0] + f64::from(ABOVE_COMPASS) * row);
+        let leftwards = flat[0] > edges[0][0];
+        self.labels.push(Label { tip, leftwards, apart: false, text, style });
     }
 
     /// Writes words in a style beside a point, away from another one.

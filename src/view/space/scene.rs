@@ -233,7 +233,14 @@ fn followed(
     let (at, radius) = (q.point(&follow.at), q.number(follow.reach).abs());
     let finite = |ends: Span3| ends.as_flattened().iter().all(|v| v.is_finite());
     let beside = follow.beside.map(|at| q.point(&at)).filter(|other| finite([*other, at]));
-    let other = beside.unwrap_or(at);
+    // two motions that part are both in the picture until it would make them small
+    let apart =
+        |other: [f64; 3]| (0..3).map(|k| math::powi(other[k] - at[k], 2)).sum::<f64>().sqrt();
+    let nearer = |other: [f64; 3]| {
+        let share = (PARTED * radius / apart(other)).min(1.0);
+        [0, 1, 2].map(|k| at[k] + share * (other[k] - at[k]))
+    };
+    let other = beside.map_or(at, nearer);
     let low = [0, 1, 2].map(|k| at[k].min(other[k]));
     let high = [0, 1, 2].map(|k| at[k].max(other[k]));
     (radius > 0.0 && finite(grown([low, high], radius, false))).then_some(Extent {
@@ -243,6 +250,9 @@ fn followed(
         hull: None,
     })
 }
+
+/// How far the comparison motion is followed, in radii of what is around the point that the camera follows.
+const PARTED: f64 = 3.0;
 
 /// Every how many corners of a circle its place is taken from.
 const CORNERS: usize = 4;
@@ -356,7 +366,11 @@ fn hull(q: &Quantities<'_>, point: &Point) -> Option<OrientationPolytope> {
         return Some(rest).filter(|rest| !rest.is_empty());
     }
     let known = q.snapshot.hulls.iter().find(|hull| hull.channels == channels)?;
-    Some(known.polytope).filter(|hull| !hull.is_empty()).map(|hull| hull.plus(&rest))
+    let polytope = match q.lab.hull_before(channels) {
+        Some(before) => known.polytope.joined(before),
+        None => known.polytope,
+    };
+    Some(polytope).filter(|hull| !hull.is_empty()).map(|hull| hull.plus(&rest))
 }
 
 fn is_flat(q: &Quantities<'_>, point: &Point) -> bool {

@@ -465,6 +465,65 @@ fn a_mass_in_a_vector_potential_is_at_rest_where_it_is_let_go() {
     assert_eq!([p_x + y, p_y - x], [0.0; 2]);
 }
 
+/// The same where H is not quadratic in the momenta: a fast charge, with H = √((p_x + y)² + (p_y − x)² + 1).
+#[test]
+fn a_relativistic_charge_is_at_rest_where_it_is_let_go() {
+    let size = (120, 40);
+    let mut real = Real::with(lowered(
+        "title = \"T\"\n[coordinates]\nx = { initial = 1.0, momentum = 0.5 }\ny = { initial = 0.5, momentum = 0.0 }\n\
+         [hamiltonian]\nH = \"sqrt((p_x + y)^2 + (p_y - x)^2 + 1)\"\n\
+         [space]\nshapes = [{ mass = [\"x\", \"y\", \"0\"] }, { line = [\"-2\", \"-2\", \"0\"], to = [\"2\", \"2\", \"0\"] }]\n",
+    ));
+    let cells = masses(&real.app, size);
+    act(&mut real, size, Down(Left), cells[cells.len() / 2]);
+    act(&mut real, size, Drag(Left), (cells[0].0 - 4, cells[0].1 + 2));
+    let [x, y, p_x, p_y] = real.seen().initial[..] else { panic!("four values") };
+    assert!((x - 1.0).abs() > 0.05, "it is dragged: {x}");
+    let left = [p_x + y, p_y - x];
+    assert!(left.iter().all(|left| left.abs() < 1e-12), "{left:?}");
+}
+
+/// An angle dragged over the top is brought back to the turn about zero when it is let go, and one undo takes back all of it. One
+/// that winds up a spring is not: there a turn makes a difference.
+#[test]
+fn an_angle_dragged_over_the_top_is_brought_back() {
+    let size = (120, 40);
+    let wound = "title = \"T\"\n[coordinates]\ntheta = { initial = 0.5, period = \"2*pi\" }\n[lagrangian]\n\
+                 L = \"1/2*theta'^2 + 9.81*cos(theta) - 0.01*theta^2\"\n[space]\nshapes = [\
+                 { line = [\"0\", \"0\"], to = [\"sin(theta)\", \"-cos(theta)\"] }, { mass = [\"sin(theta)\", \"-cos(theta)\"] }]\n";
+    for (mut real, is_angle) in [(Real::of("pendulum"), true), (Real::with(lowered(wound)), false)]
+    {
+        let before = real.seen().initial.clone();
+        let bob = masses(&real.app, size);
+        act(&mut real, size, Down(Left), bob[bob.len() / 2]);
+        // below the pivot, to its left, above it, to its right
+        let Some(HitTarget::Mass { window, .. }) = at(&real.app, size, bob[bob.len() / 2]) else {
+            panic!("grabbed")
+        };
+        let place = |[x, y]: [f64; 2]| {
+            let share = [0, 1].map(|k| {
+                let [from, to] = window.ranges[k];
+                ([x, y][k] - from) / (to - from)
+            });
+            let cell = |k: usize, share: f64| {
+                window.corner[k] + (share * f64::from(window.cells[k])) as u16
+            };
+            (cell(0, share[0]), cell(1, 1.0 - share[1]))
+        };
+        for to in [[0.0, -0.9], [-0.9, 0.0], [0.0, 0.9], [0.9, 0.0]] {
+            act(&mut real, size, Drag(Left), place(to));
+        }
+        let dragged = real.seen().initial[0];
+        assert!((dragged + 1.5 * std::f64::consts::PI).abs() < 0.2, "{dragged}");
+        act(&mut real, size, Up(Left), place([0.9, 0.0]));
+        let placed = real.seen().initial[0];
+        let expected = if is_angle { dragged + std::f64::consts::TAU } else { dragged };
+        assert!((placed - expected).abs() < 1e-12, "{placed} {expected}");
+        real.press("u");
+        assert_eq!(real.seen().initial, before);
+    }
+}
+
 /// A cart with a pendulum: the bob, at X + sin θ, follows the mouse from X = 0, where X has no sign to keep.
 #[test]
 fn the_bob_of_a_cart_is_dragged() {
@@ -587,6 +646,33 @@ fn a_drag_beyond_a_picture_does_not_widen_it() {
     real.press("u");
     assert_eq!(real.seen().initial, values);
     assert_eq!(window(&real), Some(before));
+}
+
+/// A picture in space keeps its scale when the motion is begun at a point of a plot: what stays where it is stays on the screen.
+#[test]
+fn a_picture_in_space_keeps_its_scale_from_start_to_start() {
+    let mut real = Real::with(lowered(
+        "title = \"T\"\n[coordinates]\nx = { initial = 1.0 }\ny = { initial = 0.0, velocity = 1.0 }\nz = { initial = 0.5 }\n\
+         [lagrangian]\nL = \"1/2*(x'^2 + y'^2 + z'^2) - 1/2*(x^2 + y^2 + z^2)\"\n\
+         [[views]]\nkind = \"space\"\n[[views]]\nkind = \"phase\"\nx = \"x\"\ny = \"x'\"\n\
+         [space]\nshapes = [{ mass = [\"x\", \"y\", \"z\"] }, { caption = [\"0.4\", \"0.2\", \"0\"], text = \"FIXED\" }]\n",
+    ));
+    let place = |real: &Real| {
+        let shown = rows(&screen(&real.app, &rich(), (120, 40)));
+        let row = shown.iter().position(|row| row.contains("FIXED")).expect("the caption");
+        (row, shown[row].chars().take_while(|c| *c != 'F').count())
+    };
+    real.run(600);
+    let before = place(&real);
+    let portrait = real.lab().plots.iter().position(|plot| plot.eye().is_none()).expect("a plot");
+    let inside =
+        |target: &HitTarget| matches!(target, HitTarget::Plot { index, .. } if *index == portrait);
+    let inside = places(&real.app, (120, 40), inside);
+    click(&mut real, (120, 40), inside[inside.len() / 2]);
+    assert!(real.seen().time < 1.0, "it begins anew");
+    assert_eq!(place(&real), before);
+    real.run(20);
+    assert_eq!(place(&real), before);
 }
 
 /// That a mass can be dragged is said only where one can.

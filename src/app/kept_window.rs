@@ -1,0 +1,43 @@
+//! What the pictures keep in view when the motion is begun elsewhere: how far each quantity and each point in space had come.
+//!
+//! In: snapshots. Out: ranges and hulls. Never here: axes and cameras.
+
+use std::sync::Arc;
+
+use crate::experiment::{Hull, Snapshot};
+use crate::num::OrientationPolytope;
+
+/// What the motions before the current one have reached.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct KeptWindow {
+    /// The least and greatest value of each channel.
+    bounds: Arc<[(f64, f64)]>,
+    /// The hulls of the points in space.
+    hulls: Arc<[Hull]>,
+}
+
+impl KeptWindow {
+    /// The same, and what the motion of a snapshot has reached.
+    #[must_use]
+    pub(super) fn with(&self, snapshot: &Snapshot) -> Self {
+        let bounds = snapshot.bounds.iter().enumerate().map(|(channel, &(lo, hi))| {
+            let (least, greatest) = self.bounds(channel).unwrap_or((lo, hi));
+            (least.min(lo), greatest.max(hi))
+        });
+        let hulls = snapshot.hulls.iter().map(|hull| match self.hull(hull.channels) {
+            Some(kept) => Hull { polytope: hull.polytope.joined(kept), ..*hull },
+            None => *hull,
+        });
+        Self { bounds: bounds.collect(), hulls: hulls.collect() }
+    }
+
+    /// The least and greatest value of a channel.
+    pub(super) fn bounds(&self, channel: usize) -> Option<(f64, f64)> {
+        self.bounds.get(channel).copied()
+    }
+
+    /// The hull of the point with these components.
+    pub(super) fn hull(&self, channels: [Option<usize>; 3]) -> Option<&OrientationPolytope> {
+        self.hulls.iter().find(|hull| hull.channels == channels).map(|hull| &hull.polytope)
+    }
+}
