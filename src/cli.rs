@@ -29,6 +29,7 @@ mod format;
 mod interrupt;
 mod invariants;
 mod lab;
+mod lab_start;
 mod lesson;
 mod list;
 mod lyapunov;

@@ -61,6 +61,7 @@ mod screen;
 pub mod sgr;
 mod space;
 pub mod sparkline;
+mod syntax;
 pub mod table_plot;
 mod tabs;
 mod text_page;

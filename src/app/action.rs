@@ -87,6 +87,8 @@ pub enum Action {
     EditCommand(EditCommand),
     /// Save a still image of the screen.
     Still,
+    /// Copy the command line that opens the lab as it is set.
+    Share,
     /// Copy the equations as LaTeX.
     CopyLatex,
     /// Export the recorded motion as a table.

@@ -130,9 +130,10 @@ impl App {
             Action::Edit => self.edit_file(),
             Action::Still => vec![Effect::Still],
             Action::Data => vec![Effect::Data],
+            Action::Share => self.share(),
             Action::CopyLatex => {
                 let text = lab.loaded.latex();
-                vec![Effect::Copy { what: "The equations", text, ending: "tex" }]
+                vec![Effect::Copy { what: "the equations", text, ending: "tex" }]
             }
             Action::Record => {
                 self.recording = !self.recording;

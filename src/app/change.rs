@@ -267,7 +267,7 @@ impl Lab {
             Change::Flow(_) => "the flow".to_owned(),
             Change::FullReset { .. } => "the reset to the file's values".to_owned(),
             Change::Plot { index, .. } => {
-                format!("what is shown of {}", self.name_of(Pane::Plot(*index)))
+                format!("the view of {}", self.name_of(Pane::Plot(*index)))
             }
             Change::Method(names) => went("method", side.way(*names).map(str::to_owned)),
             Change::Settings(settings) => {

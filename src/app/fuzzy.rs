@@ -6,10 +6,12 @@
 //! Each word is matched separately, and scored by nucleo's matcher: starts of words count most, then consecutive
 //! letters; gaps reduce the score. Letters scattered over a text match by chance (a long text contains almost any
 //! sequence), so a match must reach a minimum score per letter, and its letters must be close together or be
-//! initials.
+//! initials. Both are compared as a keyboard spells them: `theta` finds θ, and `x2` finds x².
 
 use nucleo_matcher::pattern::{Atom, AtomKind, CaseMatching, Normalization};
 use nucleo_matcher::{Config, Matcher, Utf32Str};
+
+use crate::expr::spelt;
 
 /// The minimum score of a match per letter. A letter at the start of a word scores 24 or more, one that follows
 /// another match 16 and a bonus; each gap costs some.
@@ -79,6 +81,7 @@ impl Query {
 
 impl QueryWord {
     fn new(word: &str) -> Self {
+        let word = &*in_letters(word);
         let atom = |kind| Atom::new(word, CaseMatching::Ignore, Normalization::Smart, kind, false);
         let letters = word.chars().count() as u32;
         Self { fuzzy: atom(AtomKind::Fuzzy), plain: atom(AtomKind::Substring), letters }
@@ -106,7 +109,8 @@ impl QueryWord {
     /// Returns the word's score in a name, and the indices of its letters.
     fn named(&self, text: &str, matcher: &mut Matcher) -> Option<FuzzyMatch> {
         let (mut buffer, mut places) = (Vec::new(), Vec::new());
-        let text = Utf32Str::new(text, &mut buffer);
+        let spelling = Spelling::of(text);
+        let text = Utf32Str::new(&spelling.letters, &mut buffer);
         let score = u32::from(self.fuzzy.indices(text, matcher, &mut places)?);
         let (first, last) = (*places.first()?, *places.last()?);
         let parts = |place: u32| place >= text.len() as u32 || !text.get(place).is_alphanumeric();
@@ -123,7 +127,7 @@ impl QueryWord {
             (spread == self.letters && text.len() == places.len(), ALL),
         ];
         let more: u32 = more.into_iter().filter_map(|(is, more)| is.then_some(more)).sum();
-        let letters = places.into_iter().map(|place| place as usize).collect();
+        let letters = spelling.characters(&places)?;
         Some(FuzzyMatch { score: score + more, letters })
     }
 
@@ -131,12 +135,66 @@ impl QueryWord {
     /// `pend` would be found in what depends on something.
     fn described(&self, text: &str, matcher: &mut Matcher) -> Option<u32> {
         let (mut buffer, mut places) = (Vec::new(), Vec::new());
-        let text = Utf32Str::new(text, &mut buffer);
+        let spelling = Spelling::of(text);
+        let text = Utf32Str::new(&spelling.letters, &mut buffer);
         let score = u32::from(self.plain.indices(text, matcher, &mut places)?);
         let first = *places.iter().min()?;
         let begins = first == 0 || !text.get(first - 1).is_alphanumeric();
         (begins && self.letters > 1).then_some(score)
     }
+}
+
+/// A text in the letters of a keyboard, and the character that each belongs to.
+struct Spelling {
+    letters: String,
+    /// Empty if each letter is a character.
+    of: Vec<usize>,
+}
+
+impl Spelling {
+    fn of(text: &str) -> Spelling {
+        if text.is_ascii() {
+            return Spelling { letters: text.to_owned(), of: Vec::new() };
+        }
+        let spelt = spelt(text);
+        let of = spelt
+            .iter()
+            .enumerate()
+            .flat_map(|(place, letters)| letters.iter().map(move |_| place));
+        Spelling { of: of.collect(), letters: spelt.concat().into_iter().collect() }
+    }
+
+    /// The characters that some letters belong to, in rising order. A match begins no character within its letters:
+    /// `eta` is not in θ.
+    fn characters(&self, places: &[u32]) -> Option<Vec<usize>> {
+        let mut places: Vec<usize> = places.iter().map(|place| *place as usize).collect();
+        places.sort_unstable();
+        if self.of.is_empty() {
+            return Some(places);
+        }
+        let mut characters: Vec<usize> = Vec::new();
+        for (index, place) in places.iter().enumerate() {
+            let character = *self.of.get(*place)?;
+            let goes_on = index > 0 && places[index - 1] + 1 == *place;
+            if characters.last() != Some(&character) {
+                let is_first = *place == 0 || self.of[*place - 1] != character;
+                let is_sign = |c: Option<char>| c.is_some_and(|c| !c.is_alphanumeric());
+                // the caret of an exponent need not be typed
+                if !is_first && !is_sign(self.letters.chars().nth(*place - 1)) {
+                    return None;
+                }
+                characters.push(character);
+            } else if !goes_on {
+                return None;
+            }
+        }
+        Some(characters)
+    }
+}
+
+/// A word as a keyboard spells it; what has no spelling stays.
+fn in_letters(word: &str) -> String {
+    if word.is_ascii() { word.to_owned() } else { spelt(word).concat().into_iter().collect() }
 }
 
 #[cfg(test)]
@@ -161,6 +219,32 @@ mod tests {
         assert_eq!(letters("sec", "zoom"), Some(vec![]), "its second name");
         assert_eq!(letters("zoom xyz", "zoom"), None);
         assert_eq!(fit("", "zoom"), Some(FuzzyMatch::default()));
+    }
+
+    #[test]
+    fn signs_are_found_as_they_are_spelt() {
+        let letters = |query, label| fit(query, label).map(|f| f.letters);
+        assert_eq!(letters("theta", "θ₁′ against t"), Some(vec![0]));
+        assert_eq!(letters("th", "θ"), Some(vec![0]), "while it is typed");
+        assert_eq!(letters("theta1", "θ₁"), Some(vec![0, 1]));
+        assert_eq!(letters("θ", "θ"), Some(vec![0]));
+        assert_eq!(letters("θ", "theta"), Some((0..5).collect()));
+        assert_eq!(letters("eta", "θ"), None, "no sign is found in part");
+        assert_eq!(letters("eta", "η"), Some(vec![0]));
+        assert_eq!(letters("x2", "x² + y²"), Some(vec![0, 1]));
+        assert_eq!(letters("x^2", "x² + y²"), Some(vec![0, 1]));
+        assert_eq!(letters("omega", "energy, ω"), Some(vec![8]));
+        assert_eq!(letters("poincaré", "Poincare"), Some((0..8).collect()));
+        let described = Query::new("theta").fit(Texts { about: &["over θ"], ..Texts::default() });
+        assert!(described.is_some());
+    }
+
+    /// A name that is all of a row comes before the same word in another row's title.
+    #[test]
+    fn a_name_comes_before_what_speaks_of_it() {
+        let score = |label| fit("theta", label).map_or(0, |f| f.score);
+        assert!(score("θ") > score("potential over theta"));
+        assert!(score("θ") > score("θ′") && score("θ′") > score("potential over θ"));
     }
 
     #[test]

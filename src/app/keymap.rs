@@ -273,6 +273,7 @@ pub const KEYS: &[Binding] = &[
     row(KeyContext::Experiment, &[c('S')], Action::Still, "", "write a screenshot (a drawing, SVG) into the current folder"),
     row(KeyContext::Experiment, &[c('D')], Action::Data, "", "write a table (CSV) into the current folder: what the focused diagram, map or section has computed, otherwise the motion so far"),
     row(KeyContext::Experiment, &[c('O')], Action::Record, "", "record the screen into a cast in the current folder, or end the recording"),
+    row(KeyContext::Experiment, &[ctrl('y')], Action::Share, "", "share: copy the command that opens this system with these values and this method, or write it into a file where the terminal has no clipboard"),
     row(KeyContext::Experiment, &[c('1')], Action::Show(Page::Lab), "", "show page 1: the lab"),
     row(KeyContext::Experiment, &[c('2')], Action::Show(Page::Equations), "", "show page 2: what follows from L or H"),
     row(KeyContext::Experiment, &[c('3')], Action::Show(Page::Notes), "", "show page 3: notes, source and expectations"),

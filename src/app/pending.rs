@@ -3,7 +3,7 @@
 //! In: changes, snapshots. Out: what was requested last. Never here: how a change is made.
 
 use super::{Saved, ValueId};
-use crate::experiment::Snapshot;
+use crate::experiment::{Checkpoint, Snapshot};
 use crate::instrument::{Plot, SavedPlot};
 use crate::integrate::Settings;
 use crate::system::InitialOverride;
@@ -22,6 +22,8 @@ pub(super) struct Awaited {
     pub(super) system: Option<LoadRequest>,
     /// The session to resume once its system is loaded.
     pub(super) session: Option<Saved>,
+    /// The motion that begins in the system that is opened first.
+    pub(super) start: Option<Checkpoint>,
     /// The view of a session that is restored once its text is right.
     pub(super) view: Option<AwaitedView>,
     /// The wrong file whose text was asked for, until its first error is shown.

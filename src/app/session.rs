@@ -97,6 +97,11 @@ impl App {
         self.awaited.session = Some(saved);
     }
 
+    /// Begins a motion as soon as the system that is to be opened is loaded.
+    pub fn start_with(&mut self, start: Checkpoint) {
+        self.awaited.start = Some(start);
+    }
+
     /// Offers a session in the list of systems, as its first row.
     pub fn offer_session(&mut self, saved: Saved) {
         self.picker.offer(saved, true);
@@ -118,6 +123,12 @@ impl App {
         let Some(saved) = saved else {
             if opened {
                 self.remind();
+                if let Some(start) = self.awaited.start.take()
+                    && let Some(lab) = &mut self.lab
+                {
+                    lab.restoration.begin(start, law_digest(&lab.loaded.document.text));
+                    return self.restore();
+                }
             }
             return vec![Effect::Execute(Command::Play)];
         };

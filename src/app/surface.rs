@@ -147,7 +147,7 @@ fn read(loaded: &Loaded, typed: &str) -> Result<NewSurface, String> {
             let of_files = Direction::ALL.map(|direction| (direction.word(), direction));
             let mut known = of_files.into_iter().chain(DIRECTIONS);
             let (_, direction) = known.find(|(word, _)| *word == last.trim()).ok_or_else(|| {
-                format!("`{}` is no direction: write rising, falling or either.", last.trim())
+                format!("`{}` is not a direction: write rising, falling or either.", last.trim())
             })?;
             (body.trim(), Some(direction.word()))
         }

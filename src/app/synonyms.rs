@@ -39,6 +39,7 @@ pub fn synonyms(action: Action) -> &'static [&'static str] {
         Action::Data => &["export", "save the data"],
         Action::Record => &["video", "film", "animation", "gif"],
         Action::Export => &["save"],
+        Action::Share => &["link", "command line", "reproduce", "send"],
         Action::Edit => &["Lagrangian", "Hamiltonian", "source", "friction", "force"],
         Action::Guides => &["tutorial", "learn", "examples"],
         Action::ChooseTheme => &["colors"],

@@ -74,6 +74,7 @@ Examples:
   phaselab tour                        begin here: three minutes, to a law of your own
   phaselab                             choose a system and watch it move
   phaselab double-pendulum             open a preset
+  phaselab pendulum --set l=2          with another length (Ctrl-y copies it)
   phaselab my/system.toml              open a file
   phaselab derive heavy-top            what follows from its Lagrangian
   phaselab --demo                      a tour of ten seconds that ends by itself

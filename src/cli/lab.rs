@@ -4,6 +4,7 @@ use std::ffi::OsString;
 use std::io::IsTerminal;
 
 use super::error::CommandError;
+use super::lab_start::StartOptions;
 use super::output::{Output, OutputForm};
 use super::{config, demo_source, record, stderr};
 use crate::preset::{Catalog, PresetOrigin, is_path};
@@ -22,6 +23,8 @@ pub(super) struct Arguments {
     /// Perform a demo, then end: a preset's own, a script, or a tour if none is named.
     #[arg(long, conflicts_with_all = ["resume", "watch", "log"])]
     demo: bool,
+    #[command(flatten)]
+    start: StartOptions,
     #[command(flatten)]
     pub(super) options: Options,
 }
@@ -59,6 +62,7 @@ pub(super) fn execute(
     words: &[OsString],
     read: ReadOptions,
 ) -> Result<(), CommandError> {
+    let start = arguments.start.checkpoint(arguments.system())?;
     if arguments.demo {
         return perform_demo(arguments, words, read);
     }
@@ -66,6 +70,7 @@ pub(super) fn execute(
         watchable(arguments.name.as_deref())?;
     }
     let mut request = request(arguments.name.clone(), words, read)?;
+    request.start = start;
     let mut ended = shell::run(&request);
     let not_found = matches!(ended, Err(LabError::SessionError(_) | LabError::NotFound(_)));
     if not_found && request.resume && !arguments.options.resume {

@@ -6,7 +6,7 @@ use super::assignment::{number, tolerance};
 use super::error::CommandError;
 use super::open;
 use crate::diagnostic::Document;
-use crate::experiment::choose_method;
+use crate::experiment::{Checkpoint, choose_method};
 use crate::integrate::{Method, Settings, Stepping};
 use crate::model::Model;
 use crate::printable;
@@ -28,6 +28,17 @@ pub(super) struct MethodOptions {
 }
 
 impl MethodOptions {
+    /// Whether any of them is given.
+    pub(super) fn is_given(&self) -> bool {
+        self.method.is_some() || (self.step, self.tolerance) != (None, None)
+    }
+
+    /// Puts what is given into a checkpoint.
+    pub(super) fn set(&self, checkpoint: &mut Checkpoint) {
+        checkpoint.method.clone_from(&self.method);
+        (checkpoint.step, checkpoint.tolerance) = (self.step, self.tolerance);
+    }
+
     /// The step and tolerance: as requested, otherwise the file's.
     ///
     /// # Errors

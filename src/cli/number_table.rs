@@ -70,7 +70,7 @@ fn of_values(text: &str) -> Result<NumberTable, String> {
         .from_reader(text.as_bytes());
     let what = |why: csv::Error| match title {
         Some(_) => why.to_string(),
-        None => format!("it is no table ({why}); {ADVICE}"),
+        None => format!("it is not a table ({why}); {ADVICE}"),
     };
     let head = reader.headers().map_err(what)?;
     let columns: Vec<String> = head.iter().map(str::to_owned).collect();
@@ -103,7 +103,7 @@ fn of_lines(text: &str) -> Option<Value> {
 fn of_json(text: &str) -> Result<NumberTable, String> {
     let all = serde_json::from_str(text)
         .or_else(|why| of_lines(text).ok_or(why))
-        .map_err(|why| format!("it is no JSON: {why}"))?;
+        .map_err(|why| format!("it is not JSON: {why}"))?;
     let word = |key: &str| all[key].as_str().map(str::to_owned);
     let list = |key: &str| all[key].as_array();
     let number = |value: &Value| value.as_f64().unwrap_or(f64::NAN);

@@ -22,12 +22,15 @@ pub(super) enum OutputForm {
     Coloured,
     /// JSON: `\u009b`.
     Json,
+    /// A picture, whose bytes are written as they are.
+    Picture,
 }
 
 impl OutputForm {
     fn word(self) -> &'static str {
         match self {
             OutputForm::Json => "JSON",
+            OutputForm::Picture => "a GIF",
             OutputForm::Text | OutputForm::Coloured => "text",
         }
     }
@@ -35,11 +38,14 @@ impl OutputForm {
 
 /// What a file's name says that is not what will be in it.
 fn other_format(path: &Path, form: OutputForm) -> Option<String> {
-    const BINARY: [&str; 14] = [
+    const BINARY: [&str; 15] = [
         "xlsx", "xls", "ods", "numbers", "parquet", "feather", "h5", "hdf5", "npy", "npz", "mat",
-        "png", "jpg", "pdf",
+        "png", "jpg", "pdf", "gif",
     ];
     let ending = path.extension()?.to_str()?.to_ascii_lowercase();
+    if form == OutputForm::Picture {
+        return (ending != "gif").then(|| format!("which is not the format that .{ending} names"));
+    }
     if BINARY.contains(&ending.as_str()) {
         return Some(format!("which is not the format that .{ending} names"));
     }
@@ -214,6 +220,7 @@ impl Write for Output {
             OutputForm::Text => printable::lines(&text),
             OutputForm::Coloured => printable::coloured(&text),
             OutputForm::Json => printable::json(&text),
+            OutputForm::Picture => return self.writer.write(bytes),
         };
         self.writer.write_all(safe.as_bytes())?;
         Ok(bytes.len())

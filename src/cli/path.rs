@@ -104,7 +104,7 @@ pub(super) fn execute(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let acts = |force: &&Expr| **force != Expr::ZERO;
     if [mechanics.dissipation()].iter().chain(mechanics.forces()).find(acts).is_some() {
         stderr::report(
-            "friction or forces act beside L: where ∫ L dt is stationary is no motion of this file, but of L alone",
+            "friction or forces act beside L: a path that makes ∫ L dt stationary is a motion of L alone, not of this file",
         );
     }
     let found = found(arguments, &laid)?;

@@ -12,9 +12,9 @@ use super::record;
 use super::stderr;
 use crate::diagnostic::Document;
 use crate::preset::demo;
+use crate::printable;
 use crate::record::RecordedCast;
 use crate::shell::{self, LeftRecording, NotRecorded, RecordingAhead, Request};
-use crate::{file, printable};
 
 /// Play a cast (asciinema's, version 2 or 3) or a script of a demo on the terminal.
 ///
@@ -34,9 +34,6 @@ pub(super) struct Arguments {
     #[arg(value_name = "CAST|SCRIPT|PRESET")]
     file: PathBuf,
 }
-
-/// The greatest size of a cast that is read.
-const LIMIT: u64 = 64 << 20;
 
 pub(super) fn execute(
     arguments: &Arguments,
@@ -64,12 +61,8 @@ fn read_played(path: &Path) -> Result<Played, CommandError> {
     if let Some(own) = path.to_str().filter(|_| !path.exists()).and_then(demo) {
         return Ok(Played::Script(own));
     }
-    let (bytes, _) = file::read(path, LIMIT).map_err(|why| CommandError::reading(path, &why))?;
+    let bytes = record::cast_bytes(path)?;
     let shown = printable::path(path);
-    if bytes.len() as u64 > LIMIT {
-        let what = format!("{shown}: a cast may have 64 MiB; this one has more");
-        return Err(CommandError::WrongFile(what));
-    }
     if bytes.trim_ascii_start().starts_with(b"{") {
         let text = String::from_utf8_lossy(&bytes);
         let cast = RecordedCast::read(&text);

@@ -1,7 +1,7 @@
-//! `phaselab record`: a script becomes a cast, byte for byte the same on every machine.
+//! `phaselab record`: a script becomes a cast or a GIF, byte for byte the same on every machine.
 
 use std::ffi::OsString;
-use std::io::Write;
+use std::io::{self, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
@@ -13,27 +13,31 @@ use super::slow_notice::with_notice;
 use crate::diagnostic::nearest;
 use crate::diagnostic::{Diagnostic, Document};
 use crate::preset::{demo, demos};
-use crate::printable;
+use crate::record::animation::{CELL_WIDTH, CELL_WIDTHS};
 use crate::record::cast_writer::{self, Version};
 use crate::record::screenshot::{self, ImageFormat};
 use crate::record::script::{ScriptStep, read_size};
-use crate::record::{Recording, Script, called, play, transcript};
+use crate::record::{RecordedCast, Recording, Script, animation, called, play, transcript};
+use crate::{file, printable};
 
-/// Record a demo: a script of keys, waits and captions becomes a cast, the same on every machine.
+/// Record a demo: a script of keys, waits and captions becomes a cast or a GIF, the same on every machine.
 ///
 /// No terminal is needed, and nothing of this one matters: TERM, NO_COLOR, the locale, the time and
 /// the size of the window are ignored. Without --script the preset's own demo is recorded. A
-/// script whose claims (Assert) turn out false gives no cast.
+/// script whose claims (Assert) turn out false gives no cast. A cast, such as one that was recorded
+/// with the key O, becomes a GIF.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
   phaselab record pendulum -o pendulum.cast            a preset's own demo
+  phaselab record pendulum -o pendulum.gif             as an animated picture
+  phaselab record session.cast -o session.gif          a cast as a GIF
   phaselab record my/system.toml --script my.demo --size 100x30 -o my.cast
   phaselab record pendulum --format account            what is done and found
   phaselab record pendulum --still swing.svg --at 'Large swings'")]
 pub(super) struct Arguments {
-    /// A preset's name, or a file.
-    #[arg(value_name = "PRESET|FILE")]
+    /// A preset's name, a file, or a cast.
+    #[arg(value_name = "PRESET|FILE|CAST")]
     name: OsString,
     /// The script; by default the preset's own demo.
     #[arg(long, value_name = "FILE")]
@@ -41,9 +45,12 @@ pub(super) struct Arguments {
     /// Columns and rows, where the script does not say them.
     #[arg(long, value_name = "WxH", value_parser = read_size)]
     size: Option<(u16, u16)>,
-    /// What is written.
-    #[arg(long, value_enum, value_name = "FORMAT", default_value_t, alias = "cast-version")]
-    format: CastFormat,
+    /// What is written; by default an asciicast of version 3, or a GIF into a file that ends in .gif.
+    #[arg(long, value_enum, value_name = "FORMAT", alias = "cast-version")]
+    format: Option<CastFormat>,
+    /// The width of a character in a GIF, in pixels; characters are twice as high as wide.
+    #[arg(long, value_name = "PIXELS", default_value_t = CELL_WIDTH, value_parser = clap::value_parser!(u16).range(i64::from(CELL_WIDTHS[0])..=i64::from(CELL_WIDTHS[1])))]
+    cell_width: u16,
     /// Takes a still as well: a drawing (.svg), text (.txt), or text with colours (.ans).
     #[arg(long, value_name = "FILE")]
     still: Option<PathBuf>,
@@ -55,20 +62,39 @@ pub(super) struct Arguments {
     output: Option<PathBuf>,
 }
 
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum CastFormat {
     /// An asciicast of version 3, of asciinema 3.
-    #[default]
     #[value(alias = "3")]
     V3,
     /// An asciicast of version 2, of asciinema 2 and older players.
     #[value(alias = "2")]
     V2,
+    /// An animated picture.
+    Gif,
     /// What is done, shown and found, in words.
     Account,
 }
 
+impl Arguments {
+    /// The format that is asked for, or that the name of the output says.
+    fn format(&self) -> CastFormat {
+        let ending = self.output.as_deref().and_then(Path::extension);
+        let is_gif = ending.is_some_and(|ending| ending.eq_ignore_ascii_case("gif"));
+        self.format.unwrap_or(if is_gif { CastFormat::Gif } else { CastFormat::V3 })
+    }
+}
+
 pub(super) fn execute(arguments: &Arguments) -> Result<(), CommandError> {
+    let format = arguments.format();
+    if format == CastFormat::Gif && arguments.output.is_none() && io::stdout().is_terminal() {
+        let what = "a GIF is not for a terminal: give a file, -o NAME.gif";
+        return Err(CommandError::WrongUse(what.to_owned()));
+    }
+    let path = Path::new(&arguments.name);
+    if path.extension().is_some_and(|ending| ending == "cast") {
+        return convert(path, arguments);
+    }
     let system = open::find(&arguments.name)?;
     let source = match &arguments.script {
         Some(path) => Document::open(path).map_err(|why| CommandError::reading(path, &why))?,
@@ -89,7 +115,7 @@ pub(super) fn execute(arguments: &Arguments) -> Result<(), CommandError> {
         find_marker(markers, at)?;
     }
     let recording = recorded(&script, &source, &system, &name, arguments.size)?;
-    if arguments.format != CastFormat::Account {
+    if format != CastFormat::Account {
         check_claims(&source, &recording)?;
     }
     if let Some((path, form)) = still {
@@ -99,19 +125,69 @@ pub(super) fn execute(arguments: &Arguments) -> Result<(), CommandError> {
             return check_claims(&source, &recording);
         }
     }
-    let form = match arguments.format {
+    let form = match format {
         CastFormat::V3 | CastFormat::V2 => OutputForm::Json,
+        CastFormat::Gif => OutputForm::Picture,
         CastFormat::Account => OutputForm::Text,
     };
     let mut out = Output::open(arguments.output.as_deref(), form)?;
-    let written = match arguments.format {
+    let written = match format {
         CastFormat::V3 => cast_writer::write(&recording, Version::Three, &mut out).map(|_| ()),
         CastFormat::V2 => cast_writer::write(&recording, Version::Two, &mut out).map(|_| ()),
+        CastFormat::Gif => {
+            let cast = RecordedCast::from(recording.clone());
+            return write_gif(&cast, arguments.cell_width, out);
+        }
         CastFormat::Account => out.write_all(transcript::write(&recording).as_bytes()),
     };
     written.map_err(|error| out.failed(&error))?;
     out.finish()?;
     check_claims(&source, &recording)
+}
+
+/// Draws a cast as a GIF.
+fn convert(path: &Path, arguments: &Arguments) -> Result<(), CommandError> {
+    let wrong = |what: &str| Err(CommandError::WrongUse(what.to_owned()));
+    if arguments.format() != CastFormat::Gif {
+        return wrong("a cast becomes a GIF: give -o NAME.gif, or --format gif");
+    }
+    if arguments.script.is_some() || arguments.still.is_some() || arguments.size.is_some() {
+        return wrong("a cast is drawn as it is: --script, --size and --still are for scripts");
+    }
+    let cast = read_cast(path)?;
+    let out = Output::open(arguments.output.as_deref(), OutputForm::Picture)?;
+    write_gif(&cast, arguments.cell_width, out)
+}
+
+fn write_gif(cast: &RecordedCast, cell_width: u16, mut out: Output) -> Result<(), CommandError> {
+    let drawn = || animation::write(cast, cell_width, &mut out).map(|_| ());
+    match with_notice("drawing the pictures", drawn) {
+        Err(error) if error.kind() == io::ErrorKind::InvalidInput => {
+            return Err(CommandError::WrongUse(error.to_string()));
+        }
+        written => written.map_err(|error| out.failed(&error))?,
+    }
+    out.finish()
+}
+
+/// The greatest size of a cast that is read.
+const LARGEST_CAST: u64 = 64 << 20;
+
+fn read_cast(path: &Path) -> Result<RecordedCast, CommandError> {
+    let bytes = cast_bytes(path)?;
+    let cast = RecordedCast::read(&String::from_utf8_lossy(&bytes));
+    cast.map_err(|why| CommandError::WrongFile(format!("{}: {why}", printable::path(path))))
+}
+
+/// The bytes of a file that may be a cast.
+pub(super) fn cast_bytes(path: &Path) -> Result<Vec<u8>, CommandError> {
+    let (bytes, _) =
+        file::read(path, LARGEST_CAST).map_err(|why| CommandError::reading(path, &why))?;
+    if bytes.len() as u64 > LARGEST_CAST {
+        let what = format!("{}: a cast may have 64 MiB; this one has more", printable::path(path));
+        return Err(CommandError::WrongFile(what));
+    }
+    Ok(bytes)
 }
 
 fn still_format(path: &Path) -> Result<ImageFormat, CommandError> {

@@ -65,7 +65,7 @@ pub(super) fn tokens(text: &str) -> Result<Vec<(Token, Span)>, SyntaxError> {
                 match digits.parse() {
                     Ok(n) => Token::Raised(n),
                     Err(_) => {
-                        let message = format!("`{}` is no power", &text[start..at]);
+                        let message = format!("`{}` is not a power", &text[start..at]);
                         return Err(SyntaxError::new(Span { start, end: at }, message));
                     }
                 }

@@ -98,7 +98,7 @@ impl Structure<'_> {
             let terms: Vec<(Expr, Expr)> =
                 terms.filter(|(b, s)| *b != Expr::ZERO && *s != Expr::ZERO).collect();
             let Some(is) = self.sum(&terms, true) else { continue };
-            let message = format!("`{name}` is no Casimir of these brackets");
+            let message = format!("`{name}` is not a Casimir of these brackets");
             let mut help = format!("{{{}, {name}}} {is}, not 0", c.name);
             if self.equations.is_conserved(casimir) == Some(Zero::Proved) {
                 help.push_str("; but this H conserves it: it is an observable");

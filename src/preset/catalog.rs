@@ -218,10 +218,24 @@ pub fn lesson(name: &str) -> Option<Document> {
     Some(Document::new(format!("presets/{path}"), text))
 }
 
+/// The lessons in the order in which they are best taken; any other follows by its name.
+const LESSONS: [&str; 9] = [
+    "tour",
+    "kepler",
+    "symmetries",
+    "t-handle",
+    "leaving-the-sphere",
+    "rolling-race",
+    "heavy-top",
+    "rolling-disc",
+    "third-law",
+];
+
 /// The shipped lessons, by name.
 pub fn lessons() -> Vec<&'static str> {
     let mut names: Vec<&str> = shipped::names_in("lessons").collect();
-    names.sort_unstable();
+    let place = |name: &&str| LESSONS.iter().position(|known| known == name);
+    names.sort_unstable_by_key(|name| (place(name).unwrap_or(LESSONS.len()), *name));
     names
 }
 

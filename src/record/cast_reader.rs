@@ -6,6 +6,7 @@
 use serde::Deserialize;
 use serde_json::Value;
 
+use super::cast_theme::CastTheme;
 use super::clock::{Micros, SECOND};
 use super::recording::{Recording, RecordingEvent};
 use crate::printable;
@@ -17,6 +18,8 @@ pub struct RecordedCast {
     pub title: Option<String>,
     /// The initial number of columns and rows.
     pub size: (u16, u16),
+    /// The colours of its terminal.
+    pub theme: CastTheme,
     /// The events in order of time.
     pub events: Vec<(Micros, CastEvent)>,
     /// The time of the end.
@@ -58,6 +61,7 @@ struct CastHeader {
     idle_time_limit: Option<f64>,
     width: Option<u64>,
     height: Option<u64>,
+    theme: Option<Value>,
     term: Option<TerminalReplay>,
 }
 
@@ -65,6 +69,7 @@ struct CastHeader {
 struct TerminalReplay {
     cols: u64,
     rows: u64,
+    theme: Option<Value>,
 }
 
 impl RecordedCast {
@@ -87,7 +92,10 @@ impl RecordedCast {
                 return Err(wrong(1, what));
             }
         };
+        let theme = head.term.as_ref().and_then(|term| term.theme.as_ref()).or(head.theme.as_ref());
+        let theme = theme.map(CastTheme::read).unwrap_or_default();
         let mut cast = RecordedCast {
+            theme,
             title: head.title,
             size: sized(size).map_err(|what| wrong(1, what))?,
             events: Vec::new(),
@@ -118,7 +126,7 @@ impl RecordedCast {
                 "r" => {
                     let sides = data.split_once('x');
                     let size = sides.and_then(|(w, h)| Some((w.parse().ok()?, h.parse().ok()?)));
-                    let what = || format!("`{}` is no size", printable::quoted(data));
+                    let what = || format!("`{}` is not a size", printable::quoted(data));
                     let size = size.ok_or_else(what).and_then(sized);
                     let (columns, rows) = size.map_err(|what| wrong(number, what))?;
                     Some(CastEvent::Resize(columns, rows))
@@ -154,6 +162,7 @@ impl From<Recording> for RecordedCast {
         RecordedCast {
             title: Some(recording.title),
             size: recording.size,
+            theme: CastTheme::of(recording.style.theme.palette()),
             events: events.map(|(time, event)| (time, event.into())).collect(),
             end: recording.end,
         }

@@ -10,9 +10,9 @@ use std::io::{self, Write};
 
 use serde_json::{Value, json};
 
+use super::cast_theme::CastTheme;
 use super::clock::{Micros, SECOND};
 use super::recording::{Recording, RecordingEvent};
-use crate::view::colour::Rgb;
 use crate::view::theme::Palette;
 
 /// The version of a cast.
@@ -48,7 +48,7 @@ impl<W: Write> Cast<W> {
         title: &str,
         palette: &Palette,
     ) -> io::Result<Cast<W>> {
-        let theme = theme(palette);
+        let theme = CastTheme::of(palette).written();
         let head = match version {
             Version::Two => json!({
                 "version": 2, "width": columns, "height": rows, "title": title, "theme": theme,
@@ -131,17 +131,4 @@ pub fn write<W: Write>(recording: &Recording, version: Version, out: W) -> io::R
     }
     cast.end(recording.end, recording.size)?;
     Ok(cast.into_inner())
-}
-
-/// The terminal's colours: those of the palette, and softened VGA colours for the sixteen basic ones.
-fn theme(palette: &Palette) -> Value {
-    const SIXTEEN: [u32; 16] = [
-        0x1a_1b26, 0xc8_4f4f, 0x4f_a86a, 0xc4_961a, 0x5a_7fd0, 0xb0_6ab8, 0x3f_a7b6, 0xb8_bcc8,
-        0x5a_6078, 0xe8_645a, 0x6a_c88a, 0xe6_b43f, 0x7a_9cf0, 0xd6_8fd0, 0x5f_c7d6, 0xff_ffff,
-    ];
-    let hex = |Rgb(r, g, b): Rgb| format!("#{r:02x}{g:02x}{b:02x}");
-    let sixteen = SIXTEEN.map(|colour| format!("#{colour:06x}")).join(":");
-    json!({
-        "fg": hex(palette.foreground), "bg": hex(palette.background), "palette": sixteen,
-    })
 }

@@ -3,7 +3,7 @@
 //! In: a screen of cells. Out: SVG, text, or text with ANSI colours. Never here: when it is taken, or files.
 
 mod ansi;
-mod shape;
+pub(super) mod shape;
 mod svg;
 
 use std::str::FromStr;

@@ -13,7 +13,7 @@ use ratatui::layout::{Position, Rect, Size};
 use super::cast_screen::draw_screen;
 use super::frame_loop::{Screen, ScreenRequest};
 use super::recording_ahead::{NotRecorded, RecordingAhead};
-use crate::record::{CastEvent, RecordedCast, Recording};
+use crate::record::{CastEvent, CastTheme, RecordedCast, Recording};
 use crate::view::RenderStyle;
 use crate::view::colour::Rgb;
 use crate::view::theme::Role;
@@ -90,7 +90,13 @@ impl CastPlayer {
 
     /// Creates a player at the start of a cast that is still being recorded.
     pub fn following(ahead: RecordingAhead, style: RenderStyle) -> Self {
-        let cast = RecordedCast { title: None, size: ahead.size, events: Vec::new(), end: 0 };
+        let cast = RecordedCast {
+            title: None,
+            size: ahead.size,
+            theme: CastTheme::default(),
+            events: Vec::new(),
+            end: 0,
+        };
         Self { ahead: Some(ahead), ..Self::new(cast, style) }
     }
 

@@ -24,18 +24,13 @@ use crate::view::{Detail, RenderStyle};
 /// What is said when a demo is over.
 const LEADS_BACK: &str = " over: any key returns ";
 
-/// The lesson with which everyone begins.
-const FIRST: &str = "tour";
-
 /// The lessons and demos that are shipped, with how far each lesson was taken.
 pub(super) fn guides(systems: &[CatalogEntry]) -> Vec<Guide> {
     let progress = LessonProgress::known().unwrap_or_else(|why| {
         warn!("{why}");
         LessonProgress::default()
     });
-    let mut lessons = preset::lessons();
-    lessons.sort_by_key(|name| *name != FIRST);
-    let lessons = lessons.into_iter().filter_map(|name| {
+    let lessons = preset::lessons().into_iter().filter_map(|name| {
         let taken = match progress.lessons.get(name).copied().unwrap_or_default() {
             LessonMark { finished: true, .. } => LessonTaken::Whole,
             LessonMark { step: 0, .. } => LessonTaken::NotYet,

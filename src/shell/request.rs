@@ -3,6 +3,7 @@
 //! In: [`Options`]. Out: the render style and the frame settings. Never here: where options come from; what the
 //! terminal answers.
 
+use crate::experiment::Checkpoint;
 use crate::view::RenderStyle;
 use crate::view::colour::ColourDepth;
 use crate::view::glyphs::Glyphs;
@@ -32,6 +33,8 @@ const LINE: u32 = 64 * 1024;
 pub struct Request {
     /// A preset's name or a file's path; with `None` the picker opens.
     pub open: Option<String>,
+    /// The motion that begins there; by default as the file says.
+    pub start: Option<Checkpoint>,
     /// Whether to resume the last session.
     pub resume: bool,
     /// How many colours to use; by default the environment decides.
@@ -65,6 +68,7 @@ impl Request {
             // A name takes precedence over resuming the last session.
             resume: open.is_none() && options.resume,
             open,
+            start: None,
             colour: options.color.depth(),
             glyphs: options.glyphs.glyphs(),
             frames: options.fps.given().map(|frames| frames.0),

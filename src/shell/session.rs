@@ -131,6 +131,9 @@ impl Session {
         pace: FramePace,
     ) -> io::Result<Self> {
         let (mut app, effects) = App::new(&catalog, request.open.as_deref());
+        if let Some(start) = &request.start {
+            app.start_with(start.clone());
+        }
         app.mouse.is_reported = pace.mouse;
         app.jobs.in_background = true;
         app.meter.asked = pace.frames;

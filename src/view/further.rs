@@ -17,7 +17,7 @@ pub(super) fn rows(lab: &Lab, style: &RenderStyle, page: &mut TextPage) {
     }
     let Some(forms) = lab.further() else {
         page.heading("Transformations, generators, complete integral");
-        page.words(Role::Dim, "Being looked at.");
+        page.words(Role::Dim, "Computing…");
         return;
     };
     let mut rows = FurtherRows { forms, style, page };

@@ -8,9 +8,9 @@ use ratatui::layout::Rect;
 use unicode_width::UnicodeWidthStr;
 
 use super::canvas::{Canvas, Span, columns, row};
-use super::glyphs::spelt;
 use super::theme::Role;
 use crate::app::{PageSearch, smart_case};
+use crate::expr::spelt;
 
 /// The characters of a text as they are compared, each in the letters in which it is spelt: `theta` and `θ` are the same, and so
 /// are `x^2` and `x²`.

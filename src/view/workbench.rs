@@ -12,6 +12,7 @@ use super::canvas::{Canvas, columns, row};
 use super::footer::notice_role;
 use super::lab_page;
 use super::layout::{split_columns, split_rows};
+use super::syntax::{is_within_text, roles};
 use super::theme::Role;
 use super::wrap::words;
 use crate::app::{
@@ -123,8 +124,8 @@ fn write(
 ) {
     let selection = file.editor.selection();
     let cursor = file.editor.cursor();
-    let comment = comment(line);
-    let plain = if line.trim_start().starts_with('[') { Role::Title } else { Role::Text };
+    let above = file.editor.lines()[..index].iter().map(String::as_str);
+    let roles = roles(line, is_within_text(above));
     let mut used = 0;
     // There is one more position than there are characters, because the cursor may be after the last.
     for (column, c) in line.chars().chain([' ']).enumerate().skip(from) {
@@ -138,8 +139,7 @@ fn write(
             break;
         }
         let caret = Caret { row: index, column };
-        let role = if comment.is_some_and(|start| column >= start) { Role::Dim } else { plain };
-        let mut style = canvas.style(role);
+        let mut style = canvas.style(roles.get(column).copied().unwrap_or(Role::Text));
         if let Some(diagnostic) = diagnostics.iter().find(|diagnostic| covers(diagnostic, caret)) {
             let role = if diagnostic.warning { Role::Warn } else { Role::Bad };
             style = canvas.style(role).add_modifier(Modifier::UNDERLINED);
@@ -199,20 +199,6 @@ fn in_sight(canvas: &Canvas<'_>, file: &SourceBuffer, from: usize, wide: u16) ->
 /// Whether a diagnostic underlines this position; an empty one covers one character.
 fn covers(diagnostic: &BufferDiagnostic, caret: Caret) -> bool {
     caret == diagnostic.from || diagnostic.from <= caret && caret < diagnostic.to
-}
-
-/// The column at which a line's comment begins; quoted text is skipped.
-fn comment(line: &str) -> Option<usize> {
-    let mut quote = None;
-    for (column, c) in line.chars().enumerate() {
-        match (quote, c) {
-            (Some(open), _) if open == c => quote = None,
-            (None, '"' | '\'') => quote = Some(c),
-            (None, '#') => return Some(column),
-            _ => {}
-        }
-    }
-    None
 }
 
 /// Draws the status of the text or the open prompt; a notification replaces the first line.

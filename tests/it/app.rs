@@ -15,6 +15,7 @@ pub(crate) mod real;
 mod saved;
 mod scripts;
 mod search;
+mod share;
 mod surface;
 mod typed_axis;
 mod undo;

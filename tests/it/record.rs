@@ -1,5 +1,6 @@
 //! Recordings: played on the virtual clock, written as casts, and replayed by independent terminals.
 
+mod animation;
 mod demos;
 mod guided;
 mod lessons;

@@ -199,7 +199,7 @@ fn what_is_checked_by_values_is_seen_at_some_twenty_points() {
 
 #[test]
 fn a_casimir_commutes_to_1e_10_of_its_terms() {
-    claimed(["1.9e-10", "2.1e-10"], "is no Casimir", |off| {
+    claimed(["1.9e-10", "2.1e-10"], "is not a Casimir", |off| {
         format!(
             "title = \"A body\"\n[variables]\nL1 = {{ initial = 1 }}\nL2 = {{ initial = 2 }}\nL3 = {{ initial = 3 }}\n\
              [poisson]\nH = \"L1^2/2 + L2^2/3 + L3^2/5\"\n\
@@ -218,7 +218,7 @@ fn what_commutes_near_the_start_alone_is_no_casimir() {
              [poisson]\nH = \"p^2/2\"\nbrackets = [[\"x\", \"p\", \"1\"]]\ncasimirs = {{ C = \"z + {added}\" }}\n"
         );
         with_file(&text, &["check", "system.toml"])
-            .fails(65, &["`C` is no Casimir of these brackets"]);
+            .fails(65, &["`C` is not a Casimir of these brackets"]);
     }
     let map = oscillator(
         "[[transformations]]\nname = \"m\"\nkind = \"explicit\"\nQ = { Q = \"x + max(0, x - 30)*p_x\" }\n\

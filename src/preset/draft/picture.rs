@@ -4,6 +4,7 @@ use toml::Spanned;
 use toml::de::DeValue;
 
 use super::table::Table;
+use super::value::Value;
 use super::vector::{Formulas, optional_point, point};
 use super::{Formula, value};
 use crate::diagnostic::nearest;
@@ -260,24 +261,31 @@ fn shape(mut table: Table<'_>) -> Option<DraftShape> {
     let names = SHAPES.map(|(name, _)| name);
     let given: Vec<_> = SHAPES.into_iter().filter(|(name, _)| table.has(name)).collect();
     let [(name, kind)] = given[..] else {
-        let message = match given[..] {
-            [(first, _), (second, _), ..] => {
-                format!("this shape is `{first}` and `{second}` at once")
-            }
-            _ => "unknown shape".to_owned(),
+        // what stands where a shape has its place is meant as one
+        let takes_place = |value: &Value<'_>| matches!(value.get_ref(), DeValue::Array(_));
+        let meant = || {
+            let mut entries = table.entries().filter(|(key, value)| {
+                takes_place(value) && !["to", "normal"].contains(&key.get_ref().as_str())
+            });
+            entries.next().map(|(key, _)| (key, None))
         };
         let misspelt = table
             .entries()
-            .find_map(|(key, _)| nearest(key.get_ref(), names).map(|near| (key.span(), near)));
-        let diagnostic = match misspelt {
-            Some((place, near)) if given.is_empty() => {
-                Diagnostic::error(place, message).with_help(format!("did you mean `{near}`?"))
+            .find_map(|(key, _)| nearest(key.get_ref(), names).map(|near| (key, Some(near))));
+        let message = match given[..] {
+            [(first, _), (second, _), ..] => {
+                Err(format!("this shape is `{first}` and `{second}` at once"))
             }
-            _ => {
-                let help =
-                    format!("the shapes are {}; each is a table of its own", names.join(", "));
-                Diagnostic::error(table.place.clone(), message).with_help(help)
+            _ => misspelt.or_else(meant).ok_or_else(|| "unknown shape".to_owned()),
+        };
+        let all = || format!("the shapes are {}; each is a table of its own", names.join(", "));
+        let diagnostic = match message {
+            Ok((key, near)) => {
+                let help = near.map_or_else(all, |near| format!("did you mean `{near}`?"));
+                let message = format!("unknown shape `{}`", key.get_ref());
+                Diagnostic::error(key.span(), message).with_help(help)
             }
+            Err(message) => Diagnostic::error(table.place.clone(), message).with_help(all()),
         };
         table.diagnostics.push(diagnostic);
         return None;

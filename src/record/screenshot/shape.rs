@@ -4,12 +4,12 @@
 //! or the position of the cell.
 
 /// The width and height of a cell.
-pub(super) const CELL: (f64, f64) = (8.0, 16.0);
+pub(in crate::record) const CELL: (f64, f64) = (8.0, 16.0);
 
-pub(super) const DOT: f64 = 1.45;
+pub(in crate::record) const DOT: f64 = 1.45;
 
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum GlyphShape {
+pub(in crate::record) enum GlyphShape {
     Dots(Vec<(f64, f64)>),
     /// Rectangles as left, top, width and height; and their opacity.
     Blocks(Vec<[f64; 4]>, f64),
@@ -19,7 +19,7 @@ pub(super) enum GlyphShape {
 
 impl GlyphShape {
     /// The shape of a character; letters have none.
-    pub(super) fn of(character: char) -> Option<GlyphShape> {
+    pub(in crate::record) fn of(character: char) -> Option<GlyphShape> {
         match character {
             '\u{2800}'..='\u{28ff}' => Some(GlyphShape::Dots(dots(character as u32 - 0x2800))),
             '░' => Some(GlyphShape::Blocks(vec![[0.0, 0.0, 8.0, 16.0]], 0.25)),
@@ -117,6 +117,41 @@ fn stroke(character: char) -> Option<(&'static str, bool)> {
     })
 }
 
+/// A part of a stroke, which begins where the last one ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::record) enum PathPart {
+    /// Begins elsewhere.
+    Move((f64, f64)),
+    /// A line to a point.
+    Line((f64, f64)),
+    /// A quadratic Bézier curve: its control point and its end.
+    Curve((f64, f64), (f64, f64)),
+}
+
+/// The parts of SVG path data with the commands `M`, `H`, `V` and `Q`, which is all that strokes have.
+pub(in crate::record) fn path_parts(data: &str) -> Vec<PathPart> {
+    let (mut parts, mut at) = (Vec::new(), (0.0, 0.0));
+    let mut rest = data;
+    while let Some(command) = rest.chars().next() {
+        let tail = &rest[1..];
+        let end = tail.find(|c: char| c.is_ascii_alphabetic()).unwrap_or(tail.len());
+        let numbers: Vec<f64> = tail[..end].split(' ').filter_map(|n| n.parse().ok()).collect();
+        let part = match (command, numbers.as_slice()) {
+            ('M', &[x, y]) => PathPart::Move((x, y)),
+            ('H', &[x]) => PathPart::Line((x, at.1)),
+            ('V', &[y]) => PathPart::Line((at.0, y)),
+            ('Q', &[a, b, x, y]) => PathPart::Curve((a, b), (x, y)),
+            _ => break,
+        };
+        at = match part {
+            PathPart::Move(to) | PathPart::Line(to) | PathPart::Curve(_, to) => to,
+        };
+        parts.push(part);
+        rest = &tail[end..];
+    }
+    parts
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -130,6 +165,22 @@ mod tests {
         }
         assert_eq!(GlyphShape::of('⠁'), Some(GlyphShape::Dots(vec![(2.0, 2.0)])));
         assert_eq!(GlyphShape::of('⢀'), Some(GlyphShape::Dots(vec![(6.0, 14.0)])));
+    }
+
+    #[test]
+    fn every_stroke_is_read_to_its_end() {
+        let strokes: Vec<&str> = ('─'..='╿').filter_map(stroke).map(|(data, _)| data).collect();
+        assert!(strokes.len() > 20, "{strokes:?}");
+        for data in strokes {
+            let commands = data.chars().filter(char::is_ascii_alphabetic).count();
+            assert_eq!(path_parts(data).len(), commands, "{data}");
+        }
+        let corner = [
+            PathPart::Move((4.0, 16.0)),
+            PathPart::Line((4.0, 12.0)),
+            PathPart::Curve((4.0, 8.0), (8.0, 8.0)),
+        ];
+        assert_eq!(path_parts("M4 16V12Q4 8 8 8"), corner);
     }
 
     #[test]

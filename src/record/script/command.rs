@@ -128,7 +128,7 @@ fn colour(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
 fn glyphs(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
     let word = line.need("a set of glyphs")?;
     let glyphs = Glyphs::named(&word.text).ok_or_else(|| {
-        let message = format!("`{}` is no set of glyphs", word.text);
+        let message = format!("`{}` is not a set of glyphs", word.text);
         Diagnostic::error(word.place, message).with_help("there are braille half ascii")
     })?;
     Ok(head(move |head| head.glyphs = glyphs))

@@ -88,9 +88,13 @@ impl Session {
     /// Puts a text into the terminal's clipboard, or else into a file.
     pub(super) fn copy(&mut self, what: &'static str, text: String, ending: &'static str) {
         if self.clipboard.is_there && text.len() <= clipboard::MOST {
+            let copied = match ending {
+                "tex" => format!("Copied {what} as LaTeX."),
+                "sh" => format!("Copied: {text}"),
+                _ => format!("Copied {what}."),
+            };
             self.clipboard.text = Some(text);
-            let format = if ending == "tex" { " as LaTeX" } else { "" };
-            return self.report(Ok(format!("{what} are copied{format}: paste them anywhere.")));
+            return self.report(Ok(copied));
         }
         let why = if self.clipboard.is_there {
             "This is too long for the clipboard"
@@ -100,7 +104,12 @@ impl Session {
         let stem = self.stem();
         self.write_file(move || {
             let written = put(&stem, ending, text.as_bytes())?;
-            Ok(format!("{why}: {written}"))
+            // one line can be read from the screen as well
+            Ok(if ending == "sh" {
+                format!("{text} ({written})")
+            } else {
+                format!("{why}: {written}")
+            })
         });
     }
 
@@ -168,5 +177,5 @@ fn put(stem: &str, ending: &'static str, bytes: &[u8]) -> WriteReport {
 fn written(name: &str) -> String {
     let folder = env::current_dir().map(|folder| printable::path(&folder));
     let folder = folder.map_or_else(|_| String::new(), |path| format!(" in {path}"));
-    format!("{name} is written{folder}.")
+    format!("Saved {name}{folder}.")
 }

@@ -247,8 +247,8 @@ fn undo_and_redo_tell_what_went_where() {
     check("R", "undone: the reset to the file's values", "redone: the reset to the file's values");
     check(
         "Tab Tab Tab Tab +",
-        "undone: what is shown of p_θ against θ",
-        "redone: what is shown of p_θ against θ",
+        "undone: the view of p_θ against θ",
+        "redone: the view of p_θ against θ",
     );
 }
 

@@ -205,5 +205,5 @@ fn what_has_no_table_says_what_has_one() {
     let text = ["sweep", "pendulum", "--grid", "g=1:2:2", "--until", "1", "--format", "text"];
     plotted(&super::phaselab(&text).success(), &[]).fails(65, &["no two columns", advice]);
     plotted("{\"columns\": [\"a\", \"b\"], \"rows\": [[1]]}", &[]).fails(65, &["as many numbers"]);
-    plotted("{\"columns\": ", &[]).fails(65, &["it is no JSON"]);
+    plotted("{\"columns\": ", &[]).fails(65, &["it is not JSON"]);
 }

@@ -95,6 +95,30 @@ fn a_still_is_taken_of_a_moment() {
 }
 
 #[test]
+fn a_gif_is_drawn_of_a_script_and_of_a_cast() {
+    let home = tempfile::tempdir().expect("a folder");
+    fs::write(home.path().join("my.demo"), SCRIPT).expect("a file");
+    let record = |arguments: &[&str]| done(program(home.path()).arg("record").args(arguments));
+    let script = ["pendulum", "--script", "my.demo", "--cell-width", "5"];
+    for output in ["direct.gif", "it.cast"] {
+        let done = record(&[&script[..], &["-o", output]].concat());
+        assert_eq!((done.code, done.stderr.as_str()), (0, ""));
+    }
+    let done = record(&["it.cast", "--cell-width", "5", "-o", "converted.gif"]);
+    assert_eq!((done.code, done.stderr.as_str()), (0, ""));
+    let read = |name: &str| fs::read(home.path().join(name)).expect(name);
+    let gif = read("direct.gif");
+    assert!(gif.starts_with(b"GIF89a\xc2\x01\x18\x01"), "450 by 280 pixels");
+    assert!(gif == read("converted.gif"), "a cast and its script give different pictures");
+    let wrong = record(&["it.cast"]);
+    assert!(wrong.code == 2 && wrong.stderr.contains("-o NAME.gif"), "{}", wrong.stderr);
+    let wrong = record(&["it.cast", "--size", "80x24", "-o", "other.gif"]);
+    assert!(wrong.code == 2 && wrong.stderr.contains("drawn as it is"), "{}", wrong.stderr);
+    let wrong = record(&["pendulum", "--cell-width", "400", "-o", "other.gif"]);
+    assert!(wrong.code == 2 && wrong.stderr.contains("4..=40"), "{}", wrong.stderr);
+}
+
+#[test]
 fn what_is_played_is_a_cast_or_a_script() {
     let home = tempfile::tempdir().expect("a folder");
     let check = |text: &str, code: i32, part: &str| {

@@ -72,7 +72,7 @@ fn what_is_no_structure_is_refused_by_every_command_at_its_place() {
         with_file(&wrong, &[command, &["system.toml"]].concat()).fails(65, &said);
     }
     let wrong = BODY.replace("L1^2 + L2^2 + L3^2", "L1^2 - L2^2 + L3^2");
-    with_file(&wrong, &["check", "system.toml"]).fails(65, &["`|L|²` is no Casimir", ":20:"]);
+    with_file(&wrong, &["check", "system.toml"]).fails(65, &["`|L|²` is not a Casimir", ":20:"]);
 }
 
 /// Brackets have no Lagrangian, so that nothing has its integral: a column of zeros would be none.

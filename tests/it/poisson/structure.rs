@@ -61,7 +61,7 @@ fn a_false_casimir_is_reported_with_the_bracket_that_does_not_vanish() {
     assert_eq!(
         all,
         [
-            "\"L1^2 + 2*L2^2 + L3^2\": `C` is no Casimir of these brackets; {L1, C} is −2 L₂ L₃, not 0"
+            "\"L1^2 + 2*L2^2 + L3^2\": `C` is not a Casimir of these brackets; {L1, C} is −2 L₂ L₃, not 0"
         ]
     );
     let energy = "C = \"L1^2/I1 + L2^2/I2 + L3^2/I3\"";

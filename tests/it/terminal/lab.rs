@@ -338,7 +338,7 @@ fn equations_that_are_not_copied_are_written_into_a_named_file() {
     lab.shows("not known to have a clipboard");
     let name = folder.path().file_name().expect("a name").to_string_lossy().into_owned();
     lab.shows(&name);
-    lab.shows("pendulum.tex is written in");
+    lab.shows("Saved pendulum.tex in");
     lab.press("1q");
     lab.ends();
     assert_eq!(written(folder.path(), ".tex").len(), 1);
@@ -350,18 +350,18 @@ fn stills_data_and_recordings_are_written_by_keys() {
     let mut lab = pendulum_in(folder.path());
     lab.press("S");
     let folder_name = folder.path().file_name().expect("a name").to_string_lossy().into_owned();
-    lab.shows("pendulum.svg is written in");
+    lab.shows("Saved pendulum.svg in");
     lab.shows(&folder_name);
     lab.press("S");
-    lab.shows("pendulum-2.svg is written");
+    lab.shows("Saved pendulum-2.svg");
     lab.press("D");
-    lab.shows("pendulum.csv is written in");
+    lab.shows("Saved pendulum.csv in");
     lab.press("O");
     lab.shows("rec");
     lab.press("2");
     lab.shows("Equations");
     lab.press("1O");
-    lab.shows("pendulum.cast is written in");
+    lab.shows("Saved pendulum.cast in");
     // and again, ended by leaving
     lab.press("O");
     lab.shows("rec");
@@ -475,7 +475,7 @@ fn a_full_disk_ends_a_recording_and_keeps_what_was_recorded() {
     lab.press("O");
     lab.until("it records again", |lab| lab.text().contains("rec"));
     lab.press("O");
-    lab.shows("pendulum-2.cast is written");
+    lab.shows("Saved pendulum-2.cast");
     quits(lab);
 }
 
