@@ -58,7 +58,8 @@ fn is_layout(c: char) -> bool {
 
 fn escaped(text: &str, stays: impl Fn(char) -> bool) -> Cow<'_, str> {
     // nearly all text is printable ASCII, which a check of its bytes shows
-    if text.bytes().all(|byte| (0x20..0x7f).contains(&byte)) {
+    let is_plain = |byte: u8| (0x20..0x7f).contains(&byte) || byte < 0x20 && stays(byte.into());
+    if text.bytes().all(is_plain) {
         return Cow::Borrowed(text);
     }
     let steers = |c: char| is_steering(c) && !stays(c);

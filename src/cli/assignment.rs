@@ -185,9 +185,11 @@ pub(super) fn given_by(
         all.push(place(model, &assignment.name, value)?);
     }
     for (i, c) in model.coordinates.iter().enumerate() {
-        let has =
-            |wanted: InitialOverride| all.iter().any(|g| label(model, g) == label(model, &wanted));
-        if has(InitialOverride::Velocity(i, 0.0)) && has(InitialOverride::Momentum(i, 0.0)) {
+        let velocity =
+            |g: &InitialOverride| matches!(*g, InitialOverride::Velocity(j, _) if j == i);
+        let momentum =
+            |g: &InitialOverride| matches!(*g, InitialOverride::Momentum(j, _) if j == i);
+        if all.iter().any(velocity) && all.iter().any(momentum) {
             let name = &c.name;
             let message =
                 format!("{option} gives both {name}' and p_{name}; one follows from the other");
@@ -279,15 +281,6 @@ pub(super) fn settable(model: &Model, name: &str) -> Result<(), CommandError> {
     let parameters = model.parameters.iter().map(|parameter| parameter.name.as_str());
     let names: Vec<&str> = parameters.chain(initial.iter().map(String::as_str)).collect();
     Err(unknown("parameter or initial value", name, &names))
-}
-
-/// The name as it is written before the `=`.
-fn label(model: &Model, given: &InitialOverride) -> String {
-    match *given {
-        InitialOverride::Position(i, _) => model.coordinates[i].name.clone(),
-        InitialOverride::Velocity(i, _) => format!("{}'", model.coordinates[i].name),
-        InitialOverride::Momentum(i, _) => format!("p_{}", model.coordinates[i].name),
-    }
 }
 
 /// An extra column, `EXPR` or `NAME=EXPR`. `pool` is the pool of the equations.

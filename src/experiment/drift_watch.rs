@@ -10,11 +10,11 @@ use super::snapshot::Gauge;
 use crate::analysis::Errors;
 use crate::mechanics::{Equations, Valuation};
 use crate::model::Model;
-use crate::system::{MotionError, Observer, State, System, TermWatch};
+use crate::system::{MotionError, Observer, State, System, TermSums, TermWatch};
 
 /// What is watched of one motion.
 #[derive(Clone)]
-pub struct DriftWatch {
+pub(super) struct DriftWatch {
     model: Arc<Model>,
     gauges: Gauges,
     observed: ObservedState,
@@ -33,7 +33,11 @@ struct ObservedState {
 
 impl DriftWatch {
     /// A watch for motions of a system, of which each must [begin](DriftWatch::begin).
-    pub fn new(model: &Arc<Model>, equations: &Arc<Equations>, system: &System) -> DriftWatch {
+    pub(super) fn new(
+        model: &Arc<Model>,
+        equations: &Arc<Equations>,
+        system: &System,
+    ) -> DriftWatch {
         let parameters = model.parameter_values();
         DriftWatch {
             model: Arc::clone(model),
@@ -53,7 +57,7 @@ impl DriftWatch {
     ///
     /// # Errors
     /// Returns an error if the state cannot be observed.
-    pub fn begin(&mut self, state: &State, parameters: &[f64]) -> Result<(), MotionError> {
+    pub(super) fn begin(&mut self, state: &State, parameters: &[f64]) -> Result<(), MotionError> {
         let DriftWatch { model, gauges, observed } = self;
         observed.terms.set_parameters(parameters);
         observed.observer.set_parameters(parameters);
@@ -68,7 +72,7 @@ impl DriftWatch {
     }
 
     /// Observes the end of a step.
-    pub fn step(&mut self, state: &State) {
+    pub(super) fn step(&mut self, state: &State) {
         let DriftWatch { gauges, observed, .. } = self;
         observed.steps += 1;
         if observed.terms.observe(state) {
@@ -76,19 +80,28 @@ impl DriftWatch {
         }
     }
 
-    /// Observes the end of a step, whose terms and work were evaluated elsewhere.
-    pub fn step_with(&mut self, time: f64, terms: impl Iterator<Item = f64>, work: f64) {
+    /// The quantities that have terms: the place of each, the quantity, and what its terms were at rest.
+    pub(super) fn summed(&self) -> impl Iterator<Item = (usize, usize, &[f64])> {
+        self.gauges.summed()
+    }
+
+    /// Observes the end of a step, for which the sums over the terms of the quantities at these places were evaluated elsewhere.
+    pub(super) fn step_with(
+        &mut self,
+        time: f64,
+        sums: impl Iterator<Item = (usize, TermSums)>,
+        work: f64,
+    ) {
         let DriftWatch { gauges, observed, .. } = self;
         observed.steps += 1;
-        observed.terms.take(terms, work);
-        gauges.step(time, observed.steps, &observed.terms, true);
+        gauges.step_with((time, observed.steps), sums, work);
     }
 
     /// Ends at a state, and returns the value of every channel and the gauges there.
     ///
     /// # Errors
     /// Returns an error if the state cannot be observed.
-    pub fn end(&mut self, state: &State) -> Result<(&[f64], Arc<[Gauge]>), MotionError> {
+    pub(super) fn end(&mut self, state: &State) -> Result<(&[f64], Arc<[Gauge]>), MotionError> {
         let DriftWatch { gauges, observed, .. } = self;
         observed.observe(state)?;
         let now = observed.present(state);

@@ -22,7 +22,7 @@ use crate::expr::{Expr, Symbol};
 use crate::mechanics::{Conserved, Equations, Valuation, casimir_rate};
 use crate::model::{Mechanics, Model};
 use crate::num::BATCH;
-use crate::system::{BatchTerms, ChannelKind, System, TermWatch};
+use crate::system::{BatchTerms, ChannelKind, System, TermSums, TermWatch};
 use formula_monitors::{ChannelValues, FormulaMonitors};
 use integration_constants::IntegrationConstants;
 use invariant_monitor::{ENERGY_BALANCE, InvariantMonitor, MonitoredInvariant, MonitoredStep};
@@ -84,7 +84,7 @@ impl Gauges {
         self.integration.refer(at, now.terms, now.constants);
         self.residuals.iter_mut().for_each(|residual| residual.refer(now.time));
         self.attitude.iter_mut().for_each(|attitude| attitude.refer(now.time));
-        self.measure(now);
+        // which measures errors as well
         self.sample(now, true);
     }
 
@@ -197,6 +197,28 @@ impl Gauges {
     pub(super) fn step(&mut self, time: f64, steps: u64, terms: &TermWatch, dense: bool) {
         let floor = self.floor(steps);
         self.monitors.iter_mut().for_each(|monitor| monitor.step(time, terms, floor, dense));
+    }
+
+    /// The monitors of quantities that have terms, by their places: the quantity, and what its terms were at rest.
+    pub(super) fn summed(&self) -> impl Iterator<Item = (usize, usize, &[f64])> {
+        fn summed((place, monitor): (usize, &InvariantMonitor)) -> Option<(usize, usize, &[f64])> {
+            let (quantity, at_rest) = monitor.terms_at_rest()?;
+            Some((place, quantity, at_rest))
+        }
+        self.monitors.iter().enumerate().filter_map(summed)
+    }
+
+    /// Records the sums over the terms at the end of a step for the monitors at these places.
+    pub(super) fn step_with(
+        &mut self,
+        (time, steps): (f64, u64),
+        sums: impl Iterator<Item = (usize, TermSums)>,
+        work: f64,
+    ) {
+        let floor = self.floor(steps);
+        for (place, sums) in sums {
+            self.monitors[place].step_with(time, (sums, work), floor, true);
+        }
     }
 
     /// Records the terms at the ends of several steps or within them. Each is given by its time, the number of steps up to it,

@@ -97,6 +97,26 @@ impl<const N: usize> Batch<N> {
         all
     }
 
+    /// Whether every number is above that of another batch in its lane; NaN is not.
+    #[inline(always)]
+    pub fn all_above(self, other: Batch<N>) -> bool {
+        let mut all = true;
+        for lane in 0..N {
+            all &= self.0[lane] > other.0[lane];
+        }
+        all
+    }
+
+    /// Whether a number is below that of another batch in its lane; NaN is not.
+    #[inline(always)]
+    pub fn is_below_somewhere(self, other: Batch<N>) -> bool {
+        let mut some = false;
+        for lane in 0..N {
+            some |= self.0[lane] < other.0[lane];
+        }
+        some
+    }
+
     /// The sum and its rounding error: [`DoubleDouble::sum`] in each lane.
     #[inline(always)]
     pub fn sum_with_error(self, other: Batch<N>) -> (Batch<N>, Batch<N>) {

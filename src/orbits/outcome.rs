@@ -10,14 +10,14 @@ use std::sync::Arc;
 use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::ensemble::{OrbitStatus, Start};
-use crate::experiment::{DriftWatch, Experiment, Gauge, Setup, Status, energy_drift};
+use crate::experiment::{DriftWatchBatch, Experiment, Gauge, Setup, Status, energy_drift};
 use crate::integrate::{
     BatchPropagator, Follower, LaneStatus, OrbitCourse, Settings, method_named, side_by_side,
 };
 use crate::mechanics::Equations;
 use crate::model::Model;
-use crate::num::{BATCH, short};
-use crate::system::{BatchTerms, State, System};
+use crate::num::short;
+use crate::system::{State, System};
 
 /// What all runs have in common.
 #[derive(Clone)]
@@ -181,12 +181,11 @@ impl RunPlan {
             (0..runs.len()).for_each(|i| alone(i, &mut done));
             return;
         };
-        let watch = DriftWatch::new(&self.model, &self.equations, &self.system);
+        let (model, equations, system) = (&self.model, &self.equations, &self.system);
         let mut together = RunTogether {
             plan: self,
             runs,
-            watches: std::array::from_fn(|_| watch.clone()),
-            terms: self.system.batch_terms(batch.form()),
+            watches: DriftWatchBatch::new(model, equations, system, batch.form()),
             last: State::new(0.0, batch.form(), Vec::new()),
             alone: Vec::new(),
             done: &mut done,
@@ -209,9 +208,7 @@ impl RunPlan {
 struct RunTogether<'a, D: FnMut(usize, RunOutcome)> {
     plan: &'a RunPlan,
     runs: &'a [(&'a Start, f64)],
-    watches: [DriftWatch; BATCH],
-    /// The terms of all lanes, where they can be evaluated together.
-    terms: Option<BatchTerms>,
+    watches: DriftWatchBatch,
     last: State,
     alone: Vec<usize>,
     done: &'a mut D,
@@ -223,13 +220,10 @@ impl<D: FnMut(usize, RunOutcome)> Follower for RunTogether<'_, D> {
         let parameters = &start.parameters;
         let regular = start.time < end
             && start.state(&self.plan.system).is_ok_and(|state| {
-                self.watches[lane].begin(&state, parameters).is_ok()
+                self.watches.begin(lane, &state, parameters).is_ok()
                     && batch.begin(lane, &state, parameters) == LaneStatus::Underway
             });
         if regular {
-            if let Some(terms) = &mut self.terms {
-                terms.set_parameters(lane, parameters);
-            }
             return OrbitCourse::Until(end);
         }
         self.leave(orbit);
@@ -237,26 +231,19 @@ impl<D: FnMut(usize, RunOutcome)> Follower for RunTogether<'_, D> {
     }
 
     fn observe_all(&mut self, batch: &BatchPropagator) {
-        if let Some(terms) = &mut self.terms {
-            let underway = |lane| batch.status(lane) == LaneStatus::Underway;
-            terms.observe(std::array::from_fn(|lane| underway(lane).then(|| batch.state(lane))));
-        }
+        let underway = |lane| batch.status(lane) == LaneStatus::Underway;
+        let state = |lane| underway(lane).then(|| batch.state(lane));
+        self.watches.step(std::array::from_fn(state));
     }
 
     fn observe(&mut self, orbit: usize, lane: usize, batch: &mut BatchPropagator) -> OrbitCourse {
         let (_, end) = self.runs[orbit];
-        let (state, watch) = (batch.state(lane), &mut self.watches[lane]);
-        let together = self.terms.as_ref();
-        match together.and_then(|terms| Some((terms.of_lane(lane)?, terms.work(lane)))) {
-            Some((terms, work)) => watch.step_with(state.time, terms, work),
-            None => watch.step(state),
-        }
-        if state.time < end {
+        if batch.state(lane).time < end {
             return OrbitCourse::Until(end);
         }
         // a method of fixed step may have passed the end
         batch.at(lane, end, &mut self.last);
-        match watch.end(&self.last) {
+        match self.watches.end(lane, &self.last) {
             Ok((values, gauges)) => {
                 let values = &values[..self.plan.system.columns()];
                 let how = (OrbitStatus::Completed, None);

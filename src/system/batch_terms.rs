@@ -103,13 +103,17 @@ impl BatchTerms {
 
     /// Whether the terms of the first lanes need not be evaluated alone.
     pub fn are_regular(&self, lanes: usize) -> bool {
+        self.regular_lanes()[..lanes].iter().all(|&regular| regular)
+    }
+
+    /// The lanes whose terms need not be evaluated alone.
+    pub fn regular_lanes(&self) -> [bool; BATCH] {
         let mut finite = Batch::ZERO;
         for &r in &self.program.outputs {
             // zero times anything that is not finite is NaN
             finite = finite + self.registers[r as usize] * 0.0;
         }
-        let lanes = finite.0.iter().zip(self.ordinary).take(lanes);
-        lanes.fold(true, |regular, (&finite, ordinary)| regular && ordinary && finite == 0.0)
+        std::array::from_fn(|lane| self.ordinary[lane] && finite.0[lane] == 0.0)
     }
 
     /// Whether a quantity (0 for the energy, then the conserved quantities in order) can be evaluated.
@@ -119,15 +123,13 @@ impl BatchTerms {
 
     /// The sums over the terms of a quantity whose values at rest were these.
     pub fn sums(&self, quantity: usize, were: &[f64]) -> [TermSums; BATCH] {
+        let were = |k: usize| were.get(k).copied().map(Batch::splat);
         vectorized(SumsKernel { terms: self, quantity, were })
     }
 
-    /// The terms of a lane; `None` where they have to be evaluated alone.
-    pub fn of_lane(&self, lane: usize) -> Option<impl Iterator<Item = f64>> {
-        let outputs = &self.program.outputs;
-        let term = move |&r: &u32| self.registers[r as usize].0[lane];
-        let regular = self.ordinary[lane] && outputs.iter().map(term).all(f64::is_finite);
-        regular.then(|| outputs.iter().map(term))
+    /// The same where each lane had its own values at rest.
+    pub fn sums_of_each(&self, quantity: usize, were: &[Batch]) -> [TermSums; BATCH] {
+        vectorized(SumsKernel { terms: self, quantity, were: |k: usize| were.get(k).copied() })
     }
 
     /// The work done on the motion of a lane; zero if states do not carry it.
@@ -164,13 +166,14 @@ impl Kernel for TermsKernel<'_> {
     }
 }
 
-struct SumsKernel<'a> {
+struct SumsKernel<'a, W> {
     terms: &'a BatchTerms,
     quantity: usize,
-    were: &'a [f64],
+    /// What each term was at rest, if it is known.
+    were: W,
 }
 
-impl Kernel for SumsKernel<'_> {
+impl<W: Fn(usize) -> Option<Batch>> Kernel for SumsKernel<'_, W> {
     type Output = [TermSums; BATCH];
     const OF_SEVERAL: bool = true;
 
@@ -199,8 +202,8 @@ impl Kernel for SumsKernel<'_> {
             };
             value = value + term;
             size = size + its_size;
-            if let Some(&were) = were.get(k) {
-                let (beyond, change) = ((term - rest).abs(), rest - Batch::splat(were));
+            if let Some(were) = were(k) {
+                let (beyond, change) = ((term - rest).abs(), rest - were);
                 for lane in 0..BATCH {
                     let (beyond, change) = (beyond.0[lane], change.0[lane]);
                     let finite = (beyond + change.abs()).is_finite();

@@ -12,6 +12,9 @@ pub struct Factored<R> {
     size: usize,
     entries: Vec<R>,
     rows: Vec<usize>,
+    /// The entries right of the pivots over these, once something is [solved again](Factored::solve_again).
+    upper: Vec<R>,
+    is_scaled: bool,
     /// The unit of each unknown, and the size of each row in these units.
     units: Vec<f64>,
     scales: Vec<f64>,
@@ -24,6 +27,8 @@ impl<R: Real> Factored<R> {
             size,
             entries: vec![R::ZERO; size * size],
             rows: (0..size).collect(),
+            upper: vec![R::ZERO; size * size],
+            is_scaled: false,
             units: vec![1.0; size],
             scales: vec![0.0; size],
             scratch: vec![R::ZERO; size],
@@ -34,6 +39,7 @@ impl<R: Real> Factored<R> {
     /// singular; a matrix with an entry that is not finite counts as regular and propagates it.
     #[must_use]
     pub(super) fn factor(&mut self, entry: impl FnMut(usize, usize) -> R) -> bool {
+        self.is_scaled = false;
         // loops of a known length are unrolled
         match self.size {
             2 => self.factor_of::<2>(entry),
@@ -106,33 +112,85 @@ impl<R: Real> Factored<R> {
 
     /// Solves for a right-hand side, in place.
     pub(super) fn solve(&mut self, right: &mut [R]) {
-        self.solve_with::<false>(right, R::divided_by::<false>);
+        match self.size {
+            2 => self.solve_of::<2>(right),
+            3 => self.solve_of::<3>(right),
+            4 => self.solve_of::<4>(right),
+            _ => self.solve_of::<0>(right),
+        }
     }
 
-    /// The same inside a [`Kernel`](crate::num::Kernel), with a way to divide by a pivot.
+    fn solve_of<const SIZE: usize>(&mut self, right: &mut [R]) {
+        let n = if SIZE == 0 { self.size } else { SIZE };
+        self.eliminate::<SIZE, false>(right);
+        let (entries, rows, scratch) = (&self.entries[..n * n], &self.rows[..n], &self.scratch);
+        let right = &mut right[..n];
+        for k in (0..n).rev() {
+            let row = rows[k];
+            let mut sum = scratch[k];
+            for j in k + 1..n {
+                sum = sum - entries[row * n + j] * right[j];
+            }
+            right[k] = sum / entries[row * n + k];
+        }
+    }
+
+    /// The same for one of many right-hand sides, with a way to divide by a pivot. All divisions come before the first unknown is
+    /// known, so that none waits for another: `P M = L D U` with ones on both diagonals. With `FUSED` it must be inlined into a
+    /// [`Kernel`](crate::num::Kernel).
     #[inline(always)]
-    pub(super) fn solve_with<const FUSED: bool>(
+    pub(super) fn solve_again<const FUSED: bool>(
         &mut self,
         right: &mut [R],
         over: impl Fn(R, R) -> R,
     ) {
         match self.size {
-            2 => self.solve_of::<2, FUSED>(right, over),
-            3 => self.solve_of::<3, FUSED>(right, over),
-            4 => self.solve_of::<4, FUSED>(right, over),
-            _ => self.solve_of::<0, FUSED>(right, over),
+            2 => self.solve_again_of::<2, FUSED>(right, over),
+            3 => self.solve_again_of::<3, FUSED>(right, over),
+            4 => self.solve_again_of::<4, FUSED>(right, over),
+            _ => self.solve_again_of::<0, FUSED>(right, over),
         }
     }
 
     #[inline(always)]
-    fn solve_of<const SIZE: usize, const FUSED: bool>(
+    fn solve_again_of<const SIZE: usize, const FUSED: bool>(
         &mut self,
         right: &mut [R],
         over: impl Fn(R, R) -> R,
     ) {
         let n = if SIZE == 0 { self.size } else { SIZE };
+        self.eliminate::<SIZE, FUSED>(right);
         let (entries, rows) = (&self.entries[..n * n], &self.rows[..n]);
-        let (right, scratch) = (&mut right[..n], &mut self.scratch[..n]);
+        let upper = &mut self.upper[..n * n];
+        if !self.is_scaled {
+            self.is_scaled = true;
+            for k in 0..n {
+                let row = &entries[rows[k] * n..][..n];
+                for j in k + 1..n {
+                    upper[k * n + j] = over(row[j], row[k]);
+                }
+            }
+        }
+        let right = &mut right[..n];
+        for k in 0..n {
+            right[k] = over(self.scratch[k], entries[rows[k] * n + k]);
+        }
+        for k in (0..n).rev() {
+            let mut sum = right[k];
+            // the one that was found last comes last
+            for j in (k + 1..n).rev() {
+                sum = sum - upper[k * n + j].times::<FUSED>(right[j]);
+            }
+            right[k] = sum;
+        }
+    }
+
+    /// Solves `L y = P right` into the scratch numbers.
+    #[inline(always)]
+    fn eliminate<const SIZE: usize, const FUSED: bool>(&mut self, right: &[R]) {
+        let n = if SIZE == 0 { self.size } else { SIZE };
+        let (entries, rows) = (&self.entries[..n * n], &self.rows[..n]);
+        let (right, scratch) = (&right[..n], &mut self.scratch[..n]);
         for k in 0..n {
             let row = rows[k];
             let mut sum = right[row];
@@ -140,14 +198,6 @@ impl<R: Real> Factored<R> {
                 sum = sum - entries[row * n + j].times::<FUSED>(scratch[j]);
             }
             scratch[k] = sum;
-        }
-        for k in (0..n).rev() {
-            let row = rows[k];
-            let mut sum = scratch[k];
-            for j in k + 1..n {
-                sum = sum - entries[row * n + j].times::<FUSED>(right[j]);
-            }
-            right[k] = over(sum, entries[row * n + k]);
         }
     }
 }
@@ -210,6 +260,32 @@ mod tests {
             _ if (i, j) == (last, last) => 1.0 + more,
             (i, j) => f64::from(u8::from(i == j || (i, j) == (0, last) || (i, j) == (last, 0))),
         })
+    }
+
+    #[test]
+    fn what_is_solved_again_has_the_same_solution() {
+        for size in 1..=6 {
+            // the largest entries are beside the diagonal
+            let entry = |i: usize, j: usize| {
+                let large = if (i + 1) % size == j { 2.0 } else { 0.0 };
+                large + 1.0 / (1.0 + i as f64 + 2.0 * j as f64)
+            };
+            let mut factored = Factored::<f64>::new(size);
+            let unknown = |j: usize| 1.5 - j as f64;
+            // each matrix has its own scaled rows
+            for sign in [1.0, -1.0] {
+                assert!(factored.factor(|i, j| sign * entry(i, j)));
+                for _ in 0..2 {
+                    let row =
+                        |i: usize| (0..size).map(|j| sign * entry(i, j) * unknown(j)).sum::<f64>();
+                    let mut right: Vec<f64> = (0..size).map(row).collect();
+                    factored.solve_again::<false>(&mut right, |x, pivot| x / pivot);
+                    for (j, x) in right.iter().enumerate() {
+                        assert!((x - unknown(j)).abs() < 1e-12, "{size}: {right:?}");
+                    }
+                }
+            }
+        }
     }
 
     #[test]

@@ -73,13 +73,6 @@ impl TermWatch {
         looked
     }
 
-    /// Takes the terms of a state, and the work done, that were evaluated elsewhere.
-    pub fn take(&mut self, terms: impl Iterator<Item = f64>, work: f64) {
-        self.outputs.clear();
-        self.outputs.extend(terms);
-        self.work = work;
-    }
-
     /// The work done on the motion, if the state carries it.
     pub fn work(&self) -> f64 {
         self.work
@@ -121,7 +114,7 @@ impl TermWatch {
     pub fn sums(&self, quantity: usize, were: &[f64]) -> TermSums {
         let place = self.places.get(quantity).and_then(Option::as_ref);
         let as_a_whole = place.is_some_and(|place| place.exchanges);
-        let mut sums = TermSums { value: -0.0, size: -0.0, moving: -0.0 };
+        let mut sums = TermSums::NOTHING;
         let mut changed_at_rest = 0.0;
         let mut were = were.iter();
         for [term, rest, size] in self.terms(quantity) {
@@ -163,4 +156,9 @@ pub struct TermSums {
     /// of place, the latter is the change of their sum, since the terms of a potential may cancel
     /// each other. A term that has no value at rest counts entirely.
     pub moving: f64,
+}
+
+impl TermSums {
+    /// Those over no terms.
+    pub const NOTHING: TermSums = TermSums { value: -0.0, size: -0.0, moving: -0.0 };
 }

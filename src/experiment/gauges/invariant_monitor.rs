@@ -231,8 +231,13 @@ impl InvariantMonitor {
         }
     }
 
+    /// Its quantity among those that have terms, and what these were at rest when the reference was taken.
+    pub(super) fn terms_at_rest(&self) -> Option<(usize, &[f64])> {
+        self.invariant.quantity.map(|quantity| (quantity, &*self.reference.at_rest))
+    }
+
     /// Records the sums over the terms, and the work. A distance that rounding explains is ignored.
-    fn step_with(
+    pub(super) fn step_with(
         &mut self,
         time: f64,
         (TermSums { value, size, moving }, work): (TermSums, f64),

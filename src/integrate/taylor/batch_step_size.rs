@@ -2,12 +2,15 @@
 //!
 //! In: the series of a [`BatchSeries`]. Out: for each lane the step that [`StepSize`](super::step_size::StepSize)
 //! finds for that orbit alone, to the last bit. Never here: the rule and its constants.
+//!
+//! Each orbit has a number that mostly allows the least, not the same as its neighbours'. Its series come first, put together lane by
+//! lane; that the other numbers allow as much is then seen by multiplications.
 
 use super::argument_step::{
     FARTHEST_ARGUMENT, before_pole, may_pass_pole, of_argument, of_steep_pole,
 };
 use super::last_orders::{FIRST, ROOM, last_orders};
-use super::rough_logarithms::{rough_exponential, rough_logarithms};
+use super::rough_logarithms::{rough_exponentials, rough_logarithms};
 use super::step_size::{Shares, reciprocals};
 use crate::num::{Analytic, BATCH, Batch, Kernel, vectorized};
 use crate::system::BatchSeries;
@@ -17,7 +20,19 @@ use crate::system::BatchSeries;
 pub(super) struct BatchStepSize {
     motion: Shares,
     integrals: Shares,
-    logs: Box<[Batch; ROOM]>,
+    /// The number whose series allowed the least last time, in each lane.
+    least: Batch,
+    scratch: Box<RuleScratch>,
+}
+
+/// Room for what the rule computes.
+#[derive(Clone, Debug)]
+struct RuleScratch {
+    logs: [Batch; ROOM],
+    /// The series of the numbers that allowed the least.
+    likely: [Batch; ROOM],
+    /// The powers of the shortest step so far.
+    powers: [Batch; ROOM],
 }
 
 impl BatchStepSize {
@@ -25,7 +40,12 @@ impl BatchStepSize {
         BatchStepSize {
             motion: Shares::of_motion(tolerance, order),
             integrals: Shares::of_integrals(tolerance, order),
-            logs: Box::new([Batch::ZERO; ROOM]),
+            least: Batch::ZERO,
+            scratch: Box::new(RuleScratch {
+                logs: [Batch::ZERO; ROOM],
+                likely: [Batch::ZERO; ROOM],
+                powers: [Batch::ZERO; ROOM],
+            }),
         }
     }
 
@@ -63,22 +83,59 @@ impl BatchStepSize {
 
     #[inline(always)]
     fn by_coefficients(&mut self, series: &BatchSeries) -> Batch {
-        let BatchStepSize { motion, integrals, logs } = self;
-        let mut shortest = Batch::splat(f64::INFINITY);
+        let BatchStepSize { motion, integrals, least, scratch } = self;
+        let RuleScratch { logs, likely, powers } = &mut **scratch;
+        let likely = &mut likely[..=series.order()];
         // zero, or NaN where a coefficient is not finite
-        let mut finite = Batch::ZERO;
+        let mut finite = [Batch::ZERO; 2];
         for i in 0..series.len() {
             let coefficients = series.coefficients(i);
-            for c in coefficients {
-                finite = finite + *c * 0.0;
+            for (k, &c) in coefficients.iter().enumerate() {
+                finite[k % 2] = finite[k % 2] + c * 0.0;
             }
-            let shares = if i < series.inputs() { &*motion } else { &*integrals };
-            shortest = of_one(coefficients, shares, shortest, logs);
+            if i < series.inputs() {
+                for (likely, &c) in likely.iter_mut().zip(coefficients) {
+                    *likely = least.where_equal(i as f64, c, *likely);
+                }
+            }
         }
-        for log in &mut shortest.0 {
-            *log = rough_exponential(*log);
+        let mut shortest = Batch::splat(f64::INFINITY);
+        let mut step = shortest;
+        // in one loop, so that there is one copy of what it does
+        for place in 0..=series.len() {
+            let (coefficients, shares) = match place.checked_sub(1) {
+                None => (&*likely, &*motion),
+                Some(i) if i < series.inputs() => (series.coefficients(i), &*motion),
+                Some(i) => (series.coefficients(i), &*integrals),
+            };
+            if place > 0 && shares.screen.passes_all(coefficients, powers) {
+                continue;
+            }
+            let found = of_one(coefficients, shares, shortest, logs);
+            if place > 0 && !found.is_below_somewhere(shortest) {
+                continue;
+            }
+            if (1..=series.inputs()).contains(&place) {
+                *least =
+                    (shortest - found).where_positive(Batch::splat((place - 1) as f64), *least);
+            }
+            shortest = found;
+            step = Batch(rough_exponentials(shortest.0));
+            set_powers(&mut powers[..coefficients.len()], step);
         }
-        shortest + finite
+        step + (finite[0] + finite[1])
+    }
+}
+
+/// The powers of a step, four apart.
+#[inline(always)]
+fn set_powers(powers: &mut [Batch], step: Batch) {
+    let square = step * step;
+    let mut next = [Batch::ONE, step, square, square * step];
+    let fourth = square * square;
+    for (k, power) in powers.iter_mut().enumerate() {
+        *power = next[k % 4];
+        next[k % 4] = next[k % 4] * fourth;
     }
 }
 

@@ -212,7 +212,7 @@ pub(super) struct Shares {
     log_indulgence: f64,
     order: usize,
     bounds: OrderBounds,
-    screen: StepScreen,
+    pub(super) screen: StepScreen,
 }
 
 impl Shares {
@@ -275,7 +275,7 @@ pub(super) fn reciprocals(k: usize) -> &'static [f64] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::ScalarLanes;
+    use crate::num::{Batch, ScalarLanes};
 
     /// A series whose terms grow by a factor from one to the next.
     fn geometric(ratio: f64) -> Vec<f64> {
@@ -325,8 +325,11 @@ mod tests {
                         let found = of_one(&series, &shares);
                         assert_eq!(shorter, found < without, "{series:?}");
                         without = without.min(found);
-                        passed +=
-                            usize::from(shares.screen.passes(ScalarLanes, &series, &with.powers));
+                        let passes = shares.screen.passes(ScalarLanes, &series, &with.powers);
+                        passed += usize::from(passes);
+                        let all: Vec<Batch> = series.iter().map(|&c| Batch::splat(c)).collect();
+                        let powers = with.powers.map(Batch::splat);
+                        assert_eq!(shares.screen.passes_all(&all, &powers), passes, "{series:?}");
                         let lowest = shares.bounds.of_lowest(ScalarLanes, &series);
                         let log = lowest.least;
                         assert!(log <= found, "{series:?}");

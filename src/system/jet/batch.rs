@@ -34,11 +34,21 @@ impl Elimination<Batch> for FactoredBatch {
     }
 
     fn solve(&mut self, right: &mut [Batch]) {
-        self.solve_again::<false>(right);
+        self.solve_by(right, Factored::solve);
     }
 
     #[inline(always)]
     fn solve_again<const FUSED: bool>(&mut self, right: &mut [Batch]) {
+        self.solve_by(right, |factored, right| {
+            factored.solve_again::<FUSED>(right, |x, pivot| x / pivot);
+        });
+    }
+}
+
+impl FactoredBatch {
+    /// Solves for each orbit by itself.
+    #[inline(always)]
+    fn solve_by(&mut self, right: &mut [Batch], solve: impl Fn(&mut Factored<f64>, &mut [f64])) {
         for (lane, factored) in self.lanes.iter_mut().enumerate() {
             if self.singular[lane] {
                 for x in right.iter_mut() {
@@ -49,7 +59,7 @@ impl Elimination<Batch> for FactoredBatch {
             for (own, x) in self.right.iter_mut().zip(&*right) {
                 *own = x.0[lane];
             }
-            factored.solve_with::<FUSED>(&mut self.right, |x, pivot| x / pivot);
+            solve(factored, &mut self.right);
             for (x, own) in right.iter_mut().zip(&self.right) {
                 x.0[lane] = *own;
             }

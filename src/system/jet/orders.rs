@@ -51,7 +51,7 @@ impl<R: Real> Elimination<R> for Factored<R> {
     }
     #[inline(always)]
     fn solve_again<const FUSED: bool>(&mut self, right: &mut [R]) {
-        self.solve_with::<FUSED>(right, R::divided_by_shared::<FUSED>);
+        Factored::solve_again::<FUSED>(self, right, R::divided_by_shared::<FUSED>);
     }
 }
 

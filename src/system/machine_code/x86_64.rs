@@ -15,6 +15,7 @@ mod growth;
 mod layout;
 mod plain;
 mod product_loops;
+mod reciprocal;
 mod solution;
 mod values;
 

@@ -108,7 +108,7 @@ impl Allocator {
                 let registers = [left, right, product].map(|value| self.read(value));
                 // it is written before the others are read
                 let to = self.make(made, width);
-                self.bytes.copy(to, registers[0]);
+                self.bytes.copy(width, to, registers[0]);
                 self.bytes.product_error(width, to, registers[1], registers[2]);
                 self.advance(&reads, next);
             }

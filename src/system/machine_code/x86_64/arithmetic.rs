@@ -5,6 +5,7 @@
 
 use super::basic_block::{BasicBlock, InnerProducts, Operand, Operation, Value, Width};
 use super::layout::{Address, MemoryLayout};
+use super::reciprocal::Reciprocal;
 use crate::num::DoubleDouble;
 
 /// The code so far, and where its numbers lie.
@@ -14,9 +15,15 @@ pub(super) struct Code {
     pub(super) layout: MemoryLayout,
     /// The width of the numbers of several orbits.
     pub(super) lanes: Width,
-    /// The reciprocal of the unit of time, and the last order over that.
-    frequency: Option<Operand>,
-    order_over_unit: Option<(usize, Operand)>,
+    /// The unit of time over the last order.
+    unit_over_order: Option<(usize, ReciprocalOperands)>,
+}
+
+/// What a number is multiplied by for a quotient by an integer: a [`Reciprocal`], whose low part has the other sign.
+#[derive(Clone, Copy, Debug)]
+struct ReciprocalOperands {
+    high: Operand,
+    less: Option<Operand>,
 }
 
 impl Code {
@@ -26,32 +33,58 @@ impl Code {
             block: BasicBlock::default(),
             layout: MemoryLayout::new(),
             lanes,
-            frequency: None,
-            order_over_unit: None,
+            unit_over_order: None,
         }
     }
 
-    /// An order over the unit of time, which is exact. The constants are those of one orbit or of several.
-    pub(super) fn order_over_unit(
+    /// The quotient of `f64` by an integer. The constants are those of one orbit or of several.
+    pub(super) fn quotient(
         &mut self,
+        a: Operand,
         n: usize,
         constant: impl Fn(&mut Code, f64) -> Operand,
     ) -> Operand {
-        if let Some((order, known)) = self.order_over_unit
-            && order == n
-        {
-            return known;
-        }
-        let frequency = self.frequency.unwrap_or_else(|| {
-            let one = constant(self, 1.0);
-            let unit = Operand::At(self.layout.scale);
-            self.binary(Operation::Divide, self.lanes, one, unit)
-        });
-        self.frequency = Some(frequency);
-        let order = constant(self, n as f64);
-        let quotient = self.binary(Operation::Multiply, self.lanes, frequency, order);
-        self.order_over_unit = Some((n, quotient));
-        quotient
+        let Reciprocal { high, low } = Reciprocal::of(n);
+        let high = constant(self, high);
+        let less = low.map(|low| constant(self, -low));
+        self.times(a, ReciprocalOperands { high, less })
+    }
+
+    /// The quotient of `f64` by an order over the unit of time, a power of two.
+    pub(super) fn integral(
+        &mut self,
+        a: Operand,
+        n: usize,
+        constant: impl Fn(&mut Code, f64) -> Operand,
+    ) -> Operand {
+        let factor = match self.unit_over_order {
+            Some((order, factor)) if order == n => factor,
+            _ => {
+                let Reciprocal { high, low } = Reciprocal::of(n);
+                let mut part = |part| {
+                    let (unit, part) = (Operand::At(self.layout.scale), constant(self, part));
+                    self.binary(Operation::Multiply, self.lanes, unit, part)
+                };
+                let high = part(high);
+                ReciprocalOperands { high, less: low.map(|low| part(-low)) }
+            }
+        };
+        self.unit_over_order = Some((n, factor));
+        self.times(a, factor)
+    }
+
+    fn times(
+        &mut self,
+        a: Operand,
+        ReciprocalOperands { high, less }: ReciprocalOperands,
+    ) -> Operand {
+        let Some(less) = less else {
+            return self.binary(Operation::Multiply, self.lanes, a, high);
+        };
+        let a = self.block.made(self.lanes, a);
+        let less = self.binary(Operation::Multiply, self.lanes, a.into(), less);
+        let (high, less) = (self.block.made(self.lanes, high), self.block.made(self.lanes, less));
+        self.block.product_error(self.lanes, (a, high), less).into()
     }
 
     pub(super) fn binary(
@@ -202,7 +235,6 @@ pub(super) trait Arithmetic {
     fn inner_product(stored: Address, lane: usize) -> Self::Number;
     /// One of those that were not.
     fn lane(code: &mut Code, products: Self::Number, lane: usize) -> Self::Number;
-    /// The number so many bytes behind an address as the integer at `offset` says; `None` for several orbits, of which each
-    /// has its own.
-    fn behind(code: &mut Code, from: Address, offset: Address) -> Option<Self::Number>;
+    /// The number of one orbit so many bytes behind an address as the integer at `offset` says.
+    fn behind(code: &mut Code, from: Address, offset: Address) -> Self::Number;
 }

@@ -231,8 +231,8 @@ impl Arithmetic for Double {
         (code.lane(products.0, lane), code.lane(products.1, lane))
     }
 
-    fn behind(code: &mut Code, from: Address, offset: Address) -> Option<Parts> {
+    fn behind(code: &mut Code, from: Address, offset: Address) -> Parts {
         let mut part = |from| code.block.load_behind(from, offset).into();
-        Some((part(from), part(from.plus(1))))
+        (part(from), part(from.plus(1)))
     }
 }

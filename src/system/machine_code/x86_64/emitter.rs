@@ -33,6 +33,8 @@ pub(super) struct Emitter<'a, A: Arithmetic> {
     /// The inner products at it, where they are not stored.
     kept: Vec<KeptProducts<A::Number>>,
     divisors: Vec<(SharedDivisor, A::Number)>,
+    /// The matrices whose entries right of the pivots were divided by these.
+    pub(super) scaled: Vec<bool>,
 }
 
 /// Up to so many groups of inner products are kept in registers until they are read: a number that was just stored is read later
@@ -66,6 +68,7 @@ impl<'a, A: Arithmetic> Emitter<'a, A> {
     ) -> Emitter<'a, A> {
         Emitter {
             now: vec![None; plan.program.ops.len()],
+            scaled: vec![false; plan.program.blocks.len()],
             plan,
             code,
             places,

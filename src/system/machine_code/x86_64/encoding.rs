@@ -132,9 +132,9 @@ impl Bytes {
         self.vex(opcode, to, right, Source::Register(product));
     }
 
-    pub(super) fn copy(&mut self, to: Vector, from: Vector) {
+    pub(super) fn copy(&mut self, width: Width, to: Vector, from: Vector) {
         // vmovapd
-        let width = Width::Four;
+        let width = if width == Width::Eight { width } else { Width::Four };
         let opcode = Opcode { map: MAP_0F, prefix: PACKED, wide: false, width, code: 0x28 };
         self.vex(opcode, to, NONE, Source::Register(from));
     }

@@ -43,11 +43,13 @@ impl Address {
     }
 }
 
-/// A factored matrix: its rows in the order of the pivots, the row of each pivot, room for a right-hand side.
+/// A factored matrix: its rows in the order of the pivots, what is right of the pivots over these, the row of each pivot, room for a
+/// right-hand side.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FactoredPlace {
     pub(super) size: usize,
     pub(super) entries: usize,
+    pub(super) upper: usize,
     pub(super) rows: usize,
     pub(super) right: usize,
 }
@@ -146,9 +148,9 @@ impl MemoryLayout {
         };
         let factored = plan.program.blocks.iter().map(|block| {
             let n = block.size();
-            let entries = self.room(n * n * size);
+            let (entries, upper) = (self.room(n * n * size), self.room(n * n * size));
             let (rows, right) = (self.room(n), self.room(n * size));
-            FactoredPlace { size: n, entries, rows, right }
+            FactoredPlace { size: n, entries, upper, rows, right }
         });
         let factored = factored.collect();
         let groups = plan.schedule.pairs.len().div_ceil(side);

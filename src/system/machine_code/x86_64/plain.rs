@@ -69,13 +69,11 @@ impl<const ORBITS: usize> Arithmetic for Floats<ORBITS> {
         if n == 1 {
             return a;
         }
-        let n = Self::splat(code, n as f64);
-        Self::over_shared(code, a, n)
+        code.quotient(a, n, Self::splat)
     }
 
     fn integrated(code: &mut Code, a: Operand, n: usize) -> Operand {
-        let divisor = code.order_over_unit(n, Self::splat);
-        Self::over_shared(code, a, divisor)
+        code.integral(a, n, Self::splat)
     }
 
     fn opposite(code: &mut Code, a: Operand) -> Operand {
@@ -132,7 +130,7 @@ impl<const ORBITS: usize> Arithmetic for Floats<ORBITS> {
         if ORBITS == 1 { code.lane(products, lane) } else { products }
     }
 
-    fn behind(code: &mut Code, from: Address, offset: Address) -> Option<Operand> {
-        (ORBITS == 1).then(|| code.block.load_behind(from, offset).into())
+    fn behind(code: &mut Code, from: Address, offset: Address) -> Operand {
+        code.block.load_behind(from, offset).into()
     }
 }

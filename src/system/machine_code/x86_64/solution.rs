@@ -4,6 +4,7 @@
 //! [`Factored`](crate::system::solve::Factored). Never here: factoring; which row is which pivot's is read from memory.
 
 use super::arithmetic::Arithmetic;
+use super::basic_block::Width;
 use super::emitter::{Emitter, SharedDivisor};
 use super::function::NotCompiled;
 use super::layout::{Address, Area};
@@ -12,6 +13,10 @@ use crate::system::finishing_pass::LinearSolve;
 impl<A: Arithmetic> Emitter<'_, A> {
     /// `M_0 a_k = f_k − Σ_{j≥1} M_j a_{k−j}` by the factored M_0.
     pub(super) fn solution(&mut self, solution: LinearSolve) -> Result<(), NotCompiled> {
+        if self.code.lanes != Width::One {
+            // each orbit has pivots of its own
+            return Err(NotCompiled);
+        }
         let LinearSolve { register, block, first, count, inner } = solution;
         let plan = self.plan;
         let place = self.places.factored[block as usize];
@@ -28,25 +33,38 @@ impl<A: Arithmetic> Emitter<'_, A> {
             let sum = &mut sums[entry.row as usize];
             *sum = A::difference(self.code, *sum, whole);
         }
-        for (i, &sum) in sums.iter().enumerate() {
-            A::store_for_now(self.code, sum, work(place.right + i * A::SIZE));
+        if n > 1 {
+            for (i, &sum) in sums.iter().enumerate() {
+                A::store_for_now(self.code, sum, work(place.right + i * A::SIZE));
+            }
         }
         let mut partial = Vec::with_capacity(n);
         for i in 0..n {
-            let row = A::behind(self.code, work(place.right), work(place.rows + i));
-            let mut sum = row.ok_or(NotCompiled)?;
+            let mut sum = match n {
+                1 => sums[0],
+                _ => A::behind(self.code, work(place.right), work(place.rows + i)),
+            };
             for (j, &known) in partial.iter().enumerate() {
                 sum = self.less_product(sum, entry(i, j), known);
             }
             partial.push(sum);
         }
+        let upper = |i: usize, j: usize| work(place.upper + (i * n + j) * A::SIZE);
+        let scales = !std::mem::replace(&mut self.scaled[block as usize], true);
+        for (i, sum) in partial.iter_mut().enumerate() {
+            let pivot = self.shared(SharedDivisor::Pivot(block, i as u32), entry(i, i));
+            *sum = A::over_shared(self.code, *sum, pivot);
+            for j in if scales { i + 1..n } else { 0..0 } {
+                let scaled = A::over_shared(self.code, entry(i, j), pivot);
+                A::store(self.code, scaled, upper(i, j));
+            }
+        }
         for i in (0..n).rev() {
             let mut sum = partial[i];
-            for j in i + 1..n {
-                sum = self.less_product(sum, entry(i, j), partial[j]);
+            for j in (i + 1..n).rev() {
+                sum = self.less_product(sum, A::at(upper(i, j)), partial[j]);
             }
-            let pivot = self.shared(SharedDivisor::Pivot(block, i as u32), entry(i, i));
-            partial[i] = A::over_shared(self.code, sum, pivot);
+            partial[i] = sum;
         }
         for (i, x) in (0..).zip(partial) {
             self.set(register + i, x);
