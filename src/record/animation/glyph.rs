@@ -62,7 +62,9 @@ impl GlyphSheet {
             let level = |share: &f64| (share * LEVELS as f64).round() as u8;
             let levels: Vec<u8> = coverage.pixels().iter().map(level).collect();
             let mut histogram = [0; LEVELS + 1];
-            levels.iter().for_each(|level| histogram[usize::from(*level)] += 1);
+            for level in &levels {
+                histogram[usize::from(*level)] += 1;
+            }
             Glyph { width: size.0, levels, histogram }
         })
     }
