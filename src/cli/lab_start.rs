@@ -97,7 +97,9 @@ mod tests {
         let document = open::find("pendulum").expect("a preset");
         let model = document.read().expect("a model").model;
         let mut values = model.parameter_values();
-        values.iter_mut().for_each(|value| *value = (*value + 0.1).sqrt());
+        for value in &mut values {
+            *value = (*value + 0.1).sqrt();
+        }
         let named = |name: &str, value| Named { name: name.to_owned(), value };
         let mut checkpoint = Checkpoint { running: true, ..Checkpoint::default() };
         checkpoint.set_parameters(&model, values.iter().copied());
