@@ -69,8 +69,8 @@ pub struct OwnMotion {
 pub struct FrozenSystem {
     coordinate: usize,
     turning: System,
-    turns: String,
-    rotating: Option<(System, String)>,
+    turns: usize,
+    rotating: Option<(System, usize)>,
     /// Whether the law depends on the time, so that the actions do.
     depends_on_time: bool,
     method: (&'static Method, Settings),
@@ -180,8 +180,8 @@ impl FrozenSystem {
     fn systems(&self) -> ActionSystems<'_> {
         ActionSystems {
             turning: &self.turning,
-            turns: &self.turns,
-            rotating: self.rotating.as_ref().map(|(system, event)| (system, event.as_str())),
+            turns: self.turns,
+            rotating: self.rotating.as_ref().map(|(system, event)| (system, *event)),
             column: 1 + self.column(ChannelKind::Position(self.coordinate)),
             method: self.method.0,
             settings: self.method.1,

@@ -61,7 +61,7 @@ fn has_settled(mean: f64, half: f64) -> bool {
 /// Where the returns that are averaged over begin.
 struct MeanStart<'a> {
     start: Start,
-    event: (&'a System, &'a str),
+    event: (&'a System, usize),
     /// How often it happens in a return.
     crossings: u64,
 }

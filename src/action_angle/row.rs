@@ -80,10 +80,10 @@ impl ActionRow {
 pub struct ActionSystems<'a> {
     /// With q̇ as a section, and `action` as the last column.
     pub turning: &'a System,
-    /// The section's name.
-    pub turns: &'a str,
+    /// The index of the section's event.
+    pub turns: usize,
     /// For a periodic coordinate, with sin(π q/P) as a section, and `action` as the last column.
-    pub rotating: Option<(&'a System, &'a str)>,
+    pub rotating: Option<(&'a System, usize)>,
     /// The column of the coordinate in a row of crossings.
     pub column: usize,
     /// By which periods and actions are integrated.
@@ -361,17 +361,12 @@ fn differs(one: f64, other: f64) -> bool {
 /// The first crossings after a start.
 pub(super) fn follow(
     systems: &ActionSystems<'_>,
-    (system, event): (&System, &str),
+    (system, event): (&System, usize),
     start: &Start,
     count: u64,
 ) -> Result<Vec<Vec<f64>>, NoAction> {
-    let plan = SectionPlan {
-        event: event.to_owned(),
-        count: Some(count),
-        until: None,
-        idle: PATIENCE,
-        all_channels: false,
-    };
+    let plan =
+        SectionPlan { event, count: Some(count), until: None, idle: PATIENCE, all_channels: false };
     let Crossings { rows, status, message } =
         crossings(system, systems.method, systems.settings, start, &plan);
     if status == OrbitStatus::Completed {

@@ -211,8 +211,8 @@ fn partner(
 struct Systems {
     index: usize,
     turning: Laid,
-    turns: String,
-    rotating: Option<(Laid, String)>,
+    turns: usize,
+    rotating: Option<(Laid, usize)>,
 }
 
 impl Systems {
@@ -260,8 +260,8 @@ impl Systems {
     fn systems(&self) -> ActionSystems<'_> {
         ActionSystems {
             turning: &self.turning.system,
-            turns: &self.turns,
-            rotating: self.rotating.as_ref().map(|(laid, event)| (&laid.system, event.as_str())),
+            turns: self.turns,
+            rotating: self.rotating.as_ref().map(|(laid, event)| (&laid.system, *event)),
             column: self.column(ChannelKind::Position(self.index)),
             method: self.turning.method,
             settings: self.turning.settings,

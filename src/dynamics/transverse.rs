@@ -181,6 +181,20 @@ mod tests {
     use super::*;
 
     #[test]
+    fn a_gradient_is_independent_from_a_millionth_of_it_outside_the_others_on() {
+        let rates = DVector::from_vec(vec![1.0, 0.0, 0.0]);
+        for (part, is_one) in [(0.9e-6, false), (1.1e-6, true)] {
+            for size in [1e-30, 1.0, 1e30] {
+                let gradients = [[0.0, 1.0, 0.0], [0.0, 1.0, part]];
+                let gradients = gradients.map(|g| DVector::from_vec(g.to_vec()) * size);
+                let (frame, found) = frame_within_levels(&rates, Removed::Flow, &gradients);
+                assert_eq!(found, [true, is_one], "{part} {size}");
+                assert_eq!(frame.ncols(), usize::from(!is_one), "{part} {size}");
+            }
+        }
+    }
+
+    #[test]
     fn frames_are_symplectic_and_outside_what_is_taken_out() {
         let rates = DVector::from_vec(vec![0.3, -1.0, 0.2, 0.5, 2.0, -0.7]);
         let frame = frame(&rates, Removed::FlowAndEnergy, true);

@@ -61,7 +61,8 @@ pub(super) fn refuse_acts_but(
     let passive =
         |action: EventAction| matches!(action, EventAction::Mark | EventAction::Section(_));
     let mut events = system.discontinuities().events.iter();
-    if !events.all(|event| passive(event.action) || allowed(event.action)) {
+    let may_be = |action: EventAction| passive(action) || allowed(action);
+    if !events.all(|event| event.action.written().is_some_and(may_be)) {
         return unsuited("events act on the motion, across which its derivatives are not computed");
     }
     Ok(())

@@ -36,15 +36,10 @@ impl PhaseShift {
         (system, backwards): (&System, System),
         (method, settings): (&'static Method, Settings),
         start: &Start,
-        event: &str,
+        event: usize,
     ) -> Result<PhaseShift, NotInPlane> {
-        let plan = SectionPlan {
-            event: event.to_owned(),
-            count: Some(1),
-            until: None,
-            idle: STEPS,
-            all_channels: false,
-        };
+        let plan =
+            SectionPlan { event, count: Some(1), until: None, idle: STEPS, all_channels: false };
         let found = crossings(system, method, settings, start, &plan);
         let (OrbitStatus::Completed, Some(&[instant, ..])) =
             (found.status, found.rows.first().map(Vec::as_slice))

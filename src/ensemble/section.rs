@@ -16,8 +16,8 @@ use crate::system::{MotionError, Observer, State, System};
 /// The event of a section in a compiled system, and when an orbit ends.
 #[derive(Clone, PartialEq, Debug)]
 pub struct SectionPlan {
-    /// The event's name, from [`add_section`].
-    pub event: String,
+    /// The event's index in the compiled system, from [`add_section`] or [`Model::event_of_section`].
+    pub event: usize,
     /// The number of crossings after which an orbit ends.
     pub count: Option<u64>,
     /// The time at which it ends.
@@ -130,25 +130,26 @@ impl Crossings {
     }
 }
 
-/// Adds the event of a section to a model before its equations are derived, and returns the event's name, which no
-/// other event or impulse has.
-pub fn add_section(model: &mut Model, when: Expr, direction: Direction) -> String {
+/// Adds the event of a section to a model before its equations are derived, and returns the event's index in the system compiled from
+/// it. No other event or impulse has its name.
+pub fn add_section(model: &mut Model, when: Expr, direction: Direction) -> usize {
     let name = section_name(model);
+    let event = model.events.len();
     model.events.push(MotionEvent {
-        name: name.clone(),
+        name,
         when,
         direction,
         action: EventAction::Mark,
         place: None,
     });
-    name
+    event
 }
 
 /// A name for the event of a section, which no other event, section or impulse has.
 pub fn section_name(model: &Model) -> String {
     let mut name = "section".to_owned();
     let taken = |name: &str| {
-        model.events.iter().chain(&model.sections).any(|event| event.name == name)
+        model.located_events().any(|event| event.name == name)
             || model.impulses.iter().any(|impulse| impulse.name == name)
     };
     while taken(&name) {
@@ -270,8 +271,7 @@ impl SectionOrbit<'_> {
                 }
                 Ok(Reached::OutOfBudget) => {}
                 Ok(Reached::Occurred(occurrence)) => {
-                    let is_of_file = occurrence.kind != OccurrenceKind::StepInTime;
-                    if is_of_file && occurrence.name == self.plan.event {
+                    if occurrence.event == Some(self.plan.event) {
                         last = self.motion.steps();
                         if let Err(error) = self.record(occurrence.time) {
                             return (OrbitStatus::Failed, Some(error.to_string()));

@@ -145,7 +145,7 @@ impl OrbitsTogether<'_> {
                 Ok(None) => break,
                 Ok(Some(event)) => event,
             };
-            if self.system.discontinuities().events[event.event].name != self.plan.event {
+            if event.event != self.plan.event {
                 continue;
             }
             own.last = own.steps;

@@ -34,7 +34,8 @@ impl CompanionRecord {
     pub(super) fn new(system: &System, numbers: usize) -> CompanionRecord {
         let channels = system.channels().len();
         let events = system.discontinuities().events.iter();
-        let surfaces = events.filter(|event| matches!(event.action, EventAction::Section(_)));
+        let surfaces =
+            events.filter(|event| matches!(event.action.written(), Some(EventAction::Section(_))));
         CompanionRecord {
             values: vec![f64::NAN; channels],
             rows: Recorder::bounded(channels, numbers),

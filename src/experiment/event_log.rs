@@ -150,6 +150,7 @@ mod tests {
         let name = |k: usize| ["tick", "tock"][k % 2].to_owned();
         (0..count).map(move |k| Occurrence {
             name: name(k),
+            event: None,
             time: k as f64,
             kind: OccurrenceKind::Mark,
         })
@@ -180,6 +181,7 @@ mod tests {
     fn occurrences_of_many_numbers_are_bounded_by_their_size() {
         let wide = |k: usize| Occurrence {
             name: "kick".to_owned(),
+            event: None,
             time: k as f64,
             kind: OccurrenceKind::Impulse { jump: vec![1.0; 2000], reaction: vec![1.0; 2000] },
         };

@@ -55,10 +55,10 @@ impl Experiment {
             return Some("there is no motion to reverse".to_owned());
         }
         let happens = self.system().discontinuities();
-        let acts = |action: EventAction| {
-            matches!(action, EventAction::Impulse(_) | EventAction::Release(_))
+        let acts = |action: Option<EventAction>| {
+            matches!(action, Some(EventAction::Impulse(_) | EventAction::Release(_)))
         };
-        let event = happens.events.iter().find(|event| acts(event.action));
+        let event = happens.events.iter().find(|event| acts(event.action.written()));
         let impulse = happens.impulses.iter().find(|impulse| impulse.scheduled);
         if let Some(name) =
             event.map(|event| &event.name).or_else(|| impulse.map(|impulse| &impulse.name))

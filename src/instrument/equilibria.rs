@@ -259,7 +259,12 @@ pub(super) fn lies_on(present: &Present<'_>, one: &Equilibrium, when: Expr) -> b
         }
         values[channel] = own;
     }
-    there.abs() <= ON_SURFACE * scale
+    is_on_surface(there, scale)
+}
+
+/// Whether a value is zero beside changes of this size.
+fn is_on_surface(value: f64, scale: f64) -> bool {
+    value.abs() <= ON_SURFACE * scale
 }
 
 /// The coordinates in which each stands for others, in words.
@@ -328,7 +333,15 @@ fn amplitude(real: f64, imaginary: f64) -> Option<String> {
 mod tests {
     use std::f64::consts::PI;
 
-    use super::{amplitude, part_of_pi};
+    use super::{amplitude, is_on_surface, part_of_pi};
+
+    #[test]
+    fn an_equilibrium_is_on_a_surface_to_a_billionth_of_what_moves() {
+        for size in [1e-30, 1.0, 1e30] {
+            assert!(is_on_surface(-0.9e-9 * size, size) && !is_on_surface(1.1e-9 * size, size));
+        }
+        assert!(is_on_surface(0.0, 0.0));
+    }
 
     #[test]
     fn parts_of_pi_are_written_so_and_nothing_else_is() {

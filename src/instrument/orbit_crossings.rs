@@ -6,7 +6,6 @@ use super::{PeriodicPoints, Physics};
 use crate::dynamics::Orbit;
 use crate::ensemble::{SectionPlan, crossings_from};
 use crate::integrate::Method;
-use crate::model::MotionEvent;
 
 /// An orbit is followed for its period and this part of it, so that a crossing at which it begins is found at its end.
 const BEYOND: f64 = 1e-6;
@@ -18,9 +17,9 @@ pub(super) fn periodic_points(
     orbit: &Orbit,
     parameters: &[f64],
 ) -> PeriodicPoints {
-    let surface = |event: &MotionEvent| {
+    let surface = |section: usize| {
         let plan = SectionPlan {
-            event: event.name.clone(),
+            event: physics.model.event_of_section(section),
             count: None,
             until: Some(orbit.state.time + orbit.period * (1.0 + BEYOND)),
             idle: 0,
@@ -34,7 +33,7 @@ pub(super) fn periodic_points(
         parameters: parameters.to_vec(),
         energy: orbit.energy,
         stable: orbit.is_stable(),
-        surfaces: physics.model.sections.iter().map(surface).collect(),
+        surfaces: (0..physics.model.sections.len()).map(surface).collect(),
     }
 }
 

@@ -240,7 +240,7 @@ impl Instrument for SectionPlot {
             method,
             conditions: known.map_or(conditions, |known| known.conditions.clone()),
             plan: SectionPlan {
-                event: model.sections[section].name.clone(),
+                event: model.event_of_section(section),
                 count: Some(COUNT),
                 until: None,
                 idle: IDLE,
@@ -314,7 +314,7 @@ fn beginning(
     let section = view(plot, present.physics).and_then(|view| view.section);
     let shift = match (section, method_named(present.method)) {
         (Some(section), Some(method)) if plane.is_at_another_phase() => {
-            let event = &model.sections[section].name;
+            let event = model.event_of_section(section);
             let start = plane.start(system, &mut observer, at)?;
             let backwards = system.reversed(model, equations)?;
             let method = (method, present.settings);

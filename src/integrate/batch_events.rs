@@ -142,7 +142,7 @@ impl BatchEvents {
             step.at_exactly(found.exact, out)?;
             let (event, time) = (found.event, found.exact.high);
             let happened = &self.system.discontinuities().events[event];
-            if happened.action == EventAction::Mark
+            if happened.action.written() == Some(EventAction::Mark)
                 && search.accumulation[event].record(time, search.start)
             {
                 let kind = MotionErrorKind::EventsAccumulate(happened.name.clone());

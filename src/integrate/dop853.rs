@@ -329,8 +329,7 @@ impl Stepper for DormandPrince {
         self.state = self.system.convert(state, self.system.form(), parameters)?;
         self.before.copy_from(&self.state);
         if self.narrow.is_none() {
-            let arguments = self.system.steep_arguments(parameters);
-            self.narrow = arguments.map(|found| NarrowPlaces::new(found, &self.state));
+            self.narrow = NarrowPlaces::of(&self.system, parameters, &self.state);
         }
         if let Some(narrow) = &mut self.narrow {
             narrow.set_parameters(parameters);

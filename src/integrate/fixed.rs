@@ -8,7 +8,7 @@ use super::stability::{self, Modes, Unstable};
 use super::step_block::StepBlock;
 use super::stepper::Stepper;
 use crate::num::{Analytic, BATCH, Batch, DoubleDouble, accumulate};
-use crate::system::{Form, KinkSides, MotionError, MotionErrorKind, State, System};
+use crate::system::{Form, KinkSides, MotionError, MotionErrorKind, State, StepsInTime, System};
 
 /// Stability is checked after 1, 2, 4, … steps, and then at intervals of this many steps.
 const STEPS_PER_CHECK: u64 = 256;
@@ -86,6 +86,7 @@ pub(super) struct FixedStep<S> {
     parameters: Vec<f64>,
     asked: Option<f64>,
     steps: EqualSteps,
+    steps_in_time: Option<StepsInTime>,
     /// Where the motion begins beside a step in time of the law: when, and a time at which the law in `f64` is the one on its side.
     begun: Option<(f64, f64)>,
     /// The number of steps since the start, and an instability found on the way.
@@ -117,6 +118,7 @@ impl<S: Scheme> FixedStep<S> {
             scheme,
             parameters: Vec::new(),
             asked: settings.step,
+            steps_in_time: None,
             begun: None,
             steps: EqualSteps::new(DoubleDouble::ZERO, DoubleDouble::ZERO),
             taken: 0,
@@ -138,31 +140,28 @@ impl<S: Scheme> FixedStep<S> {
     }
 
     /// Where the current state lies beside a step in time of the law: its time, and one at which the law in `f64` is the one there.
-    fn begun_beside_step(&self, step: f64) -> Result<Option<(f64, f64)>, MotionError> {
-        let (time, parameters) = (self.state.exact_time(), &self.parameters);
-        let Some(beside) = self.system.beside_step(time, step, parameters)? else {
-            return Ok(None);
-        };
-        let Some(sides) = self.system.beside_step_in_f64(time, step, parameters)? else {
-            return Ok(None);
-        };
-        let is_behind = self.system.is_behind_step(time, beside, parameters)?;
+    fn begun_beside_step(&mut self, step: f64) -> Result<Option<(f64, f64)>, MotionError> {
+        let time = self.state.exact_time();
+        let Some(steps) = &mut self.steps_in_time else { return Ok(None) };
+        let Some(beside) = steps.beside(time, step)? else { return Ok(None) };
+        let Some(sides) = steps.beside_in_f64(time, step)? else { return Ok(None) };
+        let is_behind = steps.is_behind(time, beside)?;
         Ok(Some((time.high, sides[usize::from(is_behind)])))
     }
 
     /// When a step begins by the clock of the law, and how long it is, so that the law is that of one side at both its ends where one
     /// of them is a step in time, which a clock in `f64` does not see from its sides.
     fn on_one_side(
-        &self,
+        &mut self,
         begin: DoubleDouble,
         end: DoubleDouble,
         step: f64,
     ) -> Result<(DoubleDouble, f64), MotionError> {
-        if !self.system.momenta_jump() || step <= 0.0 {
+        let Some(steps) = self.steps_in_time.as_mut().filter(|_| step > 0.0) else {
             return Ok((begin, step));
-        }
+        };
         let first = self.begun.filter(|(time, _)| *time == begin.high).map(|(_, clock)| clock);
-        let last = self.system.beside_step_in_f64(end, step, &self.parameters)?;
+        let last = steps.beside_in_f64(end, step)?;
         let last = last.map(|[before, _]| before).filter(|before| *before > begin.high);
         Ok(match (first, last) {
             (None, None) => (begin, step),
@@ -264,6 +263,7 @@ impl<S: Scheme> Stepper for FixedStep<S> {
         self.parameters.clear();
         self.parameters.extend_from_slice(parameters);
         let step = EqualSteps::step_of(self.asked, &self.system, state, parameters);
+        self.steps_in_time = self.system.steps_in_time(parameters);
         self.begun = self.begun_beside_step(step.high)?;
         self.count_from_here(step);
         self.scheme.begin_near(state);

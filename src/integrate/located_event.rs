@@ -7,6 +7,7 @@ use super::clock::{DIGITS, spacing};
 use super::probe::earlier;
 use crate::model::{Direction, EventAction};
 use crate::num::DoubleDouble;
+use crate::system::CompiledAction;
 
 /// What an event does to the motion, in the order in which those at the same time happen.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -19,13 +20,13 @@ pub(super) enum EventRole {
 }
 
 impl EventRole {
-    pub(super) fn of(action: EventAction) -> EventRole {
+    pub(super) fn of(action: CompiledAction) -> EventRole {
         match action {
-            EventAction::StepInTime => EventRole::StepInTime,
-            EventAction::Mark | EventAction::Section(_) => EventRole::Sees,
-            EventAction::Stop | EventAction::Release(_) | EventAction::Impulse(_) => {
-                EventRole::Acts
-            }
+            CompiledAction::StepInTime => EventRole::StepInTime,
+            CompiledAction::Written(EventAction::Mark | EventAction::Section(_)) => EventRole::Sees,
+            CompiledAction::Written(
+                EventAction::Stop | EventAction::Release(_) | EventAction::Impulse(_),
+            ) => EventRole::Acts,
         }
     }
 }

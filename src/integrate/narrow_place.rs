@@ -1,12 +1,13 @@
 //! Narrow places of a law, as a thin barrier or a short pulse, that a step may pass without having been there.
 //!
-//! In: the arguments u of exponential functions at the ends of steps. Out: how much of a step may be taken. Never here: the law.
+//! In: the arguments u of exponential functions, and what is divided by, at the ends of steps. Out: how much of a step may be taken. Never here: the law.
 //!
 //! e^u, tanh u and their like change where u is small, and show nothing elsewhere. Between the ends of a step u is followed by the
 //! cubic of its values and slopes there, which is exact for a straight path into a Gaussian barrier. A step in which it changes by
-//! much, or turns while it was large, is too long to have seen what the function does.
+//! much, or turns while it was large, is too long to have seen what the function does. 1/u^n is large where u is small beside what it
+//! is at the ends of the step, or changes its sign.
 
-use crate::system::{State, SteepArguments};
+use crate::system::{State, SteepArguments, System};
 
 /// The largest change of an argument in one step: e^u is then resolved by the points within it.
 const FARTHEST: f64 = 6.0;
@@ -33,26 +34,78 @@ struct End {
     slope: f64,
 }
 
+/// The cubic with these ends, at one of the places.
+fn between(begin: End, end: End, k: u32) -> f64 {
+    let (s, d) = (f64::from(k) / f64::from(PLACES), end.value - begin.value);
+    let (a, b) = (begin.slope - d, d - end.slope);
+    begin.value + s * (d + (1.0 - s) * (a * (1.0 - s) + b * s))
+}
+
+/// The part of a step before the first of its places at which something holds; 1 where there is none.
+fn part_before(holds: impl Fn(&u32) -> bool) -> f64 {
+    let first = (1..=PLACES).find(holds);
+    first.map_or(1.0, |k| f64::from((k - 1).max(1)) / f64::from(PLACES))
+}
+
+/// The part of a step before a divisor with these ends vanishes, or comes near to it; 1 where it does not.
+fn part_before_zero(begin: End, end: End) -> f64 {
+    let near = NEAR * begin.value.abs().max(end.value.abs());
+    part_before(|&k| {
+        let u = between(begin, end, k);
+        u * begin.value <= 0.0 || u.abs() < near
+    })
+}
+
 /// The part of a step after which an argument with these ends is to be evaluated again; 1 where the step shows all of it.
 fn part_of(begin: End, end: End) -> f64 {
-    let at = |k: u32| {
-        let (s, d) = (f64::from(k) / f64::from(PLACES), end.value - begin.value);
-        let (a, b) = (begin.slope - d, d - end.slope);
-        begin.value + s * (d + (1.0 - s) * (a * (1.0 - s) + b * s))
-    };
+    let at = |k: u32| between(begin, end, k);
     let limited = |u: f64| u.clamp(-SATURATED, SATURATED);
     let turns = |k: u32| {
         let (begin, end) = (begin.value.abs(), end.value.abs());
         begin.min(end) > SATURATED && at(k).abs() < NEAR * begin.max(end)
     };
-    let first = (1..=PLACES)
-        .find(|&k| (limited(at(k)) - limited(begin.value)).abs() > FARTHEST || turns(k));
-    first.map_or(1.0, |k| f64::from((k - 1).max(1)) / f64::from(PLACES))
+    part_before(|&k| (limited(at(k)) - limited(begin.value)).abs() > FARTHEST || turns(k))
 }
 
-/// The arguments along one motion.
+/// The arguments and the divisors along one motion.
 #[derive(Clone, Debug)]
 pub(super) struct NarrowPlaces {
+    arguments: Option<Followed>,
+    divisors: Option<Followed>,
+}
+
+impl NarrowPlaces {
+    /// Those in the law of a system; `None` if there are none.
+    pub(super) fn of(system: &System, parameters: &[f64], blank: &State) -> Option<NarrowPlaces> {
+        let followed = |found: SteepArguments| Followed::new(found, blank);
+        let arguments = system.steep_arguments(parameters).map(followed);
+        let divisors = system.divisors(parameters).map(followed);
+        let is_any = arguments.is_some() || divisors.is_some();
+        is_any.then_some(NarrowPlaces { arguments, divisors })
+    }
+
+    pub(super) fn set_parameters(&mut self, parameters: &[f64]) {
+        let all = self.arguments.iter_mut().chain(&mut self.divisors);
+        all.for_each(|followed| followed.arguments.set_parameters(parameters));
+    }
+
+    /// The part of a step from a state to another, with the rates at both, that may be taken; 1 for all of it.
+    pub(super) fn part(
+        &mut self,
+        step: f64,
+        begin: (&State, &[f64]),
+        end: (&State, &[f64]),
+    ) -> f64 {
+        let arguments = self.arguments.as_mut().map(|found| found.part(step, begin, end, part_of));
+        let divisors =
+            self.divisors.as_mut().map(|found| found.part(step, begin, end, part_before_zero));
+        arguments.into_iter().chain(divisors).fold(1.0, f64::min)
+    }
+}
+
+/// Functions of the state along one motion.
+#[derive(Clone, Debug)]
+struct Followed {
     arguments: SteepArguments,
     there: State,
     here: Vec<f64>,
@@ -61,10 +114,10 @@ pub(super) struct NarrowPlaces {
     end: Vec<End>,
 }
 
-impl NarrowPlaces {
-    pub(super) fn new(arguments: SteepArguments, blank: &State) -> NarrowPlaces {
+impl Followed {
+    fn new(arguments: SteepArguments, blank: &State) -> Followed {
         let count = arguments.count();
-        NarrowPlaces {
+        Followed {
             arguments,
             there: blank.clone(),
             here: vec![0.0; count],
@@ -74,22 +127,19 @@ impl NarrowPlaces {
         }
     }
 
-    pub(super) fn set_parameters(&mut self, parameters: &[f64]) {
-        self.arguments.set_parameters(parameters);
-    }
-
-    /// The part of a step from a state to another, with the rates at both, that may be taken; 1 for all of it.
-    pub(super) fn part(
+    /// The part of a step that may be taken by this rule for each of them.
+    fn part(
         &mut self,
         step: f64,
         (before, slopes): (&State, &[f64]),
         (after, last_slopes): (&State, &[f64]),
+        rule: fn(End, End) -> f64,
     ) -> f64 {
         let (mut begin, mut end) = (std::mem::take(&mut self.begin), std::mem::take(&mut self.end));
         let known = self.look(step, before, before.time, slopes, &mut begin)
             && self.look(step, after, before.time + step, last_slopes, &mut end);
         let ends = begin.iter().zip(&end);
-        let part = ends.map(|(&begin, &end)| part_of(begin, end)).fold(1.0, f64::min);
+        let part = ends.map(|(&begin, &end)| rule(begin, end)).fold(1.0, f64::min);
         (self.begin, self.end) = (begin, end);
         if known { part } else { 1.0 }
     }
@@ -196,6 +246,23 @@ mod tests {
         }
         let (begin, end) = gaussian(1.5, 1e-4);
         assert_eq!(part_of(begin, end), 1.0);
+    }
+
+    #[test]
+    fn a_step_ends_before_a_divisor_falls_to_a_hundredth() {
+        let line = |begin: f64, end: f64| {
+            let slope = end - begin;
+            part_before_zero(End { value: begin, slope }, End { value: end, slope })
+        };
+        for size in [1e-200, 1.0, 1e200] {
+            assert_eq!(line(size, 0.011 * size), 1.0);
+            assert!(line(size, 0.009 * size) < 1.0 && line(size, -0.3 * size) < 0.77);
+            assert!(line(0.009 * size, size) == 1.0 && line(-size, size) < 0.5);
+        }
+        // 1 + 10¹⁶ x² from x = 0.3 to −0.2
+        let square = |x: f64, by: f64| End { value: 1.0 + 1e16 * x * x, slope: 2e16 * x * by };
+        assert!(part_before_zero(square(0.3, -0.5), square(-0.2, -0.5)) < 0.6);
+        assert_eq!(part_before_zero(square(0.3, -0.1), square(0.2, -0.1)), 1.0);
     }
 
     #[test]

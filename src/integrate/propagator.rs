@@ -23,7 +23,7 @@ mod vanishing_event_watch;
 use super::narrow_place::PassedPlaces;
 use super::{Method, MethodError, Settings, Stepper, Stepping, Unstable};
 use crate::num::DoubleDouble;
-use crate::system::{ConstraintProjector, Form, MotionError, State, System};
+use crate::system::{ConstraintProjector, Form, MotionError, State, StepsInTime, System};
 use domain::MotionDomain;
 pub use narrow_watch::NarrowPassage;
 pub use occurrence::{Occurrence, OccurrenceKind};
@@ -74,6 +74,7 @@ pub struct Propagator {
     /// The last impulse, and the event that caused it.
     impulse: Option<(usize, Option<usize>)>,
     steps: u64,
+    steps_in_time: Option<StepsInTime>,
     /// The time just after the last step in time of the law, or just after the start at one.
     crossed: Option<DoubleDouble>,
 }
@@ -113,6 +114,7 @@ impl Propagator {
             narrow_passage: None,
             impulse: None,
             steps: 0,
+            steps_in_time: None,
             crossed: None,
         };
         motion.take_system();
@@ -122,6 +124,7 @@ impl Propagator {
     /// Updates everything that depends on the enforced constraints.
     fn take_system(&mut self) {
         self.projector = self.system.projector(&self.parameters);
+        self.steps_in_time = self.system.steps_in_time(&self.parameters);
         self.search.take_system(&self.system, &self.parameters);
     }
 
@@ -158,6 +161,7 @@ impl Propagator {
             self.system.check_intervals(parameters, state.time)?;
             self.parameters = parameters.to_vec();
             self.search.set_parameters(&self.system, parameters);
+            self.steps_in_time = self.system.steps_in_time(parameters);
             if let Some(projector) = &mut self.projector {
                 projector.set_parameters(parameters);
             }

@@ -13,6 +13,9 @@ const UNITS: [f64; 5] = [2.0, -3.0, 1.0, -2.0, 3.0];
 /// The number of perturbations tried.
 const WAYS: usize = 3;
 
+/// A state is beside a kink if a change of its numbers by this part of their sizes within the step leads over it.
+const BESIDE_A_KINK: f64 = 1e-3;
+
 pub(super) struct RatesPoint<'a> {
     pub(super) time: f64,
     pub(super) numbers: &'a [f64],
@@ -25,7 +28,8 @@ pub(super) struct RatesPoint<'a> {
 /// when it also changes by the rounding of its own rate over the step: a velocity that is nothing
 /// but rounding is the rate of its coordinate. This distinguishes a rate that is zero only by
 /// cancellation from one that is small, in any units. Across a kink a rate changes by more than
-/// rounding, and the measurement is discarded.
+/// rounding, and the measurement is discarded; so it is beside one, where a rate may have no bound, as that of |x|^0.7, and changes by
+/// much while the motion leaves it in a small part of the step.
 pub(super) fn measure(
     rates: &mut Rates,
     place: &RatesPoint<'_>,
@@ -37,6 +41,18 @@ pub(super) fn measure(
     let sides = rates.sides();
     let mut there = here.clone();
     let mut moved = place.numbers.to_vec();
+    if sides.any() {
+        for by in [BESIDE_A_KINK, -BESIDE_A_KINK] {
+            for (j, x) in moved.iter_mut().enumerate() {
+                *x = place.numbers[j] + UNITS[j % UNITS.len()] * by * place.sizes[j];
+            }
+            if rates.evaluate(place.time, &moved, &mut there).is_err()
+                || !rates.sides().agrees(&sides)
+            {
+                return Ok(());
+            }
+        }
+    }
     for pass in 0..2 {
         let own = noise.to_vec();
         for way in 0..WAYS {

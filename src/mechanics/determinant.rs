@@ -42,3 +42,26 @@ pub(super) fn scaled_determinant(mut values: DMatrix<f64>) -> f64 {
     }
     values.determinant().abs()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::num::Number;
+
+    #[test]
+    fn a_determinant_vanishes_to_1e_10_of_its_terms() {
+        for (off, vanishes) in [(0.9e-10, true), (1.1e-10, false)] {
+            let mut pool = Pool::new();
+            // the terms of the last entry are off, −1 and 1, or the rows differ by it
+            let x = pool.symbol("x");
+            let symbol = pool.variable(x);
+            let number = pool.number(Number::Real(1.0 + off));
+            let one = pool.number(Number::ONE);
+            let matrix = vec![vec![symbol, symbol], vec![one, number]];
+            for size in [1e-20, 1.0, 1e20] {
+                let at = Valuation::default().with([(x, size)]);
+                assert_eq!(singular(&pool, &matrix, &[at]), vanishes, "{off} {size}");
+            }
+        }
+    }
+}

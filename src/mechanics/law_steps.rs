@@ -33,9 +33,24 @@ impl Equations {
     /// Returns whether a motion may come to a step of L (or H), where the force is an impulse that no derivative shows. At a step in
     /// time there is none: forces jump there, or velocities.
     pub fn has_impulses_at_steps(&self) -> bool {
+        self.has_sign_of(self.law, &self.places()) || self.law_cut_at_a_place().is_some()
+    }
+
+    /// Returns whether the energy jumps at a time with L (or H), while no momentum does: by how much depends on where the motion is, and
+    /// the rate of the energy does not show it.
+    pub fn energy_jumps_in_time(&self) -> bool {
+        let places = self.places();
+        let is_of_time = |e: &Expr| !self.pool.depends_on_any(*e, &places);
+        let known = self.momentum_steps();
+        let mut steps = self.steps_of(self.law, &[self.symbols.time]).into_iter();
+        steps.any(|e| is_of_time(&e) && !known.contains(&e))
+            || self.law_cut().is_some_and(|angle| is_of_time(&angle))
+    }
+
+    /// The symbols that move, but the time.
+    fn places(&self) -> Vec<Symbol> {
         let time = self.symbols.time;
-        let moving: Vec<Symbol> = self.moving().into_iter().filter(|s| *s != time).collect();
-        self.has_sign_of(self.law, &moving) || self.law_cut().is_some()
+        self.moving().into_iter().filter(|s| *s != time).collect()
     }
 
     /// Returns whether a momentum of L, as a function of the velocities, jumps at a time. The momentum itself does not, so that the
@@ -73,8 +88,7 @@ impl Equations {
         if !self.is_lagrangian() {
             return Vec::new();
         }
-        let time = self.symbols.time;
-        let others: Vec<Symbol> = self.moving().into_iter().filter(|s| *s != time).collect();
+        let (time, others) = (self.symbols.time, self.places());
         let mut steps: Vec<Expr> = self.momenta.iter().flat_map(|&p| steps_of(p, time)).collect();
         steps.retain(|&e| !self.pool.depends_on_any(e, &others));
         steps.sort_unstable();
@@ -142,8 +156,9 @@ impl Equations {
             steps.extend(signs(e));
             steps.extend(quotients(e));
         }
-        let roots = pool.reachable(&[function]).into_iter().flat_map(|e| self.even_roots_below(e));
-        steps.extend(self.at_whose_zeros_it_jumps(function, symbols, roots.collect()));
+        let mut others = self.zeros_beside_kinks(function);
+        others.retain(|e| !steps.contains(e));
+        steps.extend(self.at_whose_zeros_it_jumps(function, symbols, others));
         steps
     }
 
@@ -181,15 +196,53 @@ impl Equations {
         among
     }
 
-    /// What is u in a divisor √(u²) of a product: u/√(u²) is the sign of u.
-    fn even_roots_below(&self, product: Expr) -> Vec<Expr> {
-        let roots = self.divisors(product).into_iter().filter(|(_, is_root)| *is_root);
-        let squares = roots.flat_map(|(base, _)| match self.pool.node(base) {
-            Node::Product(_, factors) => factors.to_vec(),
+    /// What a function divides by, what is squared below its roots and what its kinks are at, if it has any kink: at a zero of these it
+    /// may have a step, as √(u²)/u, (|u| + u)/u or e^{½ ln u²}/u at that of u. A quotient of smooth functions has a pole.
+    fn zeros_beside_kinks(&self, function: Expr) -> Vec<Expr> {
+        let pool = &self.pool;
+        let moving = self.moving();
+        let parts = pool.reachable(&[function]);
+        let varies = |e: Expr| pool.depends_on_any(e, &moving);
+        // an even power of u, alone or in a product
+        let squared = |e: Expr| -> Vec<Expr> {
+            let Node::Product(_, factors) = pool.node(e) else { return Vec::new() };
+            let even = |n: Number| n.as_integer().is_some_and(|n| n % 2 == 0);
+            factors.iter().filter(|(u, n)| even(*n) && varies(*u)).map(|&(u, _)| u).collect()
+        };
+        let is_kink = |e: &Expr| match pool.node(*e) {
+            Node::Call(FunctionId::Abs | FunctionId::Max | FunctionId::Min, _) => varies(*e),
+            Node::Call(FunctionId::Atan2, arguments) => arguments.iter().any(|&e| varies(e)),
+            Node::Call(FunctionId::Ln, argument) => !squared(argument[0]).is_empty(),
+            Node::Product(_, factors) => factors.iter().any(|&(base, n)| {
+                let is_root = n.as_integer().is_none() && varies(base);
+                is_root && (!squared(base).is_empty() || pool.touches_zero(base, &moving))
+            }),
+            _ => false,
+        };
+        if !parts.iter().any(is_kink) {
+            return Vec::new();
+        }
+        let zeros = parts.iter().flat_map(|&e| match pool.node(e) {
+            Node::Call(FunctionId::Abs, argument) => argument.to_vec(),
+            // the cut of an angle that moves in a plane is none of them: see `law_cut`
+            Node::Call(FunctionId::Atan2, arguments)
+                if arguments.iter().any(|&e| !pool.depends_on_any(e, &moving)) =>
+            {
+                arguments.to_vec()
+            }
+            Node::Product(_, factors) => {
+                let below =
+                    factors.iter().filter(|(_, n)| n.is_negative() || n.as_integer().is_none());
+                below.flat_map(|&(base, _)| [squared(base), vec![base]].concat()).collect()
+            }
             _ => Vec::new(),
         });
-        let even = |n: Number| n.as_integer().is_some_and(|n| n % 2 == 0);
-        squares.filter(|&(_, n)| even(n)).map(|(e, _)| e).collect()
+        zeros.filter(|&e| !is_never_negative(pool, e)).collect()
+    }
+
+    /// Such an angle as [`Equations::law_cut`], if it depends on more than the time.
+    pub fn law_cut_at_a_place(&self) -> Option<Expr> {
+        self.law_cut().filter(|&angle| self.pool.depends_on_any(angle, &self.places()))
     }
 
     /// An angle in L (or H), atan2(y, x), at whose cut, y = 0 and x < 0, that jumps. A parameter is taken for positive.

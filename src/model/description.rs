@@ -244,6 +244,16 @@ impl Model {
         self.sections.clear();
     }
 
+    /// The events of the file, then the surfaces of section: the order of those of a compiled system.
+    pub fn located_events(&self) -> impl Iterator<Item = &MotionEvent> {
+        self.events.iter().chain(&self.sections)
+    }
+
+    /// The index of a surface of section among them.
+    pub fn event_of_section(&self, section: usize) -> usize {
+        self.events.len() + section
+    }
+
     /// Creates an empty model that has only `t`, `energy` and `action`; `preset` fills it.
     pub fn new(title: &str) -> Model {
         let mut pool = Pool::new();

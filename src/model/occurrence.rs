@@ -82,6 +82,4 @@ pub enum EventAction {
     Impulse(usize),
     /// The surface of section of this index is crossed, which is recorded for its picture only.
     Section(usize),
-    /// The momenta of L have a step in time there, as functions of the velocities. No file writes it.
-    StepInTime,
 }

@@ -43,8 +43,8 @@ pub struct MeasuredOrbits<'a> {
     pub equations: &'a Equations,
     /// The system, with the measure's zeros as an event.
     pub system: &'a System,
-    /// The event's name.
-    pub event: &'a str,
+    /// The event's index, if it counts zeros.
+    pub event: Option<usize>,
     /// By which orbits are integrated.
     pub method: &'static Method,
     /// Those of the method.
@@ -56,9 +56,10 @@ pub struct MeasuredOrbits<'a> {
 impl MeasuredOrbits<'_> {
     /// A number of the zeros on each orbit, at most `count`, up to its end or to an error.
     fn of_zeros(&self, count: Option<u64>, number: fn(&Crossings) -> f64) -> Vec<Option<f64>> {
+        let Some(event) = self.event else { return vec![Some(f64::NAN); self.orbits.len()] };
         let together = |orbits: &[(&Start, f64)]| {
             let plan = SectionPlan {
-                event: self.event.to_owned(),
+                event,
                 count,
                 until: Some(orbits[0].1),
                 idle: u64::MAX,

@@ -49,6 +49,7 @@ pub(super) struct Shared {
     discontinuities: Discontinuities,
     /// The arguments of the exponential functions in the law, of (q, native rates, action, work).
     steep: Arc<Program>,
+    divisors: Arc<Program>,
     inertia: Option<Inertia>,
     legendre: Arc<Program>,
     /// The index, among the auxiliary numbers, at which an attitude begins.
@@ -238,6 +239,7 @@ impl System {
             energy,
             discontinuities: Discontinuities::of(model, builder)?,
             steep: steep_program::program(builder)?,
+            divisors: steep_program::divisors(builder)?,
             watch: list.compile(builder)?,
             terms: quantities.compile(builder)?,
             inertia: None,
@@ -346,6 +348,10 @@ impl System {
 
     pub(super) fn steep_program(&self) -> &Arc<Program> {
         &self.shared.steep
+    }
+
+    pub(super) fn divisor_program(&self) -> &Arc<Program> {
+        &self.shared.divisors
     }
 
     pub(super) fn terms(&self) -> &Terms {

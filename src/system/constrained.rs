@@ -72,12 +72,12 @@ impl System {
         }
         let conditions = self.conditions(parameters, state)?;
         let now = conditions.strength(active, enforced);
-        if now > DEPENDENT {
+        if !is_weak(now) {
             return None;
         }
         let count = enforced.iter().filter(|&&enforced| enforced).count();
         let better = conditions.most_independent(active, count)?;
-        let gained = conditions.strength(active, &better) > GAINED * now;
+        let gained = is_stronger(conditions.strength(active, &better), now);
         let active = active.clone();
         gained.then(|| self.with_active_set(ActiveSet { active, enforced: better }))
     }
@@ -189,5 +189,26 @@ impl System {
             projector.project(&mut state)?;
         }
         Ok(state)
+    }
+}
+
+/// Whether enforced rows with these orthogonal components have become so dependent that another choice is tried.
+fn is_weak(strength: f64) -> bool {
+    strength <= DEPENDENT
+}
+
+/// Whether another choice is so much more independent that it is taken.
+fn is_stronger(other: f64, now: f64) -> bool {
+    other > GAINED * now
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn another_choice_is_tried_below_a_thirtieth_and_taken_from_four_times_as_much_on() {
+        assert!(is_weak(0.029) && !is_weak(0.031));
+        assert!(is_stronger(0.041, 0.01) && !is_stronger(0.039, 0.01));
     }
 }

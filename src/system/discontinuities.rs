@@ -34,6 +34,25 @@ pub struct Discontinuities {
     quadratic: bool,
 }
 
+/// What happens at a zero of a located function.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum CompiledAction {
+    /// What the event of the file, or the surface of section, says.
+    Written(EventAction),
+    /// The momenta of L have a step in time there, as functions of the velocities. No file writes it.
+    StepInTime,
+}
+
+impl CompiledAction {
+    /// The action that is written; `None` for a step in time.
+    pub fn written(self) -> Option<EventAction> {
+        match self {
+            CompiledAction::Written(action) => Some(action),
+            CompiledAction::StepInTime => None,
+        }
+    }
+}
+
 /// An event without its function.
 #[derive(Clone, Debug)]
 pub struct CompiledEvent {
@@ -42,7 +61,7 @@ pub struct CompiledEvent {
     /// The direction in which zeros count.
     pub direction: Direction,
     /// The action that an event triggers.
-    pub action: EventAction,
+    pub action: CompiledAction,
     is_constant: bool,
     /// The constraint whose expression its function is, but for a factor.
     constraint: Option<usize>,
@@ -92,7 +111,6 @@ impl Discontinuities {
             outputs.push(lowering.lower(impulse.period.unwrap_or(Expr::ZERO)));
         }
         let schedule = lowering.finish(outputs)?;
-        let located = || model.events.iter().chain(&model.sections);
         let functions: Vec<_> = functions(model).chain(steps.iter().copied()).map(Some).collect();
         let changes = model.impulses.iter().flat_map(|i| i.change.iter().map(|&e| Some(e)));
         let changes: Vec<_> = changes.collect();
@@ -101,18 +119,19 @@ impl Discontinuities {
             model.constraints.iter().position(|c| equations.are_multiples(when, c.expression))
         };
         Ok(Discontinuities {
-            events: located()
+            events: model
+                .located_events()
                 .map(|e| CompiledEvent {
                     name: e.name.clone(),
                     direction: if builder.backwards { e.direction.reversed() } else { e.direction },
-                    action: e.action,
+                    action: CompiledAction::Written(e.action),
                     is_constant: equations.is_plainly_constant(e.when),
                     constraint: constraint(e.when),
                 })
                 .chain(steps.iter().map(|_| CompiledEvent {
                     name: "step in time".to_owned(),
                     direction: Direction::Either,
-                    action: EventAction::StepInTime,
+                    action: CompiledAction::StepInTime,
                     is_constant: false,
                     constraint: None,
                 }))
@@ -140,7 +159,7 @@ impl Discontinuities {
 
 /// The functions of the events and of the surfaces of section.
 fn functions(model: &Model) -> impl Iterator<Item = Expr> + '_ {
-    model.events.iter().chain(&model.sections).map(|event| event.when)
+    model.located_events().map(|event| event.when)
 }
 
 /// The program of the functions that are expanded: those of the events, then the arguments of the

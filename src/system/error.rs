@@ -70,6 +70,8 @@ pub enum MotionErrorKind {
     NotFiniteInStep(String),
     /// A number of the state, given by its name, or the time has grown beyond what a number can hold.
     OutOfRange(Option<String>),
+    /// The same in a step of fixed size where the motion itself does not grow so.
+    OutOfRangeInStep(String, f64),
     /// This coordinate or variable reaches infinity at the time of the error.
     BlowsUp(String),
     /// A number that is given at the start, by its name, is below those that keep all their digits.
@@ -207,7 +209,8 @@ impl fmt::Display for MotionError {
             MotionErrorKind::BlowsUp(name) => {
                 write!(f, "the motion grows without bound: {name} reaches infinity at t = {time}")?;
             }
-            MotionErrorKind::OutOfRange(Some(name)) => {
+            MotionErrorKind::OutOfRange(Some(name))
+            | MotionErrorKind::OutOfRangeInStep(name, _) => {
                 write!(f, "{name} grows beyond the range of numbers, 1.8e308, after t = {time}")?;
             }
             MotionErrorKind::OutOfRange(None) => {
@@ -314,6 +317,13 @@ impl fmt::Display for MotionError {
             | MotionErrorKind::BlowsUp(_)
             | MotionErrorKind::OutOfRange(Some(_))
             | MotionErrorKind::Cancelled => "",
+            MotionErrorKind::OutOfRangeInStep(_, step) => {
+                return write!(
+                    f,
+                    ", which the motion itself does not: the step {} is too long for it; try a smaller step",
+                    short(*step)
+                );
+            }
             MotionErrorKind::OutOfRange(None) => ": what is waited for does not happen before",
             MotionErrorKind::Grazes(_) => ": nearby motions meet it or pass by",
             MotionErrorKind::Coincides(_) => {

@@ -159,7 +159,7 @@ impl System {
     #[must_use]
     pub fn without_marks(&self) -> System {
         let mark = |event: &CompiledEvent| {
-            matches!(event.action, EventAction::Mark | EventAction::Section(_))
+            matches!(event.action.written(), Some(EventAction::Mark | EventAction::Section(_)))
         };
         let mut system = self.clone();
         system.unmarked = self.discontinuities().events.iter().all(mark);

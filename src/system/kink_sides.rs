@@ -29,6 +29,11 @@ impl KinkSides {
         self.switches[i] == side(value)
     }
 
+    /// Whether there are any kinks.
+    pub fn any(&self) -> bool {
+        !(self.switches.is_empty() && self.roots.is_empty())
+    }
+
     /// The number of switches.
     pub fn switches(&self) -> usize {
         self.switches.len()

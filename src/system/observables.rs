@@ -58,7 +58,9 @@ impl ObservableList {
             list.add(ChannelKind::Extra(i), &c.written, &shown, c.expression);
         }
         list.columns = list.channels.len();
-        if equations.energy_rate != Expr::ZERO || !model.impulses.is_empty() {
+        let changes = equations.energy_rate != Expr::ZERO || !model.impulses.is_empty();
+        // by how much it jumps with the law is in no rate
+        if changes && !equations.energy_jumps_in_time() {
             list.push(ChannelKind::EnergyBalance, "energy balance", "energy balance", None);
         }
         for (i, c) in equations.conserved.iter().enumerate() {

@@ -20,7 +20,7 @@ use super::error::MotionErrorKind;
 use super::program::{Op, Program};
 use super::rates::Rates;
 use super::value::Evaluator;
-use super::{Form, MotionError, State, System};
+use super::{CompiledEvent, Form, MotionError, State, System};
 use crate::model::EventAction;
 use crate::num::DoubleDouble;
 
@@ -51,7 +51,9 @@ impl Saltation {
         let system = system.without_tangents();
         let discontinuities = system.discontinuities();
         let events = discontinuities.events.iter().enumerate();
-        let acting = events.filter(|(_, event)| matches!(event.action, EventAction::Impulse(_)));
+        let acts =
+            |event: &CompiledEvent| matches!(event.action.written(), Some(EventAction::Impulse(_)));
+        let acting = events.filter(|(_, event)| acts(event));
         let acting: Vec<usize> = acting.map(|(i, _)| i).collect();
         let all: Vec<usize> = (0..discontinuities.change.outputs()).collect();
         let moving = system.moving();

@@ -1,6 +1,6 @@
-//! The program of the arguments of exponential functions in a law.
+//! The programs of the arguments of exponential functions in a law, and of what its negative powers divide by.
 //!
-//! In: a law. Out: its program. Never here: states.
+//! In: a law. Out: its programs. Never here: states.
 
 use std::sync::Arc;
 
@@ -8,6 +8,29 @@ use super::observables;
 use super::program::Program;
 use super::rhs::ProgramBuilder;
 use crate::expr::{Expr, FunctionId, Node, Symbol};
+
+/// The least degree of a divisor behind which a thin barrier may stand: c/u has the force c/u², c/√u that of u^−1.5.
+const LEAST_DEGREE: f64 = 1.5;
+
+/// The program of the divisors, of the same inputs.
+pub(super) fn divisors(builder: &mut ProgramBuilder<'_>) -> Result<Arc<Program>, Symbol> {
+    let law = builder.equations.flow.expressions();
+    let moving = builder.equations.moving();
+    let mut divisors: Vec<Option<Expr>> = Vec::new();
+    for part in builder.pool.reachable(&law) {
+        let Node::Product(_, factors) = builder.pool.node(part) else { continue };
+        for &(base, power) in factors {
+            let is_one = power.value() <= -LEAST_DEGREE;
+            if is_one
+                && builder.pool.depends_on_any(base, &moving)
+                && !divisors.contains(&Some(base))
+            {
+                divisors.push(Some(base));
+            }
+        }
+    }
+    observables::program(builder, &divisors)
+}
 
 /// The program of the arguments, functions of (q, native rates, action, work).
 pub(super) fn program(builder: &mut ProgramBuilder<'_>) -> Result<Arc<Program>, Symbol> {

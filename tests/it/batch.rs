@@ -293,8 +293,8 @@ fn an_orbit_that_takes_too_many_steps_is_given_up() {
     assert!(counts.iter().any(|&count| count > 0 && count < states.len()), "{counts:?}");
 }
 
-/// A system with a surface of section, and the name of its event.
-fn with_section(name: &str, written: &str, direction: Direction) -> (System, Vec<f64>, String) {
+/// A system with a surface of section, and the index of its event.
+fn with_section(name: &str, written: &str, direction: Direction) -> (System, Vec<f64>, usize) {
     let mut model = Prepared::of(&catalog().find(name).unwrap()).unwrap().model.as_ref().clone();
     let mut pool = model.pool.clone();
     let read = Scope::new(&model, Allowed::Event, "a section").read(&mut pool, written);
@@ -335,7 +335,6 @@ fn every_crossing_has_the_bits_that_it_has_alone() {
         assert!(BatchPropagator::with_events(&system, method, settings).is_some(), "{name}");
         let starts = starts(&system, &parameters, 2 * BATCH + 3);
         for (count, until) in [(Some(12), None), (None, Some(20.0)), (Some(3), Some(40.0))] {
-            let event = event.clone();
             let plan = SectionPlan { event, count, until, idle: 4000, all_channels: false };
             let all = starts.iter().cloned().map(Ok).collect();
             let together = crossings_of_all(&system, method, settings, all, &plan);

@@ -736,6 +736,77 @@ fn collisions_and_exponential_growth_reach_no_infinity() {
     }
 }
 
+/// A bounded motion in steps beyond stability: numbers grow beyond all range, and it is the step that is blamed; where they do so at
+/// once, a method is named that passes. With a fifth of the step, or less, the same method stays in range.
+#[test]
+fn fixed_steps_that_diverge_are_called_too_long() {
+    let stiff = "[coordinates]\nx = { initial = 1.0 }\n[lagrangian]\nL = \"1/2*x'^2 - 50*x^2\"";
+    let quartic = "[coordinates]\nx = { initial = 1.0, velocity = 0.3 }\n[lagrangian]\nL = \"1/2*x'^2 - x^4\"";
+    let canonical = "[coordinates]\nq = { initial = 1.0, momentum = 0.7 }\n[hamiltonian]\nH = \"p_q^4 + q^2 + q^4\"";
+    for (law, step) in [(stiff, 1.0), (quartic, 2.0), (canonical, 1.25)] {
+        for method in ["symplectic-euler", "leapfrog", "yoshida4", "yoshida6", "rk4"] {
+            let message = error(by(method, Some(step), law), 2000.0);
+            let blamed = message.contains(&format!("the step {step} is too long"))
+                || message.contains(" passes it");
+            assert!(blamed, "{method} {law}: {message}");
+            let mut shorter = by(method, Some(0.01), law);
+            assert_eq!(shorter.advance(20.0, PLENTY), AdvanceOutcome::Arrived, "{method} {law}");
+        }
+    }
+}
+
+/// Barriers whose force is lost in the digits of others until the motion is there. All turn it back within 10⁻⁴ of x = 0, so that x = |cos t + ½ sin t| to about as much.
+#[test]
+fn no_barrier_of_a_negative_power_is_stepped_over_by_dop853() {
+    for barrier in [
+        "1e-60/x^12",
+        "1e-40/x^4",
+        "1e-300/x^60",
+        "1e-20/x^2",
+        "3/(1 + 1e16*x^2)",
+        "3/(1 + 1e16*x^2)^2",
+        "3/(1 + 1e12*x^2)^4",
+    ] {
+        let text = format!(
+            "[coordinates]\nx = {{ initial = 1.0, velocity = 0.5 }}\n[lagrangian]\nL = \"1/2*x'^2 - 1/2*x^2 - {barrier}\""
+        );
+        let mut experiment = by("dop853", None, &text);
+        for time in [4.0, 7.0_f64] {
+            run(&mut experiment, time);
+            let (x, free) = (value(&experiment, "x"), time.cos() + 0.5 * time.sin());
+            let off = (x - free.abs()).abs();
+            assert!(off < 2e-4, "{barrier}: {x} at {time}");
+        }
+    }
+}
+
+/// A force without bound at a kink that the motion passes, as |x|^−0.3: what the digits of a place beside it make of the force is no
+/// rounding that a step may err by. The period from rest at 1 is 4 √π Γ(1 + 1/a)/(√2 Γ(½ + 1/a)).
+#[test]
+fn a_force_without_bound_at_a_kink_is_no_rounding() {
+    // Γ(1 + 1/a) and Γ(½ + 1/a)
+    for (power, gammas) in [
+        ("0.7", [1.265_823_506_057_283_3, 0.971_874_550_668_194_6]),
+        ("0.5", [2.0, 1.329_340_388_179_137]),
+    ] {
+        let text = format!(
+            "[coordinates]\nx = {{ initial = 1.0 }}\n[lagrangian]\nL = \"1/2*x'^2 - abs(x)^{power}\""
+        );
+        let period = 4.0 * (std::f64::consts::PI / 2.0).sqrt() * gammas[0] / gammas[1];
+        for method in ["taylor", "dop853"] {
+            let mut experiment = by(method, None, &text);
+            if experiment.advance(2.0 * period, PLENTY) == AdvanceOutcome::Arrived {
+                let x = value(&experiment, "x");
+                assert!((x - 1.0).abs() < 1e-5, "{method} {power}: {x}");
+            } else {
+                // it says so
+                assert_eq!(method, "dop853", "{power}");
+                assert!(matches!(experiment.status(), Status::Failed(_)));
+            }
+        }
+    }
+}
+
 /// Where the law on both sides of a kink leads to it the motion follows it, by dop853 as well; after however long a rest it passes
 /// the others.
 #[test]

@@ -186,7 +186,7 @@ fn occurrences(
     let (kind, prefix) =
         if model.is_poisson() { (OccurrenceKind::X, "") } else { (OccurrenceKind::P, "p_") };
     for (known, found) in events.iter().zip(&mut found) {
-        let Occurrence { name, time, kind: what } = found;
+        let Occurrence { name, time, kind: what, .. } = found;
         if *name != known.name {
             return Err(format!("{name} at {time} in place of {} at {}", known.name, known.t));
         }

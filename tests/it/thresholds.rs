@@ -482,6 +482,36 @@ fn a_pole_is_told_from_a_collision_where_the_motion_continues_a_hundredth_beyond
     }
 }
 
+/// What `equilibria` says of a place first.
+fn equilibrium(text: &str) -> String {
+    let said = with_file(text, &["equilibria", "system.toml"]).success();
+    said.lines().next().unwrap_or_default().to_owned()
+}
+
+/// A valley on a plane that is flat along y to the rounding of its second derivative.
+#[test]
+fn a_valley_on_a_surface_is_flat_to_1e_12_of_its_greatest_slope() {
+    for (part, word) in [("0.9e-12", "degenerate"), ("1.1e-12", "minimum")] {
+        let said = equilibrium(&format!(
+            "title = \"A valley\"\n[coordinates]\nx = {{ initial = 0.1 }}\ny = {{ initial = 0.1 }}\nz = {{ initial = 0 }}\n\
+             [lagrangian]\nL = \"1/2*(x'^2 + y'^2 + z'^2) - 1/2*x^2 - 1/2*{part}*y^2\"\n\
+             [[constraints]]\nname = \"plane\"\nexpression = \"z\"\n"
+        ));
+        assert!(said.starts_with(word), "{part}: {said}");
+    }
+}
+
+/// A force that drives an oscillator by what may be the rounding of its linear law.
+#[test]
+fn growth_is_seen_beyond_the_rounding_of_what_it_is_made_of() {
+    for (rate, word) in [("7e-14", "linearly stable"), ("1e-13", "unstable")] {
+        let rest =
+            oscillator("").replace("[run]", &format!("forces = {{ x = \"{rate}*x'\" }}\n[run]"));
+        let said = equilibrium(&rest);
+        assert!(said.contains(word), "{rate}: {said}");
+    }
+}
+
 /// Beside a force of 1 that a constraint balances, one of 64 ε is rounding of its equations.
 #[test]
 fn a_multiplier_is_zero_below_sixty_four_units_of_what_constraints_balance() {

@@ -313,7 +313,6 @@ fn events(model: &Model) -> Vec<Value> {
         let action = match event.action {
             EventAction::Mark => "mark".to_owned(),
             EventAction::Section(_) => "section".to_owned(),
-            EventAction::StepInTime => "step".to_owned(),
             EventAction::Stop => "stop".to_owned(),
             EventAction::Release(k) => format!("release:{}", model.constraints[k].name),
             EventAction::Impulse(k) => format!("impulse:{}", model.impulses[k].name),

@@ -12,7 +12,7 @@ use crate::system::System;
 /// Warns before the run about a law with a step, and about a method that ignores the kinks of the motion.
 pub(super) fn before(model: &Model, system: &System, equations: &Equations, method: &Method) {
     let law = if equations.is_lagrangian() { "L" } else { "H" };
-    if let Some(angle) = equations.law_cut() {
+    if let Some(angle) = equations.law_cut_at_a_place() {
         let angle = equations.pool.text(angle);
         stderr::report(&format!(
             "{law} jumps at the cut of {angle}, where the angle goes from pi to -pi and the force is an impulse that no \

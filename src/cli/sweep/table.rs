@@ -80,7 +80,7 @@ impl FromStr for MeasureName {
 struct Taken {
     name: MeasureName,
     system: System,
-    event: String,
+    event: Option<usize>,
 }
 
 /// What a column of the table sets.
@@ -256,7 +256,7 @@ impl SweepTable {
                 model: &self.laid.model,
                 equations: &self.laid.equations,
                 system: &taken.system,
-                event: &taken.event,
+                event: taken.event,
                 method: self.laid.method,
                 settings: self.laid.settings,
                 orbits: &orbits,
@@ -321,7 +321,7 @@ fn taken(
         PhaseSpace::on_constraints(&model, &equations, &system, &start.parameters).map_err(
             |why| CommandError::WrongUse(format!("--measure {}: {why}", name.measure.name)),
         )?;
-        return Ok(Taken { name: name.clone(), system, event: String::new() });
+        return Ok(Taken { name: name.clone(), system, event: None });
     }
     let written = match (&name.expression, name.measure.of) {
         (Some(expression), _) => expression.clone(),
@@ -337,5 +337,5 @@ fn taken(
     let zeros = surface(&mut reading.model, &written, "--measure")?;
     let event = add_section(&mut reading.model, zeros, Direction::Rising);
     let laid = motion.compile(reading, &[], "--observe", interrupt)?;
-    Ok(Taken { name: name.clone(), system: laid.system, event })
+    Ok(Taken { name: name.clone(), system: laid.system, event: Some(event) })
 }

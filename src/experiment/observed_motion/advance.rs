@@ -38,7 +38,7 @@ impl ObservedMotion {
         (gauges, spacing): (&mut Gauges, f64),
     ) -> Result<Reached, MotionError> {
         loop {
-            *budget -= self.several_steps(time, *budget, gauges, spacing);
+            *budget -= self.several_steps(time, *budget, gauges, spacing)?;
             let (before, mut one) = (self.inner.steps(), (*budget).min(1));
             let reached = self.inner.reach(time, limit, &mut one)?;
             let new = self.inner.steps() != before;
@@ -52,7 +52,7 @@ impl ObservedMotion {
             {
                 self.watch.pending = false;
             }
-            self.observe_step(gauges, spacing, new);
+            self.observe_step(gauges, spacing, new)?;
             match &reached {
                 Reached::OutOfBudget if *budget > 0 => continue,
                 Reached::Occurred(occurrence) => self.record(occurrence)?,
@@ -65,9 +65,15 @@ impl ObservedMotion {
 
     /// Takes several steps at once until `time` is reached or passed, where only the gauges observe the states between
     /// them. Returns their number.
-    fn several_steps(&mut self, time: f64, budget: u64, gauges: &mut Gauges, spacing: f64) -> u64 {
+    fn several_steps(
+        &mut self,
+        time: f64,
+        budget: u64,
+        gauges: &mut Gauges,
+        spacing: f64,
+    ) -> Result<u64, MotionError> {
         if self.inner.method().stepping != Stepping::Fixed {
-            return 0;
+            return Ok(0);
         }
         // what waits was before
         self.watch.record_gathered(gauges);
@@ -109,31 +115,37 @@ impl ObservedMotion {
                 }
             }
             if due {
-                self.observe_step(gauges, spacing, true);
+                self.observe_step(gauges, spacing, true)?;
                 self.watch.record_gathered(gauges);
             }
             self.log_step();
         }
-        budget - left
+        Ok(budget - left)
     }
 
     /// Lets the gauges sample the last step: at its end, and also within it if rows may be farther apart than steps
     /// and the method is as accurate there as at the ends. A state that cannot be observed is skipped; its error
     /// appears again when it is requested. Where events are searched for in several pieces of a step, its end is free of
     /// them only after the last.
-    fn observe_step(&mut self, gauges: &mut Gauges, spacing: f64, new: bool) {
+    fn observe_step(
+        &mut self,
+        gauges: &mut Gauges,
+        spacing: f64,
+        new: bool,
+    ) -> Result<(), MotionError> {
         let (begin, end) = self.inner.undisturbed();
         let steps = self.inner.steps();
         self.watch.pending |= new;
         // exactly at a step in time its law has two values
-        let is_between = self.inner.ends_at_step_in_time();
-        let whole = self.watch.pending && end == self.inner.computed().time && !is_between;
+        let whole = self.watch.pending
+            && end == self.inner.computed().time
+            && !self.inner.ends_at_step_in_time()?;
         if !new && !whole {
-            return;
+            return Ok(());
         }
         self.watch.pending &= !whole;
         if !self.watch.resolves([begin, end], spacing) {
-            return;
+            return Ok(());
         }
         let sparse = (end - begin).abs() < spacing;
         let due = sparse && end >= self.watch.next;
@@ -161,6 +173,7 @@ impl ObservedMotion {
             }
             watch.observe(state, at, gauges);
         }
+        Ok(())
     }
 
     /// Logs the state at the end of the last step. Equal steps are short, and any of them can be taken again.

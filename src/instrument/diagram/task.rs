@@ -137,7 +137,7 @@ impl DiagramTask {
         let dissipates = model.mechanics.dissipation() != Expr::ZERO;
         let transient = if dissipates { TRANSIENT } else { 0 };
         let plan = SectionPlan {
-            event: model.sections[section].name.clone(),
+            event: model.event_of_section(section),
             count: Some((transient + COUNT) as u64),
             until: None,
             idle: IDLE,

@@ -125,7 +125,7 @@ impl MapTask {
         // all begin when the file says
         let begun = model.run.start;
         let plan = SectionPlan {
-            event: model.sections[section].name.clone(),
+            event: model.event_of_section(section),
             count: Some(1),
             until: Some(begun + self.length),
             idle: u64::MAX,

@@ -242,7 +242,7 @@ impl SectionTask {
         let start = self.plane.start(system, &mut observer, at).ok()?;
         let backwards = system.reversed(&self.law.0, &self.law.1).ok()?;
         let method = (self.method, self.conditions.settings);
-        PhaseShift::new((system, backwards), method, &start, &self.plan.event).ok()
+        PhaseShift::new((system, backwards), method, &start, self.plan.event).ok()
     }
 
     /// The number of starts that an addition has, and where they are tried, apart from those of additions before.

@@ -167,6 +167,7 @@ impl Propagator {
             return known;
         }
         if let Some(kind) = self.out_of_range(&error) {
+            let kind = self.of_step(kind, error.time);
             return MotionError { kind, place: Vec::new(), ..error };
         }
         if let MotionErrorKind::ConstraintParted(_) = error.kind {
@@ -247,21 +248,39 @@ impl Propagator {
         }
     }
 
+    /// What has grown beyond the range of numbers by the fault of a fixed step: the motion itself does not grow so.
+    fn of_step(&mut self, kind: MotionErrorKind, time: f64) -> MotionErrorKind {
+        match kind {
+            MotionErrorKind::OutOfRange(Some(name)) if self.method.stepping == Stepping::Fixed => {
+                match self.stays_in_range(time, is_vast) {
+                    Some(true) => {
+                        MotionErrorKind::OutOfRangeInStep(name, self.stepper.step_size().abs())
+                    }
+                    Some(false) => MotionErrorKind::OutOfRange(Some(name)),
+                    None => MotionErrorKind::NotFiniteInStep(name),
+                }
+            }
+            kind => kind,
+        }
+    }
+
     /// Whether a number that is not finite has only grown beyond the range of numbers, far from all singularities.
     fn out_of_range(&mut self, error: &MotionError) -> Option<MotionErrorKind> {
         let MotionErrorKind::NotFinite(name) = &error.kind else { return None };
         if error.time.abs() > VAST {
             return Some(MotionErrorKind::OutOfRange(None));
         }
-        let is_vast = |state: &State| {
-            state.is_finite() && state.values.iter().any(|value| value.abs() > VAST)
-        };
         let (begin, _) = self.stepper.interval();
         let mut origin = self.state.clone();
         let grown = is_vast(self.stepper.state())
             || (self.stepper.at(begin, &mut origin).is_ok() && is_vast(&origin));
         grown.then(|| MotionErrorKind::OutOfRange(Some(name.clone())))
     }
+}
+
+/// Whether a number of a state is far beyond all that motions reach.
+fn is_vast(state: &State) -> bool {
+    state.is_finite() && state.values.iter().any(|value| value.abs() > VAST)
 }
 
 /// Whether velocities have changed by more than half of their size, of which some are near the greatest so far: where a motion turns

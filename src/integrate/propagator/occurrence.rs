@@ -6,13 +6,15 @@
 use super::Propagator;
 use crate::integrate::located_event::LocatedEvent;
 use crate::model::EventAction;
-use crate::system::{MotionError, MotionErrorKind, State, System};
+use crate::system::{CompiledAction, MotionError, MotionErrorKind, State, System};
 
 /// An occurrence along a motion.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Occurrence {
     /// The name of the event or the impulse.
     pub name: String,
+    /// The index of the event in the compiled system; `None` for an impulse that no event causes.
+    pub event: Option<usize>,
     /// The time of the occurrence.
     pub time: f64,
     /// The kind of occurrence.
@@ -85,7 +87,7 @@ impl Propagator {
             Some(event) => discontinuities.events[event].name.clone(),
             None => discontinuities.impulses[impulse].name.clone(),
         };
-        Ok(Occurrence { name, time, kind })
+        Ok(Occurrence { name, event, time, kind })
     }
 
     /// Carries out the action of an event; `None` if it is a step in time that turns out to be none.
@@ -96,7 +98,13 @@ impl Propagator {
         self.move_to_exactly(found.exact)?;
         self.check_accumulation(found)?;
         let trigger = self.system.discontinuities().events[found.event].clone();
-        let kind = match trigger.action {
+        let Some(action) = trigger.action.written() else {
+            let is_one = self.cross_step_in_time(found)?;
+            let kind = OccurrenceKind::StepInTime;
+            let (name, event, time) = (trigger.name, Some(found.event), found.exact.high);
+            return Ok(is_one.then_some(Occurrence { name, event, time, kind }));
+        };
+        let kind = match action {
             EventAction::Mark => OccurrenceKind::Mark,
             EventAction::Section(section) => OccurrenceKind::Crossing(section),
             EventAction::Stop => {
@@ -112,14 +120,9 @@ impl Propagator {
             EventAction::Impulse(impulse) => {
                 return self.impulse_at(impulse, Some(found.event)).map(Some);
             }
-            EventAction::StepInTime => {
-                if !self.cross_step_in_time(found)? {
-                    return Ok(None);
-                }
-                OccurrenceKind::StepInTime
-            }
         };
-        Ok(Some(Occurrence { name: trigger.name, time: found.exact.high, kind }))
+        let (name, event, time) = (trigger.name, Some(found.event), found.exact.high);
+        Ok(Some(Occurrence { name, event, time, kind }))
     }
 
     /// Releases a constraint at the current state, which is `state` in the system's native form.
@@ -151,7 +154,7 @@ impl Propagator {
         let time = found.exact.high;
         // a picture does not end a motion
         let action = self.system.discontinuities().events[found.event].action;
-        if matches!(action, EventAction::Section(_)) {
+        if matches!(action, CompiledAction::Written(EventAction::Section(_))) {
             return Ok(());
         }
         if !self.search.accumulates(found) {

@@ -8,8 +8,7 @@
 
 use super::Propagator;
 use crate::integrate::located_event::LocatedEvent;
-use crate::model::EventAction;
-use crate::system::MotionError;
+use crate::system::{CompiledAction, MotionError};
 
 /// So little of the time before a step that no motion takes place in it, as a part of the time.
 const AT_ONCE: f64 = 1e-25;
@@ -42,7 +41,8 @@ impl Propagator {
             return Ok(());
         };
         let step = self.stepper.step_size();
-        if let Some([before, _]) = self.system.beside_step(waiting.exact, step, &self.parameters)? {
+        let Some(steps) = &mut self.steps_in_time else { return Ok(()) };
+        if let Some([before, _]) = steps.beside(waiting.exact, step)? {
             let mut end = self.stepper.state().clone();
             end.set_time(before);
             self.stepper.replace_state(&end);
@@ -53,11 +53,11 @@ impl Propagator {
     /// Dates the current state, if it is exactly at a step in time, on that side of it where the motion is.
     pub(super) fn date_beside_step_in_time(&mut self) -> Result<(), MotionError> {
         let time = self.state.exact_time();
-        if self.system.after_step_in_time(time, &self.parameters)? == time {
+        let Some(steps) = &mut self.steps_in_time else { return Ok(()) };
+        if steps.after(time)? == time {
             return Ok(());
         }
-        let step = self.stepper.step_size();
-        let beside = self.system.beside_step(time, step, &self.parameters)?;
+        let beside = steps.beside(time, self.stepper.step_size())?;
         if let Some(crossed) = self.crossed.filter(|crossed| crossed.high == time.high) {
             self.state.set_time(crossed);
         } else if let Some([before, _]) = beside {
@@ -67,16 +67,20 @@ impl Propagator {
     }
 
     /// Whether the last step ends at a step in time, on one side or the other.
-    pub fn ends_at_step_in_time(&self) -> bool {
+    ///
+    /// # Errors
+    /// Returns an error if the functions that have a step there have no value.
+    pub fn ends_at_step_in_time(&mut self) -> Result<bool, MotionError> {
         let end = self.stepper.state().exact_time();
-        self.system.beside_step(end, 0.0, &self.parameters).is_ok_and(|beside| beside.is_some())
+        let Some(steps) = &mut self.steps_in_time else { return Ok(false) };
+        Ok(steps.beside(end, 0.0)?.is_some())
     }
 
     /// Whether the last step ends at a step in time that is not crossed yet.
     fn ends_before_step_in_time(&self) -> bool {
         let events = &self.system.discontinuities().events;
         self.search.waiting.is_some_and(|waiting| {
-            events[waiting.event].action == EventAction::StepInTime
+            events[waiting.event].action == CompiledAction::StepInTime
                 && waiting.exact.high == self.stepper.time()
         })
     }
@@ -84,11 +88,11 @@ impl Propagator {
     /// Dates a state at which the motion begins, exactly at a step, just after it. One that is dated just before it, as that of a motion
     /// that is reversed there, is given the velocities after it.
     pub(super) fn begin_after_step_in_time(&mut self) -> Result<(), MotionError> {
-        let time = self.system.after_step_in_time(self.state.exact_time(), &self.parameters)?;
+        let Some(steps) = &mut self.steps_in_time else { return Ok(()) };
+        let time = steps.after(self.state.exact_time())?;
         self.state.set_time(time);
-        let beside = self.system.beside_step(time, 0.0, &self.parameters)?;
-        let Some(beside) = beside else { return Ok(()) };
-        if !self.system.is_behind_step(time, beside, &self.parameters)? {
+        let Some(beside) = steps.beside(time, 0.0)? else { return Ok(()) };
+        if !steps.is_behind(time, beside)? {
             let left = (beside[1] - time).high;
             if left > AT_ONCE * time.high.abs() {
                 return Ok(());

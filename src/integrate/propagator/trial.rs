@@ -118,6 +118,32 @@ impl Propagator {
         if self.method.stepping == Stepping::Fixed { None } else { self.fixed_past(time) }
     }
 
+    /// Whether the motion itself stays in range beyond a time at which fixed steps have left the range of numbers, as methods of
+    /// variable step follow it; `None` if they do not tell.
+    pub(super) fn stays_in_range(
+        &mut self,
+        time: f64,
+        is_vast: impl Fn(&State) -> bool,
+    ) -> Option<bool> {
+        let settings = Settings { step: None, tolerance: None };
+        let from = self.watch.begun.clone()?;
+        let since = time - from.time;
+        for method in ["taylor", "dop853"].into_iter().filter_map(method_named) {
+            let beyond = from.time + (1.0 + BEYOND) * since;
+            if let Trial::Passed(state) = self.trial(method, settings, &from, beyond) {
+                return Some(!is_vast(&state));
+            }
+            // one that grows as fast leaves the range as well
+            let short_of = from.time + (1.0 - BEYOND) * since;
+            if let Trial::Passed(state) = self.trial(method, settings, &from, short_of)
+                && is_vast(&state)
+            {
+                return Some(false);
+            }
+        }
+        None
+    }
+
     /// A fixed step with which the motion passes a time, if there is one.
     pub(super) fn fixed_past(&mut self, time: f64) -> Option<Passage> {
         let method = method_named("rk4")?;

@@ -5,7 +5,7 @@
 use super::Propagator;
 use crate::integrate::event_location::EventLocator;
 use crate::model::EventAction;
-use crate::system::MotionError;
+use crate::system::{CompiledAction, MotionError};
 
 impl Propagator {
     /// The names of the events and sections whose functions are zero all along the current motion but for rounding, and since when.
@@ -13,11 +13,13 @@ impl Propagator {
     /// a step in time of the law.
     pub fn vanishing_events(&self) -> impl Iterator<Item = (&str, f64)> {
         let events = &self.system.discontinuities().events;
-        let is_over = |action: EventAction| match action {
-            EventAction::Release(constraint) => self.system.is_released(constraint),
+        let is_over = |action: CompiledAction| match action {
+            CompiledAction::Written(EventAction::Release(constraint)) => {
+                self.system.is_released(constraint)
+            }
+            CompiledAction::Written(_) => false,
             // no event of the file
-            EventAction::StepInTime => true,
-            _ => false,
+            CompiledAction::StepInTime => true,
         };
         let known = self.search.events.iter().flat_map(EventLocator::vanishing);
         let known = known.filter_map(|(event, since)| Some((events.get(event)?, since)));

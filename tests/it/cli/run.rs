@@ -895,6 +895,46 @@ fn a_step_of_the_law_is_told() {
     law("abs(x)").success();
 }
 
+/// Where V jumps at a time the energy jumps with it, by as much as the motion makes it: the motion is right, and no balance is lost.
+/// From t = 2 on x = ½·s·t + A cos t + B sin t with s = sign(t − 2), here at t = 5.
+#[test]
+fn the_energy_jumps_with_the_law_at_a_time_and_no_balance_is_lost() {
+    let run = |drive: &str, until: &str| {
+        let text = format!(
+            "title = \"A step\"\n[coordinates]\nx = {{ initial = 1.0, velocity = 0.2 }}\n\
+             [lagrangian]\nL = \"1/2*x'^2 - 1/2*x^2 + x*{drive}\"\n"
+        );
+        with_file(&text, &["run", "system.toml", "--strict", "--until", until, "--at", until])
+    };
+    let done = run("0.5*t*sign(t - 2)", "5");
+    assert_eq!((done.code, done.stderr.as_str()), (0, ""));
+    let x: f64 = done.stdout.lines().last().unwrap().split(',').nth(1).unwrap().parse().unwrap();
+    let (mut at, mut rate) = (1.0_f64, 0.2_f64);
+    for (from, until, slope) in [(0.0, 2.0, -0.5), (2.0, 5.0, 0.5)] {
+        let (sin, cos) = f64::sin_cos(until - from);
+        let (a, b) = (at - slope * from, rate - slope);
+        (at, rate) = (slope * until + a * cos + b * sin, slope - a * sin + b * cos);
+    }
+    assert!((x - at).abs() < 1e-12, "{x} {at}");
+    for drive in [
+        "sin(t)*sign(sin(3*t))",
+        "(max(0, t - 1) + sign(t - 2))",
+        "acos(cos(t))*sign(sin(t))",
+        "atan(tan(2*t))",
+        "atan2(sin(t), cos(t))",
+        "t*atan(1/(t - 2))",
+        "(cos(t)^2)^0.5/cos(t)",
+    ] {
+        let done = run(drive, "8");
+        assert_eq!((done.code, done.stderr.as_str()), (0, ""), "{drive}");
+    }
+    // a force that does work without a step has its balance
+    let text = "title = \"Driven\"\n[coordinates]\nx = { initial = 1.0 }\n[lagrangian]\nL = \"1/2*x'^2 - 1/2*x^2 + x*max(0, t - 2)\"\n";
+    let told =
+        with_file(text, &["run", "system.toml", "--until", "8", "--format", "json"]).success();
+    assert!(told.contains("energy balance"), "{told}");
+}
+
 /// An angle jumps by 2π at its cut, y = 0 and x < 0, and with it a law that is no function on the circle.
 #[test]
 fn a_law_that_jumps_at_the_cut_of_an_angle_is_told() {

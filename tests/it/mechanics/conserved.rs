@@ -189,6 +189,48 @@ fn a_sign_beside_its_argument_is_no_step() {
         let (_, equations) = derived(&file(LINE, &law, "x"));
         assert!(equations.conserved.is_empty(), "{step}");
     }
+    // a root or a maximum over what it was made of
+    for step in [
+        "sqrt(x^2)/x",
+        "(x^2)^0.5/x",
+        "(x^4)^0.25/x",
+        "(x^2)^1.5/x^3",
+        "sqrt((x - 3)^2)/(x - 3)",
+        "sqrt(sin(x)^2)/sin(x)",
+        "x*sqrt(1/x^2)",
+        "sqrt(x^2*(1 + x^2))/(x*sqrt(1 + x^2))",
+        "sqrt(x^2 + x^4)/x",
+        "(abs(x) + x)/(2*x)",
+        "max(x, 0)/x",
+        "(x - 2)*max(0, x - 2)/(x - 2)^2",
+        "exp(ln(x^2)/2)/x",
+        "atan2(x, 0)",
+        "atan2(0, x)",
+        "(x^2)^(1/3)/abs(x)^(5/3)*x",
+    ] {
+        let law = l(&format!("1/2*x'^2 - 0.1*{step}"));
+        let (_, equations) = derived(&file(LINE, &law, "x"));
+        assert!(equations.conserved.is_empty(), "{step}: {:?}", equations.conserved);
+    }
+    for kink in [
+        "sqrt(x^2)*x",
+        "x^2/sqrt(x^2)",
+        "sqrt(x^4)/x",
+        "max(x, 0)^2/x",
+        "abs(x)^1.5/x",
+        "sqrt(x^2*(1 + x^2))/sqrt(1 + x^2)",
+        "(sqrt((x - 1)^2) - 1)^2/sqrt((x - 1)^2 + 1)",
+        "exp(ln(x^2)/2)",
+        "abs(sin(x))^3/sin(x)",
+    ] {
+        let law = l(&format!("1/2*x'^2 - 0.1*{kink}"));
+        let (_, equations) = derived(&file(LINE, &law, "x"));
+        assert_eq!(equations.conserved.len(), 1, "{kink}");
+    }
+    let plane = l("1/2*(x'^2 + y'^2) - sqrt(x^2)/x*y");
+    assert!(derived(&file(PLANE, &plane, "x")).1.conserved.is_empty());
+    let in_time = l("1/2*x'^2 - x*(cos(t)^2)^0.5/cos(t)");
+    assert!(derived(&file(LINE, &in_time, "x")).1.conserved.is_empty());
     // negative: a quotient also changes its sign where what it is divided by does
     let quotient = l("1/2*(x'^2 + y'^2) - x*sign(x/y)");
     assert!(derived(&file(PLANE, &quotient, "x")).1.conserved.is_empty());

@@ -474,8 +474,12 @@ fn the_page_of_equations_writes_an_energy_once() {
 #[test]
 fn what_happened_is_marked_where_it_was_and_named() {
     let mut seen = snapshot(&pendulum(), 2.0);
-    let impulse =
-        |time: f64| Occurrence { name: "push".to_owned(), time, kind: OccurrenceKind::Mark };
+    let impulse = |time: f64| Occurrence {
+        name: "push".to_owned(),
+        event: None,
+        time,
+        kind: OccurrenceKind::Mark,
+    };
     seen.occurrences = [0.5, 1.0, 1.0005].map(impulse).into_iter().collect();
     let mut app = in_lab();
     let look = rich();
