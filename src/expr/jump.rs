@@ -25,6 +25,9 @@ const SEEN: f64 = 1e-6;
 /// by ten, beside the tip of a root it falls by three.
 const SETTLED: f64 = 0.1;
 
+/// Places beyond those where functions are looked at closely.
+const FAR: [f64; 12] = [1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15];
+
 /// The halvings between two places down to neighbouring numbers.
 const HALVINGS: u32 = 120;
 
@@ -39,13 +42,20 @@ impl Pool {
         on_lines(moving, &at_rest, &mut |along, places| {
             let below = |place: f64| divisor.at(&|symbol| along(symbol, place));
             let value = |place: f64| function.at(&|symbol| along(symbol, place));
+            let far = FAR.map(|place| -place).into_iter().rev();
+            let places: Vec<f64> = far.chain(places.iter().copied()).chain(FAR).collect();
             let mut pairs = places.windows(2);
             pairs.any(|pair| {
-                below(pair[0]) * below(pair[1]) < 0.0
+                are_opposite(below(pair[0]), below(pair[1]))
                     && jumps(&value, change_of_sign(&below, pair[0], pair[1]))
             })
         })
     }
+}
+
+/// Whether one is above zero and one below, also where their product is none.
+fn are_opposite(a: f64, b: f64) -> bool {
+    a > 0.0 && b < 0.0 || a < 0.0 && b > 0.0
 }
 
 /// Where a function changes its sign between two places.

@@ -52,7 +52,7 @@ fn part_before_zero(begin: End, end: End) -> f64 {
     let near = NEAR * begin.value.abs().max(end.value.abs());
     part_before(|&k| {
         let u = between(begin, end, k);
-        u * begin.value <= 0.0 || u.abs() < near
+        u == 0.0 || (u > 0.0) != (begin.value > 0.0) || u.abs() < near
     })
 }
 

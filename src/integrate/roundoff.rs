@@ -13,7 +13,7 @@ const UNITS: [f64; 5] = [2.0, -3.0, 1.0, -2.0, 3.0];
 /// The number of perturbations tried.
 const WAYS: usize = 3;
 
-/// A state is beside a kink if a change of its numbers by this part of their sizes within the step leads over it.
+/// A state is beside a kink if a change of its numbers by this part of what they move by in the step leads over it.
 const BESIDE_A_KINK: f64 = 1e-3;
 
 pub(super) struct RatesPoint<'a> {
@@ -44,7 +44,8 @@ pub(super) fn measure(
     if sides.any() {
         for by in [BESIDE_A_KINK, -BESIDE_A_KINK] {
             for (j, x) in moved.iter_mut().enumerate() {
-                *x = place.numbers[j] + UNITS[j % UNITS.len()] * by * place.sizes[j];
+                let moves = (place.step * here[j]).abs();
+                *x = place.numbers[j] + UNITS[j % UNITS.len()] * by * moves;
             }
             if rates.evaluate(place.time, &moved, &mut there).is_err()
                 || !rates.sides().agrees(&sides)

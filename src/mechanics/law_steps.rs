@@ -44,7 +44,7 @@ impl Equations {
         let known = self.momentum_steps();
         let mut steps = self.steps_of(self.law, &[self.symbols.time]).into_iter();
         steps.any(|e| is_of_time(&e) && !known.contains(&e))
-            || self.law_cut().is_some_and(|angle| is_of_time(&angle))
+            || self.law_cuts().iter().any(is_of_time)
     }
 
     /// The symbols that move, but the time.
@@ -190,8 +190,15 @@ impl Equations {
         among.sort_unstable();
         among.dedup();
         let (pool, moving) = (&self.pool, self.moving());
+        // a jump may be small beside the other terms, in whatever units
+        let terms = match pool.node(function) {
+            Node::Sum(_, terms) => terms.iter().map(|&(_, term)| term).collect(),
+            _ => vec![function],
+        };
         among.retain(|&e| {
-            pool.depends_on_any(e, symbols) && pool.jumps_at_zeros(function, e, &moving)
+            let own = |term: &&Expr| pool.reachable(&[**term]).contains(&e);
+            pool.depends_on_any(e, symbols)
+                && terms.iter().filter(own).any(|&term| pool.jumps_at_zeros(term, e, &moving))
         });
         among
     }
@@ -242,11 +249,17 @@ impl Equations {
 
     /// Such an angle as [`Equations::law_cut`], if it depends on more than the time.
     pub fn law_cut_at_a_place(&self) -> Option<Expr> {
-        self.law_cut().filter(|&angle| self.pool.depends_on_any(angle, &self.places()))
+        let places = self.places();
+        self.law_cuts().into_iter().find(|&angle| self.pool.depends_on_any(angle, &places))
     }
 
     /// An angle in L (or H), atan2(y, x), at whose cut, y = 0 and x < 0, that jumps. A parameter is taken for positive.
     pub fn law_cut(&self) -> Option<Expr> {
+        self.law_cuts().first().copied()
+    }
+
+    /// All of them.
+    fn law_cuts(&self) -> Vec<Expr> {
         let moving = self.moving();
         let is_cut = |e: &Expr| {
             let Node::Call(FunctionId::Atan2, arguments) = self.pool.node(*e) else { return false };
@@ -259,10 +272,11 @@ impl Equations {
         };
         let cuts: Vec<Expr> = self.pool.reachable(&[self.law]).into_iter().filter(is_cut).collect();
         if cuts.is_empty() {
-            return None;
+            return Vec::new();
         }
         let mut pool = self.pool.clone();
-        cuts.into_iter().find(|&angle| {
+        let jumps = |angle: &Expr| {
+            let angle = *angle;
             let Node::Call(_, arguments) = pool.node(angle) else { return false };
             let y = arguments[0];
             // an angle that has one sign comes to its cut from one side only
@@ -275,6 +289,7 @@ impl Equations {
                 _ => is_multiple(&pool, jump, y),
             };
             !vanishes_with && !matches!(pool.is_zero(jump), Zero::Proved | Zero::Numerically)
-        })
+        };
+        cuts.into_iter().filter(jumps).collect()
     }
 }

@@ -256,8 +256,7 @@ impl Propagator {
                     Some(true) => {
                         MotionErrorKind::OutOfRangeInStep(name, self.stepper.step_size().abs())
                     }
-                    Some(false) => MotionErrorKind::OutOfRange(Some(name)),
-                    None => MotionErrorKind::NotFiniteInStep(name),
+                    Some(false) | None => MotionErrorKind::OutOfRange(Some(name)),
                 }
             }
             kind => kind,

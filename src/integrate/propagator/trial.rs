@@ -26,6 +26,9 @@ const BOUNDED: f64 = 10.0;
 /// A trial from the beginning of the motion goes beyond the place by this part of the time to it.
 const BEYOND: f64 = 0.05;
 
+/// The parts of the time to an overflow after which a motion is looked at that may have left the range of numbers sooner itself.
+const GROWING: [f64; 12] = [0.95, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.15, 0.1, 0.05];
+
 /// A number that changes by less than this part of the largest of its kind is ignored.
 const NEGLIGIBLE: f64 = 1e-6;
 
@@ -128,17 +131,23 @@ impl Propagator {
         let settings = Settings { step: None, tolerance: None };
         let from = self.watch.begun.clone()?;
         let since = time - from.time;
+        if since <= 0.0 {
+            return None;
+        }
         for method in ["taylor", "dop853"].into_iter().filter_map(method_named) {
             let beyond = from.time + (1.0 + BEYOND) * since;
             if let Trial::Passed(state) = self.trial(method, settings, &from, beyond) {
                 return Some(!is_vast(&state));
             }
-            // one that grows as fast leaves the range as well
-            let short_of = from.time + (1.0 - BEYOND) * since;
-            if let Trial::Passed(state) = self.trial(method, settings, &from, short_of)
-                && is_vast(&state)
-            {
-                return Some(false);
+            // one that grows leaves the range as well, by fixed steps that are too long much later than by itself
+            for part in GROWING {
+                let before = from.time + part * since;
+                if let Trial::Passed(state) = self.trial(method, settings, &from, before) {
+                    if is_vast(&state) {
+                        return Some(false);
+                    }
+                    break;
+                }
             }
         }
         None

@@ -951,6 +951,11 @@ fn a_law_that_jumps_at_the_cut_of_an_angle_is_told() {
         let reported = done.stderr.contains("phaselab: L jumps at the cut of atan2(");
         assert!(done.code == 0 && reported && !done.stderr.contains("lost"), "{}", done.stderr);
     }
+    // beside an angle of the time alone, which has no impulse, in either order
+    for both in ["x*atan2(sin(t), cos(t)) + atan2(y, x)", "atan2(y, x) + x*atan2(sin(t), cos(t))"] {
+        let done = law(both);
+        assert!(done.stderr.contains("L jumps at the cut of atan2(y, x)"), "{}", done.stderr);
+    }
     for continuous in [
         "atan2(y, x)^2/10",
         "sin(3*atan2(y, x))",

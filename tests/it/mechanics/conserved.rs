@@ -227,6 +227,16 @@ fn a_sign_beside_its_argument_is_no_step() {
         let (_, equations) = derived(&file(LINE, &law, "x"));
         assert_eq!(equations.conserved.len(), 1, "{kink}");
     }
+    // however small it is beside the other terms, and however far away
+    for step in ["sqrt(x^2)/x", "x/sqrt(x^2)", "max(x, 0)/x", "x/abs(x)", "atan(1/x)"] {
+        let far = step.replace('x', "(x - 1e6)").replace("ma(x - 1e6)", "max");
+        for (factor, step) in [("1e-8", step), ("1e-20", step), ("0.1", &far)] {
+            let law = l(&format!("1/2*(x'^2 + y'^2) - 1/2*x^2 - {factor}*{step}"));
+            let (_, equations) = derived(&file(PLANE, &law, "x"));
+            let wrong = equations.conserved.iter().find(|c| c.name != "p_y");
+            assert!(wrong.is_none(), "{factor}*{step}: {wrong:?}");
+        }
+    }
     let plane = l("1/2*(x'^2 + y'^2) - sqrt(x^2)/x*y");
     assert!(derived(&file(PLANE, &plane, "x")).1.conserved.is_empty());
     let in_time = l("1/2*x'^2 - x*(cos(t)^2)^0.5/cos(t)");
