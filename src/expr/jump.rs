@@ -46,8 +46,13 @@ impl Pool {
             let places: Vec<f64> = far.chain(places.iter().copied()).chain(FAR).collect();
             let mut pairs = places.windows(2);
             pairs.any(|pair| {
-                are_opposite(below(pair[0]), below(pair[1]))
-                    && jumps(&value, change_of_sign(&below, pair[0], pair[1]))
+                if !are_opposite(below(pair[0]), below(pair[1])) {
+                    return false;
+                }
+                let place = change_of_sign(&below, pair[0], pair[1]);
+                // far away what swings is not resolved
+                let is_far = pair[0].abs().max(pair[1].abs()) >= FAR[0];
+                (!is_far || is_straight(&below, place)) && jumps(&value, place)
             })
         })
     }
@@ -66,6 +71,17 @@ fn change_of_sign(at: &dyn Fn(f64) -> f64, left: f64, right: f64) -> f64 {
     right
 }
 
+/// Whether a function passes its zero at a place in a straight line, as far as jumps are searched for.
+fn is_straight(at: &dyn Fn(f64) -> f64, place: f64) -> bool {
+    [-1.0, 1.0].into_iter().all(|side| {
+        let slopes = DISTANCES.map(|distance| {
+            let aside = side * distance * (1.0 + place.abs());
+            at(place + aside) / aside
+        });
+        slopes.iter().all(|slope| (slope - slopes[0]).abs() <= SETTLED * slopes[0].abs())
+    })
+}
+
 /// Whether a function has two limits at a place.
 fn jumps(at: &dyn Fn(f64) -> f64, place: f64) -> bool {
     let beside = DISTANCES.map(|distance| {
@@ -81,7 +97,7 @@ fn jumps(at: &dyn Fn(f64) -> f64, place: f64) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::jumps;
+    use super::{is_straight, jumps};
     use crate::num::math;
 
     #[test]
@@ -93,6 +109,12 @@ mod tests {
         assert!(!jumps(&|x| 1.0 / x, 0.0));
         assert!(!jumps(&|x| math::cbrt(x), 0.0));
         assert!(!jumps(&|x| math::atan(1.0 / (x * x)), 0.0));
+    }
+
+    #[test]
+    fn what_swings_far_away_is_not_straight_there() {
+        assert!(is_straight(&|x| 3.0 * (x - 1e6), 1e6));
+        assert!(!is_straight(&math::sin, std::f64::consts::PI * 1e9));
     }
 
     #[test]
