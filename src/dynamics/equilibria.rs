@@ -252,7 +252,7 @@ impl EquilibriumSearch<'_> {
         }
         let Some((_, slopes)) = self.equations_in_units(variables) else { return 0 };
         let gradients = slopes.rows(slopes.nrows() - count, count).into_owned();
-        independent(gradients)
+        independent(&gradients)
     }
 
     /// The kind, the eigenvalues and the modes at a place, of variables that are independent, on a family with these directions.
@@ -379,7 +379,7 @@ struct Around {
 }
 
 /// How many rows do not depend on each other.
-fn independent(rows: DMatrix<f64>) -> usize {
+fn independent(rows: &DMatrix<f64>) -> usize {
     let sizes = rows.singular_values();
     sizes.iter().filter(|size| **size > DEPENDENT * sizes.max()).count()
 }
@@ -393,7 +393,7 @@ mod tests {
         for (off, count) in [(1.8e-8, 1), (2.2e-8, 2)] {
             // the singular values are 1 and a half of it
             let rows = DMatrix::from_row_slice(2, 2, &[1.0, off, 1.0, 0.0]);
-            assert_eq!(independent(rows), count, "{off}");
+            assert_eq!(independent(&rows), count, "{off}");
         }
     }
 }

@@ -80,6 +80,8 @@ pub(super) fn nullclines(
             }
             shade => Pen::shaded(shade, level),
         };
-        lines.into_iter().for_each(|line| raster.polyline(frame, line, &pen));
+        for line in lines {
+            raster.polyline(frame, line, &pen);
+        }
     }
 }

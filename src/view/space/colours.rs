@@ -41,7 +41,7 @@ pub(super) fn colour(q: &Quantities<'_>, points: &[Point], at: &Point) -> usize 
     let own = points.iter().position(|other| other == at);
     let shadow = || points.iter().position(|mass| is_shadow(q, at, mass));
     let stays = |point: &Point| point.iter().all(|e| is_constant(q, *e));
-    let fixed = || points.iter().position(|other| stays(other)).filter(|_| stays(at));
+    let fixed = || points.iter().position(stays).filter(|_| stays(at));
     own.or_else(shadow).or_else(fixed).unwrap_or(points.len())
 }
 
