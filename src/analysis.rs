@@ -16,4 +16,6 @@ pub use history::{History, Stretch};
 pub use inquiry::{Inquiry, InquiryAnswer};
 pub use landscape::{Curve, Grid, Landscape, Plane};
 pub use separation::{DistanceHistory, Slope, distance};
-pub use verdict::{Errors, Growth, LEFT, LOST, Unseen, Verdict, rounding_floor};
+pub use verdict::{
+    Errors, Growth, LEFT, LOST, RESOLVED, RoundedInput, Unseen, Verdict, rounding_floor,
+};

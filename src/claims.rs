@@ -17,5 +17,7 @@ mod start;
 mod step;
 mod uniqueness;
 
-pub use check::{false_claims, structure_diagnostics, undefined_start};
+pub use check::{
+    false_claims, false_claims_followed, start_on_a_pole, structure_diagnostics, undefined_start,
+};
 pub use uniqueness::several_starts;

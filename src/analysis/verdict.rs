@@ -33,13 +33,24 @@ pub enum Verdict {
     Released,
 }
 
-/// Why no drift of a quantity can be seen.
-#[derive(Clone, Copy, PartialEq, Debug)]
+/// Why it cannot be seen whether a method keeps a quantity.
+#[derive(Clone, PartialEq, Debug)]
 pub enum Unseen {
     /// Its terms underflow.
     Underflow,
     /// What moves is less than the rounding error of its terms, which are larger by this factor.
     Unresolved(f64),
+    /// Its value has changed, and rounding of the state explains the change.
+    Rounded(RoundedInput),
+}
+
+/// The variable of a state whose rounding changes a quantity most.
+#[derive(Clone, PartialEq, Debug)]
+pub struct RoundedInput {
+    /// Its name.
+    pub name: String,
+    /// The distance between neighbouring numbers where it is.
+    pub digits: f64,
 }
 
 /// The dependence of a method's errors on the past.
@@ -126,6 +137,9 @@ pub const LOST: f64 = 0.1;
 
 /// A drift of more than this part of the varying part is reported to the user.
 pub const LEFT: f64 = 1e-6;
+
+/// A drift of more than this part of the varying part is not called exact, even if rounding of the state explains it.
+pub const RESOLVED: f64 = 1e-9;
 
 /// The minimal number of intervals for a verdict.
 const FEWEST: usize = 17;

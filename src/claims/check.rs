@@ -18,6 +18,15 @@ use crate::system::{State, System};
 
 /// Returns a diagnostic for each false claim of a model, at its place.
 pub fn false_claims(model: &Model, equations: &Equations) -> Vec<Diagnostic> {
+    false_claims_followed(model, equations, &|_, _| {})
+}
+
+/// As [`false_claims`]; `follow` is told from time to time which claim the motion is followed for, and to what time it has come.
+pub fn false_claims_followed(
+    model: &Model,
+    equations: &Equations,
+    follow: &dyn Fn(&str, f64),
+) -> Vec<Diagnostic> {
     let mut diagnostics = structure_diagnostics(model, equations);
     if !diagnostics.is_empty() {
         // without a Poisson structure the motion is meaningless
@@ -42,7 +51,7 @@ pub fn false_claims(model: &Model, equations: &Equations) -> Vec<Diagnostic> {
             diagnostics.extend(own_method::diagnostic(model, &system));
             diagnostics.extend(false_steps(model, equations, &system));
             diagnostics.extend(uniqueness::diagnostic(model, &system));
-            motion.follow(model, equations, claims, &mut diagnostics);
+            motion.follow((model, equations), claims, &mut diagnostics, follow);
         }
         Err(diagnostic) => diagnostics.push(diagnostic),
     }
@@ -82,6 +91,16 @@ pub fn undefined_start(
     state: &State,
 ) -> Option<String> {
     Some(motion::undefined_start(model, equations, system, state)?.message)
+}
+
+/// Why the motion cannot start at a state, if the law has a value there by rounding alone.
+pub fn start_on_a_pole(
+    model: &Model,
+    equations: &Equations,
+    system: &System,
+    state: &State,
+) -> Option<String> {
+    Some(motion::start_on_a_pole(model, equations, system, state)?.message)
 }
 
 /// A complete integral that is none.

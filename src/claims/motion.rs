@@ -28,6 +28,9 @@ const WORK: u64 = 4_000_000;
 /// The minimal number of steps, however large the system.
 const FEWEST_STEPS: u64 = 5_000;
 
+/// How far the motion has come is told once in so many steps.
+const TOLD: u64 = 64;
+
 /// The cost of an event in steps, since it is located and divides a step.
 const EVENT: u64 = 4;
 
@@ -116,6 +119,20 @@ pub(super) fn undefined_start(
     system.observer(&parameters).observe(state, &mut values).ok();
     let at = |symbol| value_of(model, equations, (system, &values), symbol, state.time);
     start::without_value(model, equations, &at)
+        .or_else(|| start::constant_singular_mass(model, equations, &at))
+}
+
+/// A term of the law that has a value at a start by rounding alone.
+pub(super) fn start_on_a_pole(
+    model: &Model,
+    equations: &Equations,
+    system: &System,
+    state: &State,
+) -> Option<Diagnostic> {
+    let mut values = vec![f64::NAN; system.channels().len()];
+    system.observer(&model.parameter_values()).observe(state, &mut values).ok()?;
+    let at = |symbol| value_of(model, equations, (system, &values), symbol, state.time);
+    start::on_a_pole(model, equations, &at)
 }
 
 fn seen(system: &System, values: &[f64], kind: ChannelKind) -> f64 {
@@ -243,10 +260,10 @@ impl<'a> ClaimedMotion<'a> {
     /// Follows the motion and checks all its claims.
     pub(super) fn follow(
         mut self,
-        model: &Model,
-        equations: &Equations,
+        (model, equations): (&Model, &Equations),
         mut claims: Vec<Claim>,
         diagnostics: &mut Vec<Diagnostic>,
+        told: &dyn Fn(&str, f64),
     ) {
         let start = model.run.start;
         let end = model.run.until.unwrap_or(start + LENGTH);
@@ -264,7 +281,13 @@ impl<'a> ClaimedMotion<'a> {
                 diagnostics.push(Diagnostic::error(expected[i].place.clone(), message));
                 continue;
             }
-            if let Err(short) = self.reach(time, last) {
+            let claim = match observation {
+                Observation::Value(i) => Some(&expected[i].name),
+                Observation::Claims => claims.first().map(|claim| &claim.name),
+                Observation::Sizes => expected.first().map(|value| &value.name),
+            };
+            let claim = claim.cloned().unwrap_or_default();
+            if let Err(short) = self.reach(time, last, &|time| told(&claim, time)) {
                 let values =
                     schedule[k..].iter().filter_map(|(_, observation)| observation.value());
                 let values = values.map(|i| (&expected[i].name, &expected[i].place));
@@ -297,7 +320,12 @@ impl<'a> ClaimedMotion<'a> {
             seen.or_else(unseen).or_else(|| claim.one_sided(equations, &at, end))
         }));
         if !(model.expect.events.is_empty() && model.expect.counts.is_empty()) {
-            let short = self.reach(last, last).err().filter(|why| !matches!(why, Short::Ended(_)));
+            let events = model.expect.events.iter().map(|event| &event.name);
+            let counts = model.expect.counts.iter().map(|count| &count.name);
+            let claim = events.chain(counts).next().cloned().unwrap_or_default();
+            let told = |time: f64| told(&claim, time);
+            let short =
+                self.reach(last, last, &told).err().filter(|why| !matches!(why, Short::Ended(_)));
             diagnostics.extend(self.false_occurrences(model, short.as_ref()));
         }
     }
@@ -344,10 +372,16 @@ impl<'a> ClaimedMotion<'a> {
         diagnostics
     }
 
-    fn reach(&mut self, time: f64, limit: f64) -> Result<(), Short> {
+    fn reach(&mut self, time: f64, limit: f64, told: &dyn Fn(f64)) -> Result<(), Short> {
         loop {
-            match self.course.reach(time, limit, &mut self.budget).map_err(Short::MotionError)? {
+            told(self.course.undisturbed().1);
+            let portion = self.budget.min(TOLD);
+            let mut left = portion;
+            let reached = self.course.reach(time, limit, &mut left);
+            self.budget -= portion - left;
+            match reached.map_err(Short::MotionError)? {
                 Reached::Arrived => break,
+                Reached::OutOfBudget if self.budget > 0 => {}
                 Reached::OutOfBudget => {
                     // the state itself is that of the last sample
                     return Err(Short::Long(self.allowed, self.course.undisturbed().1));

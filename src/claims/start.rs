@@ -8,10 +8,14 @@ use crate::diagnostic::SourceRange;
 use crate::expr::{Expr, FunctionId, Node, Pool, Symbol};
 use crate::mechanics::{Equations, Flow};
 use crate::model::{Coordinate, Model};
+use crate::num::{no_longer_than, short};
 use crate::system::{MotionError, MotionErrorKind};
 
 /// A term of the law longer than this is not reported.
 const LONGEST: u64 = 60;
+
+/// A number with more characters than this is written with an exponent.
+const LONGEST_NUMBER: usize = 24;
 
 /// The rounding of a value at the start, relative to it.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
@@ -40,6 +44,11 @@ pub(super) fn diagnostic(
         kind: MotionErrorKind::SingularMass | MotionErrorKind::NoMass, ..
     }) = error
         && let Some(cause) = without_mass(model, equations)
+    {
+        return Some(cause);
+    }
+    if let Some(MotionError { kind: MotionErrorKind::SingularMass, .. }) = error
+        && let Some(cause) = constant_singular_mass(model, equations, at)
     {
         return Some(cause);
     }
@@ -103,6 +112,83 @@ fn without_inertia(model: &Model, equations: &Equations) -> Option<(SourceRange,
     Some((model.coordinates[first].place.clone(), message, help))
 }
 
+/// Masses that are constant and do not resist every velocity: that of a coordinate is 0, or those of several are one.
+pub(super) fn constant_singular_mass(
+    model: &Model,
+    equations: &Equations,
+    at: &dyn Fn(Symbol) -> f64,
+) -> Option<Diagnostic> {
+    let Flow::Lagrange { mass, .. } = &equations.flow else { return None };
+    let pool = &equations.pool;
+    let coordinates = model.coordinates.iter();
+    let mut moving: Vec<Symbol> = coordinates.flat_map(|c| [c.position, c.velocity]).collect();
+    moving.push(model.symbols.time);
+    if !model.constraints.is_empty()
+        || mass.iter().flatten().any(|&m| pool.depends_on_any(m, &moving))
+    {
+        return None;
+    }
+    let value = |&m: &Expr| pool.evaluate(m, at);
+    let matrix: Vec<Vec<f64>> = mass.iter().map(|row| row.iter().map(value).collect()).collect();
+    let (i, message) = if let Some(i) = matrix.iter().position(|row| row.iter().all(|m| *m == 0.0))
+    {
+        let (name, what) = (&model.coordinates[i].name, pool.text(mass[i][i]));
+        (i, format!("the mass of the coordinate `{name}` is 0: `{what}`"))
+    } else {
+        let ratio = unresisted(matrix)?;
+        let among: Vec<usize> = (0..ratio.len()).filter(|&i| ratio[i] != 0.0).collect();
+        let first = *among.first()?;
+        let names: Vec<String> =
+            among.iter().map(|&i| format!("`{}'`", model.coordinates[i].name)).collect();
+        let parts: Vec<String> = among.iter().map(|&i| short(ratio[i] / ratio[first])).collect();
+        let (names, parts) = (names.join(", "), parts.join(" : "));
+        (first, format!("no mass in L resists the velocities {names} in the ratio {parts}"))
+    };
+    let place = model.coordinates[i].place.clone();
+    Some(Diagnostic::error(place, format!("the motion cannot start: {message}")))
+}
+
+/// What is less than this part of the masses of its coordinates is 0.
+const NOTHING: f64 = 1e-12;
+
+/// Velocities that a matrix of masses takes to 0, if there are any.
+fn unresisted(mut matrix: Vec<Vec<f64>>) -> Option<Vec<f64>> {
+    let n = matrix.len();
+    // coordinates have units of their own
+    let units: Vec<f64> = (0..n).map(|i| matrix[i][i].abs().sqrt()).collect();
+    if units.contains(&0.0) {
+        return None;
+    }
+    for (i, row) in matrix.iter_mut().enumerate() {
+        row.iter_mut().zip(&units).for_each(|(m, unit)| *m /= units[i] * unit);
+    }
+    let mut pivots = Vec::new();
+    for column in 0..n {
+        let row = pivots.len();
+        let size = |i: &usize| matrix[*i][column].abs();
+        let best = (row..n).max_by(|one, other| size(one).total_cmp(&size(other)))?;
+        if size(&best) <= NOTHING {
+            let mut velocities = vec![0.0; n];
+            velocities[column] = 1.0;
+            for (row, &pivot) in pivots.iter().enumerate() {
+                velocities[pivot] = -matrix[row][column];
+            }
+            velocities.iter_mut().zip(&units).for_each(|(velocity, unit)| *velocity /= unit);
+            return Some(velocities);
+        }
+        matrix.swap(row, best);
+        let pivot = matrix[row][column];
+        matrix[row].iter_mut().for_each(|m| *m /= pivot);
+        let eliminated = matrix[row].clone();
+        for (_, other) in matrix.iter_mut().enumerate().filter(|(i, _)| *i != row) {
+            let factor = other[column];
+            other.iter_mut().zip(&eliminated).for_each(|(m, pivot)| *m -= factor * pivot);
+        }
+        pivots.push(column);
+    }
+    None
+}
+
 /// The law and its energy, and what follows from them.
 fn law_and_rates(equations: &Equations) -> [Vec<Expr>; 2] {
     let law = equations.lagrangian.iter().copied().chain([equations.energy]).collect();
@@ -110,7 +196,7 @@ fn law_and_rates(equations: &Equations) -> [Vec<Expr>; 2] {
 }
 
 /// A law that has a value at the start by rounding alone, as tan(x) has at π/2.
-fn on_a_pole(
+pub(super) fn on_a_pole(
     model: &Model,
     equations: &Equations,
     at: &dyn Fn(Symbol) -> f64,
@@ -194,14 +280,16 @@ fn describe(
         model.coordinates.iter().position(|c| [c.position, c.velocity, c.momentum].contains(&s))
     };
     let coordinate = symbols.iter().find_map(|&s| of(s));
-    let shown = |s: &Symbol| format!("{} = {}", pool.symbol_info(*s).name, at(*s));
+    let shown = |s: &Symbol| {
+        format!("{} = {}", pool.symbol_info(*s).name, no_longer_than(at(*s), LONGEST_NUMBER))
+    };
     let moving: Vec<String> = symbols
         .iter()
         .filter(|&&s| of(s).is_some() || s == model.symbols.time)
         .map(shown)
         .collect();
     let values = if moving.is_empty() { symbols.iter().map(shown).collect() } else { moving };
-    let what = if pool.weight(e) <= LONGEST {
+    let what = if pool.weight(e) <= LONGEST && has_finite_numbers(pool, e) {
         format!("`{}` has no finite value", pool.text(e))
     } else {
         "a part of the law has no finite value".to_owned()
@@ -209,9 +297,31 @@ fn describe(
     Some((coordinate, format!("{what} at {}", values.join(", "))))
 }
 
+/// Whether all numbers in an expression are finite: a derivative at the end of a domain may have others, as that of asin(1).
+fn has_finite_numbers(pool: &Pool, e: Expr) -> bool {
+    pool.reachable(&[e]).into_iter().all(|part| match pool.node(part) {
+        Node::Number(n) | Node::Product(n, _) => n.value().is_finite(),
+        Node::Sum(constant, terms) => {
+            constant.value().is_finite() && terms.iter().all(|(c, _)| c.value().is_finite())
+        }
+        _ => true,
+    })
+}
+
 #[cfg(test)]
 mod tests {
-    use super::has_pole;
+    use super::{has_pole, unresisted};
+
+    #[test]
+    fn velocities_that_no_mass_resists_are_found() {
+        let of = |rows: &[&[f64]]| unresisted(rows.iter().map(|row| row.to_vec()).collect());
+        assert_eq!(of(&[&[1.0, 1.0], &[1.0, 1.0]]), Some(vec![-1.0, 1.0]));
+        assert_eq!(of(&[&[1.0, 1.0], &[1.0, 2.0]]), None);
+        let found = of(&[&[2.0, 0.0, 4.0], &[0.0, 3.0, 0.0], &[4.0, 0.0, 8.0]]).unwrap();
+        assert!((found[0] / found[2] + 2.0).abs() < 1e-12 && found[1] == 0.0, "{found:?}");
+        assert_eq!(of(&[&[0.0, 1.0], &[1.0, 0.0]]), None);
+        assert_eq!(of(&[&[1.0, 0.0], &[0.0, 1e-26]]), None);
+    }
 
     /// 1/(x − 1 + d), with more beside it from a distance on.
     fn near_pole(x: f64, d: f64, (from, more): (f64, f64)) -> f64 {

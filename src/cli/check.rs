@@ -2,15 +2,17 @@
 
 use std::io::{ErrorKind, IsTerminal, stdout};
 use std::path::PathBuf;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use clap::ValueEnum;
 use serde_json::{Value, json};
 
 use super::error::CommandError;
+use super::interrupt::Interrupt;
 use super::output::{Output, OutputForm};
 use super::slow_notice::with_notice;
 use super::{open, stderr};
-use crate::claims::false_claims;
+use crate::claims::false_claims_followed;
 use crate::diagnostic::{Diagnostic, Document, Severity};
 use crate::experiment::Derived;
 use crate::mechanics::{ConservedKind, Reason, Report};
@@ -46,7 +48,33 @@ enum CheckFormat {
     Json,
 }
 
-pub(super) fn execute(arguments: &Arguments) -> Result<(), CommandError> {
+/// The claim that a motion is followed for, and the time to which it has come.
+#[derive(Clone, Default)]
+struct Followed(Arc<Mutex<Option<(String, f64)>>>);
+
+impl Followed {
+    fn note(&self, claim: &str, time: f64) {
+        let mut followed = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        *followed = Some((claim.to_owned(), time));
+    }
+
+    fn clear(&self) {
+        *self.0.lock().unwrap_or_else(PoisonError::into_inner) = None;
+    }
+
+    /// Says how far the motion has come, if it was followed when a signal came.
+    fn report(&self) {
+        let followed = self.0.lock().unwrap_or_else(PoisonError::into_inner).take();
+        let Some((claim, time)) = followed else { return };
+        let time = printable::number(time);
+        stderr::report(&format!(
+            "stopped at t = {time} of the motion, before `{claim}` was checked"
+        ));
+    }
+}
+
+pub(super) fn execute(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
+    let followed = Followed::default();
     let mut files = Vec::new();
     let mut errors = 0;
     for path in &arguments.files {
@@ -54,7 +82,12 @@ pub(super) fn execute(arguments: &Arguments) -> Result<(), CommandError> {
             Err(why) if why.kind() == ErrorKind::NotFound && !is_path(path) => open::find(path)?,
             read => read.map_err(|why| CommandError::reading(path, &why))?,
         };
-        let (diagnostics, found) = findings(&document);
+        let (diagnostics, found) = findings(&document, &followed, interrupt);
+        if let Some(signal) = interrupt.signal() {
+            followed.report();
+            return Err(CommandError::Signal(signal));
+        }
+        followed.clear();
         errors += diagnostics.iter().filter(|m| m.severity == Severity::Error).count();
         match arguments.format {
             CheckFormat::Text => {
@@ -81,7 +114,11 @@ pub(super) fn execute(arguments: &Arguments) -> Result<(), CommandError> {
 }
 
 /// All errors of a file: those of its text, otherwise of its equations, otherwise of its claims; and what it describes.
-fn findings(document: &Document) -> (Vec<Diagnostic>, Option<String>) {
+fn findings(
+    document: &Document,
+    followed: &Followed,
+    interrupt: &Interrupt,
+) -> (Vec<Diagnostic>, Option<String>) {
     let checked = match document.read() {
         Ok(checked) => checked,
         Err(diagnostics) => return (diagnostics, None),
@@ -95,7 +132,10 @@ fn findings(document: &Document) -> (Vec<Diagnostic>, Option<String>) {
     match Derived::of(checked.model) {
         Ok(derived) => {
             found = Some(description(&derived));
-            let claims = || false_claims(&derived.model, &derived.equations);
+            let stopped = followed.clone();
+            interrupt.ends_by_itself(move || stopped.report());
+            let note = |claim: &str, time| followed.note(claim, time);
+            let claims = || false_claims_followed(&derived.model, &derived.equations, &note);
             let what = format!("following the motion of {} for what it claims", document.path);
             diagnostics.extend(with_notice(&what, claims));
             if is_known && let Ok(system) = derived.compile(&[]) {

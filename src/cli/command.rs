@@ -269,7 +269,7 @@ fn dispatch(
     match command {
         CliCommand::List(arguments) => list::execute(&arguments),
         CliCommand::Derive(arguments) => derive::execute(&arguments),
-        CliCommand::Check(arguments) => check::execute(&arguments),
+        CliCommand::Check(arguments) => check::execute(&arguments, interrupt),
         CliCommand::New(arguments) => new::execute(&arguments),
         CliCommand::Fmt(arguments) => fmt::execute(&arguments),
         CliCommand::Bracket(arguments) => bracket::execute(&arguments),

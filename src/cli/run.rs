@@ -161,7 +161,12 @@ pub(super) fn execute(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let mut experiment = Experiment::new(&model, &equations, &system, setup)
         .map_err(|why| CommandError::WrongUse(why.to_string()))?;
     cautions::of_start(&model, &system, (method, settings), &experiment);
-    clock::check(&system, method, &experiment, &times)?;
+    if let Err(refused) = clock::check(&system, method, &experiment, &times) {
+        // at a pole steps are that short whatever the clock
+        let start = experiment.snapshot().state.clone();
+        let pole = claims::start_on_a_pole(&model, &equations, &system, &start);
+        return Err(pole.map_or(refused, CommandError::CouldNot));
+    }
     experiment.forget_past();
     // where none is given, the step that the method has chosen at the start
     let step = Some(experiment.snapshot().method.step).filter(|step| *step > 0.0);

@@ -17,7 +17,7 @@ use super::attitude::{ATTITUDE_GAUGE, AttitudeGauge};
 use super::law::{EnergyLaw, LONGEST};
 use super::residual::ResidualGauge;
 use super::{FoundConstant, Gauge, Reference};
-use crate::analysis::{Errors, rounding_floor};
+use crate::analysis::{Errors, RoundedInput, rounding_floor};
 use crate::expr::{Expr, Symbol};
 use crate::mechanics::{Conserved, Equations, Valuation, casimir_rate};
 use crate::model::{Mechanics, Model};
@@ -245,7 +245,8 @@ impl Gauges {
     pub(super) fn show(&self, now: &GaugeInputs<'_>) -> Arc<[Gauge]> {
         let floor = self.floor(now.steps);
         let show = |monitor: &InvariantMonitor| {
-            monitor.show(now.values, self.reference_time, floor, now.errors)
+            let of_state = |expression| self.change_by_rounding(expression, now);
+            monitor.show(now.values, self.reference_time, (floor, now.errors), &of_state)
         };
         let mut shown: Vec<Gauge> = self.monitors.iter().map(show).collect();
         let at = now.channels(&self.places);
@@ -259,18 +260,36 @@ impl Gauges {
         shown.into_iter().chain(constraints).chain(attitude).collect()
     }
 
+    /// By how much rounding of a state changes an expression, in units of ε, and the variable that changes it most.
+    fn change_by_rounding(
+        &self,
+        expression: Expr,
+        now: &GaugeInputs<'_>,
+    ) -> Option<(f64, RoundedInput)> {
+        let Equations { pool, symbols, .. } = &*self.equations;
+        let at = |symbol: Symbol| now.value_of(symbol, &self.places, &self.equations);
+        let inputs = self.places.iter().map(|&(symbol, _)| symbol).filter(|s| *s != symbols.energy);
+        let errors = inputs.map(|input| (input, pool.error_by_input(expression, &at, input)));
+        let errors: Vec<(Symbol, f64)> =
+            errors.filter(|&(_, error)| error > 0.0 && error.is_finite()).collect();
+        let &(input, _) = errors.iter().max_by(|(_, one), (_, other)| one.total_cmp(other))?;
+        let value = at(input).abs();
+        let name = pool.symbol_info(input).name.clone();
+        let change = errors.iter().map(|(_, error)| error).sum();
+        Some((change, RoundedInput { name, digits: value.next_up() - value }))
+    }
+
     /// Measures the rounding error of every gauge's value.
     fn measure(&mut self, now: &GaugeInputs<'_>) {
-        let equations = &self.equations;
-        let at = |symbol: Symbol| {
-            let place = self.places.iter().find(|(s, _)| *s == symbol);
-            match place {
-                Some(&(_, channel)) => now.values[channel],
-                None if symbol == equations.symbols.time => now.time,
-                None if symbol == equations.symbols.action => now.action,
-                None => now.constants.at(symbol),
+        for k in 0..self.monitors.len() {
+            // dear, and rarely needed
+            if self.monitors[k].is_seen() {
+                let change = self.change_by_rounding(self.monitors[k].invariant.expression, now);
+                self.monitors[k].measure_state(change);
             }
-        };
+        }
+        let equations = &self.equations;
+        let at = |symbol: Symbol| now.value_of(symbol, &self.places, equations);
         for monitor in &mut self.monitors {
             let (_, error) = equations.pool.evaluate_with_error(monitor.invariant.expression, &at);
             let underflows = error < f64::MIN_POSITIVE
@@ -347,6 +366,16 @@ pub(super) struct GaugeInputs<'a> {
 }
 
 impl<'a> GaugeInputs<'a> {
+    /// The value of a symbol of a state expression.
+    fn value_of(&self, symbol: Symbol, places: &[(Symbol, usize)], equations: &Equations) -> f64 {
+        match places.iter().find(|(s, _)| *s == symbol) {
+            Some(&(_, channel)) => self.values[channel],
+            None if symbol == equations.symbols.time => self.time,
+            None if symbol == equations.symbols.action => self.action,
+            None => self.constants.at(symbol),
+        }
+    }
+
     fn channels(&self, places: &'a [(Symbol, usize)]) -> ChannelValues<'a> {
         ChannelValues { time: self.time, values: self.values, places }
     }

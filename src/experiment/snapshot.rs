@@ -154,10 +154,11 @@ pub struct Gauge {
     /// When the reference was taken.
     pub reference_time: f64,
     /// |value − reference| over the mean moving part of the quantity: the excess of its terms over those at rest, and
-    /// the change of the rest. A distance that rounding explains is relative to the terms themselves.
+    /// the change of the rest. A distance that rounding of the terms explains is relative to the terms themselves.
     pub drift: f64,
     /// The greatest drift since the reference, over all steps. Each distance is relative to the mean moving part up
-    /// to that time, or to the moving part at that time if it was greater.
+    /// to that time, or to the moving part at that time if it was greater; where physics changes the quantity, to the
+    /// greatest moving part up to that time.
     pub max_drift: f64,
     /// Since when the drift has exceeded a millionth, if the physics conserves the quantity.
     pub left: Option<f64>,

@@ -27,25 +27,42 @@ impl Pool {
     /// every operation is done in `f64`. In a sum that cancels, the error is that of the terms; an
     /// error that a factor or a power reduces counts only in reduced form.
     pub fn evaluate_with_error(&self, e: Expr, at: &dyn Fn(Symbol) -> f64) -> (f64, f64) {
+        self.running_error(e, at, &|_| true, HALF)
+    }
+
+    /// The error of the value of `e` in units of ε if this input alone is rounded.
+    pub fn error_by_input(&self, e: Expr, at: &dyn Fn(Symbol) -> f64, input: Symbol) -> f64 {
+        self.running_error(e, at, &|symbol| symbol == input, 0.0).1
+    }
+
+    /// The value of `e` and its error if these inputs are rounded, and each operation has this error.
+    fn running_error(
+        &self,
+        e: Expr,
+        at: &dyn Fn(Symbol) -> f64,
+        is_rounded: &dyn Fn(Symbol) -> bool,
+        operation: f64,
+    ) -> (f64, f64) {
         let mut known: FxHashMap<Expr, (f64, f64)> = FxHashMap::default();
         for part in self.reachable(&[e]) {
-            let rounded = |value: f64| (value, HALF * value.abs());
+            let rounded = |value: f64| (value, operation * value.abs());
             let result = match self.node(part) {
                 Node::Number(n) => rounded(n.value()),
                 Node::Pi => rounded(std::f64::consts::PI),
-                Node::Symbol(s) => rounded(at(*s)),
+                Node::Symbol(s) if is_rounded(*s) => (at(*s), HALF * at(*s).abs()),
+                Node::Symbol(s) => (at(*s), 0.0),
                 Node::Sum(constant, terms) => {
                     let mut total = constant.value();
-                    let mut error = HALF * total.abs();
+                    let mut error = operation * total.abs();
                     for (c, t) in terms {
                         let (value, part) = known[t];
                         let (value, part) = (c.value() * value, (c.value() * part).abs());
                         total += value;
-                        error += part + HALF * value.abs();
+                        error += part + operation * value.abs();
                     }
                     (total, error)
                 }
-                Node::Product(c, factors) => product(c.value(), factors, &known),
+                Node::Product(c, factors) => product(c.value(), factors, &known, operation),
                 Node::Power(base, exponent) => {
                     let ((b, b_error), (n, n_error)) = (known[base], known[exponent]);
                     let value = math::powf(b, n);
@@ -53,17 +70,17 @@ impl Pool {
                         if b_error == 0.0 { 0.0 } else { (n * value / b).abs() * b_error };
                     let of_exponent =
                         if n_error == 0.0 { 0.0 } else { (math::ln(b) * value).abs() * n_error };
-                    (value, HALF * value.abs() + of_base + of_exponent)
+                    (value, operation * value.abs() + of_base + of_exponent)
                 }
                 Node::Call(function, arguments) => {
                     let f = function.row().value;
                     let values: Vec<f64> = arguments.iter().map(|a| known[a].0).collect();
                     let value = f(&values);
-                    let mut error = HALF * value.abs();
+                    let mut error = operation * value.abs();
                     for (i, argument) in arguments.iter().enumerate() {
                         let (x, own) = known[argument];
                         let nudge = (NUDGE * x.abs()).min(WIDEST).max(own * f64::EPSILON);
-                        if nudge > 0.0 {
+                        if nudge > 0.0 && own > 0.0 {
                             let mut beside = values.clone();
                             let mut difference = |nudge: f64| {
                                 beside[i] = x + nudge;
@@ -92,10 +109,15 @@ impl Pool {
 }
 
 /// A product and its error: the error of every factor times the other factors.
-fn product(c: f64, factors: &[(Expr, Number)], known: &FxHashMap<Expr, (f64, f64)>) -> (f64, f64) {
+fn product(
+    c: f64,
+    factors: &[(Expr, Number)],
+    known: &FxHashMap<Expr, (f64, f64)>,
+    operation: f64,
+) -> (f64, f64) {
     let powers: Vec<f64> = factors.iter().map(|(base, n)| real_power(known[base].0, *n)).collect();
     let value = powers.iter().fold(c, |product, power| product * power);
-    let mut error = HALF * value.abs();
+    let mut error = operation * value.abs();
     for (i, (base, n)) in factors.iter().enumerate() {
         let (b, own) = known[base];
         let exponent = n.value();
@@ -159,6 +181,11 @@ mod tests {
         let (value, error) = pool.evaluate_with_error(exponential, &at);
         assert!((value - math::exp(0.25)).abs() < 1e-15);
         assert!((error / (2e9 * value) - 1.0).abs() < 1e-3, "{error}");
+        // each input has its share, and operations have none
+        for input in [x, y] {
+            let share = pool.error_by_input(exponential, &at, input) / (0.5e9 * value);
+            assert!((share - 1.0).abs() < 1e-3, "{share}");
+        }
         // where both are equal, the error of the difference is far above the difference
         let (_, own) = pool.evaluate_with_error(difference, &|_| 0.75);
         let (value, error) = pool.evaluate_with_error(exponential, &|_| 0.75);

@@ -169,6 +169,11 @@ fn sentence(verdict: &Verdict, glyphs: Glyphs) -> String {
         Verdict::Unknown(Unseen::Underflow) => {
             "its terms are too small for numbers with all their digits (underflow)".to_owned()
         }
+        Verdict::Unknown(Unseen::Rounded(input)) => format!(
+            "rounding of {} explains its change: its digits are {} apart",
+            input.name,
+            number::drift(input.digits, glyphs)
+        ),
         Verdict::Unknown(Unseen::Unresolved(factor)) => format!(
             "it cannot resolve the motion: its terms are larger than what moves by {}",
             number::drift(*factor, glyphs)

@@ -105,6 +105,7 @@ pub(super) fn reason_in_a_word(gauge: &Gauge, residual: bool) -> &'static str {
         _ if gauge.verdict == Verdict::Released => "",
         (true, _) => "residual",
         _ if gauge.verdict == Verdict::Unknown(Unseen::Underflow) => "underflow",
+        _ if matches!(gauge.verdict, Verdict::Unknown(Unseen::Rounded(_))) => "rounding",
         _ if matches!(gauge.verdict, Verdict::Unknown(_)) => "not resolved",
         (false, true) => "proved",
         (false, false) => "",

@@ -26,6 +26,7 @@ mod reverse;
 mod run;
 mod section;
 mod signals;
+mod start_words;
 mod step_in_time;
 mod sweep;
 mod transformations;

@@ -6,6 +6,7 @@ mod commands;
 mod companions;
 mod export;
 mod gauges;
+mod offsets;
 mod passages;
 mod record;
 mod reverse;

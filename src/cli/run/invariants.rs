@@ -1,6 +1,6 @@
 //! The report of the gauges at the end of a run.
 
-use crate::analysis::{Unseen, Verdict};
+use crate::analysis::{RoundedInput, Unseen, Verdict};
 use crate::cli::advice::{advice, size};
 use crate::cli::report::Invariant;
 use crate::experiment::{Gauge, MethodFact};
@@ -39,8 +39,15 @@ impl DriftedInvariant {
                 n => format!(", and so do {n} others"),
             };
             let drift = format!("{}{others}", description(worst, ""));
-            let advice = advice(method.name, Some(method.step), method.tolerance);
-            let line = format!("{drift}; {advice}");
+            let line = match &worst.verdict {
+                Verdict::Unknown(Unseen::Rounded(input)) => {
+                    format!("{drift}{}", by_rounding(input))
+                }
+                _ => {
+                    let advice = advice(method.name, Some(method.step), method.tolerance);
+                    format!("{drift}; {advice}")
+                }
+            };
             return Some(DriftedInvariant { drift, line, proved: true });
         }
         let contradicted = gauges.iter().filter(|g| g.left.is_some());
@@ -52,7 +59,10 @@ impl DriftedInvariant {
 
 /// Lines on the conserved quantities whose drift cannot be known; none if there are none.
 pub(super) fn unknown(gauges: &[Gauge]) -> Vec<String> {
-    let unresolved = gauges.iter().filter_map(|gauge| match gauge.verdict {
+    let unresolved = gauges.iter().filter_map(|gauge| match &gauge.verdict {
+        Verdict::Unknown(Unseen::Rounded(input)) if gauge.left.is_none() => {
+            Some(format!("{}{}", description(gauge, ""), by_rounding(input)))
+        }
         Verdict::Unknown(Unseen::Unresolved(factor)) => Some(format!(
             "`{}` cannot resolve the motion: its terms are larger than what moves by a factor {factor:.0e}, and no drift can be seen",
             gauge.name
@@ -76,6 +86,11 @@ fn underflowing(gauges: &[Gauge]) -> Option<String> {
         names.join(", "),
         f64::MIN_POSITIVE
     ))
+}
+
+/// What explains a drift: the digits of this variable.
+fn by_rounding(RoundedInput { name, digits }: &RoundedInput) -> String {
+    format!(", as rounding of {name} explains, whose digits are {digits:.1e} apart")
 }
 
 fn description(gauge: &Gauge, about: &str) -> String {

@@ -12,6 +12,8 @@ pub(super) struct DriftRecord {
     pub(super) last: f64,
     /// The mean size of the moving part.
     pub(super) moving: Mean,
+    /// The greatest moving part so far.
+    pub(super) most_moving: f64,
     /// The greatest distance.
     pub(super) farthest: f64,
     /// The greatest drift: a distance over the mean moving part up to that time, or over the moving part at that time
@@ -31,6 +33,7 @@ impl DriftRecord {
         DriftRecord {
             last: 0.0,
             moving,
+            most_moving: 0.0,
             farthest: 0.0,
             worst: 0.0,
             worst_scale: 0.0,
@@ -40,14 +43,24 @@ impl DriftRecord {
         }
     }
 
+    /// Records how much moves at a time.
+    pub(super) fn see_moving(&mut self, moving: f64) {
+        if moving.is_finite() {
+            self.most_moving = self.most_moving.max(moving);
+        }
+    }
+
     /// Begins anew where so much moves that the motion had not begun before: the noise of a rest is no drift of what follows.
-    pub(super) fn begin_if_at_rest(&mut self, time: f64, distance: f64, moving: f64) {
+    /// Returns whether it does.
+    pub(super) fn begin_if_at_rest(&mut self, time: f64, distance: f64, moving: f64) -> bool {
         let is_noise = distance.abs() <= LEFT * moving;
-        if self.worst > LEFT && is_noise && is_beginning(moving, self.worst_scale) {
+        let begins = self.worst > LEFT && is_noise && is_beginning(moving, self.worst_scale);
+        if begins {
             (self.worst, self.worst_scale, self.left) = (0.0, 0.0, None);
             self.moving = Mean::beginning(time);
             self.early = Early::default();
         }
+        begins
     }
 }
 

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use super::drift_record::{Distance, DriftRecord, Early};
 use super::mean::Mean;
-use crate::analysis::{self, Errors, LEFT, LOST, Unseen, Verdict};
+use crate::analysis::{self, Errors, LEFT, LOST, RESOLVED, RoundedInput, Unseen, Verdict};
 use crate::experiment::{Gauge, Reference};
 use crate::expr::Expr;
 use crate::system::{BatchTerms, TermSums, TermWatch};
@@ -23,6 +23,9 @@ const ENERGY: usize = 0;
 
 /// Constant terms are large from this multiple of the others on: the value has three digits fewer than their sum.
 const LARGE: f64 = 1e3;
+
+/// A change of a value by more than this many ε of its terms is one of the state.
+const LAST_DIGITS: f64 = 4.0;
 
 /// What moves by less than this multiple of the error that rounding explains, and all of it away from the reference, is
 /// error and no motion: a quantity each of whose terms is constant.
@@ -60,6 +63,10 @@ struct RoundingError {
     greatest: f64,
     /// The greatest distance so far that rounding explains.
     explained: f64,
+    /// The distances of accurate values that are more than the last digits of their terms, each at least twice the one before, with their times.
+    seen: Vec<(f64, f64)>,
+    /// The greatest change of the value by rounding of the state alone, in units of ε, and the variable that changes it most.
+    of_state: Option<(f64, RoundedInput)>,
     /// Whether terms that are not 0 were seen where their error is less than a normal number.
     underflows: bool,
 }
@@ -131,11 +138,15 @@ impl InvariantMonitor {
         self.reference.initial = known.initial.unwrap_or(known.from);
         let scale = known.scale.unwrap_or_else(|| known.from.abs());
         self.drift.moving = Mean::of(scale, time - known.since, time);
+        self.drift.most_moving = scale;
         self.drift.farthest = known.farthest.unwrap_or(known.max_drift * scale);
         self.drift.worst = known.max_drift;
         self.drift.worst_scale = scale;
         self.drift.left = known.left;
         self.drift.early = Early::over();
+        if known.max_drift > RESOLVED {
+            self.rounding.seen.push((known.left.unwrap_or(known.since), self.drift.farthest));
+        }
     }
 
     /// Shifts the reference by the jump of an impulse.
@@ -190,11 +201,13 @@ impl InvariantMonitor {
         floor: f64,
     ) -> f64 {
         let mut distance = values[self.invariant.channel] - self.reference.value;
-        let mut moving = 0.0;
+        let (mut moving, mut size) = (0.0, 0.0_f64);
         if let Some(sums) = self.summed(terms) {
             // the terms may have grown
             self.widen(sums.size);
             moving = sums.moving;
+            size = sums.size;
+            self.drift.see_moving(moving);
             // where an impulse ends every step the ends of steps are not seen
             if time > self.drift.moving.time() && self.drift.worst <= LOST {
                 self.drift.moving.note(time, moving);
@@ -202,6 +215,10 @@ impl InvariantMonitor {
             if self.reference.offset {
                 distance = self.rough(sums.value, terms.work()) - self.reference.rough;
             }
+        }
+        if !self.reference.offset {
+            let value = values[self.invariant.channel].abs();
+            self.see(time, distance.abs(), size.max(value).max(self.reference.value.abs()));
         }
         self.note(time, distance, moving, floor);
         distance
@@ -246,7 +263,10 @@ impl InvariantMonitor {
     ) {
         let distance = self.rough(value, work) - self.reference.rough;
         self.widen(size);
-        self.drift.begin_if_at_rest(time, distance, moving);
+        if self.drift.begin_if_at_rest(time, distance, moving) {
+            self.rounding.seen.clear();
+        }
+        self.drift.see_moving(moving);
         // the moving part of a lost motion is no measure of it
         if self.drift.worst <= LOST {
             self.drift.moving.note(time, moving);
@@ -260,6 +280,19 @@ impl InvariantMonitor {
         }
     }
 
+    /// Records the distance of an accurate value if it is more than the last digits of terms of this size.
+    fn see(&mut self, time: f64, distance: f64, size: f64) {
+        let is_far = self.rounding.seen.is_empty() || distance > 2.0 * self.seen();
+        if is_far && distance > LAST_DIGITS * f64::EPSILON * size {
+            self.rounding.seen.push((time, distance));
+        }
+    }
+
+    /// The greatest distance of an accurate value, up to a factor of two.
+    fn seen(&self) -> f64 {
+        self.rounding.seen.last().map_or(0.0, |&(_, distance)| distance)
+    }
+
     fn note(&mut self, time: f64, distance: f64, moving: f64, floor: f64) {
         let distance = distance.abs();
         self.drift.last = distance;
@@ -270,7 +303,7 @@ impl InvariantMonitor {
         self.rounding.explained = self.rounding.explained.max(explained);
         let beyond = distance > explained;
         // a motion that has not begun says nothing of what will move
-        if !beyond && moving == 0.0 && self.drift.moving.value() == 0.0 {
+        if !beyond && moving == 0.0 && self.moving() == 0.0 {
             return;
         }
         let deferred =
@@ -279,7 +312,7 @@ impl InvariantMonitor {
             let drift = self.drift_of(distance, moving);
             if drift > self.drift.worst {
                 self.drift.worst = drift;
-                self.drift.worst_scale = self.scale_of(moving.max(self.drift.moving.value()));
+                self.drift.worst_scale = self.scale_of(moving.max(self.moving()));
             }
             // rows lie before the end of the step, which was recorded first
             if drift > LEFT && self.drift.left.is_none_or(|left| time < left) {
@@ -293,10 +326,41 @@ impl InvariantMonitor {
         }
     }
 
+    /// What moves: the mean, or where physics changes the value and the motion may come to rest, the greatest so far.
+    fn moving(&self) -> f64 {
+        if self.invariant.broken.is_some() {
+            self.drift.most_moving
+        } else {
+            self.drift.moving.value()
+        }
+    }
+
+    /// Whether a drift is seen that the digits of its terms do not explain in themselves, although it is within their rounding
+    /// error: either rounding of the state has changed the value, or the method.
+    pub(super) fn is_seen(&self) -> bool {
+        let (moving, seen) = (self.moving(), self.seen());
+        let is_energy = self.invariant.quantity == Some(ENERGY);
+        // of a quantity each of whose terms is constant nothing moves but the error
+        let moves = moving > 0.0 && (is_energy || moving > 2.0 * seen);
+        let within_rounding = self.drift.farthest <= self.rounding.explained;
+        self.invariant.broken.is_none() && moves && within_rounding && seen > RESOLVED * moving
+    }
+
+    /// Records by how much rounding of the state changes the value, in units of ε.
+    pub(super) fn measure_state(&mut self, change: Option<(f64, RoundedInput)>) {
+        self.rounding.of_state = greater(self.rounding.of_state.take(), change);
+    }
+
+    /// The drift that is seen and that rounding of the state explains, if it is so large that it is not exact.
+    fn rounded(&self, floor: f64, now: Option<(f64, RoundedInput)>) -> Option<RoundedInput> {
+        let (change, input) = greater(self.rounding.of_state.clone(), now)?;
+        (self.drift.farthest <= floor * change).then_some(input)
+    }
+
     /// Why a drift would not be seen, if it would not: all its terms have always been below the numbers that have all their digits,
     /// and not because they are 0; or a motion whose energy is all but constant terms could be lost within their rounding error.
     fn unseen(&self) -> Option<Unseen> {
-        let moving = self.drift.moving.value();
+        let moving = self.moving();
         if self.rounding.underflows && self.rounding.greatest < f64::MIN_POSITIVE {
             return Some(Unseen::Underflow);
         }
@@ -308,7 +372,7 @@ impl InvariantMonitor {
     }
 
     fn drift_of(&self, distance: f64, moving: f64) -> f64 {
-        distance / self.scale_of(moving.max(self.drift.moving.value()))
+        distance / self.scale_of(moving.max(self.moving()))
     }
 
     /// The greatest drift, and when it first exceeded the limit.
@@ -324,24 +388,41 @@ impl InvariantMonitor {
         (worst, left)
     }
 
-    /// The scale of drift: the mean moving part, or the size of the terms if nothing moves.
+    /// The scale of drift: what moves, or the size of the terms if nothing moves.
     fn scale(&self) -> f64 {
-        self.scale_of(self.drift.moving.value())
+        self.scale_of(self.moving())
     }
 
     /// The scale of drift where this much moves.
     fn scale_of(&self, moving: f64) -> f64 {
+        // an energy that is seen to change has the state's motion, whatever made it
+        let changes = self.invariant.quantity == Some(ENERGY) && self.seen() > 0.0 && moving > 0.0;
         let is_error = is_error(moving, self.drift.farthest, self.rounding.explained);
-        if is_error { self.rounding.greatest } else { moving }
+        if is_error && !changes { self.rounding.greatest } else { moving }
     }
 
-    pub(super) fn show(&self, values: &[f64], since: f64, floor: f64, errors: Errors) -> Gauge {
+    /// The gauge, given how rounding of the present state changes its value.
+    pub(super) fn show(
+        &self,
+        values: &[f64],
+        since: f64,
+        (floor, errors): (f64, Errors),
+        of_state: &dyn Fn(Expr) -> Option<(f64, RoundedInput)>,
+    ) -> Gauge {
         let value = values[self.invariant.channel];
-        let (scale, rounding) = (self.scale(), floor * self.rounding.greatest);
-        // a rounding error is small compared with the terms
+        let is_seen = self.is_seen();
+        let rounded =
+            if is_seen { self.rounded(floor, of_state(self.invariant.expression)) } else { None };
+        let scale = if is_seen { self.moving() } else { self.scale() };
+        let rounding = if is_seen {
+            LAST_DIGITS * f64::EPSILON * self.reference.value.abs().max(scale)
+        } else {
+            floor * self.rounding.greatest
+        };
+        // what the last digits of the value hide is small compared with the terms
         let drift = |distance: f64| match distance {
             0.0 => 0.0,
-            _ if distance <= rounding => distance / scale.max(self.rounding.greatest),
+            _ if distance <= rounding && !is_seen => distance / scale.max(self.rounding.greatest),
             _ => distance / scale,
         };
         let distance = if self.reference.offset {
@@ -352,16 +433,26 @@ impl InvariantMonitor {
         let beyond = self.drift.farthest > rounding;
         let is_below_digits = self.drift.farthest < f64::EPSILON * self.rounding.greatest;
         let (worst, since_when) = self.drifted();
-        let max_drift = if beyond { worst } else { drift(self.drift.farthest.max(distance)) };
+        let max_drift = match (is_seen, beyond) {
+            (false, true) => worst,
+            _ => drift(self.drift.farthest.max(distance)),
+        };
         let drift_now = drift(distance).min(max_drift);
+        let since_when = if is_seen {
+            let beyond = |&&(_, distance): &&(f64, f64)| distance > LEFT * scale;
+            let seen = &self.rounding.seen;
+            seen.iter().find(beyond).or(seen.last()).map(|&(time, _)| time)
+        } else {
+            since_when
+        };
         let left = beyond && max_drift > LEFT;
         // what is only supposed to be conserved may change with the motion
         let errors = if self.invariant.proved { errors } else { Errors::Accumulated };
-        let unseen = self.unseen();
-        let is_unknown = unseen.is_some();
-        let verdict = match (&self.invariant.broken, unseen) {
+        let unseen = if is_seen { rounded.map(Unseen::Rounded) } else { self.unseen() };
+        let is_unknown = unseen.is_some() && !is_seen;
+        let verdict = match (&self.invariant.broken, &unseen) {
             (Some(law), _) => Verdict::Broken(law.clone()),
-            (None, Some(unseen)) => Verdict::Unknown(unseen),
+            (None, Some(unseen)) => Verdict::Unknown(unseen.clone()),
             (None, None) if beyond && max_drift > LOST => Verdict::Lost,
             (None, None) => {
                 match Verdict::of(&self.drift.distances, self.drift.farthest, rounding, errors) {
@@ -383,9 +474,15 @@ impl InvariantMonitor {
         Gauge {
             name: self.invariant.name.clone(),
             shown: self.invariant.shown.clone(),
-            reason: match unseen {
+            reason: match &unseen {
                 Some(Unseen::Underflow) => format!("{}; {UNDERFLOW}", self.invariant.reason),
                 Some(Unseen::Unresolved(_)) => format!("{}; {UNRESOLVED}", self.invariant.reason),
+                Some(Unseen::Rounded(input)) => {
+                    format!(
+                        "{}; rounding of {} explains its change",
+                        self.invariant.reason, input.name
+                    )
+                }
                 None => self.invariant.reason.clone(),
             },
             proved: self.invariant.proved && self.invariant.broken.is_none(),
@@ -406,6 +503,17 @@ impl InvariantMonitor {
             },
             verdict,
         }
+    }
+}
+
+/// The greater of two changes of a value, each with what makes it.
+fn greater(
+    one: Option<(f64, RoundedInput)>,
+    other: Option<(f64, RoundedInput)>,
+) -> Option<(f64, RoundedInput)> {
+    match (one, other) {
+        (Some(one), Some(other)) => Some(if other.0 > one.0 { other } else { one }),
+        (one, other) => one.or(other),
     }
 }
 

@@ -419,3 +419,28 @@ fn every_command_that_computes_is_ended_with_the_code_of_the_signal() {
         }
     }
 }
+
+/// The motion has a thousand million periods until the claim, so that its budget lasts for seconds.
+#[test]
+fn a_check_that_is_stopped_says_before_which_claim_and_where() {
+    let home = tempfile::tempdir().unwrap();
+    let text = "title = \"Fast\"\n[coordinates]\nx = { initial = 1 }\n[lagrangian]\n\
+        L = \"1/2*x'^2 - 1/2*1e12*x^2 - 1e12*x^4\"\n[expect]\nvalues = [{ name = \"x\", expression = \"x\", at = 1e4, is = 0.5 }]\n";
+    fs::write(home.path().join("fast.toml"), text).unwrap();
+    let mut delay = Duration::from_millis(200);
+    loop {
+        let mut command = command(home.path(), &["check", "fast.toml"]);
+        let mut child = command.stderr(Stdio::piped()).spawn().unwrap();
+        thread::sleep(delay);
+        signal(&child, Signal::INT);
+        let code = end(&mut child);
+        let mut said = String::new();
+        child.stderr.take().unwrap().read_to_string(&mut said).unwrap();
+        if code == Some(130) && said.contains("of the motion, before `x` was checked") {
+            return;
+        }
+        // the motion had not begun
+        delay *= 2;
+        assert!(delay < PATIENCE, "{code:?}: {said}");
+    }
+}

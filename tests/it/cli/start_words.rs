@@ -1,0 +1,59 @@
+//! What `check` and `run` say of motions that cannot start: the coordinate, the reason, and numbers of a length that can be read.
+
+use super::with_file;
+
+fn law(coordinates: &str, more: &str, l: &str) -> String {
+    format!("title = \"Start\"\n[coordinates]\n{coordinates}\n{more}[lagrangian]\nL = \"{l}\"\n")
+}
+
+/// Both commands refuse with these words; `run` with this exit code.
+fn refused(text: &str, words: &[&str]) -> String {
+    let check = with_file(text, &["check", "system.toml"]);
+    let run = with_file(text, &["run", "system.toml", "--until", "3"]);
+    assert_eq!((check.code, run.code), (65, 1), "{}\n{}", check.stderr, run.stderr);
+    for said in [&check.stderr, &run.stderr] {
+        for word in words {
+            assert!(said.contains(word), "no `{word}` in: {said}");
+        }
+        assert!(said.lines().all(|line| line.chars().count() < 250), "{said}");
+    }
+    check.stderr + &run.stderr
+}
+
+#[test]
+fn a_constant_mass_that_is_singular_is_named_with_its_coordinates() {
+    let massless = law("x = { initial = 1 }", "[parameters]\nm = 0.0\n", "1/2*m*x'^2 - x");
+    refused(&massless, &["the mass of the coordinate `x` is 0: `m`"]);
+    let two = "x = { initial = 1 }\ny = { initial = 1 }";
+    let one_mass = law(two, "", "1/2*(x' + y')^2 - x^2 - y^2");
+    refused(&one_mass, &["no mass in L resists the velocities `x'`, `y'` in the ratio 1 : -1"]);
+    let two_masses = law(two, "", "1/2*(x' + y')^2 + 1/2*y'^2 - x^2 - y^2");
+    with_file(&two_masses, &["check", "system.toml"]).success();
+    // masses in units of their own are two, and the reason is another
+    let two = "x = { initial = 1 }\ny = { initial = -1 }";
+    refused(
+        &law(two, "", "1/2*x'^2 + 1/2*1e-13*y'^2 - ln(y)"),
+        &["`ln(y)` has no finite value at y = -1"],
+    );
+}
+
+#[test]
+fn a_pole_at_the_start_is_no_matter_of_the_clock() {
+    let text = law("x = { initial = \"pi/2\" }", "", "1/2*x'^2 - tan(x)");
+    let said = refused(&text, &["`tan(x)` has a pole at x = 1.5707963267948966, up to rounding"]);
+    assert!(!said.contains("clock"), "{said}");
+    // steps that are short for another reason are
+    let fast = law("x = { initial = 1 }", "", "1/2*x'^2 - 1/2*1e40*x^2");
+    let run = with_file(&fast, &["run", "system.toml", "--until", "3"]);
+    assert_eq!(run.code, 2, "{}", run.stderr);
+    assert!(run.stderr.contains("the clock cannot tell steps"), "{}", run.stderr);
+}
+
+#[test]
+fn a_place_is_given_in_few_digits_and_a_term_without_infinities() {
+    let far = law("x = { initial = 1e308, velocity = 1 }", "", "1/2*x'^2 - x^2");
+    refused(&far, &["`x^2` has no finite value at x = 1e308"]);
+    let edge = law("x = { initial = 1, velocity = 0.3 }", "", "1/2*x'^2 - asin(x/sqrt(x^2))");
+    let said = refused(&edge, &["a part of the law has no finite value at x = 1"]);
+    assert!(!said.contains("inf*") && !said.contains("NaN"), "{said}");
+}
