@@ -56,6 +56,11 @@ pub(super) fn draggable(loaded: &Loaded, shape: &Shape) -> Option<([Expr; 2], Ve
     (follows && !moved.is_empty()).then_some(([*x, *y], moved))
 }
 
+/// The symbol of a coordinate.
+fn position(loaded: &Loaded, index: usize) -> Symbol {
+    loaded.equations.coordinates[index].position
+}
+
 impl DraggedMass {
     /// A shape of a system, if it is a mass that can be dragged.
     pub(super) fn of(loaded: &Loaded, shape: &Shape) -> Option<Self> {
@@ -72,6 +77,43 @@ impl DraggedMass {
             moved,
             given: Vec::new(),
         })
+    }
+
+    /// Checks that it can be at rest where it is, with a mass that is finite there.
+    ///
+    /// # Errors
+    /// Returns a sentence that says why it cannot.
+    pub(super) fn can_begin(&self, loaded: &Loaded, now: &Valuation) -> Result<(), &'static str> {
+        let here: Vec<f64> = self.moved.iter().map(|i| now.at(position(loaded, *i))).collect();
+        let Some((here, _)) = self.at_rest(loaded, now, &here) else {
+            return Err("It cannot be dragged: no momentum is at rest here.");
+        };
+        let determinant = self
+            .masses
+            .determinant(&|symbol| here.get(&symbol).copied().unwrap_or_else(|| now.at(symbol)));
+        if determinant.is_infinite() {
+            return Err("It cannot be dragged: at rest its mass is infinite.");
+        }
+        Ok(())
+    }
+
+    /// The values at rest with these coordinates at the start, and the momenta.
+    fn at_rest(
+        &self,
+        loaded: &Loaded,
+        now: &Valuation,
+        places: &[f64],
+    ) -> Option<(Values, Vec<f64>)> {
+        let (model, coordinates) = (&loaded.model, &loaded.equations.coordinates);
+        // the motion that begins there begins at the start
+        let mut here: Values = HashMap::from([(model.symbols.time, model.run.start)]);
+        here.extend(coordinates.iter().map(|c| (c.velocity, 0.0)));
+        let moved = self.moved.iter().map(|i| position(loaded, *i));
+        here.extend(moved.zip(places.iter().copied()));
+        let known = |symbol: Symbol| here.get(&symbol).copied().unwrap_or_else(|| now.at(symbol));
+        let momenta = self.rest.momenta(&known)?;
+        here.extend(coordinates.iter().map(|c| c.momentum).zip(momenta.iter().copied()));
+        Some((here, momenta))
     }
 
     /// The initial values with which it is at rest at a place in the plane, or as near to it as it can be; the other coordinates stay
@@ -94,25 +136,11 @@ impl DraggedMass {
         at: [f64; 2],
     ) -> Option<Vec<InitialOverride>> {
         let Self { moved, search, masses, rest, .. } = self;
-        let (model, equations) = (&loaded.model, &loaded.equations);
+        let equations = &loaded.equations;
         let positions: Vec<Symbol> = equations.coordinates.iter().map(|c| c.position).collect();
         let before: Vec<f64> = moved.iter().map(|i| now.at(positions[*i])).collect();
         let after = search.nearest(at, before.clone(), &|symbol| now.at(symbol))?;
-        // the motion that begins there begins at the start, at rest
-        let mut start: Values = HashMap::from([(model.symbols.time, model.run.start)]);
-        start.extend(equations.coordinates.iter().map(|c| (c.velocity, 0.0)));
-        // the values with these coordinates, and the momenta at rest there
-        let at_rest = |places: &[f64]| {
-            let mut here = start.clone();
-            here.extend(moved.iter().map(|i| positions[*i]).zip(places.iter().copied()));
-            let known =
-                |symbol: Symbol| here.get(&symbol).copied().unwrap_or_else(|| now.at(symbol));
-            let momenta = rest.momenta(&known)?;
-            here.extend(
-                equations.coordinates.iter().map(|c| c.momentum).zip(momenta.iter().copied()),
-            );
-            Some((here, momenta))
-        };
+        let at_rest = |places: &[f64]| self.at_rest(loaded, now, places);
         let determinant = |share: f64| {
             let ways = before.iter().zip(&after).map(|(from, to)| from + share * (to - from));
             let Some((here, _)) = at_rest(&ways.collect::<Vec<_>>()) else { return f64::NAN };

@@ -16,10 +16,18 @@ impl Lab {
     }
 
     /// Takes hold of a mass.
-    pub(super) fn take_mass(&mut self, eye: CameraPose, shape: usize) {
+    ///
+    /// # Errors
+    /// Returns a sentence that says why it cannot be dragged from where it is.
+    pub(super) fn take_mass(&mut self, eye: CameraPose, shape: usize) -> Result<(), &'static str> {
         let shape = eye.shapes(&self.loaded.model).get(shape).filter(|_| eye.frame.is_none());
-        let mass = shape.and_then(|shape| DraggedMass::of(&self.loaded, shape));
-        self.dragged = mass.map(Box::new);
+        self.dragged = None;
+        let Some(mass) = shape.and_then(|shape| DraggedMass::of(&self.loaded, shape)) else {
+            return Ok(());
+        };
+        mass.can_begin(&self.loaded, &self.valuation())?;
+        self.dragged = Some(Box::new(mass));
+        Ok(())
     }
 
     /// The initial values with which the mass is at rest at a place in the plane, or as near to it as it can be.

@@ -119,13 +119,18 @@ impl App {
         let shown = if plot.shows_field() { "hidden" } else { "shown" };
         let name = lab.spoken(Pane::Plot(index));
         let is_elsewhere = focused.is_none();
+        // what is out of view comes to the front
+        if !lab.drawn.in_view.has(Pane::Plot(index)) {
+            lab.focus.choose(Pane::Plot(index));
+        }
         lab.redraw(index, |plot, _| {
             if let Some(viewport) = plot.viewport_mut() {
                 viewport.field = !viewport.field;
             }
         });
         if is_elsewhere {
-            let sentence = format!("The vector field of {name} is {shown}.");
+            let comma = if name.contains(',') { "," } else { "" };
+            let sentence = format!("The vector field of {name}{comma} is {shown}.");
             self.notifications.show(Notification::info(sentence));
         }
         Vec::new()
@@ -143,12 +148,16 @@ impl Lab {
         self.nearest_fitting(|plot| moves_points(plot) || plot.kind.other().is_some())
     }
 
-    /// The nearest phase portrait that has a vector field.
+    /// The nearest phase portrait that has a vector field: one in view, if there is one.
     pub(super) fn with_vector_field(&self) -> Option<usize> {
         let physics = self.loaded.physics();
-        self.nearest_fitting(|plot| {
-            plot.kind.has_vector_field() && plot.lacks_field(physics).is_none()
-        })
+        let fits =
+            |plot: &Plot| plot.kind.has_vector_field() && plot.lacks_field(physics).is_none();
+        let is_seen = |index: &usize| self.drawn.in_view.has(Pane::Plot(*index));
+        let seen =
+            self.plots.iter().enumerate().filter(|(index, plot)| is_seen(index) && fits(plot));
+        let nearest = self.nearest_fitting(fits);
+        nearest.filter(is_seen).or(seen.map(|(index, _)| index).next()).or(nearest)
     }
 
     /// Whether the focused picture of a motion in space is seen otherwise than at the beginning.

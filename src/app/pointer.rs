@@ -124,8 +124,9 @@ impl App {
                 lab.focus.pane = Pane::Plot(index);
                 lab.history.begin_group();
                 let resumes = lab.seen().is_some_and(|seen| seen.status != Status::Paused);
-                if let Some(eye) = lab.plots.get(index).and_then(Plot::eye) {
-                    lab.take_mass(eye, shape);
+                let eye = lab.plots.get(index).and_then(Plot::eye);
+                if let Some(Err(why)) = eye.map(|eye| lab.take_mass(eye, shape)) {
+                    return self.notify(why);
                 }
                 let grab = Grab::Mass { index, shape, window, resumes, moved: false };
                 self.mouse.drag = Some(grab);

@@ -7,8 +7,9 @@ use super::{Physics, Plot, PlotContext};
 use crate::model::{Model, WrittenExpr};
 use crate::system::{ChannelKind, Form};
 
-/// The indices of the curves of both nullclines among the colours: neither that of the motion nor near that of separatrices.
-pub(super) const NULLCLINES: [usize; 2] = [2, 4];
+/// The indices of the curves of both nullclines among the colours: those that motions beside the main one have last, and neither
+/// that of the motion nor near that of separatrices.
+pub(super) const NULLCLINES: [usize; 2] = [1, 6];
 
 /// Why a plane has no vector field, as a clause.
 pub type NoField = String;

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use super::{Physics, Present};
 use crate::analysis::Grid;
-use crate::system::{ChannelKind, Form, Rates, System};
+use crate::system::{ChannelKind, Form, Rates, State, System};
 
 /// The grid points, horizontal and vertical, on which signs of the rates are looked at: of a field that stays, and of one that
 /// changes with the motion.
@@ -34,13 +34,16 @@ pub struct PlaneField {
     numbers: Vec<f64>,
     time: f64,
     is_momentary: bool,
+    /// Where velocities are solved for, of which momenta may allow several: the present ones, on the branch of the motion, and the
+    /// initial values with which that began.
+    near: Option<(State, Vec<f64>)>,
 }
 
 /// The field at single points; it has the registers for that.
 #[derive(Debug)]
 pub struct FieldRates {
     rates: Rates,
-    parameters: Vec<f64>,
+    near: Option<State>,
     places: [usize; 2],
     time: f64,
     numbers: Vec<f64>,
@@ -67,7 +70,24 @@ impl PlaneField {
                 numbers[place] = present.physics.channel(kind).map_or(0.0, |k| present.value(k));
             }
         }
+        let native = (0..n).map(|i| [ChannelKind::Position(i), ChannelKind::Velocity(i)]);
+        let native: Option<Vec<[f64; 2]>> = native
+            .map(|[q, v]| {
+                let value = |kind| Some(present.value(present.physics.channel(kind)?));
+                Some([value(q)?, value(v)?])
+            })
+            .collect();
+        let is_solved = form == Form::Momentum && !system.has_direct_canonical_rates();
+        let near = native.filter(|_| is_solved);
+        let near = near.map(|pairs| {
+            let mut values = vec![0.0; system.state_len()];
+            for (i, [q, v]) in pairs.into_iter().enumerate() {
+                (values[i], values[n + i]) = (q, v);
+            }
+            (State::new(present.time, Form::Velocity, values), present.initial.to_vec())
+        });
         Self {
+            near,
             system: Arc::clone(system),
             parameters: present.parameters.to_vec(),
             form,
@@ -93,6 +113,12 @@ impl PlaneField {
             && self.time.to_bits() == other.time.to_bits()
             && same(&self.parameters, &other.parameters)
             && same(&self.numbers, &other.numbers)
+            && same(self.motion(), other.motion())
+    }
+
+    /// The initial values of the motion whose branch it follows, if there may be several.
+    fn motion(&self) -> &[f64] {
+        self.near.as_ref().map_or(&[][..], |(_, initial)| initial)
     }
 
     /// The field at single points.
@@ -103,7 +129,7 @@ impl PlaneField {
         };
         let mut rates = FieldRates {
             rates,
-            parameters: self.parameters.clone(),
+            near: self.near.as_ref().map(|(state, _)| state.clone()),
             places: self.places,
             time: self.time,
             numbers: self.numbers.clone(),
@@ -156,11 +182,11 @@ impl FieldRates {
         for (place, value) in self.places.into_iter().zip(point) {
             self.numbers[place] = value;
         }
-        if self.rates.evaluate(self.time, &self.numbers, &mut self.out).is_err() {
-            // velocities are searched for anew
-            self.rates.set_parameters(&self.parameters);
-            return None;
+        // the velocities are those of the branch on which the motion is
+        if let Some(state) = &self.near {
+            self.rates.begin_near(state);
         }
+        self.rates.evaluate(self.time, &self.numbers, &mut self.out).ok()?;
         let found = self.places.map(|place| self.out[place]);
         found.iter().all(|rate| rate.is_finite()).then_some(found)
     }

@@ -68,6 +68,11 @@ impl System {
         rates
     }
 
+    /// Whether the rates of states (q, p) are a function of these numbers, without velocities to be solved for.
+    pub fn has_direct_canonical_rates(&self) -> bool {
+        self.motion().canonical.1
+    }
+
     /// Checks that H = T(p) + V(q, t) with no other forces.
     ///
     /// # Errors

@@ -12,7 +12,7 @@ use super::glyphs::{Glyphs, TextWidth};
 use super::layout::split_rows;
 use super::number::{self, fitted, readable};
 use super::plot::{Marker, Scale};
-use super::sparkline::Sparkline;
+use super::sparkline::{ColumnValue, Sparkline};
 use super::theme::Role;
 use super::values::window;
 use super::verdict::{
@@ -223,7 +223,7 @@ fn name_and_reason(
     }
 }
 
-/// Draws value, drift, and the history of the drift on a logarithmic scale; of what is not conserved that of the value, on a linear
+/// Draws value, drift, and the history of the drift on a logarithmic scale; of what is not conserved that of its change, on a linear
 /// one. A residual is its own drift, and is shown once.
 fn numbers_and_history(canvas: &mut Canvas<'_>, area: Rect, (gauge, residual): (&Gauge, bool)) {
     value(canvas, columns(area, 0, VALUE + 2), shown_value(gauge, residual), 6);
@@ -246,6 +246,7 @@ fn numbers_and_history(canvas: &mut Canvas<'_>, area: Rect, (gauge, residual): (
     let least = shown().fold(most / LEAST_RATIO, f64::min);
     let history = Sparkline {
         values: &values,
+        column: if is_broken { ColumnValue::Mean } else { ColumnValue::Greatest },
         scale: if is_broken {
             Scale::linear(ends[0], ends[1])
         } else {

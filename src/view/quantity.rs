@@ -61,10 +61,15 @@ impl<'a> Quantities<'a> {
         self.snapshot.bounds.get(channel).copied().unwrap_or((f64::NAN, f64::NAN))
     }
 
-    /// The range of a channel. If it is only rounding error beside channels of the same kind and unit, their range.
+    /// The range of a channel. If it is only rounding error beside channels of the same kind and unit, their range; an angle has at
+    /// least one in which rounding is flat.
     fn extent(&self, channel: usize) -> (f64, f64) {
-        let greatest = self.greatest_beside_rounding(channel);
-        greatest.map_or_else(|| self.bounds(channel), |greatest| (-greatest, greatest))
+        if let Some(greatest) = self.greatest_beside_rounding(channel) {
+            return (-greatest, greatest);
+        }
+        let (lo, hi) = self.bounds(channel);
+        let is_least = self.unit(channel) == "rad" && lo.abs().max(hi.abs()) < LEAST_ANGLE;
+        if is_least { (-LEAST_ANGLE, LEAST_ANGLE) } else { (lo, hi) }
     }
 
     /// Whether a channel is only rounding error beside channels of the same kind and unit.
@@ -165,6 +170,9 @@ impl<'a> Quantities<'a> {
         DrawnAxis::new(self.name(channel), unit, through(scale, viewport))
     }
 }
+
+/// The least range of an angle, to either side of zero, far above what rounding leaves of its sine and cosine.
+const LEAST_ANGLE: f64 = 1e-9;
 
 /// Values below this, relative to similar ones, are rounding errors.
 const ROUNDING: f64 = 1e-13;

@@ -10,11 +10,36 @@ use ratatui::widgets::Widget;
 use super::glyphs::Glyphs;
 use super::plot::Scale;
 
-/// A history with the newest value at the right; each column shows the greatest of its values.
+/// What a column of a history shows of its values.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ColumnValue {
+    /// The greatest: of drifts, none of which is to be missed.
+    Greatest,
+    /// The mean: of what rises and falls.
+    Mean,
+}
+
+impl ColumnValue {
+    /// That of some values; NaN where all of them are.
+    fn of(self, values: &[f64]) -> f64 {
+        let known = values.iter().copied().filter(|value| !value.is_nan());
+        match self {
+            Self::Greatest => known.fold(f64::NAN, f64::max),
+            Self::Mean => {
+                let (sum, count) = known.fold((0.0, 0.0), |(sum, count), x| (sum + x, count + 1.0));
+                sum / count
+            }
+        }
+    }
+}
+
+/// A history with the newest value at the right.
 #[derive(Clone, Copy, Debug)]
 pub struct Sparkline<'a> {
     /// The values, oldest first. NaN leaves a gap.
     pub values: &'a [f64],
+    /// What each column shows.
+    pub column: ColumnValue,
     /// The vertical scale.
     pub scale: Scale,
     /// Style of the columns.
@@ -38,8 +63,7 @@ impl Widget for Sparkline<'_> {
         for column in 0..columns {
             let share = |column: usize| column * self.values.len() / columns;
             let values = &self.values[share(column)..share(column + 1)];
-            // `max` ignores NaN.
-            let value = values.iter().copied().fold(f64::NAN, f64::max);
+            let value = self.column.of(values);
             if value.is_nan() {
                 continue;
             }

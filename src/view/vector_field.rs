@@ -2,7 +2,10 @@
 //!
 //! In: a field, the frame of the axes. Out: a character for each arrow, dots for curves. Never here: rates.
 
+use std::f64::consts::TAU;
+
 use super::canvas::Canvas;
+use super::glyphs::Glyphs;
 use super::ink::pen;
 use super::plot::scale::CELL_ASPECT;
 use super::plot::{Pen, PlotFrame, Raster};
@@ -16,9 +19,11 @@ const SPACING: [u16; 2] = [4, 2];
 /// The step along the field, in parts of the axes, by which its direction on the screen is found.
 const STEP: f64 = 1e-4;
 
-/// Directions by eighths of a turn, from the right towards the top. In ASCII only the four sides have heads.
-const ARROWS: [char; 8] = ['→', '↗', '↑', '↖', '←', '↙', '↓', '↘'];
-const ASCII: [char; 8] = ['>', '/', '^', '\\', '<', '/', 'v', '\\'];
+/// Directions by eighths of a turn, from the right towards the top, and by quarters: the fonts of consoles lack the others, and in
+/// ASCII a slash has no sense.
+const EIGHTHS: [char; 8] = ['→', '↗', '↑', '↖', '←', '↙', '↓', '↘'];
+const QUARTERS: [char; 4] = ['→', '↑', '←', '↓'];
+const ASCII: [char; 4] = ['>', '^', '<', 'v'];
 
 /// Draws an arrow at each place of an even grid: the direction alone.
 pub(super) fn arrows(
@@ -40,12 +45,21 @@ pub(super) fn arrows(
             let at = [frame.x.value(share[0]), frame.y.value(1.0 - share[1])];
             let direction = rates.at(at).and_then(|rate| direction(frame, at, rate, size));
             let Some([right, up]) = direction else { continue };
-            let eighth = (math::atan2(up, right) / std::f64::consts::FRAC_PI_4).round() as i64;
-            let signs = glyphs.pick(ARROWS, ASCII);
-            let sign = signs[eighth.rem_euclid(8) as usize];
+            let sign = arrow(glyphs, math::atan2(up, right));
             raster.character([column, row], sign, &stroke);
         }
     }
+}
+
+/// The arrow nearest to an angle, from the right towards the top.
+fn arrow(glyphs: Glyphs, angle: f64) -> char {
+    let signs: &[char] = match glyphs {
+        Glyphs::Ascii => &ASCII,
+        Glyphs::HalfBlock => &QUARTERS,
+        _ => &EIGHTHS,
+    };
+    let part = (angle / TAU * signs.len() as f64).round() as i64;
+    signs[part.rem_euclid(signs.len() as i64) as usize]
 }
 
 /// The direction of a rate on the screen, right and up, as a unit vector.

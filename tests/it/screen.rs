@@ -40,7 +40,7 @@ pub(crate) fn screen(app: &App, look: &RenderStyle, (width, height): (u16, u16))
     drawn(app, look, (width, height)).0
 }
 
-fn drawn(app: &App, look: &RenderStyle, (width, height): (u16, u16)) -> (Buffer, Drawn) {
+pub(crate) fn drawn(app: &App, look: &RenderStyle, (width, height): (u16, u16)) -> (Buffer, Drawn) {
     let area = Rect::new(0, 0, width, height);
     let mut buffer = Buffer::empty(area);
     let drawn = draw(app, look, area, &mut buffer);

@@ -5,6 +5,8 @@ use std::f64::consts::PI;
 use phaselab::app::App;
 use phaselab::instrument::{Layer, Picture, PlaneField, Plot, PlotContext, SavedPlot, named};
 use phaselab::system::ChannelKind::{self, Momentum, Position, Velocity};
+use phaselab::view::RenderStyle;
+use phaselab::view::glyphs::Glyphs;
 
 use crate::hand::{begun, in_lab, lab, press};
 use crate::screen::{rich, rows, screen};
@@ -87,6 +89,120 @@ fn the_field_of_other_laws() {
     });
 }
 
+/// p = v³ − v has three velocities for small momenta: the motion, and so the field, has those of its branch, v > 1/√3. Below it ends.
+#[test]
+fn the_field_is_on_the_branch_of_the_motion() {
+    let start = |velocity: f64| {
+        format!(
+            "title = \"Test\"\n[coordinates]\nx = {{ initial = 1.0, velocity = {velocity:?} }}\n\
+             [lagrangian]\nL = \"1/4*x'^4 - 1/2*x'^2 - 1/2*x^2\"\n"
+        )
+    };
+    for sign in [1.0, -1.0] {
+        let found = field(&begun(&start(sign * 1.2)), [Position(0), Momentum(0)]).unwrap();
+        let mut rates = found.rates();
+        for v in [0.7, 2.0, 1.0, 0.8, 1.2] {
+            assert_eq!(rates.at([0.3, -0.5 * sign]), None, "beyond the end of the branch");
+            let [rate, force] = rates.at([0.3, sign * (v * v * v - v)]).expect("rates");
+            assert!((rate - sign * v).abs() < 1e-10 && force == -0.3, "{v}: {rate} {force}");
+        }
+    }
+    // p = v/√(1 − v²), from rest to velocities near that of light
+    let relativistic = "title = \"Test\"\n[coordinates]\nx = { initial = 1.0 }\n[lagrangian]\n\
+                        L = \"-sqrt(1 - x'^2) - 1/2*x^2\"\n";
+    check(&begun(relativistic), [Position(0), Momentum(0)], |[x, p]| {
+        [p / (p * p + 1.0).sqrt(), -x]
+    });
+}
+
+/// The arrows of a picture, with their columns and rows, and the middle of the axes; the picture is that of the pendulum alone.
+fn arrows(look: &RenderStyle) -> (Vec<(u16, u16, char)>, (u16, u16)) {
+    let mut app = in_lab();
+    while app.lab.as_ref().unwrap().focused_plot().is_none_or(|(_, p)| p.kind.name() != "phase") {
+        press(&mut app, "Tab");
+    }
+    press(&mut app, "* z");
+    let buffer = screen(&app, look, (120, 40));
+    let symbol = |x: u16, y: u16| buffer[(x, y)].symbol().chars().next().unwrap_or(' ');
+    let ticks: Vec<String> = rows(&buffer);
+    let is_zero = |row: &&String| row.trim_start_matches(['│', '|', '┃', ' ']).starts_with("0");
+    let middle = ticks.iter().skip(2).position(|row| is_zero(&row)).expect("a tick at zero") + 2;
+    let below = (middle + 1..40).find(|y| is_zero_below(&ticks[*y])).expect("ticks below");
+    let across = ticks[below].chars().position(|c| c == '0').expect("a tick at zero");
+    let mut found = Vec::new();
+    for y in 3..(below - 1) as u16 {
+        for x in 12..116 {
+            if "→↗↑↖←↙↓↘><^v".contains(symbol(x, y)) {
+                found.push((x, y, symbol(x, y)));
+            }
+        }
+    }
+    (found, (across as u16, middle as u16))
+}
+
+/// Whether a row has the ticks from −π to π.
+fn is_zero_below(row: &str) -> bool {
+    row.contains("pi/2") && row.contains(" 0 ") || row.contains("π/2") && row.contains(" 0 ")
+}
+
+/// θ′ = p/(m l²) is to the right above p = 0 and to the left below, p′ = −m g l sin θ down right of θ = 0 and up left of it.
+#[test]
+fn arrows_point_along_the_flow() {
+    for (glyphs, diagonals) in
+        [(Glyphs::Braille, true), (Glyphs::HalfBlock, false), (Glyphs::Ascii, false)]
+    {
+        let (found, (across, middle)) = arrows(&RenderStyle { glyphs, ..rich() });
+        assert!(found.len() > 40, "{glyphs:?}: {found:?}");
+        for &(x, y, sign) in &found {
+            let wrong = [
+                (y < middle, "←↙↖<"),
+                (y > middle, "→↗↘>"),
+                (x > across, "↑↗↖^"),
+                (x < across, "↓↘↙v"),
+            ];
+            let is_wrong = wrong.iter().any(|(here, signs)| *here && signs.contains(sign));
+            assert!(!is_wrong, "{glyphs:?}: {sign} at {x}, {y}; {across}, {middle}: {found:?}");
+        }
+        let has = |sign: char| found.iter().any(|(_, _, own)| *own == sign);
+        assert_eq!("↗↖↙↘".chars().all(has), diagonals, "{glyphs:?}: {found:?}");
+        assert!(["→><^v", "←><^v"].iter().all(|signs| signs.chars().any(has)), "{found:?}");
+    }
+}
+
+/// No arrow lies on the trail.
+#[test]
+fn arrows_leave_the_trail_alone() {
+    let mut app = in_lab();
+    let before = screen(&app, &rich(), (120, 40));
+    press(&mut app, "*");
+    let after = screen(&app, &rich(), (120, 40));
+    let theme = rich().theme;
+    let inks: Vec<_> = theme.trail(0).iter().filter_map(|shade| shade.style.fg).collect();
+    let cells = (2..21).flat_map(|y| (41..79).map(move |x| (x, y)));
+    let trail: Vec<(u16, u16)> =
+        cells.filter(|at| before[*at].symbol() != " " && inks.contains(&before[*at].fg)).collect();
+    assert!(trail.len() > 10, "{trail:?}");
+    for at in trail {
+        assert!(!"→↗↑↖←↙↓↘".contains(after[at].symbol()), "{at:?}");
+    }
+}
+
+/// Runs beside the motion have other colours than the nullclines, and without colours other dashes.
+#[test]
+fn nullclines_are_not_in_the_colours_of_pinned_runs() {
+    let mut app = in_lab();
+    press(&mut app, "*");
+    let shown = screen(&app, &rich(), (120, 40));
+    let legend = rows(&shown)[2].clone();
+    let theme = rich().theme;
+    // the first of the runs beside the motion, in their order
+    let runs = [4, 2, 5, 3].map(|series| theme.curve(series).fg);
+    let samples: Vec<_> =
+        (41..79).filter(|x| shown[(*x, 2)].symbol() == "━").map(|x| shown[(x, 2)].fg).collect();
+    assert!(samples.len() >= 2, "{legend}");
+    assert!(samples.iter().all(|fg| !runs.contains(&Some(*fg))), "{legend}: {samples:?}");
+}
+
 /// Over the plane of the pendulum θ′ vanishes on p = 0 and p′ on sin θ = 0; they cross at the equilibria. A force that jumps from
 /// one infinity to the other vanishes nowhere.
 #[test]
@@ -136,7 +252,7 @@ fn a_key_shows_the_field_and_its_nullclines() {
     press(&mut app, "*");
     assert!(has_strokes(&app));
     let shown = told(&app);
-    assert!(shown.contains("θ′ = 0") && shown.contains("p_θ′ = 0"), "{shown}");
+    assert!(shown.contains(" θ′ = 0") && shown.contains(" p_θ′ = 0"), "{shown}");
     let lab = app.lab.as_ref().unwrap();
     let physics = lab.loaded.physics();
     let plot = lab.plots.iter().find(|plot| plot.shows_field()).expect("the portrait");
@@ -192,4 +308,20 @@ fn a_file_asks_for_the_field() {
                 L = \"1/2*x'^2 - 1/2*x^2\"\n[[views]]\nkind = \"phase\"\nx = \"x\"\ny = \"p_x\"\nfield = true\n";
     assert!(has_strokes(&begun(view)));
     assert!(!has_strokes(&begun(&view.replace("true", "false"))));
+}
+
+/// From elsewhere the key acts on a portrait in view, and brings one that is not to the front; the focused one goes first.
+#[test]
+fn the_field_is_shown_where_it_is_seen() {
+    let mut app = in_lab();
+    let size = (80, 24);
+    let time = app.lab.as_ref().unwrap().plots.iter().position(|p| p.kind.name() == "time");
+    app.lab.as_mut().unwrap().focus.pane = phaselab::app::Pane::Plot(time.unwrap());
+    press(&mut app, "z");
+    let (_, drawn) = crate::screen::drawn(&app, &rich(), size);
+    app.update(phaselab::app::AppEvent::Drawn(drawn));
+    press(&mut app, "*");
+    let shown = rows(&screen(&app, &rich(), size)).join("\n");
+    assert!(shown.contains(" p_θ′ = 0"), "{shown}");
+    assert!(shown.contains("p_θ against θ, is shown"), "{shown}");
 }

@@ -43,8 +43,17 @@ impl ScenePainter<'_> {
             return;
         }
         let apart = (0..3).map(|k| math::powi(other[k] - at[k], 2)).sum::<f64>().sqrt();
+        if !apart.is_finite() {
+            return;
+        }
         let glyphs = self.q.style.glyphs;
-        let text = format!("wrong mechanics, {} away", brief(apart, 2, glyphs));
+        let distance = brief(apart, 2, glyphs);
+        let text = match glyphs.pick(["←", "→", "↓", "↑"], ["<-", "->", "v", "^"]) {
+            [left, ..] if flat[0] < edges[0][0] => format!("{left} wrong: {distance} away"),
+            [_, right, ..] if flat[0] > edges[0][1] => format!("wrong: {distance} away {right}"),
+            [.., down, _] if flat[1] < edges[1][0] => format!("wrong: {distance} away {down}"),
+            [.., up] => format!("wrong: {distance} away {up}"),
+        };
         let mut tip = [0, 1].map(|k| flat[k].max(edges[k][0]).min(edges[k][1]));
         // the names of the axes have the lower left corner
         let row = (edges[1][1] - edges[1][0]) / f64::from(self.frame.area.height.max(1));

@@ -7,7 +7,7 @@ use phaselab::view::glyphs::Glyphs;
 use phaselab::view::plot::{
     Axes, Bounds, Camera, DrawnAxis, Marker, Pen, PlotFrame, Raster, Scale,
 };
-use phaselab::view::sparkline::{RangeBar, Sparkline};
+use phaselab::view::sparkline::{ColumnValue, RangeBar, Sparkline};
 use phaselab::view::theme::{Role, Theme};
 use proptest::prelude::*;
 use ratatui::buffer::Buffer;
@@ -80,8 +80,14 @@ fn everything(
     }
     raster.draw(buffer);
     let values: Vec<f64> = points.iter().map(|[x, _]| *x).collect();
-    Sparkline { values: &values, scale: y, style: theme[Role::Accent], glyphs }
-        .render(area, buffer);
+    Sparkline {
+        values: &values,
+        column: ColumnValue::Mean,
+        scale: y,
+        style: theme[Role::Accent],
+        glyphs,
+    }
+    .render(area, buffer);
     let value = points.first().map_or(f64::NAN, |p| p[1]);
     let (filled, rest) = (theme[Role::Accent], theme[Role::Border]);
     RangeBar { value, scale: x, filled, rest, glyphs }.render(area, buffer);

@@ -2,7 +2,7 @@
 
 use phaselab::view::glyphs::Glyphs;
 use phaselab::view::plot::Scale;
-use phaselab::view::sparkline::{RangeBar, Sparkline};
+use phaselab::view::sparkline::{ColumnValue, RangeBar, Sparkline};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Color, Style};
@@ -11,8 +11,18 @@ use ratatui::widgets::Widget;
 use super::rows;
 
 fn history(values: &[f64], scale: Scale, width: u16, glyphs: Glyphs) -> String {
+    shown(values, ColumnValue::Greatest, scale, (width, glyphs))
+}
+
+fn shown(
+    values: &[f64],
+    column: ColumnValue,
+    scale: Scale,
+    (width, glyphs): (u16, Glyphs),
+) -> String {
     let mut buffer = Buffer::empty(Rect::new(0, 0, width, 1));
-    Sparkline { values, scale, style: Style::new(), glyphs }.render(buffer.area, &mut buffer);
+    let history = Sparkline { values, column, scale, style: Style::new(), glyphs };
+    history.render(buffer.area, &mut buffer);
     rows(&buffer).concat()
 }
 
@@ -36,6 +46,26 @@ fn a_long_history_shows_the_greatest_of_each_share() {
     let mut values = vec![0.0; 100];
     values[42] = 8.0;
     assert_eq!(history(&values, Scale::linear(0.0, 8.0), 4, Glyphs::Braille), "▁█▁▁");
+}
+
+/// One swing in eight columns goes up, down to the bottom, and back; many in each column stay about their mean. The greatest of each
+/// column would be at the top.
+#[test]
+fn what_swings_rises_and_falls_about_its_mean() {
+    let sine = |swings: f64| -> Vec<f64> {
+        (0..128).map(|i| (f64::from(i) / 128.0 * swings * std::f64::consts::TAU).sin()).collect()
+    };
+    let look = (8, Glyphs::Braille);
+    let mean = |swings| shown(&sine(swings), ColumnValue::Mean, Scale::linear(-1.0, 1.0), look);
+    assert_eq!(mean(1.0), "▆█▇▅▃▁▂▄");
+    let fast = mean(32.0);
+    assert!(fast.chars().all(|c| "▄▅".contains(c)), "{fast}");
+    assert_eq!(history(&sine(32.0), Scale::linear(-1.0, 1.0), 8, Glyphs::Braille), "████████");
+    let gaps = [f64::NAN, f64::NAN, 1.0, f64::NAN];
+    assert_eq!(
+        shown(&gaps, ColumnValue::Mean, Scale::linear(0.0, 1.0), (2, Glyphs::Braille)),
+        " █"
+    );
 }
 
 #[test]

@@ -116,6 +116,15 @@ fn laboratories_on_a_large_screen() {
     }
 }
 
+/// The vector field of the pendulum with its nullclines, beside the other panes and alone.
+#[test]
+fn the_vector_field() {
+    let mut app = in_lab();
+    press(&mut app, "*");
+    check_every_way("vector-field", |look| screen(&app, look, (120, 40)));
+    check("vector-field-80x24.txt", &screen(&app, &rich(), (80, 24)), &rich());
+}
+
 /// The pages beside the lab, the workbench and the help.
 #[test]
 fn pages_on_a_large_screen() {

@@ -992,3 +992,29 @@ fn what_is_held_is_let_go_when_the_keys_lead_elsewhere() {
     assert_eq!(real.app.mouse.drag, None);
     assert_eq!(at(&real.app, size, (20, 20)), Some(HitTarget::Text));
 }
+
+/// What no momentum brings to rest, or has an infinite mass there, says so and stays where it is.
+#[test]
+fn a_mass_that_cannot_rest_says_why() {
+    let size = (120, 40);
+    for (law, why) in [
+        ("p_x + p_x^3 + 1/2*x^2", "no momentum is at rest here"),
+        ("1/4*p_x^4 + 1/2*x^2", "at rest its mass is infinite"),
+    ] {
+        let text = format!(
+            "title = \"Test\"\n[coordinates]\nx = {{ initial = 0.5, momentum = 0.4 }}\n\
+             [hamiltonian]\nH = \"{law}\"\n[[views]]\nkind = \"space\"\n[space]\n\
+             shapes = [{{ line = [\"-1\", \"0\", \"0\"], to = [\"1\", \"0\", \"0\"] }}, {{ mass = [\"x\", \"0\", \"0\"], radius = \"0.1\" }}]\n"
+        );
+        let mut real = Real::with(lowered(&text));
+        let before = real.seen().initial.clone();
+        let mass = masses(&real.app, size);
+        let place = mass[mass.len() / 2];
+        act(&mut real, size, Down(Left), place);
+        let shown = rows(&screen(&real.app, &rich(), size)).join("\n");
+        assert!(shown.contains(why), "{law}: {shown}");
+        act(&mut real, size, Drag(Left), (place.0 + 5, place.1));
+        act(&mut real, size, Up(Left), (place.0 + 5, place.1));
+        assert_eq!(real.seen().initial, before, "{law}");
+    }
+}

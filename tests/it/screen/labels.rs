@@ -522,3 +522,81 @@ fn a_particle_on_a_sphere_moves_on_a_ball() {
     tones.dedup();
     assert!(shaded > 200 && tones.len() > 4, "{shaded} cells, {tones:?}");
 }
+
+/// The rows on which a colour is drawn in dots.
+fn rows_in(buffer: &ratatui::buffer::Buffer, colour: Option<ratatui::style::Color>) -> usize {
+    let dots = |c: &str| c.starts_with(|c: char| ('⠁'..='⣿').contains(&c));
+    let is_drawn = |x: u16, y: u16| {
+        let cell = &buffer[(x, y)];
+        Some(cell.fg) == colour && dots(cell.symbol())
+    };
+    (3..buffer.area.height - 3).filter(|y| (8..buffer.area.width).any(|x| is_drawn(x, *y))).count()
+}
+
+/// Of two charges the mechanical momentum moves, and the canonical one is zero but for rounding: the axis they share is that of the
+/// first.
+#[test]
+fn a_curve_that_is_zero_leaves_the_axis_to_the_one_that_moves() {
+    let mut real = Real::of("darwin");
+    real.run(300);
+    let is_shown = |app: &phaselab::app::App| {
+        app.lab.as_ref().unwrap().focused_plot().is_some_and(|(_, plot)| plot.kind.name() == "time")
+    };
+    while !is_shown(&real.app) {
+        real.press("Tab");
+    }
+    real.press("z");
+    let buffer = screen(&real.app, &rich(), (120, 40));
+    let high = rows_in(&buffer, rich().theme.curve(0).fg);
+    assert!(high >= 12, "{high} rows: {:#?}", rows(&buffer));
+}
+
+/// Bodies that stay where they are have the amber of suns, however many there are, and what moves has another colour.
+#[test]
+fn all_bodies_that_stay_are_amber() {
+    let buffer = screen(&lab("two-centres", 1.0), &rich(), (120, 40));
+    let theme = rich().theme;
+    let coloured = |series: usize| -> Vec<u16> {
+        let cells = (2..21).flat_map(|y| (1..39).map(move |x| (x, y)));
+        let fg = theme.curve(series).fg;
+        cells.filter(|at| Some(buffer[*at].fg) == fg).map(|(x, _)| x).collect()
+    };
+    let amber = coloured(1);
+    let (left, right) = (amber.iter().min(), amber.iter().max());
+    assert!(left < right && right.zip(left).is_some_and(|(r, l)| r - l > 5), "{amber:?}");
+    assert!(coloured(2).is_empty(), "{:#?}", rows(&buffer));
+    assert!(!coloured(0).is_empty(), "{:#?}", rows(&buffer));
+}
+
+/// Without the extra force the ellipse is closed: the angle of the Runge–Lenz vector, 10⁻¹⁵ rad by rounding, is a flat line. With it the
+/// line rises.
+#[test]
+fn an_angle_that_is_rounding_is_flat() {
+    let text = include_str!("../../../presets/gravity/precessing-orbit.toml");
+    let high = |beta: &str| {
+        let text = text.replace("beta = { value = 0.03", &format!("beta = {{ value = {beta}"));
+        let mut real = Real::with(lowered(&text));
+        let is_shown = |app: &phaselab::app::App| {
+            let lab = app.lab.as_ref().unwrap();
+            let physics = lab.loaded.physics();
+            lab.focused_plot().is_some_and(|(_, plot)| {
+                plot.kind.name() == "time" && plot.words(physics).contains("Runge")
+            })
+        };
+        // Tab goes to what is in view, and before anything was drawn all is
+        for _ in 0..30 {
+            if !is_shown(&real.app) {
+                real.press("Tab");
+            }
+        }
+        assert!(is_shown(&real.app));
+        real.press("z");
+        real.run(400);
+        let buffer = screen(&real.app, &rich(), (120, 40));
+        (rows_in(&buffer, rich().theme.curve(0).fg), rows(&buffer))
+    };
+    let (turning, shown) = high("0.03");
+    assert!(turning > 10, "{turning}: {shown:#?}");
+    let (still, shown) = high("0.0");
+    assert!((1..3).contains(&still), "{still}: {shown:#?}");
+}
