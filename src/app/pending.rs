@@ -22,8 +22,8 @@ pub(super) struct Awaited {
     pub(super) system: Option<LoadRequest>,
     /// The session to resume once its system is loaded.
     pub(super) session: Option<Saved>,
-    /// The motion that begins in the system that is opened first.
-    pub(super) start: Option<Checkpoint>,
+    /// The motion that begins in the system of a name, if that is the one opened first.
+    pub(super) start: Option<(String, Checkpoint)>,
     /// The view of a session that is restored once its text is right.
     pub(super) view: Option<AwaitedView>,
     /// The wrong file whose text was asked for, until its first error is shown.

@@ -20,12 +20,9 @@ pub(super) const NEW_SYSTEM: &str = "system";
 impl Saved {
     /// Returns the session of a lab on a page, or `None` before the first snapshot.
     fn of(lab: &Lab, page: Page) -> Option<Self> {
-        let Loaded { name, document, model, system, .. } = &lab.loaded;
+        let Loaded { name, document, model, .. } = &lab.loaded;
         let law = lab.restoration.law().cloned();
-        let checkpoint = match lab.restoration.checkpoint() {
-            Some(checkpoint) => checkpoint.clone(),
-            None => Checkpoint::of(model, system, lab.seen()?),
-        };
+        let checkpoint = lab.checkpoint()?;
         Some(Self {
             version: Self::VERSION,
             phaselab: env!("CARGO_PKG_VERSION").to_owned(),
@@ -47,6 +44,13 @@ impl Saved {
 }
 
 impl Lab {
+    /// The motion as it is, or as it is to be restored; `None` before the first snapshot.
+    pub(super) fn checkpoint(&self) -> Option<Checkpoint> {
+        let Loaded { model, system, .. } = &self.loaded;
+        let awaited = self.restoration.checkpoint().cloned();
+        awaited.or_else(|| Some(Checkpoint::of(model, system, self.seen()?)))
+    }
+
     fn saved_plots(&self) -> Vec<SavedPlot> {
         self.plots.iter().map(|plot| SavedPlot::of(plot, self.loaded.physics())).collect()
     }
@@ -77,12 +81,10 @@ impl App {
             return self.left.clone();
         }
         // A system without a file could not be found again; its text is kept among the unsaved ones.
-        let has_file = |lab: &&Lab| lab.loaded.name != NEW_SYSTEM || self.file().is_some();
-        let Some(lab) = self.lab.as_ref().filter(has_file) else { return self.left.clone() };
-        let runs =
-            |buffer: &SourceBuffer| buffer.is_modified() && buffer.state != BufferState::Left;
-        let edited = self.own_buffer().is_some_and(runs);
-        let mut saved = Saved { edited, ..Saved::of(lab, self.page)? };
+        let Some(lab) = self.lab.as_ref().filter(|_| self.has_file()) else {
+            return self.left.clone();
+        };
+        let mut saved = Saved { edited: self.is_edited(), ..Saved::of(lab, self.page)? };
         // a view that waits for its text is not lost with the session
         if let Some(view) = self.awaited.view.as_ref().and_then(|view| view.for_plots(&saved.plots))
         {
@@ -92,14 +94,27 @@ impl App {
         Some(saved)
     }
 
+    /// Whether the system in the lab can be opened again by its name.
+    pub(super) fn has_file(&self) -> bool {
+        let is_new = |lab: &Lab| lab.loaded.name == NEW_SYSTEM && self.file().is_none();
+        self.lab.as_ref().is_some_and(|lab| !is_new(lab))
+    }
+
+    /// Whether the text of the system in the lab is another one than that of its file.
+    pub(super) fn is_edited(&self) -> bool {
+        let runs =
+            |buffer: &SourceBuffer| buffer.is_modified() && buffer.state != BufferState::Left;
+        self.own_buffer().is_some_and(runs)
+    }
+
     /// Resumes a session as soon as its system is loaded.
     pub fn resume(&mut self, saved: Saved) {
         self.awaited.session = Some(saved);
     }
 
-    /// Begins a motion as soon as the system that is to be opened is loaded.
-    pub fn start_with(&mut self, start: Checkpoint) {
-        self.awaited.start = Some(start);
+    /// Begins a motion as soon as the system of this name is opened, unless another one is opened first.
+    pub fn start_with(&mut self, system: &str, start: Checkpoint) {
+        self.awaited.start = Some((system.to_owned(), start));
     }
 
     /// Offers a session in the list of systems, as its first row.
@@ -118,13 +133,15 @@ impl App {
     /// from its initial values.
     pub(super) fn begin(&mut self, opened: bool) -> Vec<Effect> {
         let Some(lab) = &mut self.lab else { return Vec::new() };
+        let start = if opened { self.awaited.start.take() } else { None };
         let saved = self.awaited.session.take();
         let saved = saved.filter(|saved| opened && saved.open == lab.loaded.name);
         let Some(saved) = saved else {
             if opened {
                 self.remind();
-                if let Some(start) = self.awaited.start.take()
+                if let Some((name, start)) = start
                     && let Some(lab) = &mut self.lab
+                    && lab.loaded.name == name
                 {
                     lab.restoration.begin(start, law_digest(&lab.loaded.document.text));
                     return self.restore();

@@ -1,28 +1,39 @@
 //! The command line that opens the lab as it is set: the system with what differs from its file.
 //!
-//! In: a system's name, a checkpoint. Out: words for a shell. Never here: how words are read (`cli`), or where the
+//! In: a system's name, a checkpoint, the method in force. Out: words for a shell. Never here: how words are read (`cli`), or where the
 //! motion has come to since.
 
-use super::session::NEW_SYSTEM;
-use super::{App, Effect, Saved};
-use crate::experiment::Checkpoint;
+use super::{App, Effect, Page};
+use crate::experiment::{Checkpoint, choose_method};
+use crate::integrate::Stepping;
 
 impl App {
     /// Copies the command line that opens the lab as it is set.
     pub(super) fn share(&mut self) -> Vec<Effect> {
-        let Some(Saved { open, moment, edited, .. }) = self.saved() else {
-            return self.notify("Save the system first (E, Ctrl-s): a command opens a file.");
+        let Some(lab) = self.lab.as_ref().filter(|_| self.page != Page::Picker) else {
+            return self.notify("Open a system first: the command opens it as it is set.");
         };
-        if edited || open == NEW_SYSTEM {
-            return self.notify("Save the text first (E, Ctrl-s): a command opens the file.");
+        if !self.has_file() {
+            return self.notify("Save the system first (E, Ctrl-s); the command opens its file.");
         }
-        let text = command_line(&open, &moment);
+        if self.is_edited() {
+            return self
+                .notify("Save the text first (E, Ctrl-s); the command opens the saved file.");
+        }
+        let Some(checkpoint) = lab.checkpoint() else {
+            return self.notify("The motion has not begun yet.");
+        };
+        let name = checkpoint.method.as_ref().unwrap_or(&lab.loaded.model.run.method);
+        let method = choose_method(&lab.loaded.system, name);
+        let stepping = method.map_or(Stepping::Adaptive, |method| method.stepping);
+        let text = command_line(&lab.loaded.name, &checkpoint, stepping);
         vec![Effect::Copy { what: "the command", text, ending: "sh" }]
     }
 }
 
-/// Writes the command that begins a motion with the settings of a checkpoint.
-pub fn command_line(system: &str, checkpoint: &Checkpoint) -> String {
+/// Writes the command that begins a motion with the settings of a checkpoint, of its step and tolerance the one that a
+/// method has which steps in this way.
+pub fn command_line(system: &str, checkpoint: &Checkpoint, stepping: Stepping) -> String {
     let named = |option: &str, name: &str, value: f64| {
         format!("--{option} {}", quoted(&format!("{name}={}", number(value))))
     };
@@ -32,9 +43,15 @@ pub fn command_line(system: &str, checkpoint: &Checkpoint) -> String {
     let setting = |option: &str, value: Option<f64>| {
         value.map(|value| format!("--{option} {}", number(value)))
     };
-    let settings = [setting("step", checkpoint.step), setting("tolerance", checkpoint.tolerance)];
-    let options = parameters.chain(initial).chain(method).chain(settings.into_iter().flatten());
-    let words = ["phaselab".to_owned(), quoted(system)].into_iter().chain(options);
+    let setting = match stepping {
+        Stepping::Fixed => setting("step", checkpoint.step),
+        Stepping::Adaptive => setting("tolerance", checkpoint.tolerance),
+    };
+    let options = parameters.chain(initial).chain(method).chain(setting);
+    // a file may be called like an option
+    let path = if system.starts_with('-') { "./" } else { "" };
+    let words = ["phaselab".to_owned(), quoted(&format!("{path}{system}"))];
+    let words = words.into_iter().chain(options);
     words.collect::<Vec<_>>().join(" ")
 }
 
@@ -64,7 +81,9 @@ mod tests {
 
     #[test]
     fn only_what_differs_is_written() {
-        assert_eq!(command_line("pendulum", &Checkpoint::default()), "phaselab pendulum");
+        let unchanged = |name| command_line(name, &Checkpoint::default(), Stepping::Adaptive);
+        assert_eq!(unchanged("pendulum"), "phaselab pendulum");
+        assert_eq!(unchanged("-a.toml"), "phaselab ./-a.toml");
         let changed = |name: &str, value| Changed { name: name.to_owned(), value, of_file: 1.0 };
         let checkpoint = Checkpoint {
             parameters: vec![changed("l", 2.0), changed("g", 1.5e-300)],
@@ -75,7 +94,7 @@ mod tests {
         };
         let line = "phaselab \"my file.toml\" --set l=2 --set g=1.5e-300 --init \"theta'=-0.1\" \
                     --method gauss4 --step 0.01";
-        assert_eq!(command_line("my file.toml", &checkpoint), line);
+        assert_eq!(command_line("my file.toml", &checkpoint, Stepping::Fixed), line);
     }
 
     #[test]

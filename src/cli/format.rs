@@ -11,6 +11,7 @@ pub(super) enum Format {
     #[default]
     Text,
     /// For typesetting: a fragment for LaTeX with amsmath.
+    #[value(alias = "tex")]
     Latex,
     /// One object, its expressions in the syntax of files.
     Json,

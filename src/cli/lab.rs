@@ -21,7 +21,7 @@ pub(super) struct Arguments {
     #[arg(value_name = "PRESET|FILE", conflicts_with = "resume")]
     pub(super) name: Option<String>,
     /// Perform a demo, then end: a preset's own, a script, or a tour if none is named.
-    #[arg(long, conflicts_with_all = ["resume", "watch", "log"])]
+    #[arg(long, conflicts_with_all = ["resume", "watch", "log", "set", "init", "method", "step", "tolerance"])]
     demo: bool,
     #[command(flatten)]
     start: StartOptions,
@@ -62,6 +62,10 @@ pub(super) fn execute(
     words: &[OsString],
     read: ReadOptions,
 ) -> Result<(), CommandError> {
+    if arguments.options.resume && arguments.start.is_given() {
+        let what = "--resume continues a motion as it was; --set, --init, --method, --step and --tolerance begin another";
+        return Err(CommandError::WrongUse(what.to_owned()));
+    }
     let start = arguments.start.checkpoint(arguments.system())?;
     if arguments.demo {
         return perform_demo(arguments, words, read);

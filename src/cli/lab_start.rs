@@ -23,17 +23,24 @@ pub(super) struct StartOptions {
 }
 
 impl StartOptions {
+    /// Whether anything is not as the file says.
+    pub(super) fn is_given(&self) -> bool {
+        !self.set.is_empty() || !self.init.is_empty() || self.integrator.is_given()
+    }
+
     /// The motion that is to begin, or `None` if all of it is as its file says.
     pub(super) fn checkpoint(
         &self,
         name: Option<&str>,
     ) -> Result<Option<Checkpoint>, CommandError> {
         let wrong = |what: &str| Err(CommandError::WrongUse(what.to_owned()));
-        if self.set.is_empty() && self.init.is_empty() && !self.integrator.is_given() {
+        if !self.is_given() {
             return Ok(None);
         }
         let Some(name) = name else {
-            return wrong("--set, --init and --method are for a system: give its name first");
+            return wrong(
+                "--set, --init, --method, --step and --tolerance are for a system: give its name first",
+            );
         };
         if self.init.iter().any(|given| given.name() == "t") {
             return wrong(
@@ -70,6 +77,7 @@ mod tests {
     use super::*;
     use crate::app::command_line;
     use crate::experiment::Named;
+    use crate::integrate::Stepping;
 
     #[derive(Parser)]
     struct Line {
@@ -106,10 +114,20 @@ mod tests {
         checkpoint.initial = vec![named("theta", 0.1 + 0.2), named("theta'", -1e-17)];
         checkpoint.method = Some("rk4".to_owned());
         checkpoint.step = Some(1.0 / 300.0);
-        let line = command_line("pendulum", &checkpoint);
-        let (name, read) = read(&line);
+        let line = command_line("pendulum", &checkpoint, Stepping::Fixed);
+        let (name, back) = read(&line);
         assert_eq!(name, "pendulum");
-        assert_eq!(read.ok().flatten(), Some(checkpoint), "{line}");
+        assert_eq!(back.ok().flatten(), Some(checkpoint.clone()), "{line}");
+        // the lab keeps both settings while methods are tried
+        checkpoint.tolerance = Some(1e-9);
+        for (method, stepping) in [("rk4", Stepping::Fixed), ("taylor", Stepping::Adaptive)] {
+            let with_both = Checkpoint { method: Some(method.to_owned()), ..checkpoint.clone() };
+            let line = command_line("pendulum", &with_both, stepping);
+            let back = read(&line).1.expect(&line).expect("a start");
+            let settings = (back.step.is_some(), back.tolerance.is_some());
+            let is_fixed = stepping == Stepping::Fixed;
+            assert_eq!(settings, (is_fixed, !is_fixed), "{line}");
+        }
     }
 
     #[test]

@@ -92,7 +92,7 @@ pub(super) fn execute(arguments: &Arguments) -> Result<(), CommandError> {
         return Err(CommandError::WrongUse(what.to_owned()));
     }
     let path = Path::new(&arguments.name);
-    if path.extension().is_some_and(|ending| ending == "cast") {
+    if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("cast")) {
         return convert(path, arguments);
     }
     let system = open::find(&arguments.name)?;
@@ -135,7 +135,7 @@ pub(super) fn execute(arguments: &Arguments) -> Result<(), CommandError> {
         CastFormat::V3 => cast_writer::write(&recording, Version::Three, &mut out).map(|_| ()),
         CastFormat::V2 => cast_writer::write(&recording, Version::Two, &mut out).map(|_| ()),
         CastFormat::Gif => {
-            let cast = RecordedCast::from(recording.clone());
+            let cast = RecordedCast::from(recording);
             return write_gif(&cast, arguments.cell_width, out);
         }
         CastFormat::Account => out.write_all(transcript::write(&recording).as_bytes()),

@@ -5,6 +5,7 @@
 
 use serde::Deserialize;
 use serde_json::Value;
+use unicode_width::UnicodeWidthChar;
 
 use super::cast_theme::CastTheme;
 use super::clock::{Micros, SECOND};
@@ -29,7 +30,7 @@ pub struct RecordedCast {
 /// What happens at one time of a cast.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum CastEvent {
-    /// Text for the emulated terminal.
+    /// Text for the emulated terminal, which has a cell for each character: signs without a width of their own are left out.
     Output(String),
     /// A new size in columns and rows.
     Resize(u16, u16),
@@ -121,7 +122,7 @@ impl RecordedCast {
             }
             let data = data.as_str().unwrap_or_default();
             let event = match code.as_str() {
-                "o" => Some(CastEvent::Output(data.to_owned())),
+                "o" => Some(CastEvent::Output(without_combining_signs(data))),
                 "m" => Some(CastEvent::Marker(data.to_owned())),
                 "r" => {
                     let sides = data.split_once('x');
@@ -147,10 +148,14 @@ fn sized((columns, rows): (u64, u64)) -> Result<(u16, u16), String> {
     Err(format!("a screen has 1x1 to {MOST_COLUMNS}x{MOST_ROWS} characters, not {columns}x{rows}"))
 }
 
+fn without_combining_signs(text: &str) -> String {
+    text.chars().filter(|c| c.width() != Some(0)).collect()
+}
+
 impl From<RecordingEvent> for CastEvent {
     fn from(event: RecordingEvent) -> CastEvent {
         match event {
-            RecordingEvent::Output(text) => CastEvent::Output(text),
+            RecordingEvent::Output(text) => CastEvent::Output(without_combining_signs(&text)),
             RecordingEvent::Marker(name) => CastEvent::Marker(name),
         }
     }

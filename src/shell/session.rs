@@ -131,8 +131,8 @@ impl Session {
         pace: FramePace,
     ) -> io::Result<Self> {
         let (mut app, effects) = App::new(&catalog, request.open.as_deref());
-        if let Some(start) = &request.start {
-            app.start_with(start.clone());
+        if let (Some(name), Some(start)) = (&request.open, &request.start) {
+            app.start_with(name, start.clone());
         }
         app.mouse.is_reported = pace.mouse;
         app.jobs.in_background = true;

@@ -12,7 +12,7 @@ use super::canvas::{Canvas, columns, row};
 use super::footer::notice_role;
 use super::lab_page;
 use super::layout::{split_columns, split_rows};
-use super::syntax::{is_within_text, roles};
+use super::syntax::{long_text_after, roles};
 use super::theme::Role;
 use super::wrap::words;
 use crate::app::{
@@ -96,6 +96,7 @@ fn lines(canvas: &mut Canvas<'_>, area: Rect, file: &SourceBuffer) -> Drawn {
     let (first, from) = file.follow(area.height.into(), wide.into());
     let from = in_sight(canvas, file, from, wide);
     let glyphs = canvas.style.glyphs;
+    let mut within = long_text_after(all[..first.min(all.len())].iter().map(String::as_str));
     for (index, line) in all.iter().enumerate().skip(first).take(area.height.into()) {
         let at = row(area, index - first);
         let diagnostics: Vec<&BufferDiagnostic> =
@@ -109,7 +110,9 @@ fn lines(canvas: &mut Canvas<'_>, area: Rect, file: &SourceBuffer) -> Drawn {
         canvas.right(columns(at, 1, digits), role, &(index + 1).to_string());
         // Only the line of the cursor scrolls sideways.
         let from = if here { from } else { 0 };
-        write(canvas, row(body, index - first), (index, line), from, &diagnostics, file);
+        let (roles, after) = roles(line, within);
+        within = after;
+        write(canvas, row(body, index - first), (index, line, &roles), from, &diagnostics, file);
     }
     Drawn { rows: area.height, columns: wide, ..Drawn::default() }
 }
@@ -117,15 +120,13 @@ fn lines(canvas: &mut Canvas<'_>, area: Rect, file: &SourceBuffer) -> Drawn {
 fn write(
     canvas: &mut Canvas<'_>,
     at: Rect,
-    (index, line): (usize, &str),
+    (index, line, roles): (usize, &str, &[Role]),
     from: usize,
     diagnostics: &[&BufferDiagnostic],
     file: &SourceBuffer,
 ) {
     let selection = file.editor.selection();
     let cursor = file.editor.cursor();
-    let above = file.editor.lines()[..index].iter().map(String::as_str);
-    let roles = roles(line, is_within_text(above));
     let mut used = 0;
     // There is one more position than there are characters, because the cursor may be after the last.
     for (column, c) in line.chars().chain([' ']).enumerate().skip(from) {

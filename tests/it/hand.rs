@@ -7,7 +7,7 @@ use std::time::Duration;
 use crossterm::event::KeyEvent;
 use phaselab::app::{App, AppEvent, CheckedText, Effect, Loaded, key};
 use phaselab::diagnostic::Document;
-use phaselab::experiment::{Gauge, MethodFact, Prepared, Snapshot, Status, Trail, Verdict};
+use phaselab::experiment::{Gauge, MethodFact, Prepared, Setup, Snapshot, Status, Trail, Verdict};
 use phaselab::mechanics::derive;
 use phaselab::preset::Catalog;
 use phaselab::system::{ChannelKind, InitialOverride, System};
@@ -95,6 +95,7 @@ pub(crate) fn snapshot(loaded: &Loaded, time: f64) -> Snapshot {
         trail: Trail::from_rows(width, &rows),
         gauges: [gauge("energy", "E", rows[200][1 + energy], Verdict::Bounded)].into(),
         method: MethodFact { name: "taylor", step: 0.0123, steps: 4321, tolerance: Some(1e-15) },
+        setup: Arc::new(Setup { method: "auto".to_owned(), ..Setup::default() }),
         restored: true,
         ..Snapshot::empty(loaded.epoch)
     }

@@ -49,8 +49,8 @@ impl CastTerminal {
         let mut cells = vec![blank; usize::from(columns) * usize::from(rows)];
         for (row, line) in cells.chunks_mut(columns.into()).zip(self.screen.view()) {
             for (cell, from) in row.iter_mut().zip(line.cells()) {
-                // a wide character has a second half that shows nothing
-                let character = if from.width() == 1 { from.char() } else { ' ' };
+                // the second half of a wide character shows nothing
+                let character = if from.width() == 0 { ' ' } else { from.char() };
                 *cell = self.cell(character, *from.pen());
             }
         }

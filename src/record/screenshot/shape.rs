@@ -3,6 +3,8 @@
 //! In: a character. Out: its dots, rectangles or strokes, in units of a cell 8 wide and 16 high. Never here: colours,
 //! or the position of the cell.
 
+use ratatui::symbols::pixel::OCTANTS;
+
 /// The width and height of a cell.
 pub(in crate::record) const CELL: (f64, f64) = (8.0, 16.0);
 
@@ -83,6 +85,12 @@ fn blocks(character: char) -> Option<Vec<[f64; 4]>> {
             let set = (0..6).filter(|bit| bits >> bit & 1 == 1);
             set.map(|bit: u32| [f64::from(bit % 2) * 4.0, f64::from(bit / 2) * third, 4.0, third])
                 .collect()
+        }
+        // octants, two columns by four rows; those that are blocks of other kinds as well have code points elsewhere
+        _ if code > 0x1c000 => {
+            let bits = OCTANTS.iter().position(|octant| *octant == character)?;
+            let set = (0..8_u32).filter(|bit| bits >> bit & 1 == 1);
+            set.map(|bit| [f64::from(bit % 2) * 4.0, f64::from(bit / 2) * 4.0, 4.0, 4.0]).collect()
         }
         _ => return None,
     })
@@ -181,6 +189,29 @@ mod tests {
             PathPart::Curve((4.0, 8.0), (8.0, 8.0)),
         ];
         assert_eq!(path_parts("M4 16V12Q4 8 8 8"), corner);
+    }
+
+    /// Octants are numbered row by row in their Unicode names: U+1CD00 is octant 3, U+1CD02 octant 123, the last one 2345678.
+    #[test]
+    fn octants_are_where_their_names_say() {
+        let check = |character: char, numbers: &[u32]| {
+            let place =
+                |n: &u32| [f64::from((n - 1) % 2) * 4.0, f64::from((n - 1) / 2) * 4.0, 4.0, 4.0];
+            let expected: Vec<[f64; 4]> = numbers.iter().map(place).collect();
+            let shape = GlyphShape::of(character);
+            assert_eq!(shape, Some(GlyphShape::Blocks(expected, 1.0)), "{character}");
+        };
+        check('\u{1cd00}', &[3]);
+        check('\u{1cd01}', &[2, 3]);
+        check('\u{1cd02}', &[1, 2, 3]);
+        check('\u{1cde5}', &[2, 3, 4, 5, 6, 7, 8]);
+        for (bits, octant) in OCTANTS.into_iter().enumerate().skip(1) {
+            let Some(GlyphShape::Blocks(blocks, _)) = GlyphShape::of(octant) else {
+                panic!("{octant} has no shape");
+            };
+            let area: f64 = blocks.iter().map(|[.., w, h]| w * h).sum();
+            assert!((area - 16.0 * f64::from(bits.count_ones())).abs() < 1e-9, "{octant}");
+        }
     }
 
     #[test]

@@ -103,13 +103,12 @@ impl Session {
         };
         let stem = self.stem();
         self.write_file(move || {
-            let written = put(&stem, ending, text.as_bytes())?;
             // one line can be read from the screen as well
-            Ok(if ending == "sh" {
-                format!("{text} ({written})")
-            } else {
-                format!("{why}: {written}")
-            })
+            if ending == "sh" {
+                let written = put(&stem, ending, format!("{text}\n").as_bytes())?;
+                return Ok(format!("{}: {text}", written.trim_end_matches('.')));
+            }
+            Ok(format!("{why}: {}", put(&stem, ending, text.as_bytes())?))
         });
     }
 

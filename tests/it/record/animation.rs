@@ -146,3 +146,26 @@ fn what_is_too_large_is_refused() {
     let error = animation::write(&cast, 40, Vec::new()).expect_err("40000 by 40000 pixels");
     assert!(error.to_string().contains("40000×40000"), "{error}");
 }
+
+/// A wide character that the font lacks has a sign in its place, which is not blank.
+#[test]
+fn a_wide_character_is_no_blank() {
+    let wide = cast_of_one("\u{632f}x");
+    assert_eq!(wide, cast_of_one("? x"));
+    assert_ne!(wide, cast_of_one("  x"));
+}
+
+/// A combining sign has no cell of its own, so what follows stays in its column.
+#[test]
+fn combining_signs_shift_nothing() {
+    assert_eq!(cast_of_one("q\u{307}bcd"), cast_of_one("qbcd"));
+}
+
+/// Octants are exact shapes: octant 3 is the second row at the left, where braille has a dot.
+#[test]
+fn octants_are_drawn() {
+    let octant = cast_of_one("\u{1cd00}");
+    let at = |x: usize, y: usize| octant[y * 16 + x];
+    assert_eq!((at(0, 2), at(1, 3)), ([255; 3], [255; 3]));
+    assert_eq!((at(0, 1), at(2, 2), at(0, 4)), ([0; 3], [0; 3], [0; 3]));
+}
