@@ -234,7 +234,7 @@ impl Lab {
     }
 
     /// Returns the motion now, as it will be once everything requested is done.
-    fn checkpoint(&self) -> Option<Checkpoint> {
+    pub(super) fn checkpoint(&self) -> Option<Checkpoint> {
         let Loaded { model, system, .. } = &self.loaded;
         let seen = self.seen()?;
         let awaited = self.restoration.checkpoint();

@@ -20,9 +20,12 @@ pub(super) const NEW_SYSTEM: &str = "system";
 impl Saved {
     /// Returns the session of a lab on a page, or `None` before the first snapshot.
     fn of(lab: &Lab, page: Page) -> Option<Self> {
-        let Loaded { name, document, model, .. } = &lab.loaded;
+        let Loaded { name, document, model, system, .. } = &lab.loaded;
         let law = lab.restoration.law().cloned();
-        let checkpoint = lab.checkpoint()?;
+        let checkpoint = match lab.restoration.checkpoint() {
+            Some(checkpoint) => checkpoint.clone(),
+            None => Checkpoint::of(model, system, lab.seen()?),
+        };
         Some(Self {
             version: Self::VERSION,
             phaselab: env!("CARGO_PKG_VERSION").to_owned(),
@@ -44,13 +47,6 @@ impl Saved {
 }
 
 impl Lab {
-    /// The motion as it is, or as it is to be restored; `None` before the first snapshot.
-    pub(super) fn checkpoint(&self) -> Option<Checkpoint> {
-        let Loaded { model, system, .. } = &self.loaded;
-        let awaited = self.restoration.checkpoint().cloned();
-        awaited.or_else(|| Some(Checkpoint::of(model, system, self.seen()?)))
-    }
-
     fn saved_plots(&self) -> Vec<SavedPlot> {
         self.plots.iter().map(|plot| SavedPlot::of(plot, self.loaded.physics())).collect()
     }

@@ -297,8 +297,8 @@ fn a_key_colours_orbits_by_whether_they_are_regular() {
         inks.collect::<Vec<Ink>>()
     };
     for (mut app, chaos) in [
-        (opened(prepared(OSCILLATORS), 30.0).0, false),
-        (opened(shipped("henon-heiles"), 30.0).0, true),
+        (Box::new(opened(prepared(OSCILLATORS), 30.0).0), false),
+        (Box::new(opened(shipped("henon-heiles"), 30.0).0), true),
     ] {
         typed(&mut app, "Tab Tab Tab");
         let plain = inks(&app, 0);

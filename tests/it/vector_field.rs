@@ -125,7 +125,7 @@ fn arrows(look: &RenderStyle) -> (Vec<(u16, u16, char)>, (u16, u16)) {
     let buffer = screen(&app, look, (120, 40));
     let symbol = |x: u16, y: u16| buffer[(x, y)].symbol().chars().next().unwrap_or(' ');
     let ticks: Vec<String> = rows(&buffer);
-    let is_zero = |row: &&String| row.trim_start_matches(['│', '|', '┃', ' ']).starts_with("0");
+    let is_zero = |row: &&String| row.trim_start_matches(['│', '|', '┃', ' ']).starts_with('0');
     let middle = ticks.iter().skip(2).position(|row| is_zero(&row)).expect("a tick at zero") + 2;
     let below = (middle + 1..40).find(|y| is_zero_below(&ticks[*y])).expect("ticks below");
     let across = ticks[below].chars().position(|c| c == '0').expect("a tick at zero");
@@ -229,7 +229,7 @@ fn nullclines_lead_through_the_equilibria() {
     assert!(!level.is_empty());
 }
 
-fn told(app: &App) -> String {
+fn shown(app: &App) -> String {
     rows(&screen(app, &rich(), (120, 40))).join("\n")
 }
 
@@ -251,7 +251,7 @@ fn a_key_shows_the_field_and_its_nullclines() {
     assert!(!has_strokes(&app));
     press(&mut app, "*");
     assert!(has_strokes(&app));
-    let shown = told(&app);
+    let shown = shown(&app);
     assert!(shown.contains(" θ′ = 0") && shown.contains(" p_θ′ = 0"), "{shown}");
     let lab = app.lab.as_ref().unwrap();
     let physics = lab.loaded.physics();
@@ -290,7 +290,7 @@ fn a_plane_without_a_field_says_why() {
         lab.focus.pane = phaselab::app::Pane::Plot(index);
         press(&mut app, "*");
         assert!(!has_strokes(&app), "{law}");
-        let shown = told(&app);
+        let shown = shown(&app);
         assert!(shown.contains("no vector field"), "{law}: {shown}");
         let plot = &app.lab.as_ref().unwrap().plots[index];
         let lacks = plot.lacks_field(app.lab.as_ref().unwrap().loaded.physics());

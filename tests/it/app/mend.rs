@@ -18,7 +18,7 @@ fn wrong() -> String {
 }
 
 /// Carries out the checks that are asked for.
-fn rest(app: &mut App) {
+pub(super) fn rest(app: &mut App) {
     let effects = app.update(AppEvent::Tick(Duration::from_secs(1)));
     let check = effects.into_iter().find_map(|effect| match effect {
         Effect::Check { ticket, title, text } => Some((ticket, title, text)),
@@ -123,7 +123,7 @@ fn an_unsaved_text_of_a_wrong_file_is_listed_among_the_systems() {
     again.update(AppEvent::Tick(Duration::ZERO));
     assert_eq!(again.picker.unsaved(), Some(name));
     assert_eq!(again.picker.selected_above(), Some(Above::Unsaved), "as a session would be");
-    for mut app in [app, again] {
+    for mut app in [Box::new(app), Box::new(again)] {
         app.update(AppEvent::Loaded(Ok(crate::hand::pendulum())));
         app.picker.step(-9);
         while app.picker.selected_above() != Some(Above::Unsaved) {

@@ -6,8 +6,9 @@ use phaselab::app::{App, AppEvent, Effect, command_line};
 use phaselab::experiment::{Checkpoint, Command};
 use phaselab::integrate::Stepping;
 
+use super::mend::rest;
 use super::real::Real;
-use crate::hand::{catalog, in_lab, key, loaded, press, rest};
+use crate::hand::{catalog, in_lab, key, loaded, press};
 
 /// What the key copies.
 fn copied(real: &mut Real) -> String {
@@ -87,13 +88,13 @@ fn only_the_setting_of_the_method_in_force_is_in_the_command() {
     real.experiment.execute(Command::Tolerance(1e-9));
     real.look();
     assert_eq!(copied(&mut real), "phaselab pendulum --tolerance 1e-9");
-    real.experiment.execute(Command::Method("rk4"));
+    real.experiment.execute(Command::Method("rk4".to_owned()));
     real.look();
     assert_eq!(copied(&mut real), "phaselab pendulum --method rk4");
-    real.experiment.execute(Command::Step(0.01));
+    real.experiment.execute(Command::StepSize(0.01));
     real.look();
     assert_eq!(copied(&mut real), "phaselab pendulum --method rk4 --step 0.01");
-    real.experiment.execute(Command::Method("dop853"));
+    real.experiment.execute(Command::Method("dop853".to_owned()));
     real.look();
     assert_eq!(copied(&mut real), "phaselab pendulum --method dop853 --tolerance 1e-9");
 }

@@ -116,7 +116,7 @@ fn cast_of_one(text: &str) -> Vec<[u8; 3]> {
 fn more_colours_than_a_palette_has_become_the_nearest() {
     let cell =
         |n: u32| format!("\\u001b[48;2;{};{};{}m ", n % 8 * 36, n / 8 % 8 * 36, n / 64 % 8 * 36);
-    let head = r##"{"version":2,"width":32,"height":16}"##;
+    let head = r#"{"version":2,"width":32,"height":16}"#;
     let cells: String = (0..512).map(cell).collect();
     let cast = RecordedCast::read(&format!("{head}\n[0, \"o\", \"{cells}\"]\n[1, \"o\", \"\"]"));
     let shown = shown(&written(&cast.expect("a cast"), 4));

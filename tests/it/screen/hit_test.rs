@@ -491,7 +491,8 @@ fn an_angle_dragged_over_the_top_is_brought_back() {
     let wound = "title = \"T\"\n[coordinates]\ntheta = { initial = 0.5, period = \"2*pi\" }\n[lagrangian]\n\
                  L = \"1/2*theta'^2 + 9.81*cos(theta) - 0.01*theta^2\"\n[space]\nshapes = [\
                  { line = [\"0\", \"0\"], to = [\"sin(theta)\", \"-cos(theta)\"] }, { mass = [\"sin(theta)\", \"-cos(theta)\"] }]\n";
-    for (mut real, is_angle) in [(Real::of("pendulum"), true), (Real::with(lowered(wound)), false)]
+    for (mut real, is_angle) in
+        [(Box::new(Real::of("pendulum")), true), (Box::new(Real::with(lowered(wound))), false)]
     {
         let before = real.seen().initial.clone();
         let bob = masses(&real.app, size);
