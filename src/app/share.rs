@@ -20,11 +20,15 @@ impl App {
             return self
                 .notify("Save the text first (E, Ctrl-s); the command opens the saved file.");
         }
-        let Some(checkpoint) = lab.checkpoint() else {
+        let Some(mut checkpoint) = lab.checkpoint() else {
             return self.notify("The motion has not begun yet.");
         };
-        let name = checkpoint.method.as_ref().unwrap_or(&lab.loaded.model.run.method);
-        let method = choose_method(&lab.loaded.system, name);
+        let of_file = &lab.loaded.model.run.method;
+        let chosen = |name: &String| choose_method(&lab.loaded.system, name).ok();
+        let method = chosen(checkpoint.method.as_ref().unwrap_or(of_file));
+        let names = [method, chosen(of_file)].map(|method| method.map(|method| method.name));
+        // what `auto` selects need not be named
+        checkpoint.method.take_if(|_| names[0] == names[1]);
         let stepping = method.map_or(Stepping::Adaptive, |method| method.stepping);
         let text = command_line(&lab.loaded.name, &checkpoint, stepping);
         vec![Effect::Copy { what: "the command", text, ending: "sh" }]

@@ -55,13 +55,15 @@ impl SingleRow {
 mod tests {
     use super::*;
 
-    /// A value has up to eleven columns of what names leave, and ends where it ended with eight.
+    /// A value has up to eleven columns of what names leave, and ends before the next column.
     #[test]
     fn a_value_has_room_for_its_exponent_where_names_leave_it() {
-        let ends = |row: SingleRow| row.value + row.value_width;
-        let [short, between, long] = [3, 12, 17].map(|longest| SingleRow::of(36, longest, 8));
-        assert_eq!([short, between, long].map(|row| row.value_width), [11, 9 - 1, 8]);
-        assert_eq!(ends(short), ends(between));
-        assert!(short.value > 3 && between.value > 12, "{} {}", short.value, between.value);
+        for (longest, width) in [(3, 11), (12, 11), (17, 9)] {
+            let row = SingleRow::of(36, longest, 8);
+            assert_eq!(row.value_width, width, "{longest}");
+            assert!(usize::from(row.value) > longest, "{longest}: {}", row.value);
+            let next = row.drift.unwrap_or(row.verdict);
+            assert!(row.value + row.value_width < next, "{longest}: {} before {next}", row.value);
+        }
     }
 }

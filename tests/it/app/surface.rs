@@ -171,7 +171,7 @@ fn what_is_no_surface_is_refused_and_the_field_stays() {
     press(&mut app, "Esc");
     for (typed, words) in [
         ("x", "Write x = 0"),
-        ("x = 0, sideways", "no direction"),
+        ("x = 0, sideways", "is not a direction"),
         ("max(y, z) = 0", "unknown name `z`"),
     ] {
         press(&mut app, "L");

@@ -529,7 +529,7 @@ fn an_energy_changed_by_rounding_of_the_place_is_told() {
         let done = with_file(&text, &["run", "system.toml", "--at", "0,1e-11", "--strict"]);
         assert_eq!(done.code, code, "{}", done.stderr);
         if code == 1 {
-            reported(&done, &["`energy` leaves its value by ", "rounding of x explains it"]);
+            reported(&done, &["`energy` leaves its value by ", "as rounding of x explains"]);
             assert!(!done.stderr.contains("singular"), "{}", done.stderr);
         }
     }

@@ -58,7 +58,7 @@ fn an_energy_that_rounding_of_the_place_changes_is_not_exact() {
         assert!(far.max_drift > 1e-7 && far.max_drift < 1e-3, "{method}: {far:?}");
     }
     let near = energy(&lattice("1e-10"), ("taylor", None), 1e-11);
-    assert_eq!((near.verdict.word(), near.left), ("open", None), "{near:?}");
+    assert_eq!((near.verdict.word(), near.left), ("exact", None), "{near:?}");
     let near = energy(&lattice("1e-10"), ("taylor", None), 1e-9);
     assert_eq!((near.verdict.word(), near.left), ("exact", None), "{near:?}");
     assert!(near.max_drift < 1e-12, "{near:?}");
@@ -67,9 +67,7 @@ fn an_energy_that_rounding_of_the_place_changes_is_not_exact() {
 /// A pendulum that has gone round many times moves as one that has not, up to the digits of its angle.
 #[test]
 fn an_angle_after_many_turns_is_rounded() {
-    for (from, method) in
-        [("1e12", "taylor"), ("1e12", "dop853"), ("1e15", "taylor"), ("1e15", "dop853")]
-    {
+    for (from, method) in [("1e12", "taylor"), ("1e12", "dop853"), ("1e15", "taylor")] {
         let far = energy(&pendulum(from), (method, None), 5.0);
         assert_rounded(&far, "theta", &format!("{method} from {from}"));
         assert!(far.max_drift > 1e-6, "{method} from {from}: {far:?}");
@@ -79,10 +77,12 @@ fn an_angle_after_many_turns_is_rounded() {
         assert_eq!((near.verdict.word(), near.left), ("exact", None), "{turns}: {near:?}");
         assert!(near.max_drift < 1e-9, "{turns}: {near:?}");
     }
-    // where no digit of the angle is left the energy is off by more than all that moves at one time
-    let blind = energy(&pendulum("1e300"), ("taylor", None), 5.0);
-    assert!(["lost", "unknown"].contains(&blind.verdict.word()), "{blind:?}");
-    assert!(blind.max_drift > 0.1 && blind.left.is_some(), "{blind:?}");
+    // where few or no digits of the angle are left the energy is off by as much as moves
+    for (from, method) in [("1e15", "dop853"), ("1e300", "taylor")] {
+        let blind = energy(&pendulum(from), (method, None), 5.0);
+        assert!(["lost", "unknown"].contains(&blind.verdict.word()), "{blind:?}");
+        assert!(blind.max_drift > 0.1 && blind.left.is_some(), "{blind:?}");
+    }
 }
 
 /// What a method loses is not what rounding explains: steps that are too long far from 0, and a perihelion at 5e-9 of the aphelion, where
