@@ -336,14 +336,14 @@ impl InvariantMonitor {
     }
 
     /// Whether a drift is seen that the digits of its terms do not explain in themselves, although it is within their rounding
-    /// error: either rounding of the state has changed the value, or the method.
+    /// error: either rounding of the state has changed the value, or the method. Only of an energy it is known what moves: of a
+    /// quantity each of whose terms is constant nothing moves but the error.
     pub(super) fn is_seen(&self) -> bool {
         let (moving, seen) = (self.moving(), self.seen());
         let is_energy = self.invariant.quantity == Some(ENERGY);
-        // of a quantity each of whose terms is constant nothing moves but the error
-        let moves = moving > 0.0 && (is_energy || moving > 2.0 * seen);
         let within_rounding = self.drift.farthest <= self.rounding.explained;
-        self.invariant.broken.is_none() && moves && within_rounding && seen > RESOLVED * moving
+        let is_seen = moving > 0.0 && seen > RESOLVED * moving;
+        self.invariant.broken.is_none() && is_energy && within_rounding && is_seen
     }
 
     /// Records by how much rounding of the state changes the value, in units of ε.

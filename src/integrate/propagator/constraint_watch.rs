@@ -263,9 +263,17 @@ impl Propagator {
         }
     }
 
-    /// Whether a number that is not finite has only grown beyond the range of numbers, far from all singularities.
+    /// Whether a number that is not finite, or momenta without velocities, have only grown beyond the range of numbers, far from all
+    /// singularities.
     fn out_of_range(&mut self, error: &MotionError) -> Option<MotionErrorKind> {
-        let MotionErrorKind::NotFinite(name) = &error.kind else { return None };
+        let name = match &error.kind {
+            MotionErrorKind::NotFinite(name) => name,
+            MotionErrorKind::NoVelocities => {
+                let far = |at: &&(String, f64)| at.1.abs() > VAST;
+                &error.place.iter().find(far)?.0
+            }
+            _ => return None,
+        };
         if error.time.abs() > VAST {
             return Some(MotionErrorKind::OutOfRange(None));
         }

@@ -53,9 +53,12 @@ fn the_help_begins_here_and_is_searched() {
     let text = rows(&screen(&app, &rich(), (80, 24)));
     assert!(text[2].contains("Here: Plots"), "{text:#?}");
     let buffer = screen(&app, &rich(), (200, 60));
-    let (left, right) = (find(&buffer, "Here: Plots"), find(&buffer, "Anywhere"));
-    let (left, right) = (left.expect("left"), right.expect("right, without scrolling"));
-    assert!(left.0 < 20 && right.0 > 90, "{left:?} {right:?}");
+    let left = find(&buffer, "Here: Plots").expect("left");
+    let right: String = (2..8)
+        .flat_map(|y| (100..190).map(move |x| (x, y)))
+        .map(|at| buffer[at].symbol())
+        .collect();
+    assert!(left.0 < 20 && right.chars().any(char::is_alphabetic), "{left:?} {right}");
     press(&mut app, "/ c u r s o r Space r e a d s");
     let buffer = screen(&app, &rich(), (80, 24));
     assert!(find(&buffer, "show or hide a cursor").is_some(), "{:#?}", rows(&buffer));
