@@ -55,6 +55,7 @@ mod script;
 mod section;
 mod slow_notice;
 mod spectrum;
+mod start_options;
 mod starts;
 mod stderr;
 mod study;

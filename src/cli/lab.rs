@@ -4,8 +4,8 @@ use std::ffi::OsString;
 use std::io::IsTerminal;
 
 use super::error::CommandError;
-use super::lab_start::StartOptions;
 use super::output::{Output, OutputForm};
+use super::start_options::StartOptions;
 use super::{config, demo_source, record, stderr};
 use crate::preset::{Catalog, PresetOrigin, is_path};
 use crate::record::ScriptRunner;

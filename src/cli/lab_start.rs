@@ -1,26 +1,12 @@
-//! The options with which the laboratory opens a system: its parameters, initial values and method.
+//! How the laboratory opens a system whose parameters, initial values or method are given.
 //!
 //! In: options. Out: a checkpoint of a motion that is about to begin. Never here: the screen, or the motion.
 
-use super::assignment::{self, Assignment};
+use super::assignment;
 use super::error::CommandError;
-use super::method_options::MethodOptions;
 use super::open;
+use super::start_options::StartOptions;
 use crate::experiment::Checkpoint;
-
-/// What differs from the file where the motion begins.
-#[derive(Debug, clap::Args)]
-#[group(skip)]
-pub(super) struct StartOptions {
-    /// Sets a parameter of the system that is opened.
-    #[arg(long, value_name = "NAME=VALUE", allow_hyphen_values = true)]
-    set: Vec<Assignment>,
-    /// Sets an initial value: a coordinate `x`, a velocity `x'` or a momentum `p_x`.
-    #[arg(long, value_name = "NAME=VALUE", allow_hyphen_values = true)]
-    init: Vec<Assignment>,
-    #[command(flatten)]
-    integrator: MethodOptions,
-}
 
 impl StartOptions {
     /// Whether anything is not as the file says.

@@ -6,13 +6,13 @@
 use std::ffi::OsString;
 use std::sync::Arc;
 
-use super::assignment::{self, Assignment};
+use super::assignment;
 use super::error::CommandError;
 use super::interrupt::Interrupt;
-use super::method_options::MethodOptions;
 use super::open;
 use super::report::Header;
 use super::run::header;
+use super::start_options::StartOptions;
 use crate::diagnostic::Document;
 use crate::ensemble::Start;
 use crate::experiment::Derived;
@@ -29,14 +29,8 @@ pub(super) struct MotionOptions {
     /// A preset's name, or a file.
     #[arg(value_name = "PRESET|FILE")]
     pub(super) name: OsString,
-    /// Sets a parameter.
-    #[arg(long, value_name = "NAME=VALUE", allow_hyphen_values = true)]
-    set: Vec<Assignment>,
-    /// Sets an initial value: a coordinate `x`, a velocity `x'` or a momentum `p_x`.
-    #[arg(long, value_name = "NAME=VALUE", allow_hyphen_values = true)]
-    init: Vec<Assignment>,
     #[command(flatten)]
-    integrator: MethodOptions,
+    changes: StartOptions,
 }
 
 /// A model as the options set it, before anything is derived from it.
@@ -67,12 +61,12 @@ impl MotionOptions {
         let mut model = open::read(&document)?;
         let surface = surface(&model);
         model.leave_views_out();
-        let parameters = assignment::parameters(&model, &self.set)?;
+        let parameters = assignment::parameters(&model, &self.changes.set)?;
         model.set_parameters(&parameters);
-        let overrides = assignment::initial(&model, &parameters, &self.init)?;
-        model.run.start = assignment::start(&model, &parameters, &self.init)?;
+        let overrides = assignment::initial(&model, &parameters, &self.changes.init)?;
+        model.run.start = assignment::start(&model, &parameters, &self.changes.init)?;
         assignment::begin_at(&mut model, &overrides);
-        let settings = self.integrator.settings(&document, &model)?;
+        let settings = self.changes.integrator.settings(&document, &model)?;
         let start = Start { time: model.run.start, parameters, overrides };
         Ok(ModelReading { document, model, start, surface, settings })
     }
@@ -95,7 +89,7 @@ impl MotionOptions {
             .collect::<Result<_, _>>()?;
         let system = open::compile(&document, &derived, &columns)?;
         let Derived { model, equations } = derived;
-        let method = self.integrator.choose(&document, &model, &system)?;
+        let method = self.changes.integrator.choose(&document, &model, &system)?;
         (method.make)(&system, &settings).map_err(|why| CommandError::WrongUse(why.to_string()))?;
         let (model, equations) = (Arc::new(model), Arc::new(equations));
         Ok(Laid { model, equations, system, start, method, settings })

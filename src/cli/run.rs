@@ -18,14 +18,14 @@ use std::sync::Arc;
 
 use serde_json::{Map, Value};
 
-use super::assignment::{self, Assignment, number};
+use super::assignment::{self, number};
 use super::error::CommandError;
 use super::interrupt::Interrupt;
-use super::method_options::MethodOptions;
 use super::open;
 use super::output::{Output, OutputForm};
 use super::report::Header;
 use super::rows::RowFormat;
+use super::start_options::StartOptions;
 use crate::claims;
 use crate::experiment::{Derived, Experiment, Setup};
 use crate::integrate::{Method, Settings, Stepping};
@@ -53,12 +53,8 @@ pub(super) struct Arguments {
     /// A preset's name, or a file.
     #[arg(value_name = "PRESET|FILE")]
     name: OsString,
-    /// Sets a parameter.
-    #[arg(long, value_name = "NAME=VALUE", allow_hyphen_values = true)]
-    set: Vec<Assignment>,
-    /// Sets an initial value: a coordinate `x`, a velocity `x'` or a momentum `p_x`.
-    #[arg(long, value_name = "NAME=VALUE", allow_hyphen_values = true)]
-    init: Vec<Assignment>,
+    #[command(flatten)]
+    changes: StartOptions,
     /// Changes a parameter with the time: by 10u³ − 15u⁴ + 6u⁵, or as FORM says, `cubic` or `linear`; it becomes a column.
     #[arg(long, value_name = "NAME=FROM:TO:START:DURATION[:FORM]", allow_hyphen_values = true)]
     ramp: Vec<ramp::RampArgument>,
@@ -77,8 +73,6 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "T,…", allow_hyphen_values = true, value_parser = number)]
     #[arg(value_delimiter = ',')]
     at: Option<Vec<f64>>,
-    #[command(flatten)]
-    integrator: MethodOptions,
     /// One more column: an expression, under a name of its own or as it is written.
     #[arg(long, value_name = "[NAME=]EXPR", allow_hyphen_values = true)]
     observe: Vec<String>,
@@ -101,15 +95,15 @@ pub(super) fn execute(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let document = open::find(&arguments.name)?;
     let mut model = open::read(&document)?;
     model.leave_views_out();
-    let mut parameters = assignment::parameters(&model, &arguments.set)?;
-    let ramps = ramp::of(&model, &arguments.ramp, &arguments.set)?;
-    let start = assignment::start(&model, &parameters, &arguments.init)?;
+    let mut parameters = assignment::parameters(&model, &arguments.changes.set)?;
+    let ramps = ramp::of(&model, &arguments.ramp, &arguments.changes.set)?;
+    let start = assignment::start(&model, &parameters, &arguments.changes.init)?;
     for ramp in &ramps {
         parameters[ramp.parameter] = ramp.at(start);
     }
     // redundant constraints are determined at the start of this run
     model.set_parameters(&parameters);
-    let given = assignment::initial(&model, &parameters, &arguments.init)?;
+    let given = assignment::initial(&model, &parameters, &arguments.changes.init)?;
     model.run.start = start;
     assignment::begin_at(&mut model, &given);
     let ramped = replace_by_ramps(&mut model, &ramps)
@@ -124,7 +118,7 @@ pub(super) fn execute(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         run.start = 0.0;
     }
     let times = Times::plan(&run, arguments.until, arguments.every, arguments.at.as_deref())?;
-    let settings = arguments.integrator.settings(&document, &model)?;
+    let settings = arguments.changes.integrator.settings(&document, &model)?;
 
     let mut derived = open::derive(&document, model)?;
     let Derived { model, equations } = &mut derived;
@@ -145,7 +139,7 @@ pub(super) fn execute(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     }
     let system = open::compile(&document, &derived, &columns)?;
     let Derived { model, equations } = derived;
-    let method = arguments.integrator.choose(&document, &model, &system)?;
+    let method = arguments.changes.integrator.choose(&document, &model, &system)?;
     cautions::before(&model, &system, &equations, method);
 
     let setup = Setup {
