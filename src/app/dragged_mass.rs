@@ -2,6 +2,7 @@
 //!
 //! In: a system, the place of the mouse in the units of the picture. Out: initial values, at rest. Never here: the mouse, pictures.
 
+mod descent;
 mod mass_matrix;
 mod mass_search;
 mod rest;

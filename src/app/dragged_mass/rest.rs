@@ -4,14 +4,11 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::descent::Descent;
 use crate::expr::{Expr, Pool, Symbol};
 use crate::mechanics::{Equations, Flow};
 
-/// The most steps of Newton's method, and the most halvings of each.
-const STEPS: usize = 60;
-const HALVINGS: u32 = 30;
-
-/// The last step, relative to the momenta and to the first step.
+/// The step that is left, relative to the momenta and to the first step.
 const ENOUGH: f64 = 1e-12;
 
 /// What makes a state one at rest.
@@ -25,14 +22,11 @@ pub(super) enum Rest {
     Search(Box<MomentaSearch>),
 }
 
-/// Newton's method for the momenta at which the velocities vanish.
+/// The search for the momenta at which the velocities vanish.
 #[derive(Clone, Debug)]
 pub(super) struct MomentaSearch {
-    pool: Pool,
-    momenta: Vec<Symbol>,
-    velocities: Vec<Expr>,
-    /// ∂q̇ᵢ/∂pₖ.
-    slopes: Vec<Vec<Expr>>,
+    velocities: Descent,
+    count: usize,
 }
 
 impl Rest {
@@ -68,45 +62,29 @@ impl Rest {
 }
 
 impl MomentaSearch {
-    fn new(mut pool: Pool, momenta: Vec<Symbol>, velocities: Vec<Expr>) -> Self {
-        let row = |v: &Expr| momenta.iter().map(|p| pool.derivative(*v, *p)).collect();
-        let slopes = velocities.iter().map(row).collect();
-        Self { pool, momenta, velocities, slopes }
+    fn new(pool: Pool, momenta: Vec<Symbol>, velocities: Vec<Expr>) -> Self {
+        let count = momenta.len();
+        Self { velocities: Descent::new(pool, momenta, velocities), count }
     }
 
-    /// The momenta at rest, by steps of Newton's method from zero that make the velocities smaller.
+    /// The momenta at rest, searched for from zero; `None` where there are none whose digits are known.
     fn find(&self, known: &dyn Fn(Symbol) -> f64) -> Option<Vec<f64>> {
-        let n = self.momenta.len();
-        let value = |e: Expr, momenta: &DVector<f64>| {
-            let own = |symbol| self.momenta.iter().position(|other| *other == symbol);
-            self.pool
-                .evaluate(e, &|symbol| own(symbol).map_or_else(|| known(symbol), |i| momenta[i]))
+        let Self { velocities, count } = self;
+        let none = DVector::zeros(*count);
+        let newton = |slopes: DMatrix<f64>, left: &DVector<f64>| slopes.lu().solve(left);
+        let momenta = velocities.nearest(none.clone(), &none, known, &newton);
+        let step = |at: &DVector<f64>| {
+            let left = velocities.left(at, &none, known);
+            let is_there = left.iter().all(|v| *v == 0.0);
+            if is_there {
+                Some(none.clone())
+            } else {
+                newton(velocities.jacobian(at, known), &left)
+            }
         };
-        let velocities =
-            |at: &DVector<f64>| DVector::from_fn(n, |i, _| value(self.velocities[i], at));
-        let mut momenta = DVector::zeros(n);
-        let mut left = velocities(&momenta);
-        let mut first = None;
-        for _ in 0..STEPS {
-            if left.iter().all(|v| *v == 0.0) {
-                return Some(momenta.iter().copied().collect());
-            }
-            let slopes = DMatrix::from_fn(n, n, |i, k| value(self.slopes[i][k], &momenta));
-            let step = slopes.lu().solve(&left)?;
-            let length = step.norm();
-            let scale = momenta.norm() + *first.get_or_insert(length);
-            if length <= ENOUGH * scale {
-                return Some((momenta - step).iter().copied().collect());
-            }
-            let parts = (0..HALVINGS).map(|halved| 1.0 / f64::from(1_u32 << halved));
-            let (next, then) = parts
-                .map(|part| &momenta - part * &step)
-                .map(|next| (velocities(&next), next))
-                .find(|(then, _)| then.norm() < left.norm())
-                .map(|(then, next)| (next, then))?;
-            (momenta, left) = (next, then);
-        }
-        None
+        let (first, last) = (step(&none)?, step(&momenta)?);
+        let is_at_rest = last.norm() <= ENOUGH * (momenta.norm() + first.norm());
+        is_at_rest.then(|| momenta.data.into())
     }
 }
 
