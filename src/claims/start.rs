@@ -3,8 +3,9 @@
 //! In: the error that stopped it, and the values at the start. Out: a diagnostic at its place, with
 //! the coordinate and the reason. Never here: constraints at the start, which `system` checks.
 
-use crate::diagnostic::Diagnostic;
-use crate::diagnostic::SourceRange;
+use nalgebra::{DMatrix, DVector};
+
+use crate::diagnostic::{Diagnostic, SourceRange};
 use crate::expr::{Expr, FunctionId, Node, Pool, Symbol};
 use crate::mechanics::{Equations, Flow};
 use crate::model::{Coordinate, Model};
@@ -129,13 +130,15 @@ pub(super) fn constant_singular_mass(
         return None;
     }
     let value = |&m: &Expr| pool.evaluate(m, at);
-    let matrix: Vec<Vec<f64>> = mass.iter().map(|row| row.iter().map(value).collect()).collect();
-    let (i, message) = if let Some(i) = matrix.iter().position(|row| row.iter().all(|m| *m == 0.0))
+    let n = mass.len();
+    let matrix = DMatrix::from_fn(n, n, |i, k| value(&mass[i][k]));
+    let (i, message) = if let Some(i) =
+        matrix.row_iter().position(|row| row.iter().all(|m| *m == 0.0))
     {
         let (name, what) = (&model.coordinates[i].name, pool.text(mass[i][i]));
         (i, format!("the mass of the coordinate `{name}` is 0: `{what}`"))
     } else {
-        let ratio = unresisted(matrix)?;
+        let ratio = unresisted(&matrix)?;
         let among: Vec<usize> = (0..ratio.len()).filter(|&i| ratio[i] != 0.0).collect();
         let first = *among.first()?;
         let names: Vec<String> =
@@ -152,41 +155,25 @@ pub(super) fn constant_singular_mass(
 const NOTHING: f64 = 1e-12;
 
 /// Velocities that a matrix of masses takes to 0, if there are any.
-fn unresisted(mut matrix: Vec<Vec<f64>>) -> Option<Vec<f64>> {
-    let n = matrix.len();
+fn unresisted(matrix: &DMatrix<f64>) -> Option<DVector<f64>> {
     // coordinates have units of their own
-    let units: Vec<f64> = (0..n).map(|i| matrix[i][i].abs().sqrt()).collect();
-    if units.contains(&0.0) {
+    let units = matrix.diagonal().map(|mass| mass.abs().sqrt());
+    if units.iter().any(|unit| *unit == 0.0) {
         return None;
     }
-    for (i, row) in matrix.iter_mut().enumerate() {
-        row.iter_mut().zip(&units).for_each(|(m, unit)| *m /= units[i] * unit);
-    }
-    let mut pivots = Vec::new();
-    for column in 0..n {
-        let row = pivots.len();
-        let size = |i: &usize| matrix[*i][column].abs();
-        let best = (row..n).max_by(|one, other| size(one).total_cmp(&size(other)))?;
-        if size(&best) <= NOTHING {
-            let mut velocities = vec![0.0; n];
-            velocities[column] = 1.0;
-            for (row, &pivot) in pivots.iter().enumerate() {
-                velocities[pivot] = -matrix[row][column];
-            }
-            velocities.iter_mut().zip(&units).for_each(|(velocity, unit)| *velocity /= unit);
-            return Some(velocities);
-        }
-        matrix.swap(row, best);
-        let pivot = matrix[row][column];
-        matrix[row].iter_mut().for_each(|m| *m /= pivot);
-        let eliminated = matrix[row].clone();
-        for (_, other) in matrix.iter_mut().enumerate().filter(|(i, _)| *i != row) {
-            let factor = other[column];
-            other.iter_mut().zip(&eliminated).for_each(|(m, pivot)| *m -= factor * pivot);
-        }
-        pivots.push(column);
-    }
-    None
+    let scaled =
+        DMatrix::from_fn(units.len(), units.len(), |i, k| matrix[(i, k)] / (units[i] * units[k]));
+    let factors = scaled.full_piv_lu();
+    let upper = factors.u();
+    // the pivots fall
+    let rank = upper.diagonal().iter().position(|pivot| pivot.abs() <= NOTHING)?;
+    let resisted = upper.view((0, 0), (rank, rank));
+    let pivots = resisted.solve_upper_triangular(&-upper.view((0, rank), (rank, 1)))?;
+    let mut velocities = DVector::zeros(units.len());
+    velocities.rows_mut(0, rank).copy_from(&pivots);
+    velocities[rank] = 1.0;
+    factors.q().inv_permute_rows(&mut velocities);
+    Some(velocities.component_div(&units))
 }
 
 /// The law and its energy, and what follows from them.
@@ -310,12 +297,16 @@ fn has_finite_numbers(pool: &Pool, e: Expr) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{has_pole, unresisted};
+    use super::*;
 
     #[test]
     fn velocities_that_no_mass_resists_are_found() {
-        let of = |rows: &[&[f64]]| unresisted(rows.iter().map(|row| row.to_vec()).collect());
-        assert_eq!(of(&[&[1.0, 1.0], &[1.0, 1.0]]), Some(vec![-1.0, 1.0]));
+        let of = |rows: &[&[f64]]| {
+            let n = rows.len();
+            unresisted(&DMatrix::from_fn(n, n, |i, k| rows[i][k]))
+        };
+        let found = of(&[&[1.0, 1.0], &[1.0, 1.0]]).expect("a ratio");
+        assert_eq!(found[0] / found[1], -1.0);
         assert_eq!(of(&[&[1.0, 1.0], &[1.0, 2.0]]), None);
         let found = of(&[&[2.0, 0.0, 4.0], &[0.0, 3.0, 0.0], &[4.0, 0.0, 8.0]]).expect("a ratio");
         assert!((found[0] / found[2] + 2.0).abs() < 1e-12 && found[1] == 0.0, "{found:?}");
