@@ -9,6 +9,7 @@ mod formula_monitors;
 mod integration_constants;
 mod invariant_monitor;
 mod mean;
+mod seen_distances;
 
 use std::collections::HashMap;
 use std::sync::Arc;

@@ -1,31 +1,25 @@
-//! The state of one gauge: its reference value, its drift, and the verdict.
+//! The state of one gauge: its reference value, the rounding error of its values, and their distances from the reference.
 //!
-//! In: values, and the size of the moving terms. Out: a [`Gauge`]. Never here: where the values come from.
+//! In: values, and the size of the moving terms. Out: a [`Gauge`](crate::experiment::Gauge). Never here: where the values come from.
 
-use std::sync::Arc;
+mod show;
 
 use super::drift_record::{Distance, DriftRecord, Early};
 use super::mean::Mean;
-use crate::analysis::{self, Errors, LEFT, LOST, RESOLVED, RoundedInput, Unseen, Verdict};
-use crate::experiment::{Gauge, Reference};
+use super::seen_distances::SeenDistances;
+use crate::analysis::{LEFT, LOST, RESOLVED, RoundedInput};
+use crate::experiment::Reference;
 use crate::expr::Expr;
 use crate::system::{BatchTerms, TermSums, TermWatch};
 
 /// The name of the gauge that is constant by the law of the energy's change.
 pub(super) const ENERGY_BALANCE: &str = "energy balance";
 
-/// What is said beside the reason of a gauge whose drift cannot be known.
-const UNDERFLOW: &str = "its terms underflow";
-const UNRESOLVED: &str = "it cannot resolve the motion";
-
 /// The energy among the quantities of a [`TermWatch`].
 const ENERGY: usize = 0;
 
 /// Constant terms are large from this multiple of the others on: the value has three digits fewer than their sum.
 const LARGE: f64 = 1e3;
-
-/// A change of a value by more than this many ε of its terms is one of the state.
-const LAST_DIGITS: f64 = 4.0;
 
 /// What moves by less than this multiple of the error that rounding explains, and all of it away from the reference, is
 /// error and no motion: a quantity each of whose terms is constant.
@@ -38,6 +32,7 @@ pub(super) struct InvariantMonitor {
     jumps: bool,
     reference: ReferenceValue,
     rounding: RoundingError,
+    seen: SeenDistances,
     drift: DriftRecord,
 }
 
@@ -63,10 +58,6 @@ struct RoundingError {
     greatest: f64,
     /// The greatest distance so far that rounding explains.
     explained: f64,
-    /// The distances of accurate values that are more than the last digits of their terms, each at least twice the one before, with their times.
-    seen: Vec<(f64, f64)>,
-    /// The greatest change of the value by rounding of the state alone, in units of ε, and the variable that changes it most.
-    of_state: Option<(f64, RoundedInput)>,
     /// Whether terms that are not 0 were seen where their error is less than a normal number.
     underflows: bool,
 }
@@ -111,6 +102,7 @@ impl InvariantMonitor {
                 at_rest: Vec::new(),
             },
             rounding: RoundingError::default(),
+            seen: SeenDistances::default(),
             drift: DriftRecord::beginning(Mean::default()),
         }
     }
@@ -127,6 +119,7 @@ impl InvariantMonitor {
         let at_rest = quantity.map_or_else(Vec::new, |quantity| terms.at_rest(quantity));
         self.reference = ReferenceValue { initial, value: initial, rough, offset, at_rest };
         self.rounding = RoundingError::default();
+        self.seen = SeenDistances::default();
         self.drift = DriftRecord::beginning(Mean::beginning(time));
     }
 
@@ -145,7 +138,7 @@ impl InvariantMonitor {
         self.drift.left = known.left;
         self.drift.early = Early::over();
         if known.max_drift > RESOLVED {
-            self.rounding.seen.push((known.left.unwrap_or(known.since), self.drift.farthest));
+            self.seen.resume(known.left.unwrap_or(known.since), self.drift.farthest);
         }
     }
 
@@ -218,7 +211,7 @@ impl InvariantMonitor {
         }
         if !self.reference.offset {
             let value = values[self.invariant.channel].abs();
-            self.see(time, distance.abs(), size.max(value).max(self.reference.value.abs()));
+            self.seen.note(time, distance.abs(), size.max(value).max(self.reference.value.abs()));
         }
         self.note(time, distance, moving, floor);
         distance
@@ -264,7 +257,7 @@ impl InvariantMonitor {
         let distance = self.rough(value, work) - self.reference.rough;
         self.widen(size);
         if self.drift.begin_if_at_rest(time, distance, moving) {
-            self.rounding.seen.clear();
+            self.seen.begin();
         }
         self.drift.see_moving(moving);
         // the moving part of a lost motion is no measure of it
@@ -278,19 +271,6 @@ impl InvariantMonitor {
                 self.drift.distances.push(time, distance);
             }
         }
-    }
-
-    /// Records the distance of an accurate value if it is more than the last digits of terms of this size.
-    fn see(&mut self, time: f64, distance: f64, size: f64) {
-        let is_far = self.rounding.seen.is_empty() || distance > 2.0 * self.seen();
-        if is_far && distance > LAST_DIGITS * f64::EPSILON * size {
-            self.rounding.seen.push((time, distance));
-        }
-    }
-
-    /// The greatest distance of an accurate value, up to a factor of two.
-    fn seen(&self) -> f64 {
-        self.rounding.seen.last().map_or(0.0, |&(_, distance)| distance)
     }
 
     fn note(&mut self, time: f64, distance: f64, moving: f64, floor: f64) {
@@ -339,7 +319,7 @@ impl InvariantMonitor {
     /// error: either rounding of the state has changed the value, or the method. Only of an energy it is known what moves: of a
     /// quantity each of whose terms is constant nothing moves but the error.
     pub(super) fn is_seen(&self) -> bool {
-        let (moving, seen) = (self.moving(), self.seen());
+        let (moving, seen) = (self.moving(), self.seen.greatest());
         let is_energy = self.invariant.quantity == Some(ENERGY);
         let within_rounding = self.drift.farthest <= self.rounding.explained;
         let is_seen = moving > 0.0 && seen > RESOLVED * moving;
@@ -348,27 +328,7 @@ impl InvariantMonitor {
 
     /// Records by how much rounding of the state changes the value, in units of ε.
     pub(super) fn measure_state(&mut self, change: Option<(f64, RoundedInput)>) {
-        self.rounding.of_state = greater(self.rounding.of_state.take(), change);
-    }
-
-    /// The drift that is seen and that rounding of the state explains, if it is so large that it is not exact.
-    fn rounded(&self, floor: f64, now: Option<(f64, RoundedInput)>) -> Option<RoundedInput> {
-        let (change, input) = greater(self.rounding.of_state.clone(), now)?;
-        (self.drift.farthest <= floor * change).then_some(input)
-    }
-
-    /// Why a drift would not be seen, if it would not: all its terms have always been below the numbers that have all their digits,
-    /// and not because they are 0; or a motion whose energy is all but constant terms could be lost within their rounding error.
-    fn unseen(&self) -> Option<Unseen> {
-        let moving = self.moving();
-        if self.rounding.underflows && self.rounding.greatest < f64::MIN_POSITIVE {
-            return Some(Unseen::Underflow);
-        }
-        let is_lost = analysis::rounding_floor(0) * self.rounding.greatest > LOST * moving;
-        let within_rounding = self.drift.farthest <= self.rounding.explained;
-        // the terms of others may all be constant, so that what moves of them is rounding
-        (self.invariant.quantity == Some(ENERGY) && moving > 0.0 && is_lost && within_rounding)
-            .then(|| Unseen::Unresolved(self.rounding.greatest / moving))
+        self.seen.note_rounding(change);
     }
 
     fn drift_of(&self, distance: f64, moving: f64) -> f64 {
@@ -396,124 +356,10 @@ impl InvariantMonitor {
     /// The scale of drift where this much moves.
     fn scale_of(&self, moving: f64) -> f64 {
         // an energy that is seen to change has the state's motion, whatever made it
-        let changes = self.invariant.quantity == Some(ENERGY) && self.seen() > 0.0 && moving > 0.0;
+        let changes =
+            self.invariant.quantity == Some(ENERGY) && self.seen.greatest() > 0.0 && moving > 0.0;
         let is_error = is_error(moving, self.drift.farthest, self.rounding.explained);
         if is_error && !changes { self.rounding.greatest } else { moving }
-    }
-
-    /// The gauge, given how rounding of the present state changes its value.
-    pub(super) fn show(
-        &self,
-        values: &[f64],
-        since: f64,
-        (floor, errors): (f64, Errors),
-        of_state: &dyn Fn(Expr) -> Option<(f64, RoundedInput)>,
-    ) -> Gauge {
-        let value = values[self.invariant.channel];
-        let is_seen = self.is_seen();
-        let rounded =
-            if is_seen { self.rounded(floor, of_state(self.invariant.expression)) } else { None };
-        let scale = if is_seen { self.moving() } else { self.scale() };
-        let rounding = if is_seen {
-            LAST_DIGITS * f64::EPSILON * self.reference.value.abs().max(scale)
-        } else {
-            floor * self.rounding.greatest
-        };
-        // what the last digits of the value hide is small compared with the terms
-        let drift = |distance: f64| match distance {
-            0.0 => 0.0,
-            _ if distance <= rounding && !is_seen => distance / scale.max(self.rounding.greatest),
-            _ => distance / scale,
-        };
-        let distance = if self.reference.offset {
-            self.drift.last
-        } else {
-            (value - self.reference.value).abs()
-        };
-        let beyond = self.drift.farthest > rounding;
-        let is_below_digits = self.drift.farthest < f64::EPSILON * self.rounding.greatest;
-        let (worst, since_when) = self.drifted();
-        let max_drift = match (is_seen, beyond) {
-            (false, true) => worst,
-            _ => drift(self.drift.farthest.max(distance)),
-        };
-        let drift_now = drift(distance).min(max_drift);
-        let since_when = if is_seen {
-            let beyond = |&&(_, distance): &&(f64, f64)| distance > LEFT * scale;
-            let seen = &self.rounding.seen;
-            seen.iter().find(beyond).or(seen.last()).map(|&(time, _)| time)
-        } else {
-            since_when
-        };
-        let left = beyond && max_drift > LEFT;
-        // what is only supposed to be conserved may change with the motion
-        let errors = if self.invariant.proved { errors } else { Errors::Accumulated };
-        let unseen = if is_seen { rounded.map(Unseen::Rounded) } else { self.unseen() };
-        let is_unknown = unseen.is_some() && !is_seen;
-        let verdict = match (&self.invariant.broken, &unseen) {
-            (Some(law), _) => Verdict::Broken(law.clone()),
-            (None, Some(unseen)) => Verdict::Unknown(unseen.clone()),
-            (None, None) if beyond && max_drift > LOST => Verdict::Lost,
-            (None, None) => {
-                match Verdict::of(&self.drift.distances, self.drift.farthest, rounding, errors) {
-                    Verdict::Secular(slope) => Verdict::Secular(slope / scale),
-                    Verdict::Exact(_) if is_below_digits => Verdict::Exact(analysis::Growth::Level),
-                    other => other,
-                }
-            }
-        };
-        let is_broken = self.invariant.broken.is_some();
-        let history = self.drift.distances.stretches().iter().map(|stretch| {
-            // what changes by the physics is seen rising and falling
-            if is_broken {
-                drift(stretch.mean.abs()).copysign(stretch.mean)
-            } else {
-                drift(stretch.peak())
-            }
-        });
-        Gauge {
-            name: self.invariant.name.clone(),
-            shown: self.invariant.shown.clone(),
-            reason: match &unseen {
-                Some(Unseen::Underflow) => format!("{}; {UNDERFLOW}", self.invariant.reason),
-                Some(Unseen::Unresolved(_)) => format!("{}; {UNRESOLVED}", self.invariant.reason),
-                Some(Unseen::Rounded(input)) => {
-                    format!(
-                        "{}; rounding of {} explains its change",
-                        self.invariant.reason, input.name
-                    )
-                }
-                None => self.invariant.reason.clone(),
-            },
-            proved: self.invariant.proved && self.invariant.broken.is_none(),
-            value,
-            initial: self.reference.initial,
-            scale,
-            farthest: self.drift.farthest,
-            reference: self.reference.value,
-            reference_time: since,
-            drift: if is_unknown { f64::NAN } else { drift_now },
-            max_drift: if is_unknown { f64::NAN } else { max_drift },
-            left: (left && !is_unknown && self.invariant.broken.is_none())
-                .then(|| since_when.unwrap_or(since)),
-            history: if is_unknown {
-                Arc::default()
-            } else {
-                history.map(|drift| drift as f32).collect()
-            },
-            verdict,
-        }
-    }
-}
-
-/// The greater of two changes of a value, each with what makes it.
-fn greater(
-    one: Option<(f64, RoundedInput)>,
-    other: Option<(f64, RoundedInput)>,
-) -> Option<(f64, RoundedInput)> {
-    match (one, other) {
-        (Some(one), Some(other)) => Some(if other.0 > one.0 { other } else { one }),
-        (one, other) => one.or(other),
     }
 }
 

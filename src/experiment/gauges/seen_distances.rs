@@ -1,0 +1,82 @@
+//! The distances of a gauge that its value shows: those of accurate values, beyond the last digits of their terms.
+//!
+//! In: distances, and by how much rounding of the state changes the value. Out: the greatest of them, when they first exceeded a
+//! limit, and whether rounding of the state explains them. Never here: whether they count.
+
+use crate::analysis::RoundedInput;
+
+/// A change of a value by more than this many ε of its terms is one of the state.
+const LAST_DIGITS: f64 = 4.0;
+
+/// The distances that were seen since the reference was taken.
+#[derive(Clone, Debug, Default)]
+pub(super) struct SeenDistances {
+    /// Each at least twice the one before, with their times.
+    distances: Vec<(f64, f64)>,
+    /// The greatest change of the value by rounding of the state alone, in units of ε, and the variable that changes it most.
+    by_rounding: Option<(f64, RoundedInput)>,
+}
+
+impl SeenDistances {
+    /// What the last digits of terms of this size hide.
+    pub(super) fn hidden(size: f64) -> f64 {
+        LAST_DIGITS * f64::EPSILON * size
+    }
+
+    /// Records the distance of an accurate value if it is more than the last digits of terms of this size.
+    pub(super) fn note(&mut self, time: f64, distance: f64, size: f64) {
+        let is_far = self.distances.is_empty() || distance > 2.0 * self.greatest();
+        if is_far && distance > Self::hidden(size) {
+            self.distances.push((time, distance));
+        }
+    }
+
+    /// Continues from the greatest distance of a motion that was saved, seen at this time.
+    pub(super) fn resume(&mut self, time: f64, distance: f64) {
+        self.distances.push((time, distance));
+    }
+
+    /// Begins anew with the motion.
+    pub(super) fn begin(&mut self) {
+        self.distances.clear();
+    }
+
+    /// The greatest distance, up to a factor of two.
+    pub(super) fn greatest(&self) -> f64 {
+        self.distances.last().map_or(0.0, |&(_, distance)| distance)
+    }
+
+    /// When a distance first exceeded a limit, or the greatest was seen if none did.
+    pub(super) fn first_beyond(&self, limit: f64) -> Option<f64> {
+        let beyond = |&&(_, distance): &&(f64, f64)| distance > limit;
+        self.distances.iter().find(beyond).or(self.distances.last()).map(|&(time, _)| time)
+    }
+
+    /// Records by how much rounding of the state changes the value.
+    pub(super) fn note_rounding(&mut self, change: Option<(f64, RoundedInput)>) {
+        self.by_rounding = greater(self.by_rounding.take(), change);
+    }
+
+    /// The variable whose rounding explains a distance, if rounding of the state does, now or before; `floor` is the rounding
+    /// error of a value of size 1.
+    pub(super) fn explained(
+        &self,
+        distance: f64,
+        floor: f64,
+        now: Option<(f64, RoundedInput)>,
+    ) -> Option<RoundedInput> {
+        let (change, input) = greater(self.by_rounding.clone(), now)?;
+        (distance <= floor * change).then_some(input)
+    }
+}
+
+/// The greater of two changes of a value, each with what makes it.
+fn greater(
+    one: Option<(f64, RoundedInput)>,
+    other: Option<(f64, RoundedInput)>,
+) -> Option<(f64, RoundedInput)> {
+    match (one, other) {
+        (Some(one), Some(other)) => Some(if other.0 > one.0 { other } else { one }),
+        (one, other) => one.or(other),
+    }
+}
