@@ -68,9 +68,7 @@ mod vakonomic;
 mod valuation;
 mod weighted_degree;
 
-pub use bracket::{
-    ChainRule, Recognised, bracket, in_phase_space, rate_by_bracket, recognise, unreduced_bracket,
-};
+pub use bracket::{ChainRule, Recognised, bracket, in_phase_space, recognise, unreduced_bracket};
 pub use canonical::PhaseMap;
 pub use canonical_verdict::{CanonicalVerdict, FailingBracket};
 pub use chart::ChartBracket;

@@ -34,8 +34,6 @@ pub enum AppEvent {
     Loaded(Result<Loaded, LoadError>),
     /// A requested file was written, or the reason why not: a sentence.
     Written(Result<String, String>),
-    /// The system in the lab was rebuilt from its changed file.
-    Rebuilt(Loaded),
     /// A frame has passed; this is the time since the last one.
     Tick(Duration),
     /// The result of [`Effect::Check`]; if the text is correct, its system is already running.

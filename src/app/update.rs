@@ -73,7 +73,6 @@ impl App {
             AppEvent::Snapshot(snapshot) => self.see(&snapshot),
             AppEvent::Loaded(Ok(loaded)) => self.loaded(loaded),
             AppEvent::Loaded(Err(error)) => self.failed(error),
-            AppEvent::Rebuilt(loaded) => self.rebuilt(loaded),
             AppEvent::Written(Ok(sentence)) => {
                 self.notifications.show(Notification::info(sentence));
                 Vec::new()

@@ -55,26 +55,6 @@ pub fn unreduced_bracket(
     equations.derivation(f, &seeds)
 }
 
-/// df/dt = \[f, H\] + ∂f/∂t, which is valid if neither forces nor constraints act.
-///
-/// # Errors
-/// Returns an error if f or H is not known as a function of (q, p, t).
-pub fn rate_by_bracket(
-    model: &Model,
-    equations: &mut Equations,
-    f: Expr,
-) -> Result<Expr, NoClosedForm> {
-    let hamiltonian = equations.hamiltonian().clone()?;
-    let auxiliary = bracket(model, equations, f, hamiltonian)?;
-    let f = in_phase_space(equations, f)?;
-    let by_time = [(equations.symbols.time, Expr::ONE)];
-    let own = equations.derivation(f, &by_time)?;
-    let own = equations.in_generating_variables(own)?;
-    let rate = equations.pool.add(auxiliary, own);
-    let rate = zero_if_proved(&mut equations.pool, rate);
-    Ok(equations.pool.simplify(rate))
-}
-
 /// An observable as a function of (q, p, t): velocities, accelerations, multipliers and the energy
 /// are replaced by their expressions.
 ///

@@ -201,6 +201,20 @@ pub(crate) fn checked(app: &mut App) -> String {
 
 /// Checks the text that waits, as the shell does. Returns it, and whether it has no error.
 pub(crate) fn judged(app: &mut App) -> (String, bool) {
+    let (text, is_right, _) = answered(app);
+    (text, is_right)
+}
+
+/// Rebuilds the system in the lab from a text that another program has saved to its file. Returns what follows.
+pub(crate) fn rebuild(app: &mut App, text: &str) -> Vec<Effect> {
+    app.update(AppEvent::FileRead { text: text.to_owned(), asked: false });
+    let (text, is_right, effects) = answered(app);
+    assert!(is_right, "{text}");
+    effects
+}
+
+/// Checks the text that waits, as the shell does. Returns it, whether it has no error, and what follows.
+fn answered(app: &mut App) -> (String, bool, Vec<Effect>) {
     let effects = app.update(AppEvent::Tick(Duration::from_millis(20)));
     let found = effects.into_iter().find_map(|effect| match effect {
         Effect::Check { ticket, title, text } => Some((ticket, title, text)),
@@ -214,6 +228,6 @@ pub(crate) fn judged(app: &mut App) -> (String, bool) {
         Loaded { name, epoch: 2, document, model, equations, system }
     });
     let (took, is_right) = (Some(Duration::from_millis(3)), outcome.is_ok());
-    app.update(AppEvent::Checked(Box::new(CheckedText { ticket, outcome, took })));
-    (text, is_right)
+    let effects = app.update(AppEvent::Checked(Box::new(CheckedText { ticket, outcome, took })));
+    (text, is_right, effects)
 }

@@ -13,7 +13,9 @@ mod theme;
 mod ticks;
 mod trail;
 
-use phaselab::view::plot::{PlotFrame, Raster, Scale};
+use phaselab::view::glyphs::Glyphs;
+use phaselab::view::plot::{Ages, CachedTrail, PlotFrame, Raster, Scale};
+use phaselab::view::theme::Shade;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
@@ -33,4 +35,24 @@ fn dots(raster: &Raster) -> Vec<[i32; 2]> {
 fn rows(buffer: &Buffer) -> Vec<String> {
     let row = |y: u16| (0..buffer.area.width).map(|x| buffer[(x, y)].symbol()).collect::<String>();
     (0..buffer.area.height).map(|y| row(y).trim_end().to_owned()).collect()
+}
+
+/// Draws a fading trail, oldest point first: the points are divided among the shades of a ramp.
+fn draw_trail(
+    raster: &mut Raster,
+    glyphs: Glyphs,
+    frame: &PlotFrame,
+    points: &[[f64; 2]],
+    ramp: &[Shade],
+) {
+    let Some((&[x, y], past)) = points.split_last() else { return };
+    let mut trail = CachedTrail::new(frame, glyphs, None);
+    for (index, [x, y]) in past.iter().enumerate() {
+        trail.to([*x, *y, 0.0], index as f64);
+    }
+    let first = |age: usize| age * points.len() / ramp.len();
+    let since = (0..ramp.len()).map(first);
+    let since = since.map(|first| if first < past.len() { first as f64 } else { f64::INFINITY });
+    let since: Vec<f64> = since.collect();
+    trail.draw(raster, Ages { since: &since, ramp, layer: 2, behind: None }, [x, y]);
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use phaselab::app::{Above, App, AppEvent, Effect, LeastRange, Page, Pane, Saved};
 use phaselab::experiment::Command;
 
-use crate::hand::{catalog, in_lab, lowered, pendulum, press, snapshot};
+use crate::hand::{catalog, in_lab, lowered, pendulum, press, rebuild, snapshot};
 
 /// A session after writing and reading.
 fn kept(app: &App) -> Saved {
@@ -43,7 +43,7 @@ fn what_was_looked_at_is_looked_at_again() {
     let in_front = |app: &App| app.lab.as_ref().unwrap().focused_before().collect::<Vec<_>>();
     assert!(!in_front(&app).is_empty());
     assert_eq!(in_front(&resumed(kept(&app)).0), in_front(&app));
-    assert_eq!(effects, [Effect::Execute(Command::Restore(Box::new(saved.moment)))]);
+    assert_eq!(effects, [Effect::Execute(Command::Restore(Box::new(saved.checkpoint)))]);
     press(&mut app, "2");
     assert_eq!(resumed(kept(&app)).0.page, Page::Equations);
 }
@@ -98,7 +98,7 @@ fn a_rebuilt_system_is_looked_at_as_before() {
     let before = app.lab.as_ref().unwrap().clone();
     // with two more observables the channels have other indices
     let text = format!("{FILE}[[observables]]\nname = \"r\"\nexpression = \"sqrt(x^2 + y^2)\"\n");
-    let effects = app.update(AppEvent::Rebuilt(lowered(&text)));
+    let effects = rebuild(&mut app, &text);
     let lab = app.lab.as_ref().unwrap();
     assert_eq!((lab.focus.pane, lab.plots.len()), (before.focus.pane, before.plots.len()));
     let names = |lab: &phaselab::app::Lab| {
@@ -130,9 +130,9 @@ fn the_least_ranges_of_pictures_stay_with_their_quantities() {
     assert_eq!(held(&app), ["y'"]);
     let text = FILE.replace("[coordinates]\n", "[coordinates]\nu = { initial = 1.0 }\n");
     let text = text.replace("y'^2", "y'^2 + u'^2");
-    app.update(AppEvent::Rebuilt(lowered(&text)));
+    rebuild(&mut app, &text);
     assert_eq!(held(&app), ["u", "y'"]);
-    app.update(AppEvent::Rebuilt(lowered(FILE)));
+    rebuild(&mut app, FILE);
     assert_eq!(held(&app), ["y'"]);
 }
 
@@ -140,7 +140,7 @@ fn the_least_ranges_of_pictures_stay_with_their_quantities() {
 fn a_system_that_lost_what_was_shown_opens_its_own_views() {
     let mut app = opened(FILE);
     let text = FILE.replace("y = { initial = 2.0 }\n", "").replace("y'^2", "x'^2");
-    app.update(AppEvent::Rebuilt(lowered(&text.replace("y^2", "x^2"))));
+    rebuild(&mut app, &text.replace("y^2", "x^2"));
     let lab = app.lab.as_ref().unwrap();
     assert!(!lab.plots.is_empty());
     for plot in &lab.plots {
@@ -177,9 +177,9 @@ fn a_motion_of_another_law_is_not_brought_back() {
     for (text, comes_back) in [(other_words, true), (other_law, false)] {
         let mut app = opened(FILE);
         press(&mut app, "Right");
-        let loaded = lowered(&text);
-        app.update(AppEvent::Rebuilt(loaded.clone()));
-        app.update(AppEvent::Snapshot(Arc::new(snapshot(&loaded, 2.0))));
+        rebuild(&mut app, &text);
+        let seen = snapshot(&app.lab.as_ref().unwrap().loaded, 2.0);
+        app.update(AppEvent::Snapshot(Arc::new(seen)));
         let effects = press(&mut app, "u");
         let restores = |effect: &Effect| matches!(effect, Effect::Execute(Command::Restore(_)));
         assert_eq!(effects.iter().any(restores), comes_back, "{effects:?}");
@@ -196,7 +196,7 @@ fn only_a_change_of_the_law_is_one() {
     let cases = [(&same, None), (&other_law, Some("the text")), (&other_value, Some("the text"))];
     for (text, what) in cases {
         let mut app = opened(FILE);
-        let effects = app.update(AppEvent::Rebuilt(lowered(text)));
+        let effects = rebuild(&mut app, text);
         assert_eq!(changed(&effects).as_deref(), what, "rebuilt from {text}");
         // the same file changed by another program between two sessions
         let saved = kept(&opened(FILE));
@@ -226,7 +226,7 @@ fn the_first_row_of_the_list_goes_on_with_the_session() {
     let effects = app.update(AppEvent::Loaded(Ok(pendulum())));
     let (by_option, effects_of_option) = resumed(saved.clone());
     assert_eq!(effects, effects_of_option);
-    assert_eq!(effects, [Effect::Execute(Command::Restore(Box::new(saved.moment)))]);
+    assert_eq!(effects, [Effect::Execute(Command::Restore(Box::new(saved.checkpoint)))]);
     assert_eq!((app.page, by_option.page), (Page::Equations, Page::Equations));
     let (lab, other) = (app.lab.as_ref().unwrap(), by_option.lab.as_ref().unwrap());
     assert_eq!(

@@ -3,7 +3,9 @@
 use nalgebra::{DMatrix, DVector};
 use phaselab::expr::{Expr, Zero};
 use phaselab::integrate::{Settings, Stepper, method_named};
-use phaselab::mechanics::{self, ChainRule, Equations, Flow, bracket, recognise};
+use phaselab::mechanics::{
+    self, ChainRule, Equations, Flow, NoClosedForm, bracket, in_phase_space, recognise,
+};
 use phaselab::model::{Allowed, Mechanics, Model, Observable, Scope, WrittenExpr};
 use phaselab::preset::Catalog;
 use phaselab::system::System;
@@ -292,6 +294,15 @@ fn what_is_no_structure_fails_the_identity() {
     assert_eq!(e.pool.text(sum), "-x - y - z");
 }
 
+/// df/dt = [f, H] + ∂f/∂t.
+fn rate_by_bracket(model: &Model, e: &mut Equations, f: Expr) -> Result<Expr, NoClosedForm> {
+    let hamiltonian = e.hamiltonian().clone()?;
+    let by_motion = bracket(model, e, f, hamiltonian)?;
+    let f = in_phase_space(e, f)?;
+    let by_time = e.pool.derivative(f, e.symbols.time);
+    Ok(e.pool.add(by_motion, by_time))
+}
+
 #[test]
 fn the_bracket_with_h_is_the_rate_seen_along_the_motion() {
     let mut followed = 0;
@@ -316,7 +327,7 @@ fn the_bracket_with_h_is_the_rate_seen_along_the_motion() {
         watched.extend(model.observables.iter().map(|o| (o.name.clone(), o.expression)));
         let mut channels = Vec::new();
         for (name, f) in watched {
-            let Ok(rate) = mechanics::rate_by_bracket(&model, &mut e, f) else { continue };
+            let Ok(rate) = rate_by_bracket(&model, &mut e, f) else { continue };
             channels.push(WrittenExpr { written: name.clone(), expression: f });
             channels.push(WrittenExpr { written: format!("{name}'s rate"), expression: rate });
         }

@@ -72,7 +72,7 @@ fn everything(
     let frame = axes.draw(area, buffer, theme, glyphs);
     let mut raster = Raster::new(frame.area, glyphs);
     raster.polyline(&frame, points.iter().copied(), &Pen::shaded(theme.line(Role::Level), 0));
-    raster.trail(&frame, points, theme.trail(1), 2);
+    super::draw_trail(&mut raster, glyphs, &frame, points, theme.trail(1));
     raster.cloud(&frame, points.iter().copied(), theme.density(), 1);
     raster.points(&frame, points.iter().copied(), &Pen::new(theme.curve(2), 1));
     for point in points.iter().take(2) {

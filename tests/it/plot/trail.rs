@@ -10,7 +10,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Modifier, Style};
 
-use super::{dots, rows, unit};
+use super::{dots, draw_trail, rows, unit};
 
 #[test]
 fn a_trail_brightens_towards_its_end() {
@@ -19,7 +19,7 @@ fn a_trail_brightens_towards_its_end() {
         let theme = Theme::dark(depth);
         let points: Vec<_> = (0..400).map(|i| [f64::from(i) / 400.0, 0.5]).collect();
         let mut raster = Raster::new(area, Glyphs::Braille);
-        raster.trail(&unit(area), &points, theme.trail(0), 0);
+        draw_trail(&mut raster, Glyphs::Braille, &unit(area), &points, theme.trail(0));
         let mut buffer = Buffer::empty(area);
         raster.draw(&mut buffer);
         let light: Vec<_> =
@@ -35,7 +35,7 @@ fn without_colour_the_old_end_is_thin_and_dim_and_the_new_end_full_and_bold() {
     let theme = Theme::dark(ColourDepth::None);
     let points: Vec<_> = (0..800).map(|i| [f64::from(i) / 800.0, 0.5]).collect();
     let mut raster = Raster::new(area, Glyphs::Braille);
-    raster.trail(&unit(area), &points, theme.trail(0), 0);
+    draw_trail(&mut raster, Glyphs::Braille, &unit(area), &points, theme.trail(0));
     let count = |from: i32, to: i32| {
         dots(&raster).into_iter().filter(|[x, _]| (from..to).contains(x)).count()
     };
@@ -55,7 +55,7 @@ fn in_ascii_age_chooses_the_character() {
     let theme = Theme::dark(ColourDepth::True);
     let points: Vec<_> = (0..160).map(|i| [(f64::from(i) + 0.5) / 160.0, 0.5]).collect();
     let mut raster = Raster::new(area, Glyphs::Ascii);
-    raster.trail(&unit(area), &points, theme.trail(0), 0);
+    draw_trail(&mut raster, Glyphs::Ascii, &unit(area), &points, theme.trail(0));
     let mut buffer = Buffer::empty(area);
     raster.draw(&mut buffer);
     assert_eq!(rows(&buffer), ["....::::++++oooo"]);
@@ -66,7 +66,7 @@ fn a_single_point_is_new() {
     let area = Rect::new(0, 0, 1, 1);
     let theme = Theme::dark(ColourDepth::True);
     let mut raster = Raster::new(area, Glyphs::Braille);
-    raster.trail(&unit(area), &[[0.5, 0.5]], theme.trail(2), 0);
+    draw_trail(&mut raster, Glyphs::Braille, &unit(area), &[[0.5, 0.5]], theme.trail(2));
     let mut buffer = Buffer::empty(area);
     raster.draw(&mut buffer);
     assert_eq!(Some(buffer[(0, 0)].fg), theme.trail(2).last().unwrap().style.fg);

@@ -194,6 +194,7 @@ mod tests {
     use ratatui::buffer::Buffer;
     use ratatui::layout::Rect;
 
+    use super::super::course::Inked;
     use super::*;
     use crate::view::colour::ColourDepth;
     use crate::view::plot::Scale;
@@ -219,6 +220,26 @@ mod tests {
         let mut buffer = Buffer::empty(raster.area);
         raster.draw(&mut buffer);
         buffer
+    }
+
+    /// A fading trail drawn at once, oldest point first: the points are divided among the steps of a ramp.
+    fn draw_whole(raster: &mut Raster, frame: &PlotFrame, points: &[[f64; 2]], ramp: &[Shade]) {
+        let is_ascii = raster.glyphs == Glyphs::Ascii;
+        let grid = if is_ascii { raster.cell() } else { [1, 1] };
+        let mut course = Course::new(frame, raster.size());
+        let mut put = |dot: [i32; 2], inked: Inked<usize>| {
+            let age = inked.ink;
+            let pen = Pen::aged(ramp[age], 2, age);
+            let sign = is_ascii.then(|| faded(age, ramp.len()));
+            if sign.is_some() || pen.dash.covers(dot[inked.along]) {
+                raster.ink(inked.centre(dot), &pen, sign);
+            }
+        };
+        for (index, point) in points.iter().enumerate() {
+            let age = ((index + 1) * ramp.len()).div_ceil(points.len()) - 1;
+            course.to(*point, (age, grid), &mut put);
+        }
+        course.rest(&mut put);
     }
 
     #[test]
@@ -247,7 +268,7 @@ mod tests {
                     let present = [0.3, 0.4];
                     let all: Vec<_> = points[..count].iter().copied().chain([present]).collect();
                     let mut whole = Raster::new(area, glyphs);
-                    whole.trail(frame, &all, ramp, 2);
+                    draw_whole(&mut whole, frame, &all, ramp);
                     let start = |age: usize| age * all.len() / ramp.len();
                     let since: Vec<f64> = (0..ramp.len())
                         .map(|age| if start(age) < count { start(age) as f64 } else { NOW })

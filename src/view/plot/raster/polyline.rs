@@ -3,11 +3,10 @@
 //! In: successive data points, each with its pen. Out: dots of a raster. Never here: the course of the line.
 
 use super::course::{Course, Inked};
-use super::letter::{faded, stroke};
+use super::letter::stroke;
 use super::{Letters, Pen, Raster};
 use crate::view::glyphs::Glyphs;
 use crate::view::plot::scale::PlotFrame;
-use crate::view::theme::Shade;
 
 /// The coverage below which a line is shading and, in ASCII, drawn as single dots.
 const FAINT: f64 = 0.3;
@@ -47,30 +46,12 @@ impl Raster {
         }
         line.rest();
     }
-
-    /// Draws a fading trail, oldest point first: the points are divided among the steps of a ramp.
-    pub fn trail(&mut self, frame: &PlotFrame, points: &[[f64; 2]], ramp: &[Shade], layer: u8) {
-        if ramp.is_empty() {
-            return;
-        }
-        let pens: Vec<Pen> =
-            ramp.iter().enumerate().map(|(age, shade)| Pen::aged(*shade, layer, age)).collect();
-        let mut line = Polyline::new(self, frame);
-        for (index, point) in points.iter().enumerate() {
-            let age = ((index + 1) * ramp.len()).div_ceil(points.len()) - 1;
-            line.fade(age, ramp.len());
-            line.to(*point, &pens[age]);
-        }
-        line.rest();
-    }
 }
 
 /// Draws a line through points in data coordinates; [`Polyline::rest`] ends it.
 struct Polyline<'a, 'p> {
     raster: &'a mut Raster,
     course: Course<DotStyle<'p>>,
-    /// The age and the number of ages of a trail, which choose the character in ASCII.
-    fading: Option<(usize, usize)>,
     frame: PlotFrame,
     /// The last point in dots, from which the direction of the line is taken.
     last: [f64; 2],
@@ -80,12 +61,7 @@ impl<'a, 'p> Polyline<'a, 'p> {
     /// Creates a polyline without points.
     fn new(raster: &'a mut Raster, frame: &PlotFrame) -> Self {
         let course = Course::new(frame, raster.size());
-        Self { raster, course, fading: None, frame: *frame, last: [f64::NAN; 2] }
-    }
-
-    /// Sets the age of the following part of the line, one of `ages` steps.
-    fn fade(&mut self, age: usize, ages: usize) {
-        self.fading = Some((age, ages));
+        Self { raster, course, frame: *frame, last: [f64::NAN; 2] }
     }
 
     /// Continues the line to a point.
@@ -105,13 +81,13 @@ impl<'a, 'p> Polyline<'a, 'p> {
         self.course.rest(&mut |dot, inked| inked.put(raster, dot));
     }
 
-    /// The ASCII character for the age of a trail, for one of several lines, or for the direction to a point.
+    /// The ASCII character for one of several lines, or for the direction to a point.
     fn sign(&mut self, pen: &Pen, point: [f64; 2]) -> Option<char> {
         if self.raster.glyphs != Glyphs::Ascii {
             return None;
         }
         let faint = (pen.coverage < FAINT || pen.letters == Letters::Dots).then_some('.');
-        let known = self.fading.map(|(age, ages)| faded(age, ages)).or(pen.dash.letter()).or(faint);
+        let known = pen.dash.letter().or(faint);
         if known.is_some() || pen.letters != Letters::Direction {
             return known;
         }
