@@ -102,7 +102,7 @@ pub use equilibrium_names::name_equilibria;
 pub use error::DynamicsError;
 pub use family::{Along, Bifurcation, Family, Member, NOT_ISOLATED};
 pub use family_course::{FamilyCourse, driven_family, family};
-pub use flow_course::{FlowMoment, flow_course};
+pub use flow_course::{FlowAtTime, flow_course};
 pub use flow_map::{FlowMap, flow_map};
 pub use frequency_drift::{FrequencyDrift, frequency_drift};
 pub use gali::{Gali, gali};

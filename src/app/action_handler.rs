@@ -2,7 +2,7 @@
 //!
 //! In: an [`Action`]. Out: the changed state and the effects. Never here: keys; the contents of pop-up lists.
 
-use super::kept_window::KeptWindow;
+use super::earlier_window::EarlierWindow;
 use super::speed::{faster, slower};
 use super::{Action, App, Effect, Notification, Overlay, Page, Pane, Purpose, SourceBuffer};
 use crate::experiment::{Command, Status};
@@ -105,11 +105,11 @@ impl App {
                 vec![Effect::Execute(Command::Speed(speed))]
             }
             Action::Reset => {
-                lab.kept = KeptWindow::default();
+                lab.earlier_window = EarlierWindow::default();
                 vec![Effect::Execute(Command::Reset)]
             }
             Action::FullReset => {
-                lab.kept = KeptWindow::default();
+                lab.earlier_window = EarlierWindow::default();
                 lab.full_reset()
             }
             Action::Reference => vec![Effect::Execute(Command::Reference)],

@@ -21,7 +21,7 @@ pub(super) struct Answers {
     /// Whether something has changed since the needs were last determined.
     pub(super) stale: bool,
     /// Whether a job waits until the values rest.
-    pub(super) held: bool,
+    pub(super) waits: bool,
     /// The bits of the values when jobs were last asked for, and for how long they have been these.
     resting: (Vec<u64>, Duration),
 }

@@ -3,8 +3,8 @@
 //! In: new values, methods, settings and pictures. Out: commands, and the pending values until the experiment shows
 //! them. Never here: which key triggers a change, or how the history is stored.
 
+use super::earlier_window::EarlierWindow;
 use super::history::Change;
-use super::kept_window::KeptWindow;
 use super::{App, Effect, Lab, Loaded, Pane, ValueId};
 use crate::experiment::{Checkpoint, Command, Snapshot, Status, with_override};
 use crate::instrument::Plot;
@@ -90,20 +90,20 @@ impl Lab {
 
     /// Starts the motion with several initial values at once.
     pub(super) fn start(&mut self, values: &[InitialOverride]) -> Vec<Effect> {
-        let kept_before = self.kept.clone();
+        let window_before = self.earlier_window.clone();
         self.keep_windows();
-        self.start_in_window(values, kept_before)
+        self.start_in_window(values, window_before)
     }
 
     /// Does so in the window that the pictures have now, given the ranges that they kept before.
     pub(super) fn start_in_window(
         &mut self,
         values: &[InitialOverride],
-        kept_before: KeptWindow,
+        window_before: EarlierWindow,
     ) -> Vec<Effect> {
         let after = self.given_with(values);
         let given = [self.given(), after.clone()];
-        let windows = [kept_before, self.kept.clone()];
+        let windows = [window_before, self.earlier_window.clone()];
         self.note(Change::Start { given, windows });
         vec![self.begin_with(after)]
     }
@@ -301,7 +301,7 @@ impl Lab {
                 vec![effect]
             }
             Change::Start { given, windows } => {
-                self.kept = side.of(windows);
+                self.earlier_window = side.of(windows);
                 vec![self.begin_with(side.of(given))]
             }
             Change::Flow(given) => {

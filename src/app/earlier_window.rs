@@ -9,14 +9,14 @@ use crate::num::OrientationPolytope;
 
 /// What the motions before the current one have reached.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct KeptWindow {
+pub(super) struct EarlierWindow {
     /// The least and greatest value of each channel.
     bounds: Arc<[(f64, f64)]>,
     /// The hulls of the points in space.
     hulls: Arc<[Hull]>,
 }
 
-impl KeptWindow {
+impl EarlierWindow {
     /// The same, and what the motion of a snapshot has reached.
     #[must_use]
     pub(super) fn with(&self, snapshot: &Snapshot) -> Self {
@@ -25,7 +25,7 @@ impl KeptWindow {
             (least.min(lo), greatest.max(hi))
         });
         let hulls = snapshot.hulls.iter().map(|hull| match self.hull(hull.channels) {
-            Some(kept) => Hull { polytope: hull.polytope.joined(kept), ..*hull },
+            Some(earlier) => Hull { polytope: hull.polytope.joined(earlier), ..*hull },
             None => *hull,
         });
         Self { bounds: bounds.collect(), hulls: hulls.collect() }

@@ -6,7 +6,7 @@
 
 use std::time::Duration;
 
-use super::kept_window::KeptWindow;
+use super::earlier_window::EarlierWindow;
 use crate::experiment::Checkpoint;
 use crate::instrument::Plot;
 use crate::integrate::Settings;
@@ -38,7 +38,7 @@ pub(super) enum Change {
         /// All overrides before and after.
         given: [Vec<InitialOverride>; 2],
         /// The ranges that the pictures keep, before and after.
-        windows: [KeptWindow; 2],
+        windows: [EarlierWindow; 2],
     },
     /// A flow has carried the state to another orbit: all overrides before and after.
     Flow([Vec<InitialOverride>; 2]),

@@ -8,8 +8,8 @@ use std::time::Duration;
 
 use super::answers::{Answers, Derivations, Searches};
 use super::dragged_mass::{DraggedMass, draggable};
+use super::earlier_window::EarlierWindow;
 use super::history::UndoHistory;
-use super::kept_window::KeptWindow;
 use super::pane::Focus;
 use super::pending::PendingChanges;
 use super::restoration::Restoration;
@@ -65,7 +65,7 @@ pub struct Lab {
     /// The motion that the experiment is to restore.
     pub(super) restoration: Restoration,
     /// What the pictures keep in view of the motions before the current one was begun elsewhere.
-    pub(super) kept: KeptWindow,
+    pub(super) earlier_window: EarlierWindow,
 }
 
 /// Something of each shape: of the spatial picture, then of each view with shapes of its own.
@@ -144,7 +144,7 @@ impl Lab {
             marks: Vec::new(),
             typed: Vec::new(),
             restoration: Restoration::default(),
-            kept: KeptWindow::default(),
+            earlier_window: EarlierWindow::default(),
         }
     }
 
@@ -198,18 +198,18 @@ impl Lab {
 
     /// Returns the range that a channel had before the motion was begun at a point of a picture.
     pub fn window_before(&self, channel: usize) -> Option<(f64, f64)> {
-        self.kept.bounds(channel)
+        self.earlier_window.bounds(channel)
     }
 
     /// The hull that a point in space has kept from before the motion was begun elsewhere.
     pub fn hull_before(&self, channels: [Option<usize>; 3]) -> Option<&OrientationPolytope> {
-        self.kept.hull(channels)
+        self.earlier_window.hull(channels)
     }
 
     /// Keeps what the pictures show for the motion that is begun next.
     pub(super) fn keep_windows(&mut self) {
         let Some(snapshot) = &self.snapshot else { return };
-        self.kept = self.kept.with(snapshot);
+        self.earlier_window = self.earlier_window.with(snapshot);
     }
 
     /// Returns the current values of the system's symbols, which are empty before the first snapshot.

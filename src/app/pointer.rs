@@ -157,7 +157,7 @@ impl App {
                 let Some(values) = lab.dragged_to(at) else { return Vec::new() };
                 self.mouse.drag = Some(Grab::Mass { index, shape, window, resumes, moved: true });
                 if moved {
-                    return lab.start_in_window(&values, lab.kept.clone());
+                    return lab.start_in_window(&values, lab.earlier_window.clone());
                 }
                 // what is dragged does not move by itself
                 let mut effects = vec![Effect::Execute(Command::Pause)];
@@ -212,7 +212,7 @@ impl App {
                 }
             }
             (Some(Grab::Mass { moved: true, .. }), _) => match lab.release_mass() {
-                Some(values) => lab.start_in_window(&values, lab.kept.clone()),
+                Some(values) => lab.start_in_window(&values, lab.earlier_window.clone()),
                 None => Vec::new(),
             },
             _ => Vec::new(),

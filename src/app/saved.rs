@@ -47,7 +47,8 @@ pub struct Saved {
     /// The pictures.
     pub plots: Vec<SavedPlot>,
     /// The state of the motion.
-    pub moment: Checkpoint,
+    #[serde(rename = "moment")]
+    pub checkpoint: Checkpoint,
 }
 
 impl Saved {

@@ -41,7 +41,7 @@ impl Saved {
             marks: lab.marks.clone(),
             typed: lab.typed.clone(),
             in_front: lab.focused_before().collect(),
-            moment: checkpoint,
+            checkpoint,
         })
     }
 }
@@ -147,7 +147,7 @@ impl App {
         };
         lab.restore_view(&saved);
         lab.typed.clone_from(&saved.typed);
-        lab.restoration.begin(saved.moment.clone(), saved.law.clone());
+        lab.restoration.begin(saved.checkpoint.clone(), saved.law.clone());
         self.page = saved.page;
         if lab.restoration.is_of_another_law(&lab.loaded.document.text) && !saved.edited {
             let name = &lab.loaded.document.path;
@@ -184,8 +184,8 @@ impl App {
         let awaited = old.restoration.checkpoint();
         if let (Some(saved), None, Some(seen)) = (&mut saved, awaited, old.seen()) {
             // The recorded trail continues too.
-            let checkpoint = std::mem::take(&mut saved.moment);
-            saved.moment = checkpoint.with_past(&old.loaded.system, seen);
+            let checkpoint = std::mem::take(&mut saved.checkpoint);
+            saved.checkpoint = checkpoint.with_past(&old.loaded.system, seen);
         }
         let mut lab = Lab::new(loaded);
         lab.set_least_ranges(std::mem::take(&mut old.least_ranges));
@@ -229,7 +229,7 @@ impl App {
             let name = &known.get(column)?.name;
             now.iter().position(|channel| channel.name == *name)
         });
-        lab.restoration.begin(saved.moment, saved.law);
+        lab.restoration.begin(saved.checkpoint, saved.law);
         self.lab = Some(lab);
         self.take_new_section();
         let mut effects = self.restore();

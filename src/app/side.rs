@@ -48,7 +48,7 @@ impl Lab {
 
     /// Returns the jobs that plots need and that are not yet under way.
     fn needs(&mut self, jobs: &mut Jobs, rests: bool) -> Vec<Computation> {
-        let mut held = false;
+        let mut waits = false;
         let mut entries = Vec::new();
         let mut wanted: Vec<Computation> = Vec::new();
         for (place, plot) in self.plots.iter().enumerate() {
@@ -72,7 +72,7 @@ impl Lab {
                 Need::Addition(_) if !jobs.in_background || !is_drawn => None,
                 Need::Valid => None,
                 Need::AtRest(_) if !rests || !is_drawn => {
-                    held |= is_drawn;
+                    waits |= is_drawn;
                     None
                 }
                 Need::Job(job) | Need::Addition(job) | Need::AtRest(job) => {
@@ -87,7 +87,7 @@ impl Lab {
             entries.push(PlotJob { kind, columns, view, over, answer, under_way, is_drawn });
         }
         self.answers.replace(entries);
-        self.answers.held = held;
+        self.answers.waits = waits;
         wanted
     }
 }
@@ -131,7 +131,7 @@ impl App {
     pub(super) fn request_jobs(&mut self, effects: &mut Vec<Effect>) {
         let Some(lab) = &mut self.lab else { return };
         // Keys that change no picture cost nothing here.
-        let stale = std::mem::take(&mut lab.answers.stale) | std::mem::take(&mut lab.answers.held);
+        let stale = std::mem::take(&mut lab.answers.stale) | std::mem::take(&mut lab.answers.waits);
         // in the background a job that is no longer wanted is stopped
         let rests = self.jobs.in_background || stale && lab.rests();
         let wanted = if stale { lab.needs(&mut self.jobs, rests) } else { Vec::new() };

@@ -11,7 +11,7 @@ use crate::analysis::{LEFT, Verdict};
 use crate::experiment::{Gauge, Growth, Snapshot};
 
 /// How long a verdict on a moving system is shown that no longer holds.
-const HELD: Duration = Duration::from_millis(2500);
+const LASTING: Duration = Duration::from_millis(2500);
 
 #[derive(Clone, Debug, Default)]
 pub(super) struct SteadyVerdicts {
@@ -89,7 +89,7 @@ impl SteadyVerdict {
         }
         // whichever others there were meanwhile
         let differed = differed.saturating_add(elapsed.unwrap_or_default());
-        if differed < HELD {
+        if differed < LASTING {
             self.other = Some((new.clone(), differed));
         } else {
             (self.verdict, self.other) = (new.clone(), None);

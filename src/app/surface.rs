@@ -232,7 +232,7 @@ impl Lab {
     }
 
     /// The coordinate that a surface holds, if it is typed as one.
-    fn held(&self, typed: &str) -> Option<usize> {
+    fn fixed(&self, typed: &str) -> Option<usize> {
         let (left, _) = typed.split_once('=')?;
         let coordinates = &self.loaded.model.coordinates;
         coordinates.iter().position(|c| [&c.name[..], &c.shown[..]].contains(&left.trim()))
@@ -241,17 +241,17 @@ impl Lab {
     /// Whether a surface holds the coordinate of an axis.
     fn holds_an_axis(&self, shown: &Plot, typed: &str) -> bool {
         let channels = self.loaded.system.channels();
-        let held = self.held(typed).map(ChannelKind::Position);
+        let fixed = self.fixed(typed).map(ChannelKind::Position);
         let kind = |axis: usize| Some(channels.get(shown.column(axis)?)?.kind);
-        held.is_some() && (kind(0) == held || kind(1) == held)
+        fixed.is_some() && (kind(0) == fixed || kind(1) == fixed)
     }
 
     /// A coordinate that a surface does not hold, and its rate.
     fn free_axes(&self, typed: &str) -> Result<[String; 2], String> {
         let channels = self.loaded.system.channels();
         let coordinates = &self.loaded.model.coordinates;
-        let held = self.held(typed);
-        let free = (0..coordinates.len()).find(|&i| Some(i) != held).unwrap_or(0);
+        let fixed = self.fixed(typed);
+        let free = (0..coordinates.len()).find(|&i| Some(i) != fixed).unwrap_or(0);
         let of = |kind| channels.iter().find(|c| c.kind == kind).map(|c| c.name.clone());
         let rate = of(ChannelKind::Momentum(free)).or_else(|| of(ChannelKind::Velocity(free)));
         // the variables of a Poisson system have no rates of their own

@@ -28,8 +28,8 @@ const WORK: u64 = 4_000_000;
 /// The minimal number of steps, however large the system.
 const FEWEST_STEPS: u64 = 5_000;
 
-/// How far the motion has come is told once in so many steps.
-const TOLD: u64 = 64;
+/// How far the motion has come is reported once in so many steps.
+const STEPS_PER_REPORT: u64 = 64;
 
 /// The cost of an event in steps, since it is located and divides a step.
 const EVENT: u64 = 4;
@@ -263,7 +263,7 @@ impl<'a> ClaimedMotion<'a> {
         (model, equations): (&Model, &Equations),
         mut claims: Vec<Claim>,
         diagnostics: &mut Vec<Diagnostic>,
-        told: &dyn Fn(&str, f64),
+        report: &dyn Fn(&str, f64),
     ) {
         let start = model.run.start;
         let end = model.run.until.unwrap_or(start + LENGTH);
@@ -287,7 +287,7 @@ impl<'a> ClaimedMotion<'a> {
                 Observation::Sizes => expected.first().map(|value| &value.name),
             };
             let claim = claim.cloned().unwrap_or_default();
-            if let Err(short) = self.reach(time, last, &|time| told(&claim, time)) {
+            if let Err(short) = self.reach(time, last, &|time| report(&claim, time)) {
                 let values =
                     schedule[k..].iter().filter_map(|(_, observation)| observation.value());
                 let values = values.map(|i| (&expected[i].name, &expected[i].place));
@@ -323,9 +323,9 @@ impl<'a> ClaimedMotion<'a> {
             let events = model.expect.events.iter().map(|event| &event.name);
             let counts = model.expect.counts.iter().map(|count| &count.name);
             let claim = events.chain(counts).next().cloned().unwrap_or_default();
-            let told = |time: f64| told(&claim, time);
+            let report = |time: f64| report(&claim, time);
             let short =
-                self.reach(last, last, &told).err().filter(|why| !matches!(why, Short::Ended(_)));
+                self.reach(last, last, &report).err().filter(|why| !matches!(why, Short::Ended(_)));
             diagnostics.extend(self.false_occurrences(model, short.as_ref()));
         }
     }
@@ -372,10 +372,10 @@ impl<'a> ClaimedMotion<'a> {
         diagnostics
     }
 
-    fn reach(&mut self, time: f64, limit: f64, told: &dyn Fn(f64)) -> Result<(), Short> {
+    fn reach(&mut self, time: f64, limit: f64, report: &dyn Fn(f64)) -> Result<(), Short> {
         loop {
-            told(self.course.undisturbed().1);
-            let portion = self.budget.min(TOLD);
+            report(self.course.undisturbed().1);
+            let portion = self.budget.min(STEPS_PER_REPORT);
             let mut left = portion;
             let reached = self.course.reach(time, limit, &mut left);
             self.budget -= portion - left;

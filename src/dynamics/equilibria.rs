@@ -5,14 +5,14 @@
 //! equilibria), with kind, eigenvalues, frequencies and modes; under constraints the places on their surface
 //! (`constrained_balance`). Never here: text.
 //!
-//! The places are found by Newton's method with many beginnings (a sequence of Halton's), so that
+//! The places are found by Newton's method with many guesses (a sequence of Halton's), so that
 //! what is found is certain and what is not found is likely, but not certain, to be absent. The
 //! kind is that of the effective potential: the least energy at fixed coordinates, whose second
 //! derivative is H_qq − H_qp H_pp⁻¹ H_pq.
 
 mod acceptance;
-mod beginnings;
 mod family;
+mod guesses;
 mod likeness;
 mod search;
 mod zero;
@@ -88,21 +88,21 @@ pub fn equilibria_watched(
     let mut found: Vec<Equilibrium> = Vec::new();
     let mut families: Vec<EquilibriumFamily> = Vec::new();
     let (mut cancelled, mut is_complete) = (false, true);
-    let (mut beginning, mut searched) = (0, 0);
+    let (mut guess, mut searched) = (0, 0);
     // laws are often the same in a mirror, and so are their equilibria; others may lie close by
     let mut further: Vec<Vec<f64>> = Vec::new();
     let mut crossings: Vec<Vec<f64>> = Vec::new();
-    let beginnings = search.beginnings();
-    while beginning < beginnings || !further.is_empty() {
+    let guesses = search.guesses();
+    while guess < guesses || !further.is_empty() {
         if space.system().cancel().is_cancelled() {
             cancelled = true;
             break;
         }
-        report(searched, searched + further.len() + beginnings - beginning);
+        report(searched, searched + further.len() + guesses - guess);
         searched += 1;
         let place = further.pop().unwrap_or_else(|| {
-            beginning += 1;
-            search.beginning(beginning - 1)
+            guess += 1;
+            search.guess(guess - 1)
         });
         let Some(variables) = search.from(place) else { continue };
         if found.iter().any(|known| search.alike(&known.variables, &variables)) {
@@ -159,7 +159,7 @@ pub fn equilibria_watched(
         families.extend(family);
         found.push(one);
         if found.len() == MOST {
-            is_complete = beginning == beginnings && further.is_empty();
+            is_complete = guess == guesses && further.is_empty();
             break;
         }
     }

@@ -1,6 +1,6 @@
 //! The derivative of the flow at several times of one motion: M(t) = ∂η(t)/∂η(0) with its determinant and ‖M𝕁Mᵀ − 𝕁‖.
 //!
-//! In: a state, times. Out: [`FlowMoment`]s. Under a method of fixed step M is that of the method's own map, and the times are
+//! In: a state, times. Out: [`FlowAtTime`]s. Under a method of fixed step M is that of the method's own map, and the times are
 //! those at which its steps end. Never here: constraints, what rounding leaves ([`flow_map`](super::flow_map)).
 
 use nalgebra::DMatrix;
@@ -15,7 +15,7 @@ use crate::system::{Form, MotionError, State};
 
 /// The derivative of a motion by its initial values, at one time.
 #[derive(Clone, PartialEq, Debug)]
-pub struct FlowMoment {
+pub struct FlowAtTime {
     /// When the derivative is taken.
     pub time: f64,
     /// ∂η_i(t)/∂η_j(0).
@@ -54,7 +54,7 @@ pub fn flow_course(
     start: &State,
     times: &[f64],
     report: &mut dyn FnMut(f64),
-) -> Result<(Vec<FlowMoment>, Option<MotionError>), DynamicsError> {
+) -> Result<(Vec<FlowAtTime>, Option<MotionError>), DynamicsError> {
     let n = space.dimension();
     let mut carrier = Carrier::new(space, method, settings, n)?;
     carrier.start(start, &DMatrix::identity(n, n))?;
@@ -81,7 +81,7 @@ pub fn flow_course(
             // an impulse acts at the end of a step
             let jumped = if time < end { jumped } else { carrier.jump_determinant() };
             let expected = math::exp(logarithm) * jumped;
-            moments.push(FlowMoment::of(space, (time, steps), matrix, expected));
+            moments.push(FlowAtTime::of(space, (time, steps), matrix, expected));
         }
         if !left.is_empty() && done < end {
             logarithm += divergence.along(space, &mut carrier, [done, end])?;
@@ -93,7 +93,7 @@ pub fn flow_course(
     Ok((moments, None))
 }
 
-impl FlowMoment {
+impl FlowAtTime {
     /// Whether ‖M𝕁Mᵀ − 𝕁‖ is no more than what rounding leaves of it: M is symplectic as far as can be known.
     pub fn is_at_rounding(&self) -> bool {
         let known = self.symplectic_residual.zip(self.symplectic_rounding);
@@ -105,7 +105,7 @@ impl FlowMoment {
         (time, steps): (f64, u64),
         matrix: DMatrix<f64>,
         determinant_expected: f64,
-    ) -> FlowMoment {
+    ) -> FlowAtTime {
         let none = DMatrix::zeros(matrix.nrows(), matrix.ncols());
         let residual = || PhaseSpace::symplectic_residual(&matrix, &none);
         let residual = (space.form() == Form::Momentum).then(residual);
@@ -127,7 +127,7 @@ impl FlowMoment {
         // |M| |𝕁|
         let n = matrix.ncols();
         let swapped = DMatrix::from_fn(n, n, |i, j| matrix[(i, (j + n / 2) % n)].abs());
-        FlowMoment {
+        FlowAtTime {
             time,
             determinant,
             determinant_expected,
@@ -147,7 +147,7 @@ mod tests {
 
     #[test]
     fn a_map_is_symplectic_up_to_sixteen_times_its_rounding() {
-        let moment = |residual: f64| FlowMoment {
+        let moment = |residual: f64| FlowAtTime {
             time: 1.0,
             matrix: DMatrix::identity(2, 2),
             determinant: 1.0,
@@ -160,7 +160,7 @@ mod tests {
         };
         assert!(moment(0.0).is_at_rounding() && moment(15.9e-15).is_at_rounding());
         assert!(!moment(16.1e-15).is_at_rounding() && !moment(f64::NAN).is_at_rounding());
-        let unknown = FlowMoment { symplectic_residual: None, ..moment(0.0) };
+        let unknown = FlowAtTime { symplectic_residual: None, ..moment(0.0) };
         assert!(!unknown.is_at_rounding());
     }
 }

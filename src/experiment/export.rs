@@ -1,4 +1,4 @@
-//! The current state as a file: the text of a system with every changed value, beginning where the motion is now.
+//! The current state as a file: the text of a system with every changed value, starting where the motion is now.
 //!
 //! In: a document, its system, a [`Snapshot`]. Out: a text without errors. Never here: writing the file.
 
@@ -7,7 +7,7 @@ use crate::claims::false_claims;
 use crate::diagnostic::{Diagnostic, Document, Severity};
 use crate::model::{AttitudeSource, Model};
 use crate::num::math;
-use crate::preset::{Beginning, Rewrite};
+use crate::preset::{InitialState, Rewrite};
 use crate::system::{ChannelKind, System};
 
 /// The exported file.
@@ -54,11 +54,11 @@ impl Export {
         };
         if begun && all_active {
             rewrite.start = Some(snapshot.time).filter(|time| *time != model.run.start);
-            rewrite.initial = beginnings(model, |kind| value(system, snapshot, kind));
+            rewrite.initial = initial_states(model, |kind| value(system, snapshot, kind));
             rewrite.attitude = attitude(system, snapshot).filter(|_| is_integrated(model));
         } else {
             let count = model.coordinates.len();
-            rewrite.initial = beginnings(model, |kind| match kind {
+            rewrite.initial = initial_states(model, |kind| match kind {
                 ChannelKind::Position(i) => snapshot.initial.get(i).copied(),
                 ChannelKind::Velocity(i) | ChannelKind::Momentum(i) => {
                     snapshot.initial.get(count + i).copied()
@@ -135,7 +135,7 @@ fn wrong_in_motion(document: &Document) -> ExportErrors {
 }
 
 /// The start of every coordinate or variable, from the values of channels.
-fn beginnings(model: &Model, value: impl Fn(ChannelKind) -> Option<f64>) -> Vec<Beginning> {
+fn initial_states(model: &Model, value: impl Fn(ChannelKind) -> Option<f64>) -> Vec<InitialState> {
     let of = |(i, c): (usize, &crate::model::Coordinate)| {
         let rate = if model.is_poisson() {
             None
@@ -144,7 +144,7 @@ fn beginnings(model: &Model, value: impl Fn(ChannelKind) -> Option<f64>) -> Vec<
         } else {
             Some(("momentum", value(ChannelKind::Momentum(i))?))
         };
-        Some(Beginning { name: c.name.clone(), value: value(ChannelKind::Position(i))?, rate })
+        Some(InitialState { name: c.name.clone(), value: value(ChannelKind::Position(i))?, rate })
     };
     model.coordinates.iter().enumerate().filter_map(of).collect()
 }

@@ -12,7 +12,7 @@ use super::{
     Across, Answer, Columns, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, Offer,
     Physics, Picture, Plot, PlotContext, Present, Upwards,
 };
-use crate::dynamics::{FlowMoment, PhaseSpace, flow_course};
+use crate::dynamics::{FlowAtTime, PhaseSpace, flow_course};
 use crate::expr::Expr;
 use crate::integrate::{Method, Settings, method_named};
 use crate::job::{Job, Progress};
@@ -55,8 +55,8 @@ struct ComputedFlow {
 
 /// The moments of the map of the method, and of the exact flow where the method is another one.
 struct Courses {
-    own: Vec<FlowMoment>,
-    exact: Option<Vec<FlowMoment>>,
+    own: Vec<FlowAtTime>,
+    exact: Option<Vec<FlowAtTime>>,
     /// Whether nothing but H acts.
     is_hamiltonian: bool,
     /// When one of them ends early, and why.
@@ -124,8 +124,8 @@ impl Instrument for FlowPlot {
             let upwards = Upwards::Named("‖MJMᵀ − J‖".to_owned(), [0.0, 1.0]);
             return Some(Picture::Axes { upwards, layers, occurrences: None });
         };
-        let curve = |moments: &[FlowMoment], of: &dyn Fn(&FlowMoment) -> Option<f64>| {
-            let point = |moment: &FlowMoment| Some([moment.time, of(moment)?]);
+        let curve = |moments: &[FlowAtTime], of: &dyn Fn(&FlowAtTime) -> Option<f64>| {
+            let point = |moment: &FlowAtTime| Some([moment.time, of(moment)?]);
             moments.iter().filter_map(point).collect::<Vec<[f64; 2]>>()
         };
         let mut lines = Vec::new();
@@ -135,7 +135,7 @@ impl Instrument for FlowPlot {
             lines.push((CURVE, curve(&courses.own, &power), Ink::Curve(0)));
             "log₁₀ ‖MJMᵀ − J‖"
         } else {
-            let expected = |moment: &FlowMoment| Some(moment.determinant_expected);
+            let expected = |moment: &FlowAtTime| Some(moment.determinant_expected);
             lines.push((BESIDE, curve(&courses.own, &expected), Ink::Level));
             lines.push((CURVE, curve(&courses.own, &determinant), Ink::Curve(0)));
             "det M"
@@ -283,7 +283,7 @@ fn sentences(PlotContext { present, answer, .. }: PlotContext<'_>) -> Vec<String
     };
     lines.push(format!("t = {}: {found}, expected {expected}", at.trim_end()));
     if courses.is_hamiltonian && own.symplectic_residual.is_some() {
-        let of_square = |moment: &FlowMoment, residual: f64| {
+        let of_square = |moment: &FlowAtTime, residual: f64| {
             let largest = moment.matrix.amax();
             format!("{} of |M|²", size(residual / (largest * largest)))
         };
@@ -327,23 +327,23 @@ fn rows(matrix: &DMatrix<f64>, short: &dyn Fn(f64) -> String) -> String {
 }
 
 /// The last moment that the motion has passed.
-fn now<'a>(present: &Present<'_>, moments: &'a [FlowMoment]) -> Option<&'a FlowMoment> {
+fn now<'a>(present: &Present<'_>, moments: &'a [FlowAtTime]) -> Option<&'a FlowAtTime> {
     let passed = moments.partition_point(|moment| moment.time <= present.time);
     moments.get(passed.checked_sub(1)?)
 }
 
 /// det M, where rounding leaves something of it.
-fn determinant(moment: &FlowMoment) -> Option<f64> {
+fn determinant(moment: &FlowAtTime) -> Option<f64> {
     (!moment.determinant_lost).then_some(moment.determinant)
 }
 
 /// ‖MJMᵀ − J‖, where it is more than rounding of large entries.
-fn residual(moment: &FlowMoment) -> Option<f64> {
+fn residual(moment: &FlowAtTime) -> Option<f64> {
     moment.symplectic_residual.filter(|_| !moment.residual_lost)
 }
 
 /// The power of ten of ‖MJMᵀ − J‖; at rounding that of what rounding leaves, so that it is seen as a floor.
-fn power(moment: &FlowMoment) -> Option<f64> {
+fn power(moment: &FlowAtTime) -> Option<f64> {
     let residual = residual(moment)?;
     let seen = if moment.is_at_rounding() { moment.rounding_floor } else { residual };
     let power = math::ln(seen) / math::ln(10.0);

@@ -16,7 +16,7 @@ pub struct Rewrite {
     /// The time of the initial values.
     pub start: Option<f64>,
     /// The changed initial values of coordinates or variables.
-    pub initial: Vec<Beginning>,
+    pub initial: Vec<InitialState>,
     /// The initial Euler angles, for a body whose attitude is integrated.
     pub attitude: Option<[f64; 3]>,
     /// Their new values, by name.
@@ -29,7 +29,7 @@ pub struct Rewrite {
 
 /// The initial value of a coordinate or variable.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Beginning {
+pub struct InitialState {
     /// The name of the coordinate or variable.
     pub name: String,
     /// Where it begins.
@@ -45,15 +45,15 @@ impl Rewrite {
     /// Returns an error if the text is not valid TOML.
     pub fn of(&self, text: &str) -> Result<String, TomlError> {
         let mut file: DocumentMut = text.parse()?;
-        for beginning in &self.initial {
+        for state in &self.initial {
             let table = ["coordinates", "variables"].into_iter().find(|t| file.contains_key(t));
             let Some(all) = table.and_then(|t| file.get_mut(t)?.as_table_like_mut()) else {
                 continue;
             };
-            let entry = all.entry(&beginning.name).or_insert(Item::None);
+            let entry = all.entry(&state.name).or_insert(Item::None);
             let entry = table_in(entry, "initial");
-            set(entry, "initial", beginning.value);
-            if let Some((key, rate)) = beginning.rate {
+            set(entry, "initial", state.value);
+            if let Some((key, rate)) = state.rate {
                 set(entry, key, rate);
             }
         }

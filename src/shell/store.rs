@@ -256,7 +256,7 @@ mod tests {
             marks: vec![0.5],
             in_front: vec![1],
             plots: Vec::new(),
-            moment: Checkpoint {
+            checkpoint: Checkpoint {
                 parameters: vec![g],
                 speed: Some(f64::INFINITY),
                 ..Checkpoint::default()

@@ -245,7 +245,7 @@ const LEAST_TITLE: usize = 6;
 /// shortened, and only where little would be left of it the time goes.
 fn continuation(canvas: &Canvas<'_>, picker: &Picker, session: &Saved, width: usize) -> String {
     let title = canvas.text(&picker.title_of(session));
-    let Some(present) = &session.moment.present else { return format!("Continue: {title}") };
+    let Some(present) = &session.checkpoint.present else { return format!("Continue: {title}") };
     let time = brief(present.time, 2, canvas.style.glyphs);
     let unit = canvas.text(&session.time_unit);
     let time = format!(", t = {time} {unit}").trim_end().to_owned();

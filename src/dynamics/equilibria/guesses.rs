@@ -1,14 +1,14 @@
 //! Where the search for equilibria begins.
 //!
-//! In: a search, the number of a beginning, or an equilibrium. Out: variables near which there may be another. Never here: the search.
+//! In: a search, the number of a guess, or an equilibrium. Out: variables near which there may be another. Never here: the search.
 
 use super::search::{EquilibriumSearch, LawAtRest, size_of};
 use crate::dynamics::halton::halton;
 use crate::system::Form;
 
-const BEGINNINGS: usize = 200;
+const GUESSES: usize = 200;
 
-/// The number of the beginning at the origin.
+/// The number of the guess at the origin.
 const ORIGIN: usize = 1;
 
 /// How far around its centre a coordinate without period is searched, in its size there plus its
@@ -25,7 +25,7 @@ const MOST_MIRRORED: usize = 8;
 /// At the image of an equilibrium in a symmetry of the law the rates are no larger than this part of what the variables can cause.
 const NEARLY_ZERO: f64 = 1e-10;
 
-/// How far beside an equilibrium others are searched for, in units: nearer than most beginnings are to each other.
+/// How far beside an equilibrium others are searched for, in units: nearer than most guesses are to each other.
 const BESIDE: [f64; 6] = [1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1];
 
 impl EquilibriumSearch<'_> {
@@ -36,12 +36,12 @@ impl EquilibriumSearch<'_> {
         if ordinary { &RADII[..ORDINARY_RADII] } else { &RADII }
     }
 
-    pub(super) fn beginnings(&self) -> usize {
-        BEGINNINGS * self.radii().len()
+    pub(super) fn guesses(&self) -> usize {
+        GUESSES * self.radii().len()
     }
 
     /// The variables at which a search begins: the start itself, the origin, in which many laws are symmetric, then places around the start.
-    pub(super) fn beginning(&self, index: usize) -> Vec<f64> {
+    pub(super) fn guess(&self, index: usize) -> Vec<f64> {
         let mut variables = self.middle.clone();
         let canonical = self.space.form() == Form::Momentum;
         // all radii have the whole sequence of places

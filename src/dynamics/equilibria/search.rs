@@ -1,4 +1,4 @@
-//! The search for the places where nothing moves: Newton's method from many beginnings.
+//! The search for the places where nothing moves: Newton's method from many guesses.
 //!
 //! In: a phase space and a start. Out: the variables of places at which the rates vanish. Never here: what kind of equilibrium it is.
 
@@ -12,7 +12,7 @@ use crate::dynamics::phase_space::{NOTHING_MOVES, PhaseSpace};
 use crate::dynamics::vector_field::VectorField;
 use crate::system::{Form, State};
 
-/// The number of steps from each beginning.
+/// The number of steps from each guess.
 const STEPS: usize = 60;
 
 /// A rate counts as zero up to this part of what the variables can cause.
@@ -188,10 +188,10 @@ impl<'a> EquilibriumSearch<'a> {
         Some((known, error))
     }
 
-    /// Newton's method from a beginning.
-    pub(super) fn from(&mut self, beginning: Vec<f64>) -> Option<Vec<f64>> {
-        let first = beginning.clone();
-        let mut variables = beginning;
+    /// Newton's method from a guess.
+    pub(super) fn from(&mut self, guess: Vec<f64>) -> Option<Vec<f64>> {
+        let first = guess.clone();
+        let mut variables = guess;
         if self.unknowns.is_empty() {
             return None;
         }

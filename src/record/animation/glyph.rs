@@ -31,7 +31,7 @@ impl Glyph {
     }
 }
 
-/// What distinguishes the glyphs of characters: bold, italic, underlined, struck through.
+/// What distinguishes the glyphs of characters: bold, italic, underlined, strikethrough through.
 type Weight = [bool; 4];
 
 /// The characters that were drawn.
@@ -55,7 +55,7 @@ impl GlyphSheet {
 
     /// The pixels of a cell.
     pub(super) fn of(&mut self, cell: &ScreenCell) -> &Glyph {
-        let weight = [cell.bold, cell.italic, cell.underlined, cell.struck];
+        let weight = [cell.bold, cell.italic, cell.underlined, cell.strikethrough];
         let (size, font) = (self.cell, &self.font);
         self.known.entry((cell.character, weight)).or_insert_with(|| {
             let coverage = drawn(size, font, cell.character, weight);
@@ -71,7 +71,7 @@ impl GlyphSheet {
 }
 
 fn drawn(size: (usize, usize), font: &Font, character: char, weight: Weight) -> Coverage {
-    let [bold, italic, underlined, struck] = weight;
+    let [bold, italic, underlined, strikethrough] = weight;
     let mut coverage = Coverage::new(size.0, size.1);
     match GlyphShape::of(character) {
         Some(shape) => cover(&mut coverage, size, &shape),
@@ -85,7 +85,7 @@ fn drawn(size: (usize, usize), font: &Font, character: char, weight: Weight) -> 
         }
     }
     let thick = thickness(size, false) as usize;
-    for (wanted, sixteenths) in [(underlined, 14), (struck, 8)] {
+    for (wanted, sixteenths) in [(underlined, 14), (strikethrough, 8)] {
         if wanted {
             let top = size.1 * sixteenths / 16;
             coverage.rectangle((0, top), (size.0, top + thick), 1.0);

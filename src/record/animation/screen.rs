@@ -16,7 +16,7 @@ pub(super) struct ScreenCell {
     pub(super) bold: bool,
     pub(super) italic: bool,
     pub(super) underlined: bool,
-    pub(super) struck: bool,
+    pub(super) strikethrough: bool,
 }
 
 /// How much of a faint colour is that of the background.
@@ -75,7 +75,7 @@ impl CastTerminal {
             bold: pen.is_bold() && !blank,
             italic: pen.is_italic() && !blank,
             underlined: pen.is_underline(),
-            struck: pen.is_strikethrough(),
+            strikethrough: pen.is_strikethrough(),
         }
     }
 

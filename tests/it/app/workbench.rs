@@ -400,8 +400,8 @@ fn a_text_that_is_not_saved_outlives_the_session() {
     let (mut again, effects) = started_again(&app, true);
     // the motion belongs to the text and waits for it; a session that ends now is unchanged
     assert_eq!(effects, []);
-    assert_eq!(again.saved().unwrap().moment, left.moment);
-    assert_eq!(rest(&mut again), [Effect::Execute(Command::Restore(Box::new(left.moment)))]);
+    assert_eq!(again.saved().unwrap().checkpoint, left.checkpoint);
+    assert_eq!(rest(&mut again), [Effect::Execute(Command::Restore(Box::new(left.checkpoint)))]);
     press(&mut again, "E Ctrl-Home");
     assert_eq!(sheet(&again).editor.text(), sheet(&app).editor.text());
     assert!(sheet(&again).is_modified());
@@ -416,7 +416,7 @@ fn a_text_with_errors_that_is_not_saved_outlives_the_session_too() {
     let left = app.saved().unwrap();
     let (mut again, effects) = started_again(&app, true);
     assert_eq!(effects, []);
-    assert_eq!(rest(&mut again), [Effect::Execute(Command::Restore(Box::new(left.moment)))]);
+    assert_eq!(rest(&mut again), [Effect::Execute(Command::Restore(Box::new(left.checkpoint)))]);
     assert!(again.banner().is_some_and(|banner| banner.contains("thet")));
 }
 
