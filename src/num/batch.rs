@@ -8,6 +8,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::convolution::InnerProducts;
 use super::double_double::DoubleDouble;
+use super::four_lanes::{FourLanes, LANES};
 use super::instruction_set::Kernel;
 use super::real::{Analytic, Real};
 
@@ -29,6 +30,20 @@ macro_rules! lanes {
         }
         Batch(lanes)
     }};
+}
+
+impl Batch {
+    /// The numbers of one half of the lanes, 0 or 1.
+    #[inline(always)]
+    pub fn half<L: FourLanes>(&self, lanes: L, at: usize) -> L::Numbers {
+        lanes.from_array(self.0.as_chunks::<LANES>().0[at])
+    }
+
+    /// Sets them.
+    #[inline(always)]
+    pub fn set_half<L: FourLanes>(&mut self, lanes: L, at: usize, numbers: L::Numbers) {
+        self.0.as_chunks_mut::<LANES>().0[at] = lanes.to_array(numbers);
+    }
 }
 
 impl<const N: usize> Batch<N> {
@@ -95,26 +110,6 @@ impl<const N: usize> Batch<N> {
             all &= self.0[lane] >= other.0[lane];
         }
         all
-    }
-
-    /// Whether every number is above that of another batch in its lane; NaN is not.
-    #[inline(always)]
-    pub fn all_above(self, other: Batch<N>) -> bool {
-        let mut all = true;
-        for lane in 0..N {
-            all &= self.0[lane] > other.0[lane];
-        }
-        all
-    }
-
-    /// Whether a number is below that of another batch in its lane; NaN is not.
-    #[inline(always)]
-    pub fn is_below_somewhere(self, other: Batch<N>) -> bool {
-        let mut some = false;
-        for lane in 0..N {
-            some |= self.0[lane] < other.0[lane];
-        }
-        some
     }
 
     /// The sum and its rounding error: [`DoubleDouble::sum`] in each lane.

@@ -275,7 +275,8 @@ pub(super) fn reciprocals(k: usize) -> &'static [f64] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::{Batch, ScalarLanes};
+    use crate::integrate::taylor::last_orders::LANES;
+    use crate::num::{BATCH, Batch, ScalarLanes};
 
     /// A series whose terms grow by a factor from one to the next.
     fn geometric(ratio: f64) -> Vec<f64> {
@@ -329,7 +330,10 @@ mod tests {
                         passed += usize::from(passes);
                         let all: Vec<Batch> = series.iter().map(|&c| Batch::splat(c)).collect();
                         let powers = with.powers.map(Batch::splat);
-                        assert_eq!(shares.screen.passes_all(&all, &powers), passes, "{series:?}");
+                        for at in 0..BATCH / LANES {
+                            let all_pass = shares.screen.passes_all(ScalarLanes, &all, &powers, at);
+                            assert_eq!(all_pass, passes, "{series:?}");
+                        }
                         let lowest = shares.bounds.of_lowest(ScalarLanes, &series);
                         let log = lowest.least;
                         assert!(log <= found, "{series:?}");
