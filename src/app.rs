@@ -68,6 +68,7 @@ mod saved;
 mod search;
 mod searching;
 mod session;
+mod shape_traits;
 mod share;
 mod side;
 mod smart_case;

@@ -10,8 +10,9 @@
 //! and commands are queued in a buffer that the terminal drains at its own speed (`queue`), so that a stalled
 //! terminal blocks nothing. The theme decides whether there are colours (`NO_COLOR` turns them off), so crossterm
 //! is not asked.
-//! The terminal is asked one question, for its background (`background`), and nothing waits for the answer: answers
-//! arrive late over a slow connection, or as text in tmux and screen. All else follows from the environment.
+//! The terminal is asked at the start for its background and whether it knows the keyboard protocol of kitty (`question`), and
+//! nothing waits for the answers: these arrive late over a slow connection, or as text in tmux and screen. All else follows from
+//! the environment.
 
 pub(crate) mod atomic_file;
 mod background;

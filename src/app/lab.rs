@@ -7,19 +7,19 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use super::answers::{Answers, Derivations, Searches};
-use super::dragged_mass::{DraggedMass, draggable};
+use super::dragged_mass::DraggedMass;
 use super::earlier_window::EarlierWindow;
 use super::history::UndoHistory;
 use super::pane::Focus;
 use super::pending::PendingChanges;
 use super::restoration::Restoration;
+use super::shape_traits::ShapeTraits;
 use super::steady_verdicts::SteadyVerdicts;
 use super::{DrawnPanes, LawInView, LeastRange, Loaded, Pane, Prediction, Selection, ValueId};
 use crate::experiment::{Snapshot, Status};
-use crate::expr::Zero;
 use crate::instrument::{CameraPose, MotionCurve, Plot, Present, Returned};
 use crate::mechanics::Valuation;
-use crate::model::{Model, Shape};
+use crate::model::Shape;
 use crate::num::OrientationPolytope;
 use crate::preset::NewObservable;
 
@@ -39,10 +39,7 @@ pub struct Lab {
     /// The number of rows by which the law of motion is scrolled.
     pub law_scroll: u16,
     pub(super) drawn: DrawnPanes,
-    /// Whether each shape is a rod, a line of constant length.
-    rods: OfShapes,
-    /// Whether each shape is a mass that can be dragged.
-    draggable: OfShapes,
+    shapes: ShapeTraits,
     /// The mass that is dragged.
     pub(super) dragged: Option<Box<DraggedMass>>,
     /// The results computed in the background for the pictures, and the jobs under way.
@@ -68,64 +65,13 @@ pub struct Lab {
     pub(super) earlier_window: EarlierWindow,
 }
 
-/// Something of each shape: of the spatial picture, then of each view with shapes of its own.
-#[derive(Clone, Debug)]
-struct OfShapes {
-    space: Vec<bool>,
-    views: Vec<Vec<bool>>,
-}
-
-impl OfShapes {
-    fn new(loaded: &Loaded, among: impl Fn(&Loaded, &[Shape]) -> Vec<bool>) -> Self {
-        let views = loaded.model.views.iter();
-        Self {
-            space: among(loaded, &loaded.model.picture.shapes),
-            views: views.map(|v| among(loaded, v.shapes.as_deref().unwrap_or_default())).collect(),
-        }
-    }
-
-    /// Of the shapes that a camera sees.
-    fn seen_by(&self, eye: CameraPose, model: &Model) -> &[bool] {
-        eye.own_shapes(model).map_or(&self.space, |view| &self.views[view])
-    }
-}
-
-/// Returns for each shape whether it is a mass that can be dragged.
-fn draggable_among(loaded: &Loaded, shapes: &[Shape]) -> Vec<bool> {
-    shapes.iter().map(|shape| draggable(loaded, shape).is_some()).collect()
-}
-
-/// Returns for each line whether it is a rod, which turns: its length is independent of the coordinates, its direction is not.
-fn rods_among(loaded: &Loaded, shapes: &[Shape]) -> Vec<bool> {
-    let mut pool = loaded.equations.pool.clone();
-    let is_rod = |shape: &Shape| {
-        let Shape::Line { from, to } = shape else { return false };
-        let along = [0, 1, 2].map(|k| pool.sub(to[k], from[k]));
-        let squares = along.map(|difference| pool.powi(difference, 2));
-        let length = pool.sum(&squares);
-        let coordinates = &loaded.equations.coordinates;
-        let turns = along
-            .iter()
-            .any(|&component| coordinates.iter().any(|c| pool.depends(component, c.position)));
-        turns
-            && coordinates.iter().all(|c| {
-                let slope = pool.derivative(length, c.position);
-                pool.is_zero(slope) == Zero::Proved
-            })
-    };
-    shapes.iter().map(is_rod).collect()
-}
-
 impl Lab {
     /// Creates the initial view of a system.
     pub fn new(loaded: Loaded) -> Self {
         let plots = Plot::opening(loaded.physics());
-        let rods = OfShapes::new(&loaded, rods_among);
-        let draggable = OfShapes::new(&loaded, draggable_among);
         Self {
+            shapes: ShapeTraits::of(&loaded),
             loaded,
-            rods,
-            draggable,
             dragged: None,
             snapshot: None,
             plots,
@@ -220,13 +166,13 @@ impl Lab {
     /// Returns each shape that a camera sees, and whether it is a rod.
     pub fn shapes(&self, eye: CameraPose) -> impl Iterator<Item = (&Shape, bool)> {
         let model = &self.loaded.model;
-        eye.shapes(model).iter().zip(self.rods.seen_by(eye, model).iter().copied())
+        eye.shapes(model).iter().zip(self.shapes.seen_by(eye, model).iter().map(|one| one.is_rod))
     }
 
     /// Whether a shape is a mass that can be dragged in a picture.
     pub fn can_drag(&self, eye: CameraPose, shape: usize) -> bool {
-        let found = self.draggable.seen_by(eye, &self.loaded.model).get(shape);
-        eye.frame.is_none() && found.copied().unwrap_or(false)
+        let shape = self.shapes.seen_by(eye, &self.loaded.model).get(shape);
+        eye.frame.is_none() && shape.is_some_and(|shape| shape.is_draggable)
     }
 
     /// Returns the newest snapshot, if it is complete; one that reports a panic is not.

@@ -6,27 +6,30 @@
 
 mod drift_record;
 mod formula_monitors;
+mod inputs;
 mod integration_constants;
 mod invariant_monitor;
 mod mean;
+mod monitored;
 mod seen_distances;
 
-use std::collections::HashMap;
 use std::sync::Arc;
 
 use super::attitude::{ATTITUDE_GAUGE, AttitudeGauge};
-use super::law::{EnergyLaw, LONGEST};
 use super::residual::ResidualGauge;
 use super::{FoundConstant, Gauge, Reference};
-use crate::analysis::{Errors, RoundedInput, rounding_floor};
+use crate::analysis::{RoundedInput, rounding_floor};
 use crate::expr::{Expr, Symbol};
-use crate::mechanics::{Conserved, Equations, Valuation, casimir_rate};
-use crate::model::{Mechanics, Model};
+use crate::mechanics::Equations;
+use crate::model::Model;
 use crate::num::BATCH;
-use crate::system::{BatchTerms, ChannelKind, System, TermSums, TermWatch};
+use crate::system::{BatchTerms, System, TermSums, TermWatch};
 use formula_monitors::{ChannelValues, FormulaMonitors};
+pub(super) use inputs::GaugeInputs;
+use inputs::places;
 use integration_constants::IntegrationConstants;
-use invariant_monitor::{ENERGY_BALANCE, InvariantMonitor, MonitoredInvariant, MonitoredStep};
+use invariant_monitor::{InvariantMonitor, MonitoredStep};
+use monitored::{monitors, with_energy_opened};
 
 /// Rounding errors are measured once per this many samples.
 const MEASURED: u64 = 16;
@@ -315,150 +318,6 @@ fn contradict(gauges: &mut [Gauge]) {
             gauge.left = None;
         }
     }
-}
-
-/// The equations with the energy expanded in the conserved quantities. The error of an invariant is that of the
-/// energy's terms in it, which may nearly cancel.
-fn with_energy_opened(equations: &Arc<Equations>) -> Arc<Equations> {
-    let has_energy = |c: &Conserved| equations.pool.depends(c.expression, equations.symbols.energy);
-    if !equations.conserved.iter().any(has_energy) {
-        return Arc::clone(equations);
-    }
-    let mut equations = Equations::clone(equations);
-    let energy = HashMap::from([(equations.symbols.energy, equations.energy)]);
-    for i in 0..equations.conserved.len() {
-        let e = equations.conserved[i].expression;
-        equations.conserved[i].expression = equations.pool.substitute(e, &energy);
-    }
-    Arc::new(equations)
-}
-
-/// The Casimirs that forces change: the index, the name, the expression and its rate of change.
-fn changing_casimirs(model: &Model, equations: &Equations) -> Vec<(usize, (String, Expr, String))> {
-    let Mechanics::Poisson { casimirs, forces, .. } = &model.mechanics else { return Vec::new() };
-    let mut equations = equations.clone();
-    let mut changing = Vec::new();
-    for (i, (name, casimir, _)) in casimirs.iter().enumerate() {
-        let rate = casimir_rate(&mut equations, *casimir, forces);
-        if rate != Expr::ZERO {
-            let rate = equations.pool.unicode(rate);
-            let rate = if rate.chars().count() > LONGEST { "∇C·f".to_owned() } else { rate };
-            changing.push((i, (name.clone(), *casimir, format!("dC/dt = {rate}"))));
-        }
-    }
-    changing
-}
-
-/// The current values that the gauges read.
-pub(super) struct GaugeInputs<'a> {
-    pub(super) time: f64,
-    pub(super) steps: u64,
-    pub(super) errors: Errors,
-    /// The value of every channel.
-    pub(super) values: &'a [f64],
-    /// The residual of each constraint, in position and in velocity.
-    pub(super) residuals: &'a [[f64; 2]],
-    pub(super) action: f64,
-    /// The terms of the conserved quantities.
-    pub(super) terms: &'a TermWatch,
-    pub(super) system: &'a System,
-    /// The parameters, and the constants that follow from a body.
-    pub(super) constants: &'a Valuation,
-}
-
-impl<'a> GaugeInputs<'a> {
-    /// The value of a symbol of a state expression.
-    fn value_of(&self, symbol: Symbol, places: &[(Symbol, usize)], equations: &Equations) -> f64 {
-        match places.iter().find(|(s, _)| *s == symbol) {
-            Some(&(_, channel)) => self.values[channel],
-            None if symbol == equations.symbols.time => self.time,
-            None if symbol == equations.symbols.action => self.action,
-            None => self.constants.at(symbol),
-        }
-    }
-
-    fn channels(&self, places: &'a [(Symbol, usize)]) -> ChannelValues<'a> {
-        ChannelValues { time: self.time, values: self.values, places }
-    }
-}
-
-/// The monitors of what is conserved, and of what would be but for something that acts on it; the energy comes first.
-fn monitors(model: &Model, equations: &Equations, system: &System) -> Vec<InvariantMonitor> {
-    let find = |kind: ChannelKind| system.channels().iter().position(|c| c.kind == kind);
-    let mut monitors = Vec::new();
-    let mut add = |name: &str, reason: String, broken, kind, quantity, expression| {
-        let Some(channel) = find(kind) else { return };
-        let shown = system.channels()[channel].shown.clone();
-        let name = name.to_owned();
-        let invariant = MonitoredInvariant {
-            name,
-            shown,
-            reason,
-            proved: true,
-            broken,
-            channel,
-            quantity,
-            expression,
-        };
-        monitors.push(InvariantMonitor::new(invariant));
-    };
-    // the first quantity of a `TermWatch`
-    let energy = Some(0);
-    if !equations.conserved.iter().any(|c| c.name == "energy") {
-        let law = EnergyLaw::of(model, equations);
-        let kind = ChannelKind::Energy;
-        add("energy", law.cause, Some(law.rate), kind, energy, equations.energy);
-        let reason = "E − work done on it".to_owned();
-        add(ENERGY_BALANCE, reason, None, ChannelKind::EnergyBalance, energy, equations.energy);
-    } else if !model.impulses.is_empty() {
-        let reason = "E − impulse work".to_owned();
-        add(ENERGY_BALANCE, reason, None, ChannelKind::EnergyBalance, energy, equations.energy);
-    }
-    for (i, (name, casimir, law)) in changing_casimirs(model, equations) {
-        let reason = "Casimir; a force acts".to_owned();
-        add(&name, reason, Some(law), ChannelKind::Casimir(i), None, casimir);
-    }
-    for (i, conserved) in equations.conserved.iter().enumerate() {
-        let is_energy = conserved.name == "energy";
-        let kind = if is_energy { ChannelKind::Energy } else { ChannelKind::Conserved(i) };
-        let quantity = Some(if is_energy { 0 } else { i + 1 });
-        monitors.extend(find(kind).map(|channel| {
-            InvariantMonitor::new(MonitoredInvariant {
-                name: conserved.name.clone(),
-                shown: system.channels()[channel].shown.clone(),
-                reason: conserved.reason.to_string(),
-                proved: conserved.reason.is_proved(),
-                broken: None,
-                channel,
-                quantity,
-                expression: conserved.expression,
-            })
-        }));
-    }
-    monitors
-        .sort_by_key(|monitor| monitor.invariant.channel != find(ChannelKind::Energy).unwrap_or(0));
-    monitors
-}
-
-/// The channels of the symbols that formulas are made of.
-fn places(equations: &Equations, system: &System) -> Vec<(Symbol, usize)> {
-    let find = |kind: ChannelKind| system.channels().iter().position(|c| c.kind == kind);
-    let mut places = Vec::new();
-    for (i, c) in equations.coordinates.iter().enumerate() {
-        for (symbol, kind) in [
-            (c.position, ChannelKind::Position(i)),
-            (c.velocity, ChannelKind::Velocity(i)),
-            (c.momentum, ChannelKind::Momentum(i)),
-        ] {
-            places.extend(find(kind).map(|channel| (symbol, channel)));
-        }
-    }
-    places.extend(find(ChannelKind::Energy).map(|channel| (equations.symbols.energy, channel)));
-    for (i, symbol) in equations.supplements.attitude_symbols.iter().flatten().flatten().enumerate()
-    {
-        places.extend(find(ChannelKind::Attitude(i)).map(|channel| (*symbol, channel)));
-    }
-    places
 }
 
 #[cfg(test)]
