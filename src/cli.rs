@@ -56,6 +56,7 @@ mod section;
 mod slow_notice;
 mod spectrum;
 mod start_options;
+mod standard_output;
 mod starts;
 mod stderr;
 mod study;

@@ -132,8 +132,9 @@ pub(super) fn execute(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     }
     let out = Output::open(arguments.output.as_deref(), arguments.format.form())?;
     let stopped = interrupt.signal().is_some();
-    let text = written(arguments.format, &systems.turning, (&rows, &separatrices), stopped);
-    out.write_after_signal(&text, interrupt)?;
+    let found = (&rows[..], &separatrices[..]);
+    let text = || written(arguments.format, &systems.turning, found, stopped);
+    out.write_after_signal(text, interrupt)?;
     if let Some(signal) = interrupt.signal() {
         return Err(CommandError::Signal(signal));
     }

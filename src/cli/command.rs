@@ -3,7 +3,7 @@
 //! In: words. Out: an exit code. Never here: what a subcommand does.
 
 use std::ffi::OsString;
-use std::io::{self, Write};
+use std::io::Write;
 use std::process::ExitCode;
 
 use clap::error::{ContextKind, ContextValue};
@@ -43,6 +43,7 @@ use super::reverse;
 use super::run;
 use super::section;
 use super::spectrum;
+use super::standard_output::stdout;
 use super::stderr;
 use super::sweep;
 use super::symmetries;
@@ -305,7 +306,7 @@ fn dispatch(
 /// Shows help, the version, or what is wrong with the words.
 fn refused(words: &[OsString], error: &clap::Error) -> ExitCode {
     if !error.use_stderr() {
-        let printed = error.print().and_then(|()| io::stdout().flush());
+        let printed = stdout().and_then(|mut out| error.print().and_then(|()| out.flush()));
         return match printed.map_err(|why| CommandError::writing("standard output", &why)) {
             Ok(()) | Err(CommandError::NobodyReads) => ExitCode::SUCCESS,
             Err(error) => {

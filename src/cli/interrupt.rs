@@ -117,12 +117,9 @@ impl Interrupt {
         self.saves();
     }
 
-    /// Declares that this is done: after a signal it is the reader that is waited for, and otherwise nothing.
+    /// Declares that this is done. After a signal what is written then is waited for, and otherwise nothing.
     pub(super) fn is_prepared(&self) {
-        if self.signal().is_some() {
-            self.taken();
-            self.writes();
-        } else {
+        if self.signal().is_none() {
             self.0.saving.store(false, Ordering::Release);
         }
     }

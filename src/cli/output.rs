@@ -9,6 +9,7 @@ use std::path::Path;
 
 use super::error::CommandError;
 use super::interrupt::{Interrupt, PORTION};
+use super::standard_output::stdout;
 use super::stderr;
 use crate::printable;
 use crate::shell::atomic_file::{AtomicFile, Durability};
@@ -68,11 +69,15 @@ pub(super) struct Output {
     name: String,
     /// Whether a file that is not empty already exists there.
     over: bool,
+    /// What may end the command while it writes.
+    interrupt: Option<Interrupt>,
 }
 
 #[derive(Debug)]
 enum Target {
     Stdout(Stdout),
+    /// Standard output that is closed.
+    Closed,
     /// A device or a pipe.
     Direct(File),
     File(AtomicFile),
@@ -109,17 +114,23 @@ impl Output {
             AtomicFile::begin(path).map(Target::File)
         };
         let target = target.map_err(|error| CommandError::writing(&name, &error))?;
-        Ok(Output { writer: BufWriter::new(target), form, name, over })
+        Ok(Output { writer: BufWriter::new(target), form, name, over, interrupt: None })
     }
 
     fn standard(form: OutputForm) -> Output {
-        let writer = BufWriter::new(Target::Stdout(io::stdout()));
-        Output { writer, form, name: "standard output".to_owned(), over: false }
+        let writer = BufWriter::new(stdout().map_or(Target::Closed, Target::Stdout));
+        Output { writer, form, name: "standard output".to_owned(), over: false, interrupt: None }
     }
 
     /// Writes all of a text to standard output.
     pub(super) fn print(form: OutputForm, text: &str) -> Result<(), CommandError> {
         Output::standard(form).write_text(text)
+    }
+
+    /// The same output; a signal that comes while it is written waits for it. A file that is moved into place is waited for,
+    /// and so is a reader that takes what a signal left.
+    pub(super) fn waited_for(self, interrupt: &Interrupt) -> Output {
+        Output { interrupt: Some(interrupt.clone()), ..self }
     }
 
     /// Writes all of a text, and finishes.
@@ -128,36 +139,35 @@ impl Output {
         self.finish()
     }
 
-    /// The same. A file that is moved into place is waited for after a signal, and so is a reader that takes what a signal
-    /// left.
+    /// The same after a signal, too: the text, which may take long to be put into words, and its writing are waited for.
     pub(super) fn write_after_signal(
         self,
-        text: &str,
+        text: impl FnOnce() -> String,
         interrupt: &Interrupt,
     ) -> Result<(), CommandError> {
-        self.write_pieces(std::iter::once(text.to_owned()), interrupt)
+        interrupt.prepares();
+        let text = text();
+        interrupt.is_prepared();
+        self.write_pieces(std::iter::once(text), interrupt)
     }
 
     /// The same for a text that is put into words piece by piece: that of many rows takes longer than a command has to end
     /// by itself.
     pub(super) fn write_pieces(
-        mut self,
+        self,
         pieces: impl Iterator<Item = String>,
         interrupt: &Interrupt,
     ) -> Result<(), CommandError> {
-        if self.is_file() {
+        let mut out = self.waited_for(interrupt);
+        if out.is_file() {
             interrupt.saves();
         }
         for piece in pieces {
             for portion in piece.as_bytes().chunks(PORTION) {
-                if !self.is_file() && interrupt.signal().is_some() {
-                    interrupt.writes();
-                }
-                self.write_all(portion).map_err(|error| self.failed(&error))?;
-                interrupt.taken();
+                out.write_all(portion).map_err(|error| out.failed(&error))?;
             }
         }
-        self.finish()
+        out.finish()
     }
 
     /// Whether it is a file that is to be moved into place.
@@ -167,10 +177,14 @@ impl Output {
 
     /// Finishes writing, and reports if an existing file was replaced.
     pub(super) fn finish(self) -> Result<(), CommandError> {
-        let Self { writer, name, over, .. } = self;
+        let Self { writer, name, over, interrupt, .. } = self;
+        if let (Target::File(_), Some(interrupt)) = (writer.get_ref(), &interrupt) {
+            interrupt.saves();
+        }
         let done = writer.into_inner().map_err(io::IntoInnerError::into_error);
         let done = done.and_then(|target| match target {
             Target::Stdout(mut stdout) => stdout.flush(),
+            Target::Closed => Ok(()),
             Target::Direct(mut file) => file.flush(),
             Target::File(file) => file.finish(Durability::OnDisk),
         });
@@ -222,7 +236,16 @@ impl Write for Output {
             OutputForm::Json => printable::json(&text),
             OutputForm::Picture => return self.writer.write(bytes),
         };
+        if let Some(interrupt) = &self.interrupt
+            && interrupt.signal().is_some()
+            && !self.is_file()
+        {
+            interrupt.writes();
+        }
         self.writer.write_all(safe.as_bytes())?;
+        if let Some(interrupt) = &self.interrupt {
+            interrupt.taken();
+        }
         Ok(bytes.len())
     }
 
@@ -235,6 +258,7 @@ impl Write for Target {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         match self {
             Target::Stdout(stdout) => stdout.write(bytes),
+            Target::Closed => stdout()?.write(bytes),
             Target::Direct(file) => file.write(bytes),
             Target::File(file) => file.write(bytes),
         }
@@ -243,6 +267,7 @@ impl Write for Target {
     fn flush(&mut self) -> io::Result<()> {
         match self {
             Target::Stdout(stdout) => stdout.flush(),
+            Target::Closed => Ok(()),
             Target::Direct(file) => file.flush(),
             Target::File(file) => file.flush(),
         }

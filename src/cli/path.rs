@@ -111,7 +111,7 @@ pub(super) fn execute(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     // until here there is nothing to finish, so that a signal ends the search at once
     interrupt.ends_by_itself(|| ());
     let out = Output::open(arguments.output.as_deref(), arguments.format.form())?;
-    out.write_after_signal(&found.written(arguments.format, &laid), interrupt)
+    out.write_after_signal(|| found.written(arguments.format, &laid), interrupt)
 }
 
 /// The path, and what is known of it.

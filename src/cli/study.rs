@@ -4,7 +4,6 @@
 //! In: arguments. Out: a system at a state, with a method; an object or a text, written. Never
 //! here: what is computed.
 
-use std::io::Write;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -173,12 +172,8 @@ pub(super) fn write(
         StudyFormat::Text => (OutputForm::Text, text),
         StudyFormat::Json => (OutputForm::Json, format!("{:#}\n", Value::Object(object))),
     };
-    let mut out = Output::open(arguments.output.as_deref(), form)?;
-    out.write_all(text.as_bytes()).map_err(|error| out.failed(&error))?;
-    if out.is_file() {
-        interrupt.saves();
-    }
-    out.finish()?;
+    let out = Output::open(arguments.output.as_deref(), form)?;
+    out.write_after_signal(|| text, interrupt)?;
     match (interrupt.signal(), error) {
         (Some(signal), _) => Err(CommandError::Signal(signal)),
         (None, Some(error)) => Err(failed(error)),

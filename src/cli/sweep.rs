@@ -328,8 +328,8 @@ impl Sweep<'_> {
             return self.ended();
         }
         let out = Output::open(Some(path), OutputForm::Text)?;
-        let rows: String = lines.into_iter().flatten().collect();
-        out.write_after_signal(&(self.head() + &rows), self.interrupt)?;
+        let rows = || lines.into_iter().flatten().collect::<String>();
+        out.write_after_signal(|| self.head() + &rows(), self.interrupt)?;
         journal.remove();
         let mut all = Remarks::default();
         for (&place, remark) in &remarks {
@@ -358,7 +358,7 @@ impl Sweep<'_> {
         }
         let cells: Vec<Vec<TableCell>> = rows.iter().map(|row| row.cells.clone()).collect();
         let columns = self.table.columns();
-        let text = match self.arguments.format {
+        let text = || match self.arguments.format {
             TableFormat::Json => {
                 let mut members = self.table.header().members();
                 members.insert("columns".to_owned(), columns.into());
@@ -378,7 +378,7 @@ impl Sweep<'_> {
             }
             _ => cells::text(&columns, &cells),
         };
-        out.write_after_signal(&text, self.interrupt)?;
+        out.write_after_signal(text, self.interrupt)?;
         remarks.report(&self.table.advice());
         self.ended()
     }

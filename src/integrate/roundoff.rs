@@ -24,8 +24,8 @@ pub(super) struct RatesPoint<'a> {
     pub(super) step: f64,
 }
 
-/// Writes into `noise` the change of each rate when every number changes in its last places, and
-/// when it also changes by the rounding of its own rate over the step: a velocity that is nothing
+/// Writes into `noise` the change of each rate when every number and the time change in their last places, and
+/// when a number also changes by the rounding of its own rate over the step: a velocity that is nothing
 /// but rounding is the rate of its coordinate. This distinguishes a rate that is zero only by
 /// cancellation from one that is small, in any units. Across a kink a rate changes by more than
 /// rounding, and the measurement is discarded; so it is beside one, where a rate may have no bound, as that of |x|^0.7, and changes by
@@ -54,6 +54,12 @@ pub(super) fn measure(
             }
         }
     }
+    // the rates are evaluated at times that are rounded, which is all there is of them where a ramp has just begun
+    for time in [place.time.next_up(), place.time.next_down()] {
+        if rates.evaluate(time, place.numbers, &mut there).is_ok() && rates.sides().agrees(&sides) {
+            widen(noise, &there, &here);
+        }
+    }
     for pass in 0..2 {
         let own = noise.to_vec();
         for way in 0..WAYS {
@@ -66,13 +72,18 @@ pub(super) fn measure(
             {
                 continue;
             }
-            for ((noise, there), here) in noise.iter_mut().zip(&there).zip(&here) {
-                let change = (there - here).abs() + f64::EPSILON * here.abs();
-                if change.is_finite() {
-                    *noise = noise.max(change);
-                }
-            }
+            widen(noise, &there, &here);
         }
     }
     Ok(())
+}
+
+/// Counts the differences between two sets of rates as rounding.
+fn widen(noise: &mut [f64], there: &[f64], here: &[f64]) {
+    for ((noise, there), here) in noise.iter_mut().zip(there).zip(here) {
+        let change = (there - here).abs() + f64::EPSILON * here.abs();
+        if change.is_finite() {
+            *noise = noise.max(change);
+        }
+    }
 }

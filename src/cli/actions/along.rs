@@ -51,8 +51,8 @@ pub(super) fn execute(
         });
     }
     let out = Output::open(arguments.output.as_deref(), arguments.format.form())?;
-    let text = along.written(arguments.format, &laid, interrupt.signal().is_some());
-    out.write_after_signal(&text, interrupt)?;
+    let stopped = interrupt.signal().is_some();
+    out.write_after_signal(|| along.written(arguments.format, &laid, stopped), interrupt)?;
     match (interrupt.signal(), along.why) {
         (Some(signal), _) => Err(CommandError::Signal(signal)),
         (None, Some(why)) => Err(CommandError::CouldNot(why)),

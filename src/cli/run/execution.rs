@@ -67,7 +67,7 @@ impl PendingRows {
     }
 
     /// Ends the rows if a step does not finish; the report says that the run was stopped.
-    fn end_within_a_step(&self, interrupt: &Interrupt) {
+    fn end_within_a_step(&self) {
         // rows that are locked are being written and must be left alone
         let Some(rows) = self.0.try_lock().ok().and_then(|mut rows| rows.take()) else { return };
         let message = "stopped by a signal within a step; the invariants were not checked";
@@ -78,9 +78,6 @@ impl PendingRows {
             message: Some(message.to_owned()),
         };
         if let Ok(out) = rows.end(&closing) {
-            if out.is_file() {
-                interrupt.saves();
-            }
             // a failure can no longer be reported
             let _ = out.finish();
         }
@@ -98,10 +95,14 @@ impl Run<'_> {
         let name = out.name().to_owned();
         let failed = |error: &std::io::Error| CommandError::writing(&name, error);
         let table = PendingRows(Arc::default());
-        let (stuck, interrupt) = (table.clone(), self.interrupt.clone());
-        self.interrupt.ends_by_itself(move || stuck.end_within_a_step(&interrupt));
+        let (stuck, out) = (table.clone(), out.waited_for(self.interrupt));
+        self.interrupt.ends_by_itself(move || stuck.end_within_a_step());
         *table.rows() = Some(Rows::begin(format, out, header).map_err(|error| failed(&error))?);
         let mut end = self.rows(&table).err();
+        if let Some(EarlyEnd::Signal(_)) = end {
+            // what is left takes time with many events
+            self.interrupt.prepares();
+        }
         if let Some(EarlyEnd::Error(error)) = &mut end
             && error.time == self.times.start()
             && let Some(cause) = (self.cannot_start)()
@@ -115,9 +116,6 @@ impl Run<'_> {
         // rows that are gone were ended by the signal thread, which is about to end the process
         let Some(rows) = table.rows().take() else { return self.already_ended() };
         let out = rows.end(&closing).map_err(|error| failed(&error))?;
-        if out.is_file() {
-            self.interrupt.saves();
-        }
         out.finish()?;
         cautions::after(&self.experiment);
         let event_log = self.experiment.occurrences();
@@ -317,7 +315,7 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("out");
         let table = begun(&path, format);
-        table.clone().end_within_a_step(&Interrupt::default());
+        table.clone().end_within_a_step();
         assert!(table.rows().is_none(), "nobody writes behind the end");
         std::fs::read_to_string(path).expect("it is there")
     }
@@ -354,7 +352,7 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let table = begun(&folder.path().join("out"), RowFormat::Csv);
         let rows = table.rows();
-        table.end_within_a_step(&Interrupt::default());
+        table.end_within_a_step();
         assert!(rows.is_some(), "they are still to be written");
     }
 }

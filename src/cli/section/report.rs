@@ -54,12 +54,9 @@ impl SectionReport<'_> {
                 out.write_pieces(pieces, interrupt)
             }
             TableFormat::Text => {
-                // it takes time with many rows, also after a signal
-                interrupt.prepares();
-                let rows = self.rows().collect::<Vec<_>>();
-                let text = cells::text(&columns, &rows) + &self.remarks("");
-                interrupt.is_prepared();
-                out.write_after_signal(&text, interrupt)
+                let rows = || self.rows().collect::<Vec<_>>();
+                let text = || cells::text(&columns, &rows()) + &self.remarks("");
+                out.write_after_signal(text, interrupt)
             }
         }
     }

@@ -11,7 +11,11 @@ pub(super) const OBSERVABLE: SchemaTable = SchemaTable {
     keys: &[
         NAME,
         EXPRESSION,
-        key("conserved", Flag, "a claim that it is; checked"),
+        key(
+            "conserved",
+            Flag,
+            "a claim that it is, which is proved, or held against a motion: a drift above 1e-10 of the size of its terms is wrong; or a claim that it is not",
+        ),
         key(
             "unit",
             Text,
@@ -24,7 +28,11 @@ pub(super) const EXPECT: SchemaTable = SchemaTable {
     head: "[expect]",
     about: "The file's own test.",
     keys: &[
-        key("conserves", Texts, "`energy`, momenta, Casimirs, observables, expressions"),
+        key(
+            "conserves",
+            Texts,
+            "`energy`, momenta, Casimirs, observables, expressions: claims as `conserved` of an observable",
+        ),
         key("values", List(&EXPECTED_VALUE), "values at times"),
         key("events", List(&EXPECTED_EVENT), "when something happens"),
         key("count", List(&EXPECTED_COUNT), "how often it happens"),
@@ -85,7 +93,12 @@ pub(in crate::preset) const EXPECTED_BRACKET: SchemaTable = SchemaTable {
     keys: &[
         key("f", Formula, "the first").needed("write f = \"...\""),
         key("g", Formula, "the second").needed("write g = \"...\""),
-        key("is", Formula, "what [f, g] is").needed("write is = \"...\""),
+        key(
+            "is",
+            Formula,
+            "what [f, g] is, which is proved, or held against [f, g] at twenty points: a difference above 1e-10 of the size of its terms is wrong",
+        )
+        .needed("write is = \"...\""),
         SOURCE,
     ],
 };

@@ -235,3 +235,23 @@ fn the_oscillator_of_the_notes_loses_what_they_say() {
         assert!(file.contains(words), "{words}");
     }
 }
+
+/// The work that a ramp does is zero before it, and at first grows by steps of the clock: that is the rounding of its rate.
+#[test]
+fn dop853_passes_the_beginning_of_a_ramp() {
+    for (preset, tolerance) in [
+        ("slow-oscillator", "1e-7"),
+        ("slow-oscillator", "2.1544346900318777e-11"),
+        ("pendulum-drawn-up", "4.641588833612782e-8"),
+    ] {
+        let run = ["run", preset, "--at", "15", "--format", "json"];
+        let last = |words: &[&str]| {
+            let found = phaselab(&[&run[..], words].concat()).json();
+            assert_eq!(found["status"], "completed", "{preset} {tolerance}: {}", found["message"]);
+            found["rows"][0][1].as_f64().unwrap()
+        };
+        let (exact, found) = (last(&[]), last(&["--method", "dop853", "--tolerance", tolerance]));
+        let allowed = 100.0 * tolerance.parse::<f64>().unwrap();
+        assert!((found - exact).abs() < allowed, "{preset} {tolerance}: {found} is not {exact}");
+    }
+}

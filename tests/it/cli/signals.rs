@@ -236,6 +236,39 @@ fn ended(
     panic!("never enough: {arguments:?}");
 }
 
+/// The end of a run of many impulses takes longer to write than a command has to end: the object is complete all the same,
+/// also in a file.
+#[test]
+fn a_run_of_many_impulses_that_is_ended_lists_them() {
+    let home = tempfile::tempdir().unwrap();
+    let text = "title = \"Kicks\"\n[coordinates]\nx = { initial = 0, velocity = 1 }\n\
+        [lagrangian]\nL = \"1/2*x'^2 - 1/2*x^2\"\n\
+        [[impulses]]\nname = \"kick\"\nevery = 1e-6\nchange = { p_x = \"1e-9\" }\n";
+    fs::write(home.path().join("system.toml"), text).unwrap();
+    let many = |text: &str| {
+        let read = serde_json::from_str::<serde_json::Value>(text);
+        let read = read.unwrap_or_else(|error| panic!("{error}: {}", text.len()));
+        read["events"].as_array().unwrap().len() > 10_000
+    };
+    let to_output = ["run", "system.toml", "--until=1e9", "--format=json"];
+    ended(home.path(), &to_output, (Signal::INT, 130), many);
+    let to_file = ["run", "system.toml", "--until=1e9", "--format=json", "-o", "out.json"];
+    let mut time = Duration::from_millis(500);
+    loop {
+        let mut child = command(home.path(), &to_file).spawn().unwrap();
+        watching(&mut child);
+        thread::sleep(time);
+        signal(&child, Signal::TERM);
+        assert_eq!(end(&mut child), Some(143));
+        let text = fs::read_to_string(home.path().join("out.json")).expect("a file");
+        if many(&text) {
+            return;
+        }
+        time *= 2;
+        assert!(time < PATIENCE, "never many");
+    }
+}
+
 /// A section that is ended has the crossings so far, in an object that is complete.
 #[test]
 fn a_section_that_is_ended_has_what_it_has() {

@@ -195,5 +195,43 @@ fn all_commands_end_alike_where_their_output_ends() {
         let (code, message) = into(Stdio::from(full));
         assert_eq!(code, Some(74), "{arguments:?}: {message}");
         assert!(message.contains("cannot write standard output"), "{arguments:?}: {message}");
+        let shell = std::process::Command::new("sh")
+            .args(["-c", "exec \"$0\" \"$@\" >&-"])
+            .arg(assert_cmd::cargo::cargo_bin("phaselab"))
+            .args(arguments)
+            .current_dir(home.path())
+            .env("HOME", home.path())
+            .output()
+            .expect("a shell");
+        let message = String::from_utf8(shell.stderr).expect("UTF-8");
+        assert_eq!(shell.status.code(), Some(74), "{arguments:?}: {message}");
+        assert!(
+            message.contains("cannot write standard output: it is closed"),
+            "{arguments:?}: {message}"
+        );
+    }
+}
+
+/// What has nothing to write needs no standard output, and `/dev/null` is one.
+#[cfg(unix)]
+#[test]
+fn a_command_that_writes_nothing_does_without_standard_output() {
+    let home = folder();
+    for redirected in [
+        "check system.toml >&-",
+        "run system.toml --until 1 -o out.csv >&-",
+        "run system.toml --until 1 >/dev/null",
+        "run system.toml --until 1 1<>/dev/null",
+    ] {
+        let code = std::process::Command::new("sh")
+            .args(["-c", &format!("exec \"$0\" {redirected}")])
+            .arg(assert_cmd::cargo::cargo_bin("phaselab"))
+            .current_dir(home.path())
+            .env("HOME", home.path())
+            .stderr(Stdio::null())
+            .status()
+            .expect("a shell")
+            .code();
+        assert_eq!(code, Some(0), "{redirected}");
     }
 }
