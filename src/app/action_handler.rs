@@ -79,12 +79,8 @@ impl App {
         match action {
             Action::PlayPause => match lab.snapshot.as_ref().map(|s| &s.status) {
                 Some(Status::Running) => vec![Effect::Execute(Command::Pause)],
-                Some(Status::Failed(_)) => {
-                    self.fail("It cannot continue from here: reset it with r.")
-                }
-                Some(Status::Ended(_)) => {
-                    self.notify("The motion has ended: begin it again with r.")
-                }
+                Some(Status::Failed(_)) => self.fail("It cannot continue from here; r resets it."),
+                Some(Status::Ended(_)) => self.notify("The motion has ended; r restarts it."),
                 Some(Status::Paused) | None => vec![Effect::Execute(Command::Play)],
             },
             Action::Step => {

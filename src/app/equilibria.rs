@@ -60,7 +60,7 @@ impl App {
             Ok(found) => {
                 search.found = Some(Arc::clone(found));
                 if !found.is_complete {
-                    self.notify("The search has ended at so many equilibria: there may be more.");
+                    self.notify("The search ended after this many equilibria: there may be more.");
                 }
                 // what is being typed or read is not covered
                 if self.overlay.is_none() { self.list_equilibria() } else { Vec::new() }

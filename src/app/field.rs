@@ -86,8 +86,8 @@ impl InputField {
             | Purpose::TypedFlow
             | Purpose::Ramp(_)
             | Purpose::Surface(_) => return Ok(value),
-            Purpose::Step => "The step must be more than zero.",
-            Purpose::Tolerance => "The tolerance must be more than zero and less than one.",
+            Purpose::Step => "The step must be greater than zero.",
+            Purpose::Tolerance => "The tolerance must be between zero and one.",
         };
         let fits = value > 0.0 && (self.purpose == Purpose::Step || value < 1.0);
         if fits { Ok(value) } else { Err(sentence.to_owned()) }

@@ -249,7 +249,7 @@ impl Lab {
             items.push(Item::plain("another G …", about, Choice::TypedGenerator));
         }
         if lab.may_have_symmetries() {
-            let about = "changes of time and coordinates that take motions to motions";
+            let about = "changes of time and coordinates that map motions to motions";
             items.push(Item::plain("symmetries …", about, Choice::Symmetries));
         }
         if lab.searches.constants.under_way.is_some() {

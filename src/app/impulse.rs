@@ -55,8 +55,8 @@ impl App {
 
     pub(super) fn apply_impulse(&mut self, index: usize) -> Vec<Effect> {
         match self.snapshot().map(|s| &s.status) {
-            Some(Status::Ended(_)) => self.notify("The motion has ended: begin it again with r."),
-            Some(Status::Failed(_)) => self.fail("It cannot continue from here: reset it with r."),
+            Some(Status::Ended(_)) => self.notify("The motion has ended; r restarts it."),
+            Some(Status::Failed(_)) => self.fail("It cannot continue from here; r resets it."),
             _ => vec![Effect::Execute(Command::ApplyImpulse(index))],
         }
     }

@@ -67,8 +67,7 @@ impl App {
         }
         let leaves = self.asked_to_leave();
         if self.page == Page::Equations && self.stop_search() {
-            self.notifications
-                .show(Notification::info("The search was stopped; I begins it again."));
+            self.notifications.show(Notification::info("The search was stopped; I restarts it."));
             return vec![Effect::StopComputing(Asker::Search)];
         }
         match (self.page, &mut self.lab) {

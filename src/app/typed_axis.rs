@@ -79,7 +79,7 @@ impl App {
             view.take_off_axes(&lost, lab);
         }
         let sentence = format!(
-            "The text no longer has what the axis {} is made of; it was removed.",
+            "The text no longer defines {}, which was removed from the axis.",
             lost.join(", ")
         );
         self.notifications.show(Notification::error(sentence));

@@ -22,7 +22,7 @@ pub const LONGEST_PASTE: usize = 256 * 1024;
 
 /// Shown if the editor has no room for all of a paste.
 const LONG_TEXT: &str =
-    "The pasted text was too long and was cut: a paste may have 256 KiB, a file 1 MiB.";
+    "The pasted text was too long and was cut: a paste may be 256 KiB at most, a file 1 MiB.";
 
 impl App {
     /// Handles an event, and returns the effects to perform.

@@ -142,7 +142,7 @@ pub(super) fn execute(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         let rest = potential.at(own.place);
         let is_below = own.energy < rest && !potential.profile.is_same_energy(own.energy, rest);
         let why = if arguments.energy.is_none() && is_below {
-            "has less energy at the start than at rest there: its motion follows from no effective potential"
+            "has less energy at the start than it would have at rest there: no effective potential describes its motion"
         } else {
             "cannot move at the energies given"
         };
@@ -324,7 +324,7 @@ fn refuse_where_energy_is_not_conserved(laid: &Laid) -> Result<(), CommandError>
     if laid.equations.energy_rate == Expr::ZERO && !impulses {
         return Ok(());
     }
-    let message = "the energy of this system is not conserved, and a motion has no action";
+    let message = "the energy of this system is not conserved, so a motion has no action";
     Err(CommandError::CouldNot(message.to_owned()))
 }
 

@@ -58,7 +58,7 @@ const LONGEST_REASON: usize = 300;
 pub(super) fn tolerance(text: &str) -> Result<f64, String> {
     match ACCURACIES.iter().find(|(name, ..)| *name == text) {
         Some(&(_, tolerance)) => Ok(tolerance),
-        None => number(text).map_err(|why| format!("{why}; `fast` and `exact` are names of two")),
+        None => number(text).map_err(|why| format!("{why}; `fast` and `exact` are names for two")),
     }
 }
 
@@ -177,7 +177,7 @@ pub(super) fn given_by(
         let value = initial_value(model, parameters, assignment)?;
         if let Some(name) = multiplied(model, &assignment.value) {
             stderr::report(&format!(
-                "{option} {}={}: `{name}` is the parameter and no unit, so that this is {value:?}",
+                "{option} {}={}: `{name}` is the parameter, not a unit, so this is {value:?}",
                 printable::quoted(&assignment.name),
                 printable::quoted(&assignment.value)
             ));

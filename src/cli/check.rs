@@ -167,7 +167,7 @@ fn description(derived: &Derived) -> String {
         count => format!("{count} coordinates"),
     };
     match (always.is_empty(), between.is_empty()) {
-        (true, true) => format!("{coordinates}, nothing conserved that could be found"),
+        (true, true) => format!("{coordinates}, no conserved quantity was found"),
         (false, true) => format!("{coordinates}, conserved: {always}"),
         (true, false) => format!("{coordinates}, conserved between impulses: {between}"),
         (false, false) => {

@@ -72,7 +72,7 @@ pub(super) struct Arguments {
 /// The text below the help of the program itself.
 const EXAMPLES: &str = "\
 Examples:
-  phaselab tour                        begin here: three minutes, to a law of your own
+  phaselab tour                        begin here: three minutes, to a Lagrangian of your own
   phaselab                             choose a system and watch it move
   phaselab double-pendulum             open a preset
   phaselab pendulum --set l=2          with another length (Ctrl-y copies it)
@@ -412,7 +412,7 @@ fn unknown(word: &str) -> Option<String> {
         (Some(file), _) => format!("did you mean the file `{}`?", printable::quoted(&file)),
         (None, Some(near)) => format!("did you mean `{}`?", printable::line(near)),
         (None, None) => {
-            "`phaselab list` has the presets, `phaselab --help` the commands".to_owned()
+            "`phaselab list` lists the presets, `phaselab --help` the commands".to_owned()
         }
     };
     Some(format!("there is no command or preset `{}`; {help}", printable::quoted(word)))

@@ -102,7 +102,7 @@ fn balance(names: &[String], work: &VirtualWork) -> Value {
 fn text(study: &Study, found: &Equilibria) -> String {
     let names = study.space.names();
     if found.found.is_empty() {
-        return "no equilibrium in reach of the start\n".to_owned();
+        return "no equilibrium was found near the start\n".to_owned();
     }
     let mut text = String::new();
     for one in &found.found {
@@ -168,7 +168,7 @@ fn text(study: &Study, found: &Equilibria) -> String {
         text.push('\n');
     }
     if !found.is_complete {
-        text.push_str("the search has ended at so many: there may be more\n\n");
+        text.push_str("the search ended after this many: there may be more\n\n");
     }
     if !found.periods.is_empty() {
         let turn = |&(i, period): &(usize, f64)| format!("{} by {}", names[i], shown(period));

@@ -44,7 +44,7 @@ pub const EXITS: &[Exit] = &[
         "a file is wrong: a system, a script, the configuration; its errors are reported in their \
          places",
     ),
-    exit("74", "output could not be written; a file that stood there is as it was"),
+    exit("74", "output could not be written; an existing file is unchanged"),
     exit("101", "a panic: a bug in phaselab; the terminal is restored first"),
     exit("129", "ended by a signal: the terminal has hung up"),
     exit("130", "ended by a signal: interrupted (Ctrl-C)"),

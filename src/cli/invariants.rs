@@ -82,10 +82,10 @@ impl FromStr for Scan {
         let [from, to, step] = [number(from)?, number(to)?, number(step)?];
         let count = (to - from) / step;
         if !count.is_finite() || count < 0.0 {
-            return Err("the step does not lead from the first value to the last".to_owned());
+            return Err("the step does not lead from FROM to TO".to_owned());
         }
         if count > MOST_VALUES {
-            return Err(format!("these are more than {MOST_VALUES} values"));
+            return Err(format!("more than {MOST_VALUES} values are too many"));
         }
         // a rounding error must not cost the last one
         let last = (count + 1e-9).floor() as u32;

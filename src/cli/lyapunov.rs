@@ -52,7 +52,7 @@ fn count(text: &str) -> Result<Count, String> {
     match text.parse::<usize>() {
         _ if text == "all" => Ok(Count::All),
         Ok(count @ 1..) => Ok(Count::First(count)),
-        _ => Err("write a number from 1 on, or all".to_owned()),
+        _ => Err("write a whole number from 1 on, or all".to_owned()),
     }
 }
 

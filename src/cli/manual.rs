@@ -51,7 +51,7 @@ const ENVIRONMENT: &[(&str, &str)] = &[
     ("NO_COLOR", "No colours, whatever the configuration says."),
     ("COLORTERM, TERM", "How many colours the terminal has. The lab does not run where TERM=dumb."),
     ("LC_ALL, LC_CTYPE, LANG", "Whether mathematics and plots may be drawn in UTF-8."),
-    ("SSH_CONNECTION, SSH_TTY", "That the terminal is at the other end of a line."),
+    ("SSH_CONNECTION, SSH_TTY", "That the terminal is at the other end of an ssh connection."),
     ("XDG_CONFIG_HOME, HOME", "Where the configuration and your presets are."),
     ("XDG_STATE_HOME", "Where the last session is kept."),
 ];

@@ -52,11 +52,11 @@ impl MethodOptions {
         let shown = printable::number;
         match (self.step, self.tolerance) {
             (Some(step), _) if step <= 0.0 => {
-                return wrong(format!("--step {}: a step is above zero", shown(step)));
+                return wrong(format!("--step {}: a step must be above zero", shown(step)));
             }
             (_, Some(eps)) if eps <= 0.0 || eps >= 1.0 => {
                 return wrong(format!(
-                    "--tolerance {}: a tolerance lies between 0 and 1",
+                    "--tolerance {}: a tolerance must be between 0 and 1",
                     shown(eps)
                 ));
             }

@@ -73,7 +73,7 @@ fn text(method: &Method) -> String {
 fn stepping(stepping: Stepping) -> &'static str {
     match stepping {
         Stepping::Adaptive => "steps chosen by a tolerance",
-        Stepping::Fixed => "steps all alike",
+        Stepping::Fixed => "equal steps",
     }
 }
 

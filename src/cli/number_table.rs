@@ -45,14 +45,14 @@ impl NumberTable {
         let bytes = read.map_err(|why| CommandError::reading(path, &why))?;
         let wrong = |what: String| CommandError::WrongFile(format!("{shown}: {what}"));
         if bytes.len() as u64 > LIMIT {
-            return Err(wrong("a table may have 256 MiB; this one has more".to_owned()));
+            return Err(wrong("a table may be 256 MiB at most; this one is larger".to_owned()));
         }
         let text =
-            String::from_utf8(bytes).map_err(|_| wrong("it is not a text in UTF-8".to_owned()))?;
+            String::from_utf8(bytes).map_err(|_| wrong("it is not UTF-8 text".to_owned()))?;
         let is_json = text.trim_start().starts_with('{');
         let table = if is_json { of_json(&text) } else { of_values(&text) }.map_err(wrong)?;
         if table.columns.len() < 2 || table.rows.is_empty() {
-            return Err(wrong(format!("it has no two columns with rows; {ADVICE}")));
+            return Err(wrong(format!("it does not have two columns with rows; {ADVICE}")));
         }
         Ok(table)
     }
@@ -130,7 +130,7 @@ fn of_json(text: &str) -> Result<NumberTable, String> {
     } else if let (Some(along), Some(family)) = (word("along"), list("family")) {
         of_family(along, family)
     } else {
-        return Err(format!("it has no table; {ADVICE}"));
+        return Err(format!("it contains no table; {ADVICE}"));
     };
     let count = columns.len();
     let rows: Option<Vec<Vec<f64>>> =
@@ -138,7 +138,7 @@ fn of_json(text: &str) -> Result<NumberTable, String> {
     Ok(NumberTable {
         title: word("title").unwrap_or_default(),
         columns,
-        rows: rows.ok_or("its rows have not as many numbers as it has columns")?,
+        rows: rows.ok_or("its rows do not have one number for each column")?,
         surface: word("on"),
         is_spectrum: list("columns").is_none()
             && list("curve").is_none()

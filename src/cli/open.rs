@@ -108,7 +108,7 @@ pub(super) fn compile(
     refuse_twins(&system)?;
     for name in system.redundant() {
         stderr::report(&format!(
-            "the constraint `{name}` repeats at the start what those before it say"
+            "the constraint `{name}` follows at the start from those before it"
         ));
     }
     Ok(system)

@@ -67,7 +67,7 @@ impl FromStr for SweptValues {
         let (from, to) = (number(from)?, number(to)?);
         let count: u32 = count.trim().parse().map_err(|_| shape())?;
         if !(2..=MOST).contains(&count) || from == to {
-            return Err(format!("a family has from 2 to {MOST} values, from one to another"));
+            return Err(format!("a family has 2 to {MOST} values, between two different ends"));
         }
         Ok(SweptValues {
             name: name.trim().to_owned(),
@@ -121,7 +121,7 @@ fn fixed(arguments: &Arguments, study: &Study) -> Result<Fixed, CommandError> {
     let wrong = |what: &str| Err(CommandError::WrongUse(what.to_owned()));
     let conserved = space.has_energy_levels();
     match (arguments.energy, arguments.period) {
-        (_, Some(period)) if period <= 0.0 => wrong("--period: a period is above zero"),
+        (_, Some(period)) if period <= 0.0 => wrong("--period: a period must be above zero"),
         (Some(_), _) if !conserved => wrong(
             "--energy: the energy is not conserved, or everywhere the same, so it cannot select an orbit",
         ),

@@ -82,17 +82,17 @@ impl Epsilons {
         let (from, to) = (number(from)?, number(to)?);
         let count: u32 = count.trim().parse().map_err(|_| form.to_owned())?;
         match count {
-            0 => Err("there is at least one ε".to_owned()),
+            0 => Err("COUNT must be at least 1".to_owned()),
             1 => Ok(Epsilons(vec![from])),
             2..=10_000 => Ok(Epsilons(divisions(from, to, count - 1).collect())),
-            _ => Err("there are at most 10000 of ε".to_owned()),
+            _ => Err("COUNT must be at most 10000".to_owned()),
         }
     }
 }
 
 pub(super) fn execute(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
     if arguments.duration <= 0.0 {
-        return Err(CommandError::WrongUse("--in: a path takes a time above zero".to_owned()));
+        return Err(CommandError::WrongUse("--in: the time must be above zero".to_owned()));
     }
     if arguments.to.is_empty() && arguments.along.is_empty() {
         let why = "say where the path ends, --to x=VALUE, or write one, --along x=EXPR";

@@ -108,7 +108,7 @@ fn unchecked(left: &LeftRecording) -> String {
     let at = Duration::from_micros(left.reached).as_secs_f64();
     let (claims, were) = if missing == 1 { ("claim", "was") } else { ("claims", "were") };
     format!(
-        "left when {at:.1} s of the demo were recorded: {missing} {claims} of {all} {were} not \
+        "left after {at:.1} s of the demo: {missing} {claims} of {all} {were} not \
          reached; `phaselab script check` checks all of them"
     )
 }

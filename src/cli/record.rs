@@ -184,7 +184,8 @@ pub(super) fn cast_bytes(path: &Path) -> Result<Vec<u8>, CommandError> {
     let (bytes, _) =
         file::read(path, LARGEST_CAST).map_err(|why| CommandError::reading(path, &why))?;
     if bytes.len() as u64 > LARGEST_CAST {
-        let what = format!("{}: a cast may have 64 MiB; this one has more", printable::path(path));
+        let what =
+            format!("{}: a cast may be 64 MiB at most; this one is larger", printable::path(path));
         return Err(CommandError::WrongFile(what));
     }
     Ok(bytes)

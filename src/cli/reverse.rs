@@ -189,7 +189,7 @@ impl ReversedRun {
         let [turned, start] = [turned, start].map(|&time| shown(time));
         let error = match error {
             Some(0.0) => "to the last bit".to_owned(),
-            Some(error) => format!("to {error:.1e} from where it began"),
+            Some(error) => format!("{error:.1e} from where it began"),
             None => "not to the start".to_owned(),
         };
         let mut text = format!("from t = {turned} back to t = {start}: {error}\n\n");

@@ -21,7 +21,7 @@ pub(super) fn with_notice<T>(what: &str, work: impl FnOnce() -> T) -> T {
     thread::scope(|scope| {
         scope.spawn(move || {
             if waiting.recv_timeout(PATIENCE) == Err(RecvTimeoutError::Timeout) {
-                stderr::report(&format!("{what}; this takes long, and Ctrl-C ends it"));
+                stderr::report(&format!("{what}; this takes a while; Ctrl-C ends it"));
             }
         });
         let result = work();

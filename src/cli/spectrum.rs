@@ -82,7 +82,7 @@ pub(super) fn execute(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let least = start.time + SECONDS * speed;
     let until = arguments.until.or(model.run.until.filter(|&until| until > least)).unwrap_or(least);
     if until <= start.time {
-        let why = format!("--until: it has to be after the start, t = {:?}", start.time);
+        let why = format!("--until: it must be after the start, t = {:?}", start.time);
         return Err(CommandError::WrongUse(why));
     }
     interrupt.ends_by_itself(|| ());
@@ -237,7 +237,7 @@ fn text(found: &FoundSpectrum) -> String {
     }
     if spectrum.is_continuous() && spectrum.turns.is_none() && spectrum.close.is_none() {
         let part = 100.0 * spectrum.part_left();
-        text.push_str(&format!("that is {part:.0} % of it: it is not a sum of few lines\n"));
+        text.push_str(&format!("that is {part:.0} % of it: it is not a sum of a few lines\n"));
     }
     if let Some(drift) = drift {
         text.push_str(&format!(

@@ -90,7 +90,7 @@ pub(super) fn execute(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         return merge::execute(&arguments.merge, arguments.output.as_deref());
     }
     let Some(motion) = &arguments.motion else {
-        return wrong("a sweep is of a preset or a file, or --merge puts shards together");
+        return wrong("name a preset or a file to sweep, or put shards together with --merge");
     };
     if arguments.format != TableFormat::Csv && (arguments.shard.is_some() || arguments.resume) {
         return wrong("--shard and --resume write comma-separated values, --format csv");

@@ -28,7 +28,7 @@ use crate::model::Model;
 ///
 /// Each is a change of time and coordinates that changes L dt by a total derivative only: shifts,
 /// rotations, boosts, dilations. Beside it stands what is constant because of it. Then come the
-/// changes that only take motions to motions, such as Kepler's third law, and the virial theorem where T
+/// changes that only map motions to motions, such as Kepler's third law, and the virial theorem where T
 /// and V are homogeneous. The parameters have their values.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\

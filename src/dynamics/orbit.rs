@@ -208,7 +208,7 @@ pub(super) fn searched(
     let Some(period) = period else { return near_returns(space, method, start, (fixed, budget)) };
     let fixed = if space.is_autonomous() { fixed } else { Fixed::Period(period) };
     if !(period > 0.0 && period.is_finite()) {
-        return Err(unsuited("a period is above zero"));
+        return Err(unsuited("a period must be above zero"));
     }
     closed_near(space, method, (start, period), (fixed, budget))
 }

@@ -57,7 +57,7 @@ fn meant(file: Option<&str>, near: Option<&str>) -> String {
     match (file, near) {
         (Some(file), _) => format!("; did you mean the file `{}`?", printable::quoted(file)),
         (None, Some(near)) => format!("; did you mean `{}`?", printable::line(near)),
-        (None, None) => String::new(),
+        (None, None) => "; `phaselab list` lists the presets".to_owned(),
     }
 }
 

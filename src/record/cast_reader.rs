@@ -89,7 +89,8 @@ impl RecordedCast {
             (3, Some(term), _, _) => (term.cols, term.rows),
             (2 | 3, ..) => return Err(wrong(1, "the head has no size".to_owned())),
             (version, ..) => {
-                let what = format!("casts of version 2 and 3 are understood, not of {version}");
+                let what =
+                    format!("casts of version 2 and 3 can be read, not of version {version}");
                 return Err(wrong(1, what));
             }
         };
@@ -117,7 +118,7 @@ impl RecordedCast {
             if cast.end > (LONGEST as Micros) * SECOND {
                 return Err(wrong(
                     number,
-                    "a cast may last a day; this one lasts longer".to_owned(),
+                    "a cast may last a day at most; this one is longer".to_owned(),
                 ));
             }
             let data = data.as_str().unwrap_or_default();

@@ -64,7 +64,7 @@ impl Lesson {
         let (kind, word) = spoken(right);
         let (number, found, near) = (short(number), short(value), short(within));
         let text = format!(
-            "{word}: you predicted {number}; it is {found} (within {near} counts as right)."
+            "{word}: you predicted {number}; the answer is {found} (within {near} counts as right)."
         );
         Ok((vec![paragraph(kind, text)], (right, Truth::Value(value, within))))
     }
@@ -91,7 +91,7 @@ impl Lesson {
                 };
                 let [own, found] = [own, found].map(shown);
                 format!(
-                    "{word}: you predicted {own}; it is {found} (within {x} and {y} counts as right)."
+                    "{word}: you predicted {own}; the answer is {found} (within {x} and {y} counts as right)."
                 )
             }
             _ if right => format!(

@@ -238,7 +238,7 @@ impl ScriptRunner {
             ScriptStep::Speed(written) => {
                 let speed = assertion::value(&self.lab.app, &written)?;
                 if speed <= 0.0 {
-                    let message = format!("a speed is above zero; this is {speed}");
+                    let message = format!("a speed must be above zero; this is {speed}");
                     return Err(Diagnostic::error(written.place, message));
                 }
                 self.lab.execute(Command::Speed(speed));

@@ -86,7 +86,7 @@ impl NewFile {
     fn persist(self) -> io::Result<String> {
         let mut place = self.place(1);
         let mut temporary = self.temporary;
-        let mut why = io::Error::other(format!("there are {NAMES} files of that name"));
+        let mut why = io::Error::other(format!("there are already {NAMES} files of that name"));
         for number in 1..=NAMES {
             place = self.folder.join(numbered(&self.stem, number, self.ending));
             let persisted = match temporary.persist_noclobber(&place) {

@@ -110,7 +110,7 @@ impl LessonProgress {
         let version = text.parse::<toml::Table>().ok().and_then(|t| t.get("version")?.as_integer());
         match version {
             Some(version) if version > i64::from(VERSION) => {
-                return unknown("is of a newer phaselab");
+                return unknown("was written by a newer phaselab");
             }
             _ => {}
         }

@@ -128,7 +128,7 @@ impl SessionError {
                 format!("cannot read {}: {}", path.display(), printable::why(reason))
             }
             Self::Newer { path, .. } => {
-                format!("{} is of a newer phaselab and was left unchanged", path.display())
+                format!("{} was written by a newer phaselab and was left unchanged", path.display())
             }
             Self::Malformed { path, .. } => {
                 format!("{} cannot be understood and was left unchanged", path.display())

@@ -79,7 +79,7 @@ impl Store {
         let readable =
             read_or_put_aside(session, what, &mut troubles, |path| read_from(path).map(|_| ()));
         let texts = session.with_file_name("texts.toml");
-        let what = "texts that are left unsaved will not be kept";
+        let what = "unsaved texts will not be kept";
         let known = read_or_put_aside(&texts, what, &mut troubles, read_texts);
         let mut store = Self {
             texts: known.is_ok().then_some(texts),
@@ -101,7 +101,7 @@ impl Store {
         let message =
             "the session will not be saved: another phaselab is running and saves its own";
         let mut troubles = vec![message.to_owned()];
-        let what = "texts that are left unsaved will not be kept";
+        let what = "unsaved texts will not be kept";
         let known = read_or_put_aside(&texts, what, &mut troubles, read_texts);
         Self {
             session: None,

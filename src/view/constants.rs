@@ -31,7 +31,7 @@ pub(super) fn verdict(lab: &Lab, page: &mut TextPage) {
         None if lab.searches.constants.was_stopped() => {
             page.words(
                 Role::Dim,
-                "Integrable or not: the search was stopped; press I to begin it again.",
+                "Integrable or not: the search was stopped; press I to restart it.",
             );
         }
         None => page.words(Role::Dim, "Integrable or not: the search has not ended yet."),

@@ -185,7 +185,7 @@ fn sentence(verdict: &Verdict, glyphs: Glyphs) -> String {
         Verdict::Exact(Growth::Faster) => {
             "exact to rounding, but the error grows faster than √t".to_owned()
         }
-        Verdict::Bounded => "swings without trend, as under a symplectic method".to_owned(),
+        Verdict::Bounded => "oscillates without trend, as under a symplectic method".to_owned(),
         Verdict::Secular(slope) => {
             format!(
                 "grows by {} per unit of time, an error of the method",

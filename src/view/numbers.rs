@@ -116,7 +116,7 @@ fn occurrences(page: &mut TextPage, q: &Quantities<'_>) {
     if event_log.is_empty() {
         return;
     }
-    page.heading("What happened");
+    page.heading("Events and impulses");
     for EventCount { name, count, last } in event_log.counts() {
         let last = readable(*last, 10, q.style.glyphs);
         let rest = vec![(Role::Dim, format!(", last at t = {last}"))];

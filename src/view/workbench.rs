@@ -297,7 +297,7 @@ fn draw_notification(canvas: &mut Canvas<'_>, area: Rect, notice: &Notification)
 fn asking(canvas: &mut Canvas<'_>, area: Rect, asking: &Asking, notice: Option<&Notification>) {
     let (label, input, whole, help) = match asking {
         Asking::Words(input) => {
-            ("find: ", input, false, "Enter goes to the next place, Ctrl-g to one more.")
+            ("find: ", input, false, "Enter goes to the next match, Ctrl-g to the one after it.")
         }
         Asking::Name { input, whole } => (
             "save a copy as: ",

@@ -4,6 +4,7 @@
 //! here: which of them matter.
 
 use super::energy::{Energy, spread};
+use crate::num::math;
 
 /// A point where the energy has a minimum in one direction and a maximum in another.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,6 +36,15 @@ pub(super) fn saddles(energy: &mut Energy, region: [[f64; 2]; 2], count: usize) 
     found
 }
 
+/// The second differences that rounding leaves of an energy which is constant, relative to it.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
+/// The curvatures along the principal axes of a quadratic.
+fn principal(xx: f64, yy: f64, xy: f64) -> [f64; 2] {
+    let (middle, half) = (0.5 * (xx + yy), math::hypot(0.5 * (xx - yy), xy));
+    [middle - half, middle + half]
+}
+
 /// Whether the eight neighbours of a grid point, in cyclic order, change at least twice each from
 /// above to below it and back.
 fn is_saddle(values: &[f64], count: usize, i: usize, j: usize) -> bool {
@@ -49,7 +59,7 @@ fn is_saddle(values: &[f64], count: usize, i: usize, j: usize) -> bool {
 }
 
 /// Newton's method on a quadratic through nine points that converge. Returns `None` if it leads
-/// away or to no saddle.
+/// away or to no saddle, as where one of the curvatures is no more than rounding.
 fn refine(energy: &mut Energy, start: [f64; 2], cell: [f64; 2]) -> Option<Saddle> {
     let mut at = start;
     let mut reach = cell.map(|c| 0.5 * c);
@@ -61,7 +71,9 @@ fn refine(energy: &mut Energy, start: [f64; 2], cell: [f64; 2]) -> Option<Saddle
         let [xx, yy] = [v[5] - 2.0 * v[4] + v[3], v[7] - 2.0 * v[4] + v[1]];
         let xy = (v[8] - v[6] - v[2] + v[0]) / 4.0;
         let determinant = xx * yy - xy * xy;
-        if determinant.is_nan() || determinant >= 0.0 {
+        let rounding = ROUNDING * v.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
+        let [least, greatest] = principal(xx, yy, xy);
+        if determinant.is_nan() || least >= -rounding || greatest <= rounding {
             return None;
         }
         let step = [

@@ -174,7 +174,7 @@ impl TextReport<'_> {
                     variables.join(" ")
                 )
             }
-            Holonomy::Unknown => "holonomic or not: neither is proved".to_owned(),
+            Holonomy::Unknown => "whether it is holonomic is not known".to_owned(),
         };
         Some(self.words(&words))
     }
@@ -201,7 +201,7 @@ impl TextReport<'_> {
             ),
             Separation::Unknown(why) => {
                 let why = self.words(why);
-                format!("separates or not: not known; {why}")
+                format!("whether it separates is not known: {why}")
             }
         };
         self.heading("The Hamilton-Jacobi equation");
@@ -224,8 +224,8 @@ impl TextReport<'_> {
         let rows: Vec<_> = rows.collect();
         self.section("Forces of constraint", &rows);
         self.line(
-            "  (they stand beside the other forces, each constraint as written; many programs have the \
-             opposite sign)",
+            "  (added to the other forces, each constraint as written; many programs use the opposite \
+             sign)",
         );
     }
 
@@ -236,7 +236,7 @@ impl TextReport<'_> {
         let vakonomic = &self.report.equations.supplements.vakonomic;
         let (Some(vakonomic), Some(comparison)) = (vakonomic, &model.comparison) else { return };
         let title =
-            "The wrong mechanics, for comparison: the constraints put into L before it varies";
+            "The wrong mechanics, for comparison: the constraints put into L before it is varied";
         match &vakonomic.lagrangian {
             Ok(l) => {
                 let eliminated = comparison.eliminate.iter();
@@ -306,7 +306,7 @@ impl TextReport<'_> {
         }
         if report.energy_rate != Expr::ZERO {
             let rate = [("dE/dt".to_owned(), self.math(report.energy_rate))];
-            self.section("The energy's change", &rate);
+            self.section("How the energy changes", &rate);
         }
     }
 
@@ -321,7 +321,7 @@ impl TextReport<'_> {
         let known = report.conserved.iter().filter(|kept| !kept.reason.is_declared());
         let known: Vec<_> = known.collect();
         if known.is_empty() {
-            return self.heading("Conserved: nothing that is known");
+            return self.heading("Conserved: nothing known");
         }
         self.heading("Conserved");
         for kept in known {

@@ -16,11 +16,11 @@ pub(super) fn before(model: &Model, system: &System, equations: &Equations, meth
         let angle = equations.pool.text(angle);
         stderr::report(&format!(
             "{law} jumps at the cut of {angle}, where the angle goes from pi to -pi and the force is an impulse that no \
-             derivative shows: the motion goes over it without one; an angle that is a coordinate has no cut"
+             derivative shows: the motion crosses it without the impulse; an angle that is a coordinate has no cut"
         ));
     } else if equations.has_impulses_at_steps() {
         stderr::report(&format!(
-            "{law} has a step, where the force is an impulse that no derivative shows: the motion goes over it without one; \
+            "{law} has a step, where the force is an impulse that no derivative shows: the motion crosses it without the impulse; \
              make the step a steep slope, as with tanh, or give the impulse as an event"
         ));
     }

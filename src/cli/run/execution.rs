@@ -166,7 +166,7 @@ impl Run<'_> {
             stderr::report(&drift);
             let method = snapshot.method.name;
             return Err(CommandError::CouldNot(format!(
-                "{method} has stepped over the end of the motion, and what follows is none: {why}"
+                "{method} has stepped past the end of the motion, and what follows is no motion: {why}"
             )));
         }
         let narrow = self.experiment.narrow_passage();

@@ -100,7 +100,7 @@ fn description(gauge: &Gauge, about: &str) -> String {
     match gauge.verdict {
         Verdict::Lost => format!("{name} is lost: off by {drift} of what moves{since}"),
         Verdict::Bounded => {
-            format!("{name} swings without trend, by {drift} of what moves{since}")
+            format!("{name} oscillates without trend, by {drift} of what moves{since}")
         }
         Verdict::Secular(_) => format!("{name} drifts away: off by {drift} of what moves{since}"),
         _ => format!("{name} leaves its value by {drift} of what moves{since}"),

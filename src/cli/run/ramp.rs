@@ -35,7 +35,7 @@ impl FromStr for RampArgument {
         let &[from, to, start, duration] = numbers else { return Err(form.to_owned()) };
         let duration = number(duration)?;
         if duration <= 0.0 {
-            return Err("the duration of a ramp is above zero".to_owned());
+            return Err("the duration of a ramp must be above zero".to_owned());
         }
         Ok(RampArgument {
             name: name.trim().to_owned(),

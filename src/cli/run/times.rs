@@ -82,7 +82,7 @@ impl Times {
         let rows = match (every, at) {
             (Some(gap), _) if gap <= 0.0 => {
                 return wrong(format!(
-                    "--every {}: the time between two rows is above zero",
+                    "--every {}: the time between two rows must be above zero",
                     shown(gap)
                 ));
             }

@@ -92,7 +92,7 @@ pub(super) fn is_complete(
         return Ok(lines == rows + 1 && text.ends_with('\n'));
     }
     let path = printable::path(path);
-    let message = format!("{path} is not of this sweep: --resume leaves it as it is");
+    let message = format!("{path} does not belong to this sweep: --resume leaves it unchanged");
     Err(CommandError::WrongUse(message))
 }
 

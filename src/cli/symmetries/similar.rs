@@ -40,7 +40,7 @@ pub(super) fn missing(unwritten: usize, unfinished: usize) -> String {
         1 => format!("1 more is not written: {why}\n"),
         _ => format!("{count} more are not written: {why}\n"),
     };
-    line(unwritten, "no short fractions were found as coefficients with which it is proved")
+    line(unwritten, "no coefficients that are short fractions were found for a proof")
         + &line(unfinished, "the time allowed ran out (see --budget)")
 }
 
@@ -68,9 +68,9 @@ impl Others {
                     let here =
                         if symmetry.for_all_parameters { "" } else { " at these parameters" };
                     let kind = match symmetry.noether {
-                        Some(true) => "takes motions to motions; Noether's",
-                        Some(false) => "takes motions to motions; not Noether's",
-                        _ => "takes motions to motions",
+                        Some(true) => "maps motions to motions; Noether's",
+                        Some(false) => "maps motions to motions; not Noether's",
+                        _ => "maps motions to motions",
                     };
                     text.push_str(&format!("\n{}\n", symmetry.name));
                     text.push_str(&format!(

@@ -53,12 +53,14 @@ impl Scope {
         if let Some(apart) = self.taken_apart(name, primes) {
             return error.with_help(format!("names side by side are written apart: `{apart}`"));
         }
-        let positions = self.names.iter().filter(|(_, m)| matches!(m, Meaning::Position(_)));
-        let mut positions: Vec<&str> = positions.map(|(name, _)| name.as_str()).collect();
-        positions.sort_unstable();
-        let is_position = |name: &str| positions.contains(&name);
+        let positions = self.names.iter().filter_map(|(name, meaning)| match meaning {
+            Meaning::Position([symbol, ..]) => Some((symbol, name.as_str())),
+            _ => None,
+        });
+        let first = positions.min().map(|(_, name)| name);
+        let is_position = |name: &str| matches!(self.names.get(name), Some(Meaning::Position(_)));
         let moves = self.objection(SymbolRole::Position).is_none() && primes == 0;
-        let written = notations::written_here(name, positions.first().copied(), &is_position);
+        let written = notations::written_here(name, first, &is_position);
         if let Some(help) = written.filter(|_| moves) {
             return error.with_help(help);
         }

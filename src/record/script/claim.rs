@@ -85,7 +85,7 @@ pub(super) fn claim(line: &mut ScriptLine<'_>) -> Result<Assert, Diagnostic> {
         relations.iter().find(|(sign, _)| line.take(sign)).map(|(_, relation)| *relation);
     let relation = relation.ok_or_else(|| {
         let here = line.word().map_or(line.here()..line.here(), |word| word.place);
-        Diagnostic::error(here, "here one of `=` `<` `>` is missing, between blanks")
+        Diagnostic::error(here, "one of `=` `<` `>` is missing here, between spaces")
     })?;
     let with = line.until(&["within"], "a value")?;
     let within = line.take("within").then(|| line.until(&[], "a tolerance")).transpose()?;

@@ -164,7 +164,7 @@ fn keys(line: &mut ScriptLine<'_>) -> Result<Vec<KeyEvent>, Diagnostic> {
                 return Err(Diagnostic::error(word.place, message));
             }
             (Some(_), None) => {
-                let message = format!("`{}` stands behind a key", word.text);
+                let message = format!("`{}` belongs after a key", word.text);
                 return Err(Diagnostic::error(word.place, message).with_help("as in Press Down x3"));
             }
             (None, _) => keys.push(key::named(&word.text).map_err(|near| {

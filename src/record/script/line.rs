@@ -126,7 +126,7 @@ impl<'a> ScriptLine<'a> {
             }
         }
         let place = self.start + from..self.start + self.text.len();
-        Err(Diagnostic::error(place, "this text has no end").with_help("put a \" behind it"))
+        Err(Diagnostic::error(place, "this text has no end").with_help("put a \" after it"))
     }
 
     /// The text up to one of these words, which must be surrounded by blanks; at least one character.
@@ -198,7 +198,7 @@ impl<'a> ScriptLine<'a> {
             return Ok(());
         }
         let place = self.here()..self.start + self.text.len();
-        let message = format!("`{}` is too much here", &self.text[self.at..]);
+        let message = format!("unexpected `{}`", &self.text[self.at..]);
         Err(Diagnostic::error(place, message).with_help(format!("it is written {form}")))
     }
 }

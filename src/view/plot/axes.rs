@@ -125,12 +125,20 @@ impl Axes {
         if area.width < LEAST.0 || area.height < LEAST.1 {
             return None;
         }
-        let titled = u16::from(!self.y.title.is_empty() || !self.y.unit.is_empty());
+        let named = !self.y.title.is_empty() || !self.y.unit.is_empty();
+        let (frame, y) = self.below_heading(area, u16::from(named), glyphs);
+        // The power of ten that the labels share stands in the row of the heading.
+        let factor = !named && y.exponent != 0;
+        Some(if factor { self.below_heading(area, 1, glyphs) } else { (frame, y) })
+    }
+
+    /// The frame beside the labels and below so many rows of a heading, and the ticks.
+    fn below_heading(&self, area: Rect, rows: u16, glyphs: Glyphs) -> (PlotFrame, Ticks) {
         let inside = |margin: u16| Rect {
             x: area.x.saturating_add(margin),
-            y: area.y.saturating_add(titled),
+            y: area.y.saturating_add(rows),
             width: area.width - margin,
-            height: area.height - titled - 2,
+            height: area.height - rows - 2,
         };
         // The width of the labels depends on the range, which with equal units depends on the width; then two rounds suffice.
         let mut margin = 6;
@@ -142,7 +150,7 @@ impl Axes {
             margin = (widest as u16 + 2).min(area.width / 3);
             frame = self.over(inside(margin));
         }
-        Some((frame, y))
+        (frame, y)
     }
 
     fn over(&self, area: Rect) -> PlotFrame {

@@ -71,6 +71,17 @@ fn an_oscillator_has_ellipses_and_no_separatrix() {
     assert!(closed.count() >= 4, "{} curves", found.levels.len());
 }
 
+/// Equal weights rest at every height: the whole line p = 0 consists of equilibria, and none of them is a saddle.
+#[test]
+fn a_line_of_equilibria_has_no_saddles() {
+    for speed in [0.3, 0.5, 1.0] {
+        let motion = [[0.5, 2.0], [-2.0 * speed, 0.0]];
+        let found = survey("atwood", &[("m1", 1.0)], Form::Momentum, motion);
+        assert!(found.saddles.is_empty(), "{speed}: {:?}", found.saddles);
+        assert!(found.separatrices.is_empty(), "{speed}");
+    }
+}
+
 /// A start is enough for a window that shows all of the orbit: the turning point x₀ and the greatest momentum √(m k) x₀.
 #[test]
 fn the_first_window_contains_a_bounded_orbit() {

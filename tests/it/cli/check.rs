@@ -426,7 +426,7 @@ fn constraints_that_touch_are_said_to_repeat_each_other_at_the_start() {
                  [[constraints]]\nname = \"d\"\nexpression = \"y - 1 + x^2/2\"\n";
     let file = one("x = { initial = 0, velocity = 1 }", touch);
     let done = with_file(&file, &["check", "system.toml"]);
-    let said = "the constraint `d` repeats at the start what those before it say";
+    let said = "the constraint `d` follows at the start from those before it";
     assert!(done.stderr.contains(said), "{}", done.stderr);
 }
 

@@ -73,7 +73,7 @@ fn wrong_use_ends_with_two() {
         (&["lyapunov", "pendulum", "--until", "0"][..], "the end lies after the start"),
         (&["lyapunov", "pendulum", "--gali", "9", "--until", "10"], "GALI takes from 2"),
         (&["run", "pendulum", "--flow-of", "action"], "not a function of its state"),
-        (&["orbit", "pendulum", "--period", "-1"], "a period is above zero"),
+        (&["orbit", "pendulum", "--period", "-1"], "a period must be above zero"),
         (&["section", "pendulum", "--on", "theta", "--count", "-1"], "invalid value '-1'"),
         (
             &["path", "pendulum", "--in", "1", "--to", "theta=1", "--to", "theta=2"],

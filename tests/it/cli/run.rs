@@ -513,7 +513,7 @@ fn an_invariant_that_is_lost_is_reported_in_one_line() {
 fn a_symplectic_swing_is_reported_as_what_it_is() {
     let done = run(&["--method", "leapfrog", "--step", "0.1", "--until", "60", "--strict"]);
     assert_eq!(done.code, 1, "{}", done.stderr);
-    reported(&done, &["`energy` swings without trend, by "]);
+    reported(&done, &["`energy` oscillates without trend, by "]);
     let fine = run(&["--method", "yoshida8", "--step", "0.05", "--until", "60", "--strict"]);
     assert_eq!((fine.code, fine.stderr.as_str()), (0, ""));
 }
@@ -553,7 +553,7 @@ fn equal_steps_over_the_end_of_a_motion_are_an_error() {
     };
     let past = with("2");
     assert_eq!(past.code, 1, "{}", past.stderr);
-    assert!(past.stderr.contains("rk4 has stepped over the end of the motion"), "{}", past.stderr);
+    assert!(past.stderr.contains("rk4 has stepped past the end of the motion"), "{}", past.stderr);
     assert!(past.stderr.contains("t = 0.5"), "{}", past.stderr);
     assert_eq!(csv(&past.stdout).len(), 201);
     assert_eq!((with("0.4").code, with("0.4").stderr.as_str()), (0, ""));
@@ -608,7 +608,7 @@ fn equal_steps_over_a_weak_pole_of_friction_are_an_error() {
             let past = with_file(text, &fixed);
             assert_eq!(past.code, 1, "{}", past.stderr);
             assert!(
-                past.stderr.contains("has stepped over the end of the motion"),
+                past.stderr.contains("has stepped past the end of the motion"),
                 "{}",
                 past.stderr
             );
@@ -735,7 +735,7 @@ fn a_constant_in_the_potential_hides_no_drift() {
             "json",
         ];
         let done = with_file(&file, &arguments);
-        reported(&done, &["`energy` swings without trend"]);
+        reported(&done, &["`energy` oscillates without trend"]);
         let object: Value = serde_json::from_str(&done.stdout).expect("JSON");
         assert_eq!(object["invariants"][0]["verdict"], "bounded");
         object["invariants"][0]["max_drift"].as_f64().expect("a number")
@@ -1236,7 +1236,7 @@ fn an_event_whose_function_has_lost_its_value_is_named() {
 fn a_parameter_with_the_name_of_a_unit_is_pointed_out() {
     let text = PENDULUM.to_owned();
     let done = with_file(&text, &["run", "system.toml", "--init", "theta=0.5 m", "--until", "1"]);
-    let said = "--init theta=0.5 m: `m` is the parameter and no unit, so that this is 1.0";
+    let said = "--init theta=0.5 m: `m` is the parameter, not a unit, so this is 1.0";
     assert!(done.code == 0 && done.stderr.contains(said), "{}", done.stderr);
 }
 

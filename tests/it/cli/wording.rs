@@ -25,7 +25,7 @@ fn a_name_that_is_not_there_is_told_with_those_that_are() {
     let family = "there is no parameter `q`; there are m, l, g, theta0, energy, period";
     phaselab(&["orbit", "pendulum", "--along", "q=1:2:3"]).fails(2, &[family]);
     phaselab(&["actions", "double-pendulum"]).fails(2, &["give --coordinate theta1 or theta2"]);
-    let lists = "`phaselab list` has the presets, `phaselab --help` the commands";
+    let lists = "`phaselab list` lists the presets, `phaselab --help` the commands";
     phaselab(&["zzzzzz"]).fails(2, &["there is no command or preset `zzzzzz`", lists]);
 }
 

@@ -180,7 +180,7 @@ fn a_misspelt_name_gets_the_nearest() {
         assert_eq!(said, format!("there is no preset `{wanted}`; did you mean `{meant}`?"));
     }
     let error = catalog.find("zzzzzz").unwrap_err();
-    assert_eq!(error.to_string(), "there is no preset `zzzzzz`");
+    assert_eq!(error.to_string(), "there is no preset `zzzzzz`; `phaselab list` lists the presets");
 }
 
 #[test]

@@ -129,8 +129,8 @@ fn shipped_lessons_ask_for_a_value_and_end_with_the_lab() {
 fn an_answer_is_committed_before_the_outcome_and_shown_beside_it() {
     // at the aphelion r = a (1 + e) = 1.6
     for (typed, verdict) in [
-        ("1.55", "+ Right: you predicted 1.55; it is 1.6"),
-        ("2", "x Wrong: you predicted 2; it is 1.6"),
+        ("1.55", "+ Right: you predicted 1.55; the answer is 1.6"),
+        ("2", "x Wrong: you predicted 2; the answer is 1.6"),
     ] {
         let mut lesson = taken(HALF);
         pass(&mut lesson, 9.0);

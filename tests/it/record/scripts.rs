@@ -49,13 +49,13 @@ fn errors_stand_in_their_places() {
     check("Wait", &["1:5 here a time is missing"]);
     check("Wait 2", &["1:6 is 2 in seconds or milliseconds?; write 2s or 2ms"]);
     check("Wait soon", &["1:6 `soon` is not a time; write it as 2s, 0.5s or 150ms"]);
-    check("Wait 1s 2s", &["1:9 `2s` is too much here; it is written Wait 2s"]);
+    check("Wait 1s 2s", &["1:9 unexpected `2s`; it is written Wait 2s"]);
     check("Wait 1s\nWait 9999999s", &["2:14 a demo may last an hour; this one lasts 10000000 s"]);
     check("Press Tba\nWait 1s", &["1:7 there is no key `Tba`; did you mean `Tab`?"]);
-    check("Press x3", &["1:7 `x3` stands behind a key; as in Press Down x3"]);
+    check("Press x3", &["1:7 `x3` belongs after a key; as in Press Down x3"]);
     check("Press", &["1:6 here a key is missing"]);
     check("Caption bare words", &["1:9 a text belongs in quotes; write it as \"bare words\""]);
-    check("Caption \"open", &["1:9 this text has no end; put a \" behind it"]);
+    check("Caption \"open", &["1:9 this text has no end; put a \" after it"]);
     check(
         "Wait 1s\nSize 80x24",
         &[
@@ -100,7 +100,7 @@ fn errors_stand_in_their_places() {
         &["1:18 pendulum has no parameter or initial value `gg`; did you mean `g`?"],
     );
     check("Sweep l to 2", &["1:13 here `in` is missing"]);
-    check("Speed -1\nWait 1s", &["1:7 a speed is above zero; this is -1"]);
+    check("Speed -1\nWait 1s", &["1:7 a speed must be above zero; this is -1"]);
     check("Press q\nWait 1s", &["2:1 the lab was left before this line"]);
     // several at once, each at its position
     assert_eq!(diagnostics("Wiat 1s\nPress Entr\nWait\n").len(), 3);
@@ -148,7 +148,7 @@ fn claims_are_held_against_the_moment() {
     check("Assert screen \"Phase\"", &[]);
     check("Assert screen \"Fase\"", &["2:1 this is false: \"Fase\" is not on the screen"]);
     check("Assert t = 1", &["2:13 here how far it may be off is missing; add `within 1e-9`"]);
-    check("Assert t", &["2:9 here one of `=` `<` `>` is missing, between blanks"]);
+    check("Assert t", &["2:9 one of `=` `<` `>` is missing here, between spaces"]);
     check(
         "Assert count impulse = 1",
         &["2:14 pendulum has no event or impulse `impulse`; there are none"],
