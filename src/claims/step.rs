@@ -35,18 +35,18 @@ fn diagnostic(
         let names: Vec<&str> = fixed().map(|method| method.name).collect();
         let help = match nearest(method, names.iter().copied()) {
             Some(near) => format!("did you mean `{near}`?"),
-            None => format!("methods of fixed step are {}", names.join(", ")),
+            None => format!("fixed-step methods are {}", names.join(", ")),
         };
-        return error("cannot be held against", help);
+        return error("cannot be compared with", help);
     };
     let parameters = Valuation::of_parameters(model, &model.parameter_values());
     let step = parameters.value(&model.pool, claim.step);
     if !(step.is_finite() && step > 0.0) {
-        return error("cannot be held against", "its step is not above 0".to_owned());
+        return error("cannot be compared with", "its step is not above 0".to_owned());
     }
     let mut equations = equations.clone();
     match MethodStep::beside((model, &mut equations, system), transformation, (known, step)) {
-        Err(why) => error("cannot be held against", why.to_string()),
+        Err(why) => error("cannot be compared with", why.to_string()),
         // what is not a number is within nothing
         Ok(found) if found.image <= *within && found.derivative <= *within => None,
         Ok(found) => error(

@@ -22,8 +22,8 @@ use crate::printable;
 /// Report all errors in files, and whether what they claim is true.
 ///
 /// Reports go to standard error. A file's claims (`conserved`, `[expect]`) are checked by
-/// integrating the motion. If there are no errors, what was found is shown on a terminal, and
-/// nothing else is written.
+/// integrating the motion. If there are no errors, nothing is written but a summary, where a
+/// terminal shows it.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:

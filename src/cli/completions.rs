@@ -7,8 +7,8 @@ use super::output::{Output, OutputForm};
 
 /// Print what a shell needs to complete commands, options and the names of presets.
 ///
-/// In bash, zsh and fish the names of presets, yours among them, are asked for when they are
-/// wanted.
+/// In bash, zsh and fish the names of presets, including your own, are looked up when you complete
+/// a word.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:

@@ -19,7 +19,7 @@ const EVIDENCE: usize = 45;
 
 /// Report what the laboratory knows about the terminal, and why.
 ///
-/// Nothing is asked of the terminal: the environment says it.
+/// The terminal itself is not queried; what is reported comes from the environment.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:

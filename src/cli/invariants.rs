@@ -26,8 +26,8 @@ use crate::printable;
 ///
 /// Searches the polynomials in the momenta whose coefficients are polynomials in what the law is
 /// made of (coordinates, sines and cosines, roots, exponentials), by linear algebra modulo a prime;
-/// proves each one found symbolically; and says word for word what was searched, so that what is
-/// not found is proved not to be there. The degree grows until the budget of time is spent.
+/// proves each one found symbolically; and says exactly what was searched, so that whatever is not
+/// found is proved not to exist. The degree grows until the time allowed has run out.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:

@@ -12,7 +12,7 @@ use crate::printable;
 /// List the presets by chapter and topic.
 ///
 /// Your own, in `phaselab/presets` of your configuration folder, are among them; one that cannot be
-/// used stands there with its error.
+/// used is listed with its error.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:

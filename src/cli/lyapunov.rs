@@ -13,8 +13,8 @@ use crate::dynamics::{Gali, Lyapunov, Removed, gali, lyapunov};
 ///
 /// All Lyapunov exponents with their uncertainty, the largest first, MEGNO (about 2 for regular
 /// motion, growing for chaotic), and a verdict with its reason: regular, chaotic, unstable or undecided.
-/// Neighbours that part exponentially are chaos only where the motion itself does not escape, rest,
-/// close or follow linear equations; else it is unstable.
+/// Neighbours that separate exponentially mean chaos only if the motion itself does not escape, come
+/// to rest, close or follow linear equations; otherwise it is unstable.
 /// An exponent is the mean rate of growth under a weight that vanishes smoothly at both ends of
 /// the time; after ± stands the standard error of the mean over parts of it, with 2/t for the
 /// direction of the vector.

@@ -26,7 +26,7 @@ use crate::system::InitialOverride;
 /// Find the path between two configurations that makes the action stationary, or the action of a path.
 ///
 /// With --to the motion that takes the time --in from one configuration to the other: its action
-/// ∫ L dt, its Morse index (how many ways of varying it lessen the action), and the conjugate
+/// ∫ L dt, its Morse index (how many ways of varying it reduce the action), and the conjugate
 /// points, beyond which it is not least. With --along the action of a path that you write, t
 /// counted from its beginning; --vary adds ε times a variation to either. Beside Hamilton's action
 /// stands the abbreviated one, ∫ Σ p dq, of varied paths at the energy of the path (Maupertuis,

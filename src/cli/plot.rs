@@ -14,11 +14,12 @@ use crate::view::table_plot::{TablePlot, drawn};
 /// Draw a table of numbers as text.
 ///
 /// The table is what D writes in the lab, or run, section and sweep, and others as JSON.
-/// Two of its columns are drawn against each other, a third one as shades. By default these are the
-/// first two whose numbers differ, or the three of the table of a map; of a section's a coordinate and its momentum; of a
-/// sweep's the first measure over the one or two numbers that were set. Of what `lyapunov`, `spectrum` and `orbit --along`
-/// write with `--format json` the exponent is drawn against the time, the amplitudes against the frequencies, and the
-/// family against what it was followed along.
+/// Two of its columns are drawn against each other, a third one as shades. By default these are, of
+/// a map, its three columns; of a section, a coordinate and its momentum; of a sweep, the first
+/// measure over the one or two numbers that were set; otherwise the first two columns whose numbers
+/// differ. Of what `lyapunov`, `spectrum` and `orbit --along` write with `--format json` the exponent
+/// is drawn against the time, the amplitudes against the frequencies, and the family against what it
+/// was followed along.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:

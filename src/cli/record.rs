@@ -22,7 +22,7 @@ use crate::{file, printable};
 
 /// Record a demo: a script of keys, waits and captions becomes a cast or a GIF, the same on every machine.
 ///
-/// No terminal is needed, and nothing of this one matters: TERM, NO_COLOR, the locale, the time and
+/// No terminal is needed, and its settings do not matter: TERM, NO_COLOR, the locale, the time and
 /// the size of the window are ignored. Without --script the preset's own demo is recorded. A
 /// script whose claims (Assert) turn out false gives no cast. A cast, such as one that was recorded
 /// with the key O, becomes a GIF.

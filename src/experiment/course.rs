@@ -223,8 +223,8 @@ impl Experiment {
     pub fn narrow_passage(&self) -> Option<String> {
         let found = self.motion.narrow_passage()?;
         Some(format!(
-            "{} steps over a narrow place of the law before t = {}, where an exponential function changes by more than a step of {} \
-             can tell: try a shorter one, or the default method",
+            "{} steps over a narrow feature of the law before t = {}, where an exponential function changes by more than a step of {} \
+             can resolve: try a shorter one, or the default method",
             self.motion.method().name,
             short(self.motion.sign() * found.time),
             short(found.step)

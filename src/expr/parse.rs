@@ -297,9 +297,7 @@ impl Parser<'_> {
             Token::Mark('|') => self.absolute_value(),
             Token::Mark('√') => self.root(),
             &Token::Mark(mark) => Err(self.missing_before(mark)),
-            Token::Raised(_) => {
-                Err(SyntaxError::new(self.span(), "a power needs something below it"))
-            }
+            Token::Raised(_) => Err(SyntaxError::new(self.span(), "a power needs a base")),
             Token::End => Err(SyntaxError::new(self.span(), "the expression ends too early")),
         }
     }

@@ -65,7 +65,7 @@ pub fn point_symmetries(
     is_over: &dyn Fn() -> bool,
 ) -> Result<PointSymmetries, Unsupported> {
     if !model.constraints.is_empty() {
-        let why = "symmetries of equations under constraints are not searched";
+        let why = "symmetries of equations under constraints are not searched for";
         return Err(Unsupported(why.to_owned()));
     }
     ramps::refuse(model)?;

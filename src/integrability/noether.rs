@@ -59,7 +59,7 @@ pub fn symmetries(
         return refused("there is no Lagrangian in closed form");
     };
     if !model.constraints.is_empty() {
-        return refused("symmetries of a Lagrangian under constraints are not searched");
+        return refused("symmetries of a Lagrangian under constraints are not searched for");
     }
     let forces = model.mechanics.forces();
     if model.mechanics.dissipation() != Expr::ZERO || forces.iter().any(|&f| f != Expr::ZERO) {

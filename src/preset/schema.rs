@@ -42,7 +42,7 @@ pub(super) const FILE: SchemaTable = SchemaTable {
         key("lagrangian", Table(&LAGRANGIAN), "the law of motion by L"),
         key("hamiltonian", Table(&HAMILTONIAN), "the law of motion by H"),
         key("poisson", Table(&POISSON), "the law of motion by H and brackets"),
-        key("constraints", Tables(&CONSTRAINT), "what the motion is held to"),
+        key("constraints", Tables(&CONSTRAINT), "conditions that the motion satisfies"),
         key("impulses", Tables(&IMPULSE), "sudden changes of momenta"),
         key("events", Tables(&EVENT), "crossings that are located"),
         key("body", Table(&BODY), "a rigid body made of pieces"),
@@ -69,7 +69,7 @@ const RUN: SchemaTable = SchemaTable {
         key("speed", Number, "how fast it runs").unit("time per second"),
         key("start", Number, "the time of the initial values").unit("time"),
         key("until", Number, "how far a run without a screen goes").unit("time"),
-        key("step", Number, "the step of a method of fixed step").unit("time"),
+        key("step", Number, "the step of a fixed-step method").unit("time"),
         key("tolerance", Number, "the accuracy of an adaptive method"),
     ],
 };

@@ -63,7 +63,7 @@ impl Allowed {
         };
         use SymbolRole::{Action, Energy, Inertia, Momentum, New, Other, Position, Time, Velocity};
         Some(match (self, kind) {
-            (Event, Other) => format!("{place} watches the right motion alone"),
+            (Event, Other) => format!("{place} refers to the right motion only"),
             (Observable | Event, _)
             | (Configuration | Poisson, Time | Position)
             | (Lagrangian, Time | Position | Velocity)
@@ -71,12 +71,12 @@ impl Allowed {
             | (Transformation, Time | Position | Momentum | New)
             | (Casimir, Position)
             | (Bracket, Time | Position | Velocity | Momentum | Energy | New) => return None,
-            (Pieces, Inertia) => format!("{place} stands before what follows from the body"),
+            (Pieces, Inertia) => format!("{place} comes before what follows from the body"),
             (_, Inertia) => return None,
             (Parameters | Pieces, _) => format!("{place} is made of parameters only"),
             (Bracket, _) => format!("{place} is a function of q, p and t"),
             (_, Energy | Action) => {
-                format!("{place} stands before energy and action, which follow from it")
+                format!("{place} comes before energy and action, which follow from it")
             }
             (Transformation, _) => format!("{place} is a function of q, p, t and new variables"),
             (Configuration, _) => format!("{place} is a function of q and t"),

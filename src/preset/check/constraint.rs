@@ -55,7 +55,7 @@ impl ModelBuilder<'_> {
             && !self.model.is_lagrangian()
         {
             let law = if self.model.is_poisson() { "[poisson]" } else { "[hamiltonian]" };
-            let message = format!("constraints hold a Lagrangian; beside {law} there are none");
+            let message = format!("constraints belong to a Lagrangian; {law} cannot have them");
             let help = "give the law in [lagrangian], or leave the constrained coordinate out";
             self.diagnostics.push(Diagnostic::error(first.place.clone(), message).with_help(help));
             return;
@@ -143,10 +143,11 @@ impl ModelBuilder<'_> {
         if !binds {
             let diagnostic = Diagnostic::error(
                 formula.span(),
-                format!("{called} binds no coordinate or velocity"),
+                format!("{called} contains no coordinate or velocity"),
             );
-            self.diagnostics
-                .push(diagnostic.with_help("what is to vanish depends on where things are"));
+            self.diagnostics.push(
+                diagnostic.with_help("what is to vanish must depend on coordinates or velocities"),
+            );
             return None;
         }
         Some(form)

@@ -88,10 +88,10 @@ pub(super) const POISSON: SchemaTable = SchemaTable {
 
 pub(super) const CONSTRAINT: SchemaTable = SchemaTable {
     head: "[[constraints]]",
-    about: "Beside a Lagrangian, linear in the velocities; without one it holds the coordinates.",
+    about: "Beside a Lagrangian, linear in the velocities; without velocities it restricts the coordinates.",
     keys: &[
         NAME,
-        key("expression", Formula, "what is held at zero")
+        key("expression", Formula, "what must be zero")
             .needed("write expression = \"...\", which is to be zero"),
         key("unit", Text, "the unit of its multiplier, for show"),
         key("about", Text, "what its multiplier is"),

@@ -30,7 +30,7 @@ pub(in crate::preset) const PARTICLE: SchemaTable = SchemaTable {
 
 pub(super) const VIEW: SchemaTable = SchemaTable {
     head: "[[views]]",
-    about: "A `potential` is `y` over the coordinate `x`, all else held.",
+    about: "A `potential` is `y` over the coordinate `x`, with all else fixed.",
     keys: &[
         key("kind", PlotKind, "")
             .needed("write kind = \"phase\", \"space\", \"time\", \"potential\" or \"section\""),

@@ -47,6 +47,24 @@ fn a_phase_portraits_axes() {
     assert_eq!(frame, pendulum().frame(area, Glyphs::Braille), "the mouse finds the same frame");
 }
 
+/// The labels of a vertical axis without a name share a power of ten too, and it is said; plain labels leave the row to the plot.
+#[test]
+fn an_axis_without_a_name_says_its_power_of_ten() {
+    let area = Rect::new(0, 0, 44, 11);
+    let several = |size: f64| {
+        let y = DrawnAxis::new("", "", Scale::linear(-size, size));
+        Axes::new(DrawnAxis::new("t", "s", Scale::linear(0.0, 1.0)), y)
+    };
+    for (size, first) in [(3e-5, "×10⁻⁵"), (3e7, "×10⁷")] {
+        let axes = several(size);
+        let (buffer, frame) = drawn(&axes, area, Glyphs::Braille, ColourDepth::True);
+        assert_eq!(rows(&buffer)[0].trim(), first, "{size:e}");
+        assert_eq!(frame.area.y, 1);
+        assert_eq!(frame, axes.frame(area, Glyphs::Braille), "the mouse finds the same frame");
+    }
+    assert_eq!(several(3.0).frame(area, Glyphs::Braille).area.y, 0);
+}
+
 #[test]
 fn axes_wear_the_styles_of_their_roles() {
     let area = Rect::new(0, 0, 44, 11);

@@ -46,7 +46,7 @@ fn each_place_says_what_it_may_not_use() {
             "0..3 `x''` may not be used here: the Lagrangian is a function of q, q' and t",
             "4..7 `p_x` may not be used here: the Lagrangian is a function of q, q' and t; write it \
              in velocities, or give the law in [hamiltonian]",
-            "10..16 `action` may not be used here: the Lagrangian stands before energy and action, \
+            "10..16 `action` may not be used here: the Lagrangian comes before energy and action, \
              which follow from it",
         ],
     );
