@@ -214,7 +214,7 @@ impl App {
         effects
     }
 
-    /// Tells the user why a key does nothing here.
+    /// Notifies the user why a key does nothing here.
     pub(super) fn notify(&mut self, text: impl Into<String>) -> Vec<Effect> {
         self.notifications.show(Notification::hint(text));
         Vec::new()

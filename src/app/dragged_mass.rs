@@ -7,7 +7,6 @@ mod mass_matrix;
 mod mass_search;
 mod rest;
 
-use std::collections::HashMap;
 use std::f64::consts::TAU;
 
 use super::Loaded;
@@ -22,9 +21,6 @@ use rest::Rest;
 
 /// A turn is a whole number of periods of the law up to this part of one.
 const WHOLE: f64 = 1e-9;
-
-/// The symbols of what moves, and their values.
-type Values = HashMap<Symbol, f64>;
 
 /// What dragging a mass needs of its system, derived once for a drag.
 #[derive(Clone, Debug)]
@@ -89,10 +85,7 @@ impl DraggedMass {
         let Some((here, _)) = self.at_rest(loaded, now, &here) else {
             return Err("It cannot be dragged: no momentum is at rest here.");
         };
-        let determinant = self
-            .masses
-            .determinant(&|symbol| here.get(&symbol).copied().unwrap_or_else(|| now.at(symbol)));
-        if determinant.is_infinite() {
+        if self.masses.determinant(&|symbol| here.at(symbol)).is_infinite() {
             return Err("It cannot be dragged: at rest its mass is infinite.");
         }
         Ok(())
@@ -104,17 +97,18 @@ impl DraggedMass {
         loaded: &Loaded,
         now: &Valuation,
         places: &[f64],
-    ) -> Option<(Values, Vec<f64>)> {
+    ) -> Option<(Valuation, Vec<f64>)> {
         let (model, coordinates) = (&loaded.model, &loaded.equations.coordinates);
         // the motion that begins there begins at the start
-        let mut here: Values = HashMap::from([(model.symbols.time, model.run.start)]);
-        here.extend(coordinates.iter().map(|c| (c.velocity, 0.0)));
         let moved = self.moved.iter().map(|i| position(loaded, *i));
-        here.extend(moved.zip(places.iter().copied()));
-        let known = |symbol: Symbol| here.get(&symbol).copied().unwrap_or_else(|| now.at(symbol));
-        let momenta = self.rest.momenta(&known)?;
-        here.extend(coordinates.iter().map(|c| c.momentum).zip(momenta.iter().copied()));
-        Some((here, momenta))
+        let here = now
+            .clone()
+            .with([(model.symbols.time, model.run.start)])
+            .with(coordinates.iter().map(|c| (c.velocity, 0.0)))
+            .with(moved.zip(places.iter().copied()));
+        let momenta = self.rest.momenta(&|symbol| here.at(symbol))?;
+        let at_rest = coordinates.iter().map(|c| c.momentum).zip(momenta.iter().copied());
+        Some((here.with(at_rest), momenta))
     }
 
     /// The initial values with which it is at rest at a place in the plane, or as near to it as it can be; the other coordinates stay
@@ -145,16 +139,14 @@ impl DraggedMass {
         let determinant = |share: f64| {
             let ways = before.iter().zip(&after).map(|(from, to)| from + share * (to - from));
             let Some((here, _)) = at_rest(&ways.collect::<Vec<_>>()) else { return f64::NAN };
-            masses
-                .determinant(&|symbol| here.get(&symbol).copied().unwrap_or_else(|| now.at(symbol)))
+            masses.determinant(&|symbol| here.at(symbol))
         };
         if is_singular_on_the_way(determinant) {
             return None;
         }
         let (here, momenta) = at_rest(&after)?;
-        let place =
-            |i: usize| here.get(&positions[i]).copied().unwrap_or_else(|| now.at(positions[i]));
-        let places = (0..positions.len()).map(|i| InitialOverride::Position(i, place(i)));
+        let place = |i: usize| InitialOverride::Position(i, here.at(positions[i]));
+        let places = (0..positions.len()).map(place);
         let rates: Vec<InitialOverride> = match rest {
             Rest::Velocities => {
                 (0..positions.len()).map(|i| InitialOverride::Velocity(i, 0.0)).collect()

@@ -22,7 +22,7 @@ impl App {
         matches!(self.page, Page::Equations | Page::Notes | Page::Numbers) && self.lab.is_some()
     }
 
-    /// Opens the search in the page that is shown, or tells where there is one.
+    /// Opens the search in the page that is shown, or reports where there is one.
     pub(super) fn search_page(&mut self) -> Vec<Effect> {
         if !self.is_on_text() || self.overlay.is_some() {
             return self.notify("There is nothing to search here.");

@@ -189,7 +189,7 @@ impl App {
         Vec::new()
     }
 
-    /// Tells that a key has no effect here.
+    /// Notifies the user that a key has no effect here.
     fn unknown(&mut self, key: KeyEvent) -> Vec<Effect> {
         match key.code {
             KeyCode::Char(_) | KeyCode::F(_) => {

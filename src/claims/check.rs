@@ -21,7 +21,7 @@ pub fn false_claims(model: &Model, equations: &Equations) -> Vec<Diagnostic> {
     false_claims_followed(model, equations, &|_, _| {})
 }
 
-/// As [`false_claims`]; `follow` is told from time to time which claim the motion is followed for, and to what time it has come.
+/// As [`false_claims`]; `follow` receives from time to time which claim the motion is followed for, and to what time it has come.
 pub fn false_claims_followed(
     model: &Model,
     equations: &Equations,

@@ -11,7 +11,7 @@ use super::start;
 use crate::diagnostic::{Diagnostic, SourceRange};
 use crate::expr::Symbol;
 use crate::integrate::{self, Occurrence, Reached, Settings, method_named};
-use crate::mechanics::Equations;
+use crate::mechanics::{Equations, Valuation};
 use crate::model::{ExpectedEvent, ExpectedValue, Model};
 use crate::system::{ChannelKind, MotionError, MotionErrorKind, Observer, State, System};
 
@@ -117,7 +117,8 @@ pub(super) fn undefined_start(
     let mut values = vec![f64::NAN; system.channels().len()];
     // also where not all of them are known, since the others give the reason
     system.observer(&parameters).observe(state, &mut values).ok();
-    let at = |symbol| value_of(model, equations, (system, &values), symbol, state.time);
+    let known = system.valuation((model, equations), state.time, &parameters, &values);
+    let at = |symbol| known.at(symbol);
     start::without_value(model, equations, &at)
         .or_else(|| start::constant_singular_mass(model, equations, &at))
 }
@@ -129,45 +130,16 @@ pub(super) fn start_on_a_pole(
     system: &System,
     state: &State,
 ) -> Option<Diagnostic> {
+    let parameters = model.parameter_values();
     let mut values = vec![f64::NAN; system.channels().len()];
-    system.observer(&model.parameter_values()).observe(state, &mut values).ok()?;
-    let at = |symbol| value_of(model, equations, (system, &values), symbol, state.time);
-    start::on_a_pole(model, equations, &at)
+    system.observer(&parameters).observe(state, &mut values).ok()?;
+    let known = system.valuation((model, equations), state.time, &parameters, &values);
+    start::on_a_pole(model, equations, &|symbol| known.at(symbol))
 }
 
 fn seen(system: &System, values: &[f64], kind: ChannelKind) -> f64 {
     let channel = system.channels().iter().position(|c| c.kind == kind);
     channel.map_or(f64::NAN, |i| values[i])
-}
-
-/// The value of a symbol where the channels have these values.
-fn value_of(
-    model: &Model,
-    equations: &Equations,
-    (system, values): (&System, &[f64]),
-    symbol: Symbol,
-    time: f64,
-) -> f64 {
-    for (i, c) in equations.coordinates.iter().enumerate() {
-        let kind = match symbol {
-            s if s == c.position => ChannelKind::Position(i),
-            s if s == c.velocity => ChannelKind::Velocity(i),
-            s if s == c.momentum => ChannelKind::Momentum(i),
-            _ => continue,
-        };
-        return seen(system, values, kind);
-    }
-    if symbol == equations.symbols.time {
-        return time;
-    }
-    if symbol == equations.symbols.energy {
-        return seen(system, values, ChannelKind::Energy);
-    }
-    if let Some(parameter) = model.parameters.iter().find(|p| p.symbol == symbol) {
-        return parameter.value;
-    }
-    let body = system.body_values(&model.parameter_values());
-    body.iter().find(|(s, _)| *s == symbol).map_or(f64::NAN, |(_, value)| *value)
 }
 
 impl<'a> ClaimedMotion<'a> {
@@ -243,8 +215,8 @@ impl<'a> ClaimedMotion<'a> {
         error: Option<&MotionError>,
     ) -> Option<Diagnostic> {
         let energy = self.seen(ChannelKind::Energy);
-        let at = |symbol| self.value_of(model, equations, symbol, model.run.start);
-        start::diagnostic(model, equations, error, energy, &at)
+        let known = self.valuation(model, equations, model.run.start);
+        start::diagnostic(model, equations, error, energy, &|symbol| known.at(symbol))
     }
 
     /// The value of a channel at the last sample.
@@ -252,9 +224,10 @@ impl<'a> ClaimedMotion<'a> {
         seen(self.system, &self.values, kind)
     }
 
-    /// The value of a symbol at the last sample.
-    fn value_of(&self, model: &Model, equations: &Equations, symbol: Symbol, time: f64) -> f64 {
-        value_of(model, equations, (self.system, &self.values), symbol, time)
+    /// The values of all symbols at the last sample.
+    fn valuation(&self, model: &Model, equations: &Equations, time: f64) -> Valuation {
+        let parameters = model.parameter_values();
+        self.system.valuation((model, equations), time, &parameters, &self.values)
     }
 
     /// Follows the motion and checks all its claims.
@@ -304,7 +277,8 @@ impl<'a> ClaimedMotion<'a> {
                 let claims = claims.iter().map(|claim| (&claim.name, &claim.place));
                 return diagnostics.extend(claims.map(unchecked));
             }
-            sizes.observe(equations, time, &|symbol| self.value_of(model, equations, symbol, time));
+            let known = self.valuation(model, equations, time);
+            sizes.observe(equations, time, &|symbol| known.at(symbol));
             match observation {
                 Observation::Value(i) => {
                     diagnostics.extend(self.compare(&expected[i], sizes.tolerance(i)));
@@ -313,7 +287,8 @@ impl<'a> ClaimedMotion<'a> {
                 Observation::Sizes => {}
             }
         }
-        let at = |symbol: Symbol| self.value_of(model, equations, symbol, end);
+        let known = self.valuation(model, equations, end);
+        let at = |symbol: Symbol| known.at(symbol);
         diagnostics.extend(claims.iter().filter_map(|claim| {
             let seen = claim.diagnostic(equations, end);
             let unseen = || claim.unseen(equations, end);
@@ -430,7 +405,8 @@ impl<'a> ClaimedMotion<'a> {
 
     fn sample(&mut self, model: &Model, equations: &Equations, claims: &mut [Claim]) {
         let time = self.course.state().time;
-        let at = |symbol: Symbol| self.value_of(model, equations, symbol, time);
+        let known = self.valuation(model, equations, time);
+        let at = |symbol: Symbol| known.at(symbol);
         for claim in claims {
             let Some(channel) = self.system.channel_of(claim.expression) else { continue };
             let value = self.values[channel];

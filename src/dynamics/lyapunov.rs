@@ -291,7 +291,7 @@ fn result(
     } else {
         judged(&followed, (&exponents, &uncertainty), megno)
     };
-    // what ends is not followed for as long as one wishes
+    // a motion that ends cannot be followed further
     let (verdict, reason) = match (&error, judged) {
         // neighbours that part next to a pole of the coordinates tell nothing of the motion, which continues
         (Some(DynamicsError::Motion(error)), _) if error.kind == MotionErrorKind::NoDerivative => {

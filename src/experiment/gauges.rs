@@ -26,7 +26,6 @@ use crate::num::BATCH;
 use crate::system::{BatchTerms, System, TermSums, TermWatch};
 use formula_monitors::{ChannelValues, FormulaMonitors};
 pub(super) use inputs::GaugeInputs;
-use inputs::places;
 use integration_constants::IntegrationConstants;
 use invariant_monitor::{InvariantMonitor, MonitoredStep};
 use monitored::{monitors, with_energy_opened};
@@ -68,7 +67,7 @@ impl Gauges {
             integration: IntegrationConstants::of(model, equations, &names),
             residuals: ResidualGauge::all(model, equations, system),
             attitude: AttitudeGauge::of(system),
-            places: places(equations, system),
+            places: system.symbol_channels(equations),
             equations: Arc::clone(equations),
             reference_time: 0.0,
             reference_steps: 0,

@@ -1,7 +1,7 @@
 //! The file writer: writes whole files to the disk, one after the other, on its own thread, so that no frame waits
 //! for a disk.
 //!
-//! In: the contents of a file, its removal, or a wish that it be on the disk. Out: the outcomes. Never here: what the texts mean.
+//! In: the contents of a file, its removal, or a request that it be on the disk. Out: the outcomes. Never here: what the texts mean.
 
 use std::collections::BTreeMap;
 use std::fs;

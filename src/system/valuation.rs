@@ -1,8 +1,9 @@
 //! The values of a system's symbols at one state.
 //!
-//! In: a time, parameters, the value of every channel. Out: a [`Valuation`]. Never here: states.
+//! In: a time, parameters, the value of every channel. Out: a [`Valuation`], and which symbol has which channel. Never here: states.
 
 use super::{ChannelKind, System};
+use crate::expr::Symbol;
 use crate::mechanics::{Equations, Valuation};
 use crate::model::Model;
 
@@ -16,6 +17,16 @@ impl System {
         parameters: &[f64],
         values: &[f64],
     ) -> Valuation {
+        let seen = self.symbol_channels(equations);
+        let seen = seen.into_iter().filter_map(|(symbol, i)| Some((symbol, *values.get(i)?)));
+        Valuation::of_parameters(model, parameters)
+            .with(self.body_values(parameters))
+            .with(seen)
+            .with([(equations.symbols.time, time)])
+    }
+
+    /// The channel of each symbol that has one.
+    pub fn symbol_channels(&self, equations: &Equations) -> Vec<(Symbol, usize)> {
         let symbol = |kind: ChannelKind| match kind {
             ChannelKind::Position(i) => Some(equations.coordinates[i].position),
             ChannelKind::Velocity(i) => Some(equations.coordinates[i].velocity),
@@ -27,11 +38,7 @@ impl System {
             }
             _ => None,
         };
-        let seen = self.channels().iter().zip(values);
-        let seen = seen.filter_map(|(channel, &value)| Some((symbol(channel.kind)?, value)));
-        Valuation::of_parameters(model, parameters)
-            .with(self.body_values(parameters))
-            .with(seen)
-            .with([(equations.symbols.time, time)])
+        let channels = self.channels().iter().enumerate();
+        channels.filter_map(|(i, channel)| Some((symbol(channel.kind)?, i))).collect()
     }
 }

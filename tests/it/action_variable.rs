@@ -206,7 +206,7 @@ fn a_well_beside_an_abyss_has_its_curve() {
 }
 
 #[test]
-fn what_has_no_action_is_told_why() {
+fn what_has_no_action_says_why() {
     let cases = [
         ("H = \"p_q^2/2 + q^2/2\"\nforces = { q = \"-p_q/10\" }", NotFrozen::EnergyNotConserved),
         (
@@ -299,7 +299,7 @@ fn the_angle_of_what_separates() {
 
 /// A form that the whole of a time-dependent law has: the same motion by `[[ramps]]` and written out.
 #[test]
-fn a_law_with_the_time_in_it_is_held_at_the_instant() {
+fn a_law_with_the_time_in_it_is_frozen_at_the_instant() {
     let written = "[definitions]\nu = \"min(max((t - 2)/60, 0), 1)\"\nww = \"1 + 3*u^2 - 2*u^3\"";
     let by_hand = tightened("60", written).replace("1/2*w^2*q^2", "1/2*ww^2*q^2 + 0*w");
     let by_ramp = tightened("60", &format!("{RAMP}\nform = \"cubic\""));

@@ -166,7 +166,7 @@ fn poincares_integral_is_that_of_all_pairs() {
 }
 
 #[test]
-fn where_a_start_is_lost_no_area_is_told() {
+fn where_a_start_is_lost_no_area_is_given() {
     // q̈ = q²: some of the starts are at infinity before the others
     let ready = oscillator("-q^3/3", "0");
     let curve = carried(&ready, [1.0, 1.0], 0.9, &[0.5, 3.0]);

@@ -8,7 +8,7 @@ use crate::course::Course;
 use crate::record::played;
 
 #[test]
-fn the_map_of_a_method_is_held_beside_the_exact_flow() {
+fn the_map_of_a_method_is_compared_with_the_exact_flow() {
     played(
         "back-to-the-start",
         "Open back-to-the-start\nSize 120x40\nSet eps = 0.5\nWait 3s\n\
@@ -142,7 +142,7 @@ fn a_motion_that_an_event_ends_has_its_map_until_then() {
 /// An impulse carries the map on: p → p + k q at t = 1 and 2 has the derivative (1, 0 | k, 1), and one that halves p the determinant ½.
 #[test]
 fn an_impulse_carries_the_map_on() {
-    let struck = |change: &str| {
+    let pushed = |change: &str| {
         format!(
             "{OSCILLATOR}[[impulses]]\nname = \"stroke\"\nat = [1.0, 2.0]\nchange = {{ p_q = \"{change}\" }}\n"
         )
@@ -153,13 +153,13 @@ fn an_impulse_carries_the_map_on() {
     };
     let kicked = |[[a, b], [c, d]]: [[f64; 2]; 2]| [[a, b], [c + 3.0 * a, d + 3.0 * b]];
     let [[a, b], [c, d]] = turned(kicked(turned(kicked(turned([[1.0, 0.0], [0.0, 1.0]])))));
-    let mut course = Course::showing("flow", &struck("3*q"));
+    let mut course = Course::showing("flow", &pushed("3*q"));
     course.go(3.0001);
     let written = |x: f64| phaselab::num::significant(x, 4, 1e-3..1e4).replace('-', "−");
     let [a, b, c, d] = [a, b, c, d].map(written);
     assert!(course.legend().contains(&format!("M = ({a} {b} | {c} {d})")), "{}", course.legend());
     near(course.measure("determinant"), 1.0, 1e-12);
-    let mut course = Course::showing("flow", &struck("-p_q/2"));
+    let mut course = Course::showing("flow", &pushed("-p_q/2"));
     for (time, expected) in [(0.95, 1.0), (1.5, 0.5), (1.95, 0.5), (2.5, 0.25)] {
         course.go(time);
         near(course.measure("determinant"), expected, 1e-12);

@@ -209,7 +209,7 @@ expression = "cos(a) + sin(p) - cos(b)"
 "#;
 
 #[test]
-fn bars_in_line_are_told_whether_they_are_passed_or_not() {
+fn bars_in_line_are_reported_whether_they_are_passed_or_not() {
     // the bars are in line twice; by rounding the motion goes on there or does not
     let message = said(PARALLELOGRAM, &["--until", "4"]);
     assert!(message.contains("singular configuration of the constraints at t = 1.37"), "{message}");
@@ -237,14 +237,14 @@ fn a_constraint_whose_row_vanishes_is_singular_and_no_other_is_lost() {
 /// The dense output of a method keeps the constraints to its tolerance only, and seems to turn their directions fast where they
 /// are reversed.
 #[test]
-fn bars_in_line_are_told_at_every_tolerance() {
+fn bars_in_line_are_reported_at_every_tolerance() {
     for tolerance in [1e-4, 1e-6, 1e-9, 1e-13] {
         let words = format!("--until 3 --method dop853 --tolerance {tolerance:e}");
         let words: Vec<&str> = words.split(' ').collect();
         let message = said(PARALLELOGRAM, &words);
         let reported = "passed a singular configuration of the constraints at t = ";
         let time = message.split(reported).nth(1).and_then(|rest| rest.split(':').next());
-        let time: f64 = time.and_then(|time| time.parse().ok()).expect("it is told");
+        let time: f64 = time.and_then(|time| time.parse().ok()).expect("it is reported");
         // a step may be off by a hundred tolerances here, and four digits are said
         let error = 200.0 * tolerance + 1e-3;
         assert!((time - 1.370).abs() < error, "{tolerance}: {message}");
@@ -427,7 +427,7 @@ fn a_power_of_a_parameter_leaves_the_range_and_no_gauge_drifts() {
 
 /// A step far beyond what the method can follow: the function of the event swings thousands of times within it.
 #[test]
-fn an_event_that_swings_beyond_a_step_is_told() {
+fn an_event_that_swings_beyond_a_step_is_reported() {
     let text = "[coordinates]\nx = { initial = 1.0, velocity = 0.0 }\n[lagrangian]\nL = \"1/2*x'^2 - 1/2*x^2\"\n\
                 [[events]]\nname = \"hit\"\nwhen = \"2 + sin(1e8*x)\"\naction = \"stop\"\n";
     let message = error(by("rk4", Some(0.1), text), 1.0);
@@ -817,7 +817,7 @@ fn a_force_without_bound_at_a_kink_is_no_rounding() {
 /// Where the law on both sides of a kink leads to it the motion follows it, by dop853 as well; after however long a rest it passes
 /// the others.
 #[test]
-fn what_follows_a_kink_is_told_by_the_forces_on_its_sides() {
+fn what_follows_a_kink_is_known_by_the_forces_on_its_sides() {
     let law = |x: f64, force: &str| {
         format!(
             "[coordinates]\nx = {{ initial = {x}, velocity = 0.0 }}\n[lagrangian]\nL = \"1/2*x'^2\"\nforces = {{ x = \"{force}\" }}\n"

@@ -139,7 +139,7 @@ fn sources(room: &str) -> Vec<(String, String)> {
 }
 
 #[test]
-fn every_kind_is_drawn_told_of_and_kept() {
+fn every_kind_is_drawn_described_and_saved() {
     for kind in nonempty(kinds()) {
         let mut app = with_all_kinds();
         let (index, shown) = plot(&app, kind.name());
@@ -167,7 +167,7 @@ fn every_kind_is_drawn_told_of_and_kept() {
 }
 
 #[test]
-fn every_kind_is_kept_in_a_session() {
+fn every_kind_is_saved_in_a_session() {
     let mut app = with_all_kinds();
     press(&mut app, "Tab Tab Tab Tab + x Right");
     let saved = app.saved().expect("a lab is open");

@@ -71,7 +71,7 @@ fn a_hamiltonian_is_transformed_back() {
 }
 
 #[test]
-fn a_slope_that_several_velocities_have_is_told() {
+fn a_slope_that_several_velocities_have_is_reported() {
     let app = begun(&law("lagrangian", "L = \"x'^4/4 - x'^2/2\"", "velocity"));
     assert!(
         reported(&app).contains("not convex: several ẋ may have one p_x"),

@@ -184,7 +184,7 @@ fn what_could_be_read_in_two_ways_is_refused_with_both() {
 }
 
 #[test]
-fn all_doubts_are_told_at_once_with_the_line() {
+fn all_doubts_are_reported_at_once_with_the_line() {
     let model = model();
     let mut pool = model.pool.clone();
     let errors = typed(&model, &mut pool, "1/2 m x'^2 + sin θ x - 1/2 q").unwrap_err();

@@ -122,12 +122,12 @@ fn a_pendulum_has_the_period_of_its_elliptic_integral() {
     // the area within: ∮ p dq = 2 ∫ √(2 (cos q − cos 1)) dq, by Gauss's substitution q = sin φ
     let n = 20_000;
     let width = PI / f64::from(n);
-    let strip = |k: i32| {
+    let slice = |k: i32| {
         let angle = -PI / 2.0 + (f64::from(k) + 0.5) * width;
         let height = 2.0 * (angle.sin().cos() - 1.0_f64.cos());
         2.0 * height.max(0.0).sqrt() * angle.cos() * width
     };
-    let area: f64 = (0..n).map(strip).sum();
+    let area: f64 = (0..n).map(slice).sum();
     let found = measure(&app, "action").unwrap();
     assert!((found - area).abs() < 1e-7, "{found} {area}");
 }
@@ -203,7 +203,7 @@ fn drives_have_a_common_period_or_none() {
 }
 
 #[test]
-fn a_motion_that_never_returns_is_told_what_was_looked_for() {
+fn a_motion_that_never_returns_says_what_was_searched_for() {
     let (app, _) = opened(&one("1/2*q'^2 + 1/2*q^2", ""), 1.0);
     let said = legend(&app);
     for words in

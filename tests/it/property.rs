@@ -152,7 +152,7 @@ fn the_judge_tells_a_run_that_is_wrong() {
 
 /// Cases in which a long run found the judge wrong, or a message without help: ln(cosh(u)) beyond the range of cosh(u), a
 /// pendulum upside down, rounding that the motion enlarges on its way, errors at kinks that are stepped over, a loss of energy
-/// that is told, a step too long for any velocity.
+/// that is reported, a step too long for any velocity.
 #[test]
 fn what_a_long_run_found_stays_mended() {
     let budget = Budget { steps: 100_000, evaluations: 100_000, ..BUDGET };

@@ -2,13 +2,13 @@
 
 mod bodies;
 mod bytes;
+mod cache;
 mod cells;
 mod fit;
 mod focus;
 mod footer;
 mod golden;
 mod hit_test;
-mod kept;
 mod labels;
 mod legends;
 mod motion;

@@ -1,4 +1,4 @@
-//! The current values that the gauges read, and by which channel each symbol is read.
+//! The current values that the gauges read.
 //!
 //! In: the channels of a motion. Out: values of symbols. Never here: what is conserved.
 
@@ -6,7 +6,7 @@ use super::formula_monitors::ChannelValues;
 use crate::analysis::Errors;
 use crate::expr::Symbol;
 use crate::mechanics::{Equations, Valuation};
-use crate::system::{ChannelKind, System, TermWatch};
+use crate::system::{System, TermWatch};
 
 /// The current values that the gauges read.
 pub(in crate::experiment) struct GaugeInputs<'a> {
@@ -44,25 +44,4 @@ impl<'a> GaugeInputs<'a> {
     pub(super) fn channels(&self, places: &'a [(Symbol, usize)]) -> ChannelValues<'a> {
         ChannelValues { time: self.time, values: self.values, places }
     }
-}
-
-/// The channels of the symbols that formulas are made of.
-pub(super) fn places(equations: &Equations, system: &System) -> Vec<(Symbol, usize)> {
-    let find = |kind: ChannelKind| system.channels().iter().position(|c| c.kind == kind);
-    let mut places = Vec::new();
-    for (i, c) in equations.coordinates.iter().enumerate() {
-        for (symbol, kind) in [
-            (c.position, ChannelKind::Position(i)),
-            (c.velocity, ChannelKind::Velocity(i)),
-            (c.momentum, ChannelKind::Momentum(i)),
-        ] {
-            places.extend(find(kind).map(|channel| (symbol, channel)));
-        }
-    }
-    places.extend(find(ChannelKind::Energy).map(|channel| (equations.symbols.energy, channel)));
-    for (i, symbol) in equations.supplements.attitude_symbols.iter().flatten().flatten().enumerate()
-    {
-        places.extend(find(ChannelKind::Attitude(i)).map(|channel| (*symbol, channel)));
-    }
-    places
 }

@@ -207,7 +207,7 @@ impl Perform for Sink {
                     self.report([button, column, row], action == 'm');
                 }
             }
-            // Terminals answer in order: whoever tells its attributes has answered all else before, or never will.
+            // Terminals answer in order: whoever reports its attributes has answered all else before, or never will.
             'c' if intermediates == b"?" => self.expects.answers = Questions::default(),
             'u' if intermediates == b"?" => {
                 if mem::take(&mut self.expects.answers.keyboard) {

@@ -167,10 +167,10 @@ fn facts(app: &App) -> Vec<(String, String)> {
         Some(Overlay::Workbench) => "the editor".to_owned(),
     };
     fact("over it", over);
-    let bench = app.open_buffer();
-    fact("first line", format!("{:?}", bench.map(|bench| &bench.editor.lines()[0])));
-    fact("cursor", format!("{:?}", bench.map(|bench| bench.editor.cursor())));
-    fact("asked", format!("{:?}", bench.map(|bench| bench.asking.is_some())));
+    let buffer = app.open_buffer();
+    fact("first line", format!("{:?}", buffer.map(|buffer| &buffer.editor.lines()[0])));
+    fact("cursor", format!("{:?}", buffer.map(|buffer| buffer.editor.cursor())));
+    fact("asked", format!("{:?}", buffer.map(|buffer| buffer.asking.is_some())));
     fact("scrolled", app.text.scroll.to_string());
     fact("theme", format!("{:?}", app.themes.chosen));
     let read = app.reading.snapshot.as_ref().map(|snapshot| snapshot.time);

@@ -285,7 +285,7 @@ pub(super) fn with_impulses(names: &[&str]) -> App {
 }
 
 #[test]
-fn an_impulse_is_struck_by_its_key_or_by_its_name() {
+fn an_impulse_is_applied_by_its_key_or_by_its_name() {
     let mut app = in_lab();
     assert_eq!(asked(&press(&mut app, "b")), "");
     assert!(app.notifications.shown.is_some_and(|notice| notice.text.contains("no impulses")));

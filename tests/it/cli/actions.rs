@@ -413,7 +413,7 @@ fn along_a_ramp_action_and_angle_are_those_of_the_instant() {
 }
 
 #[test]
-fn what_has_no_angle_along_its_motion_is_told_so() {
+fn what_has_no_angle_along_its_motion_is_reported_so() {
     let refused = |arguments: &[&str], code: i32, said: &[&str]| {
         phaselab(&[&["actions"], arguments].concat()).fails(code, said);
     };
@@ -537,7 +537,7 @@ fn lobes_that_lie_off_the_line_of_no_momentum_have_their_area() {
 /// Where the energy is least, or stationary, at several momenta, no effective potential has the turning points: that is the
 /// reason that is given.
 #[test]
-fn an_energy_with_several_momenta_of_rest_is_told_as_such() {
+fn an_energy_with_several_momenta_of_rest_is_reported_as_such() {
     let file = |h: &str, momentum: f64| {
         format!(
             "title = \"Rest\"\n[coordinates]\nx = {{ initial = 0.5, momentum = {momentum} }}\n\

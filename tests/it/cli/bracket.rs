@@ -137,7 +137,7 @@ F = "q*P + a*sin(q)*cos(P)*(1 + t)"
 
 /// The bracket in the variables of a map: equal where it is canonical, with the time in it too, and another where it is not.
 #[test]
-fn a_bracket_is_told_in_the_new_variables_of_each_transformation() {
+fn a_bracket_is_reported_in_the_new_variables_of_each_transformation() {
     let charts = |preset: &str, f: &str, g: &str, more: &[&str]| {
         let words = [&["bracket", preset, f, g, "--format", "json"], more].concat();
         let object = phaselab(&words).json();

@@ -124,7 +124,7 @@ fn wrong_scans_are_refused() {
 }
 
 #[test]
-fn symmetries_are_told_with_their_constants() {
+fn symmetries_are_reported_with_their_constants() {
     let answer = json(&["symmetries", "free-particle", "--format", "json"]);
     let all = answer["symmetries"].as_array().expect("a list");
     assert!(!all.is_empty());
@@ -140,7 +140,7 @@ fn symmetries_are_told_with_their_constants() {
 
 /// Kepler's third law is a symmetry without an integral; its averages are those of the virial theorem.
 #[test]
-fn similarity_is_told() {
+fn similarity_is_reported() {
     let answer = json(&["symmetries", "planet", "--format", "json"]);
     let all = answer["point_symmetries"]["found"].as_array().expect("a list");
     let law = all.iter().find(|s| s["noether"] == false).unwrap_or_else(|| panic!("{answer}"));

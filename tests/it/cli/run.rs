@@ -520,7 +520,7 @@ fn a_symplectic_swing_is_reported_as_what_it_is() {
 
 /// An atom in a lattice, a metre from the origin: its energy is off by 2e-6 of what moves, and from the origin it is not.
 #[test]
-fn an_energy_changed_by_rounding_of_the_place_is_told() {
+fn an_energy_changed_by_rounding_of_the_place_is_reported() {
     for (x, code) in [("1.0", 1), ("1e-10", 0)] {
         let text = format!(
             "title = \"Lattice\"\n[coordinates]\nx = {{ initial = {x}, velocity = 100.0 }}\n[lagrangian]\n\
@@ -789,7 +789,7 @@ fn redundant_constraints_are_those_of_the_start_of_this_run() {
 }
 
 #[test]
-fn a_start_of_several_motions_is_told_with_the_one_that_is_followed() {
+fn a_start_of_several_motions_is_reported_with_the_one_that_is_followed() {
     let text = |potential: &str| {
         format!(
             "title = \"Rest\"\n[coordinates]\nx = {{ initial = 0 }}\n[lagrangian]\nL = \"1/2*x'^2 - ({potential})\"\n"
@@ -817,7 +817,7 @@ fn a_start_of_several_motions_is_told_with_the_one_that_is_followed() {
 
 /// An angle that is folded back has a kink that no switch shows.
 #[test]
-fn kinks_of_folded_angles_are_told() {
+fn kinks_of_folded_angles_are_reported() {
     for (angle, reported) in
         [("acos(cos(x))", true), ("asin(sin(2*x))", true), ("asin(x/9)", false)]
     {
@@ -885,7 +885,7 @@ fn a_smooth_ramp_is_no_kink() {
 
 /// With E = 0.2 a particle would be thrown back by a step of 0.6 that is a slope; of −0.3 sign x no derivative shows the force.
 #[test]
-fn a_step_of_the_law_is_told() {
+fn a_step_of_the_law_is_reported() {
     let law = |potential: &str| {
         let text = format!(
             "title = \"A step\"\n[coordinates]\nx = {{ initial = -1.0, velocity = 1.0 }}\n\
@@ -954,7 +954,7 @@ fn the_energy_jumps_with_the_law_at_a_time_and_no_balance_is_lost() {
 
 /// An angle jumps by 2π at its cut, y = 0 and x < 0, and with it a law that is no function on the circle.
 #[test]
-fn a_law_that_jumps_at_the_cut_of_an_angle_is_told() {
+fn a_law_that_jumps_at_the_cut_of_an_angle_is_reported() {
     let law = |potential: &str| {
         let text = format!(
             "title = \"A cut\"\n[coordinates]\nx = {{ initial = -1.0 }}\ny = {{ initial = 0.5, velocity = -3.0 }}\n\

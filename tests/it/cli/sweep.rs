@@ -202,7 +202,7 @@ fn a_resumed_sweep_goes_on_and_computes_no_row_again() {
     assert_eq!(fs::read_to_string(path("other.csv")).unwrap(), "x\n1\n");
 }
 
-/// What is remarked of rows that the journal has is told at the end with that of the others.
+/// What is remarked of rows that the journal has is reported at the end with that of the others.
 #[test]
 fn a_resumed_sweep_remarks_on_all_of_its_rows() {
     let home = tempfile::tempdir().unwrap();
@@ -406,7 +406,7 @@ fn shards_and_journals_that_have_no_end_are_refused() {
 /// Steps of 1.5 are too long for rk4 on a spring, whose energy it loses. The default method is not spoken of, nor is the energy
 /// that friction takes; orbits side by side have its balance too.
 #[test]
-fn a_conserved_quantity_that_leaves_its_value_is_told_in_one_line() {
+fn a_conserved_quantity_that_leaves_its_value_is_reported_in_one_line() {
     let swept = |name: &str, more: &[&str]| {
         let all = [&["sweep", name, "--grid=x=0.5:1.5:3", "--until=40"], more].concat();
         let Done { code, stderr, .. } = phaselab(&all);

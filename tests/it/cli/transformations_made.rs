@@ -175,7 +175,7 @@ fn an_event_on_an_image_that_is_solved_numerically_is_refused() {
         assert!(!refused.stderr.contains("[coordinates]"), "{}", refused.stderr);
         refused.fails(2, &["zeros cannot be located on `P`", "old variables"]);
     }
-    // beside an error of the file, which is shown in its place, it is told as well
+    // beside an error of the file, which is shown in its place, it is reported as well
     let both = with_file(&implicit, &["section", "system.toml", "--on", "P - 0.2", "--count", "2"]);
     assert_eq!(both.stderr.matches("zeros cannot be located on `P`").count(), 2, "{}", both.stderr);
     both.fails(65, &["when = \"P - 0.1\"", "1 error in"]);

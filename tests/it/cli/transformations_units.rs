@@ -119,7 +119,7 @@ fn the_branch_of_k_is_that_of_the_start_in_all_units() {
     }
 }
 
-/// x + 1000 max(0, x − 50) and x + ½(|x − 2| + x − 2) are undone by Q where they begin, and not beyond the kink: that is told, K in
+/// x + 1000 max(0, x − 50) and x + ½(|x − 2| + x − 2) are undone by Q where they begin, and not beyond the kink: that is reported, K in
 /// the old variables holds everywhere, and the inverse as a map of its own is solved for.
 #[test]
 fn an_inverse_that_holds_near_the_start_alone_says_so() {

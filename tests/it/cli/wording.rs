@@ -18,7 +18,7 @@ fn a_number_out_of_range_names_the_range() {
 }
 
 #[test]
-fn a_name_that_is_not_there_is_told_with_those_that_are() {
+fn a_name_that_is_not_there_is_reported_with_those_that_are() {
     let all = "there is no parameter or initial value `q`; there are m, l, g, theta0, theta, \
                theta', p_theta, t";
     phaselab(&["sweep", "pendulum", "--grid", "q=1:2:3"]).fails(2, &[all]);
@@ -31,7 +31,7 @@ fn a_name_that_is_not_there_is_told_with_those_that_are() {
 
 /// Before a demo is recorded, which takes a while, and not after it.
 #[test]
-fn a_still_that_cannot_be_drawn_is_told_at_once() {
+fn a_still_that_cannot_be_drawn_is_reported_at_once() {
     let home = tempfile::tempdir().unwrap();
     // recorded first, its claim would be found false
     std::fs::write(home.path().join("false.demo"), "Wait 0.1s\nAssert t > 1000\n").unwrap();
@@ -51,7 +51,7 @@ fn a_still_that_cannot_be_drawn_is_told_at_once() {
 }
 
 #[test]
-fn a_missing_folder_is_told_as_a_folder() {
+fn a_missing_folder_is_reported_as_a_folder() {
     let home = tempfile::tempdir().unwrap();
     let run = |words: &[&str]| done(program(home.path()).args(words));
     let new = run(&["new", "nowhere/cart"]);

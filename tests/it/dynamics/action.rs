@@ -125,7 +125,7 @@ fn slopes_by_the_ends_are_momenta_and_energies() {
 }
 
 #[test]
-fn what_has_no_action_is_told() {
+fn what_has_no_action_is_reported() {
     let (_, found) = beside("1/2*x'^2 - 1/x", |t| [t - 1.0, 1.0], 2.0);
     assert!(found.unwrap_err().to_string().contains("does not settle"));
     let (_, found) = beside("1/2*x'^2 - sqrt(x)", |t| [t - 1.0, 1.0], 2.0);

@@ -280,9 +280,9 @@ fn fixed_steps_and_impulses_under_constraints_are_refused() {
     assert!(why.contains("projection"), "{why}");
     let found = flow_map(&case.space, method("dop853", None), &case.start, 1.0, &mut |_| {});
     near(&found.unwrap().matrix, &map(&case, 1.0).matrix, 1e-10);
-    let struck =
+    let pushed =
         format!("{ROD}[[impulses]]\nname = \"kick\"\nat = [0.5]\nchange = {{ p_x = \"1\" }}\n");
-    let loaded = lowered(&struck);
+    let loaded = lowered(&pushed);
     let parameters = loaded.model.parameter_values();
     let (model, equations) = (&loaded.model, &loaded.equations);
     let space = PhaseSpace::on_constraints(model, equations, &loaded.system, &parameters);

@@ -76,7 +76,7 @@ fn friction_shrinks_volumes_as_its_divergence_says() {
 }
 
 #[test]
-fn a_map_that_is_not_symplectic_is_told_by_its_residual() {
+fn a_map_that_is_not_symplectic_is_recognised_by_its_residual() {
     // the residuals at t = 50 as an independent program found them: Verlet 3.4e-13, RK4 2.0e-4
     let case = preset("henon-heiles", &[], &[0.0, -0.25, 0.42081, 0.0]);
     let residual = |name: &str, step: f64| {

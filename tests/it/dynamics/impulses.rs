@@ -162,11 +162,11 @@ fn reflections_in_general_are_canonical_and_have_the_derivative_of_differences()
 const WALL: &str = "title = \"t\"\n[coordinates]\na = { initial = 0.9, velocity = -0.4 }\n\
     b = { initial = 0.3, velocity = 0.5 }\n\
     [lagrangian]\nL = \"a'^2 + b'^2/2 + a'*b'*cos(a - b) + 2*cos(a) + cos(b) + a'*sin(t)/5\"\n\
-    [[impulses]]\nname = \"blow\"\n\
+    [[impulses]]\nname = \"push\"\n\
     change = { p_a = \"-1.7*(2*a' + b'*cos(a - b)) + sin(t)/5\", p_b = \"a*b/3 - cos(3*t)*b'/4\" }\n\
     [[impulses]]\nname = \"kick\"\nat = [0.25]\nchange = { p_b = \"sin(a)*b'/3\" }\n\
     [[events]]\nname = \"wall\"\nwhen = \"a - 0.3 - 0.1*sin(t) + b'/20\"\ndirection = \"falling\"\n\
-    action = \"impulse:blow\"\n";
+    action = \"impulse:push\"\n";
 
 #[test]
 fn coupled_masses_moving_surfaces_and_impulses_that_depend_on_all_agree_with_differences() {

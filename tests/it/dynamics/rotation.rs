@@ -109,7 +109,7 @@ fn a_curve_beside_its_middle_is_not_chaotic() {
 }
 
 #[test]
-fn a_chaotic_orbit_has_none_and_is_told_why() {
+fn a_chaotic_orbit_has_none_and_says_why() {
     for (kick, start) in [(1.5, (0.01, 0.0)), (3.0, (0.3, 0.2)), (7.0, (1.0, 2.0))] {
         for count in [100, 1000, 20000] {
             let orbit = standard(kick, start, count);

@@ -168,7 +168,7 @@ fn what_makes_no_turn_is_no_line() {
 }
 
 #[test]
-fn noise_is_told_by_the_error() {
+fn noise_shows_in_the_error() {
     // pseudo-random numbers beside one line
     let mut seed = 12_345_u64;
     let mut noise = || {

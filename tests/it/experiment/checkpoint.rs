@@ -442,7 +442,7 @@ fn a_past_that_is_not_found_again_is_said_to_be_lost() {
 
 /// A motion that goes back comes home with its return error.
 #[test]
-fn a_resumed_motion_that_goes_back_is_held_against_the_run_before() {
+fn a_resumed_motion_that_goes_back_is_compared_with_the_run_before() {
     let mut left = shipped("henon-heiles");
     run(&mut left, 5.0);
     left.execute(Command::Reverse);

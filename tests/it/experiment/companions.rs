@@ -313,7 +313,7 @@ fn a_pinned_run_keeps_its_step_when_it_is_restored() {
 #[test]
 fn a_chosen_step_lasts_until_the_next_impulse_when_a_motion_is_restored() {
     let text = "title = \"Struck\"\n[coordinates]\nx = { initial = 2 }\n[lagrangian]\nL = \"1/2*x'^2 - 1/4*x^4\"\n\
-                [[impulses]]\nname = \"strike\"\nevery = 3\nchange = { p_x = \"5*(t - 3)\" }\n";
+                [[impulses]]\nname = \"push\"\nevery = 3\nchange = { p_x = \"5*(t - 3)\" }\n";
     let begun = || build(text, |setup| setup.method = "rk4".into());
     let mut left = begun();
     run(&mut left, 4.1);

@@ -117,7 +117,7 @@ fn an_impulse_is_taken_back_and_happens_again() {
 #[test]
 fn before_an_impulse_the_steps_are_those_that_were_taken_there() {
     let text = "title = \"Struck\"\n[coordinates]\nx = { initial = 2 }\n[lagrangian]\nL = \"1/2*x'^2 - 1/4*x^4\"\n\
-                [[impulses]]\nname = \"strike\"\nevery = 3\nchange = { p_x = \"5*(t - 2)\" }\n";
+                [[impulses]]\nname = \"push\"\nevery = 3\nchange = { p_x = \"5*(t - 2)\" }\n";
     for method in ["rk4", "leapfrog", "gauss4", "yoshida4"] {
         let begun = || build(text, |setup| setup.method = method.into());
         let (mut back, mut alone) = (begun(), begun());

@@ -40,12 +40,12 @@ fn constants(coordinates: &[&str], constraints: &[&str]) -> Vec<Option<String>> 
             let rows = &equations.constraints;
             let a = DMatrix::from_fn(rows.len(), n, |k, i| pool.evaluate(rows[k].row[i], &at));
             let rate = DVector::from_fn(rows.len(), |k, _| pool.evaluate(rows[k].rate, &at));
-            let wish = DVector::from_fn(n, |i, _| {
+            let wanted = DVector::from_fn(n, |i, _| {
                 pool.evaluate(Expr::ONE, &at) * (0.3 + 0.7 * i as f64 - 0.2 * seed as f64)
             });
             // the nearest admissible velocity
             let inverse = a.clone().pseudo_inverse(1e-12).expect("regular");
-            let velocity = &wish - inverse * (&a * &wish + rate);
+            let velocity = &wanted - inverse * (&a * &wanted + rate);
             let value = |h: f64| {
                 pool.evaluate(f, &|s| {
                     let i = equations.coordinates.iter().position(|c| c.position == s);

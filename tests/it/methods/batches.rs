@@ -154,7 +154,7 @@ fn tangent_vectors_too() {
 }
 
 #[test]
-fn a_budget_ends_a_batch_and_a_motion_that_breaks_off_is_told_as_by_single_steps() {
+fn a_budget_ends_a_batch_and_a_motion_that_breaks_off_is_reported_as_by_single_steps() {
     let case = henon_heiles();
     let mut many = case.stepper(named("leapfrog"), 0.01);
     let mut budget = 5000;

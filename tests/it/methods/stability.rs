@@ -33,7 +33,7 @@ fn limit(case: &Case, method: &Method, step: f64) -> Option<f64> {
 }
 
 #[test]
-fn the_limit_told_is_where_amplitudes_begin_to_grow() {
+fn the_reported_limit_is_where_amplitudes_begin_to_grow() {
     let case = oscillator(1.0, 1.0, 1.0);
     for name in ["leapfrog", "symplectic-euler", "yoshida4", "yoshida6", "yoshida8", "rk4"] {
         let method = named(name);
@@ -54,7 +54,7 @@ fn known_limits_are_met() {
     // 2 for the leapfrog and its conjugate; 2√2 on the imaginary axis and 2.785… on the real one for rk4
     let case = oscillator(1.0, 1.0, 1.0);
     let near = |found: Option<f64>, wanted: f64| {
-        let found = found.expect("told");
+        let found = found.expect("reported");
         assert!((found / wanted - 1.0).abs() < 0.02, "{found} for {wanted}");
     };
     near(limit(&case, named("leapfrog"), 2.3), 2.0);
@@ -70,7 +70,7 @@ fn known_limits_are_met() {
 fn units_do_not_matter() {
     // an electron in an atom, in SI units
     let case = oscillator(9.1e-31, 1e16, 1e-10);
-    let found = limit(&case, named("leapfrog"), 2.2e-16).expect("told");
+    let found = limit(&case, named("leapfrog"), 2.2e-16).expect("reported");
     assert!((found / 2e-16 - 1.0).abs() < 0.02, "{found:e}");
     assert_eq!(limit(&case, named("leapfrog"), 1.9e-16), None);
 }

@@ -590,7 +590,7 @@ fn what_was_said_of_the_motion_expires_while_the_lesson_waits() {
     assert!(!lesson.advance(50_000).expect("it waits"), "then nothing changes");
 }
 
-/// Where no clock is meant, no time is told.
+/// Where no clock is meant, no time is reported.
 #[test]
 fn a_text_that_a_lesson_rebuilds_tells_no_milliseconds() {
     let mut tour = tour_until("And now a Lagrangian of your own");

@@ -36,7 +36,7 @@ fn space_resumes_what_it_has_paused() {
     assert!(running.contains("Space pause") && !running.contains("resume"), "{running}");
 }
 
-/// A free particle is carried on by one step for as long as anybody looks: no rate of steps is told of it.
+/// A free particle is carried on by one step for as long as anybody looks: no rate of steps is reported of it.
 #[test]
 fn a_step_longer_than_the_motion_is_called_so() {
     for (name, longer) in [("free-particle", true), ("double-pendulum", false)] {

@@ -26,9 +26,9 @@ fn at(app: &App, size: (u16, u16), place: (u16, u16)) -> Option<HitTarget> {
 
 /// Every position with its target.
 fn all(app: &App, (width, height): (u16, u16)) -> Vec<((u16, u16), HitTarget)> {
-    let spots = hit_targets(app, &rich(), Rect::new(0, 0, width, height));
+    let targets = hit_targets(app, &rich(), Rect::new(0, 0, width, height));
     let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
-    places.filter_map(|place| Some((place, spots.at(place.0, place.1)?))).collect()
+    places.filter_map(|place| Some((place, targets.at(place.0, place.1)?))).collect()
 }
 
 /// The positions of a target.
@@ -154,7 +154,7 @@ fn a_click_throws_the_pendulum_to_another_beginning() {
     let mut real = Real::of("pendulum");
     real.run(100);
     let start = real.seen().initial.clone();
-    let spots = all(&real.app, size);
+    let targets = all(&real.app, size);
     let pick = |want: [f64; 2]| {
         let far = |target: &HitTarget| match target {
             HitTarget::Plot { index: 1, at, .. } => {
@@ -162,7 +162,7 @@ fn a_click_throws_the_pendulum_to_another_beginning() {
             }
             _ => f64::INFINITY,
         };
-        spots.iter().min_by(|a, b| far(&a.1).total_cmp(&far(&b.1))).copied().unwrap()
+        targets.iter().min_by(|a, b| far(&a.1).total_cmp(&far(&b.1))).copied().unwrap()
     };
     let (place, target) = pick([-1.0, 2.0]);
     let HitTarget::Plot { at: [theta, momentum], .. } = target else { panic!("{target:?}") };
@@ -183,9 +183,9 @@ fn a_click_in_another_plot_reads_the_coordinates() {
     let size = (120, 40);
     let mut real = Real::of("pendulum");
     real.run(100);
-    let spots = all(&real.app, size);
+    let targets = all(&real.app, size);
     let time = |target: &HitTarget| matches!(target, HitTarget::Plot { index: 2, .. });
-    let inside: Vec<_> = spots.iter().filter(|(_, target)| time(target)).collect();
+    let inside: Vec<_> = targets.iter().filter(|(_, target)| time(target)).collect();
     let (place, _) = *inside[inside.len() / 2];
     click(&mut real, size, place);
     let buffer = screen(&real.app, &rich(), size);
@@ -983,7 +983,7 @@ fn nothing_is_under_a_place_that_shows_nothing() {
 }
 
 #[test]
-fn what_is_held_is_let_go_when_the_keys_lead_elsewhere() {
+fn what_is_dragged_is_released_when_the_keys_lead_elsewhere() {
     let size = (120, 40);
     let mut real = Real::of("pendulum");
     let bar = places(&real.app, size, |target| matches!(target, HitTarget::Bar { .. }));

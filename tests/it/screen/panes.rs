@@ -389,7 +389,7 @@ fn the_key_of_the_cursor_says_what_it_does() {
     assert!(last(&app).contains("c no cursor"), "{}", last(&app));
 }
 
-/// Why a key does nothing here is told, but is no error.
+/// Why a key does nothing here is reported, but is no error.
 #[test]
 fn a_hint_has_not_the_colour_of_an_error() {
     let theme = rich().theme;
@@ -755,9 +755,9 @@ fn a_body_is_drawn_as_it_stands() {
 fn news_are_reported_one_after_the_other_and_leave_the_hints_room() {
     let mut app = in_lab();
     let mut seen = snapshot(&pendulum(), 2.5);
-    seen.notices = ["old news", "the bob passed", "the bob came back"].map(str::to_owned).into();
+    seen.notices = ["old notice", "the bob passed", "the bob came back"].map(str::to_owned).into();
     let mut before = seen.clone();
-    before.notices = ["old news".to_owned()].into();
+    before.notices = ["old notice".to_owned()].into();
     app.update(AppEvent::Snapshot(Arc::new(before)));
     app.update(AppEvent::Tick(Duration::from_secs(6)));
     app.update(AppEvent::Snapshot(Arc::new(seen)));

@@ -33,7 +33,7 @@ fn everything_on_the_screen_can_be_read() {
     for name in ["pendulum", "heavy-top", "merry-go-round", "knife-edge"] {
         let system = loaded(name, 1);
         let mut seen = snapshot(&system, 1.0);
-        seen.notices = ["first news".to_owned(), "latest news".to_owned()].into();
+        seen.notices = ["first notice".to_owned(), "latest notice".to_owned()].into();
         let broken = Verdict::Broken("−2F along the whole way that it went".to_owned());
         seen.gauges = [gauge("energy", "E", 0.25, broken)].into();
         let (mut app, _) = App::new(catalog(), Some(name));
@@ -70,7 +70,7 @@ fn everything_on_the_screen_can_be_read() {
             "E (energy) is 0.25000000; changed by 0 since t = 0; not conserved: by the physics",
         );
         reported("−2F along the whole way that it went. Reason: ∂L/∂t = 0.");
-        reported("latest news first news");
+        reported("latest notice first notice");
         for row in KEYS.iter().filter(|row| row.context == KeyContext::Experiment) {
             reported(row.help);
         }

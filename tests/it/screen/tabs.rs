@@ -111,7 +111,7 @@ fn pictures_that_share_a_frame_are_named_as_far_as_there_is_room() {
     assert!(second.iter().all(|name| !name.contains('/')) && second.len() > 1, "{second:?}");
 }
 
-/// A verdict is told in one way in a list: what varies is not called `varies` in one row and `not conserved` in the next.
+/// A verdict is reported in one way in a list: what varies is not called `varies` in one row and `not conserved` in the next.
 #[test]
 fn one_verdict_has_the_same_words_throughout_a_list() {
     let long = "a quantity with a long name";

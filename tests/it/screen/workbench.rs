@@ -66,7 +66,7 @@ proptest! {
 }
 
 #[test]
-fn an_error_is_underlined_marked_and_told_below() {
+fn an_error_is_underlined_marked_and_reported_below() {
     let mut app = edited();
     let sheet = app.workbench.top_mut().unwrap();
     let (from, to) = (Caret { row: 2, column: 10 }, Caret { row: 2, column: 13 });
@@ -210,9 +210,9 @@ fn one_line_scrolls_and_one_pane_is_focused() {
     assert_eq!(text.concat().matches('┏').count(), 1, "{text:#?}");
 }
 
-/// On the smallest screen an error is told, and not only that there is one.
+/// On the smallest screen an error is reported, and not only that there is one.
 #[test]
-fn an_error_is_told_in_few_rows() {
+fn an_error_is_reported_in_few_rows() {
     let mut app = edited();
     let (from, to) = (Caret { row: 0, column: 0 }, Caret { row: 0, column: 5 });
     let sheet = app.workbench.top_mut().unwrap();
@@ -225,9 +225,9 @@ fn an_error_is_told_in_few_rows() {
     assert!(find(&buffer, "did you mean `name`?").is_some(), "{:#?}", rows(&buffer));
 }
 
-/// Of several errors as many are told as there is room for, the one at the cursor first and in full.
+/// Of several errors as many are reported as there is room for, the one at the cursor first and in full.
 #[test]
-fn several_errors_are_told_at_once() {
+fn several_errors_are_reported_at_once() {
     let mut app = edited();
     let sheet = app.workbench.top_mut().unwrap();
     let error = |row: usize, help: Option<&str>| BufferDiagnostic {
@@ -241,7 +241,8 @@ fn several_errors_are_told_at_once() {
     sheet.state = BufferState::Wrong;
     let reported = |app: &App| {
         let rows = rows(&screen(app, &rich(), (80, 24)));
-        let row = |text: &str| rows.iter().position(|row| row.contains(text)).expect("it is told");
+        let row =
+            |text: &str| rows.iter().position(|row| row.contains(text)).expect("it is reported");
         [row("1:1 wrong number 0"), row("3:1 wrong number 2"), row("5:1 wrong number 4")]
     };
     let [first, second, third] = reported(&app);

@@ -29,7 +29,7 @@ fn still(mut rows: Vec<String>) -> Vec<String> {
 }
 
 #[test]
-fn a_megabyte_pasted_into_the_palette_is_cut_and_told() {
+fn a_megabyte_pasted_into_the_palette_is_cut_and_reported() {
     let mut lab = pendulum();
     lab.press(" ");
     lab.shows("paused");

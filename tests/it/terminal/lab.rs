@@ -378,11 +378,11 @@ fn stills_data_and_recordings_are_written_by_keys() {
     let casts = written(folder.path(), ".cast");
     assert_eq!(casts.len(), 2);
     for (name, text) in casts {
-        let tape = phaselab::record::RecordedCast::read(&text)
+        let cast = phaselab::record::RecordedCast::read(&text)
             .unwrap_or_else(|why| panic!("{name}: {why}"));
-        assert_eq!(tape.size, (120, 40));
+        assert_eq!(cast.size, (120, 40));
         let mut terminal = avt::Vt::new(120, 40);
-        for (_, turn) in &tape.events {
+        for (_, turn) in &cast.events {
             if let phaselab::record::CastEvent::Output(text) = turn {
                 terminal.feed_str(text);
             }
@@ -530,7 +530,7 @@ fn a_demo_ends_by_itself_and_its_last_picture_stays() {
 }
 
 #[test]
-fn a_demo_can_be_held_and_left() {
+fn a_demo_can_be_paused_and_left() {
     let mut demo = Setup::new(PROGRAM, &["pendulum", "--demo"]).start();
     demo.shows("Released from 1°");
     demo.press(" ");

@@ -88,10 +88,10 @@ fn no_image_that_exists_is_denied() {
     }
 }
 
-/// Where 1 + 4 h q (h q − p)/(1 + q²)² is negative the quadratic for P has no root: that is told in both views, by every map
+/// Where 1 + 4 h q (h q − p)/(1 + q²)² is negative the quadratic for P has no root: that is reported in both views, by every map
 /// that a generating function makes, also if it can be written down; before and after it there is an image.
 #[test]
-fn a_caustic_is_told_and_stepped_over() {
+fn a_caustic_is_reported_and_stepped_over() {
     let said = "no image: beyond a caustic";
     let mut course = Course::with(&crate::hand::catalog().find("two-roots").unwrap().text);
     for (time, beyond) in [(3.0, false), (3.3, true), (3.5, false), (7.3, true)] {
@@ -129,7 +129,7 @@ fn drawn(course: &mut Course, time: f64) -> ([f64; 2], Vec<[f64; 2]>, Vec<String
 }
 
 /// Q = ±√(2p), P = −q Q + 1/3: both images are in the picture, and where p < 0 there are none.
-/// P = p/q² has a pole at q = 0: the orbit is not drawn flat once it has passed there, and how far it was is told.
+/// P = p/q² has a pole at q = 0: the orbit is not drawn flat once it has passed there, and how far it was is reported.
 #[test]
 fn the_picture_holds_the_other_root_and_not_a_pole() {
     let file = |law: &str| {

@@ -26,7 +26,7 @@ const SYSTEMS: [&str; 9] = [
 
 /// The pictures of a painter that keeps what does not change are those of one that keeps nothing.
 #[test]
-fn what_is_kept_is_what_would_be_drawn_anew() {
+fn what_is_cached_is_what_would_be_drawn_anew() {
     let area = Rect::new(0, 0, 120, 40);
     for name in SYSTEMS {
         for glyphs in [Glyphs::Braille, Glyphs::Ascii] {

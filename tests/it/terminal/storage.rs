@@ -211,7 +211,7 @@ fn the_second_saves_the_session_once_the_first_has_ended() {
 }
 
 #[test]
-fn a_pipe_in_the_place_of_what_is_kept_freezes_nothing() {
+fn a_pipe_in_the_place_of_a_session_freezes_nothing() {
     use rustix::fs::{CWD, FileType, Mode, mknodat};
     for name in ["session.toml", "texts.toml", "session.lock"] {
         let state = folder();
@@ -248,7 +248,7 @@ fn edited(state: &Path, place: &Path) -> Session {
 }
 
 #[test]
-fn a_text_that_is_not_saved_is_kept_on_every_way_out() {
+fn an_unsaved_text_is_stored_on_every_way_out() {
     let (state, folder) = (folder(), folder());
     let (place, texts) = (folder.path().join("own.toml"), state.path().join("phaselab/texts.toml"));
     let kept = || fs::read_to_string(&texts).unwrap_or_default();
@@ -302,7 +302,7 @@ fn a_text_that_is_not_saved_is_kept_on_every_way_out() {
 }
 
 #[test]
-fn a_text_that_cannot_be_kept_is_not_lost_at_the_first_q() {
+fn a_text_that_cannot_be_stored_is_not_lost_at_the_first_q() {
     let (state, folder) = (folder(), folder());
     let mut lab = edited(state.path(), &folder.path().join("own.toml"));
     let place = state.path().join("phaselab");
