@@ -51,6 +51,7 @@ mod constraint_span;
 mod conversion;
 mod converter;
 mod discontinuities;
+mod elimination;
 mod error;
 mod error_report;
 mod event_functions;

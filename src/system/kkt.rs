@@ -5,6 +5,7 @@
 //! In: M, f and the constraints' rows as expressions. Out: registers. Never here: which constraints
 //! are enforced; `conditions` decides that numerically.
 
+use super::elimination::{EliminatedCoordinate, eliminate};
 use super::lower::Lowering;
 use super::program::Register;
 use crate::expr::{Expr, Pool, Symbol};
@@ -21,6 +22,8 @@ pub(super) struct ConstraintSystem {
     /// γ, zero if a constraint is not enforced.
     bias: Vec<Expr>,
     least: Option<LeastNorm>,
+    /// The coordinates that were eliminated from the matrix, in this order.
+    eliminated: Vec<EliminatedCoordinate>,
 }
 
 /// Two numbers for each constraint, 1 or 0.
@@ -87,7 +90,18 @@ impl ConstraintSystem {
             }
             LeastNorm { b, normal, g: products(pool, &a, &a) }
         });
-        ConstraintSystem { switches, matrix, bias, least }
+        let eliminated = if rows.is_empty() {
+            let symbols = &equations.symbols;
+            let coordinates = &equations.coordinates;
+            let auxiliary = equations.supplements.auxiliary.iter().flat_map(|own| &own.symbols);
+            let varying = coordinates.iter().flat_map(|c| [c.position, c.velocity]);
+            let varying: Vec<Symbol> =
+                varying.chain(auxiliary.copied()).chain([symbols.time]).collect();
+            eliminate(pool, &mut matrix, &varying)
+        } else {
+            Vec::new()
+        };
+        ConstraintSystem { switches, matrix, bias, least, eliminated }
     }
 
     /// Returns the accelerations and binds them and the multipliers to their symbols.
@@ -97,9 +111,19 @@ impl ConstraintSystem {
         equations: &Equations,
         force: &[Expr],
     ) -> Vec<Register> {
-        let mut right = lowering.lower_all(force);
+        let (mut matrix, mut force) = (self.matrix.clone(), force.to_vec());
+        for coordinate in &self.eliminated {
+            coordinate.transform(lowering.pool, &mut matrix, &mut force);
+        }
+        let mut right = lowering.lower_all(&force);
         right.extend(lowering.lower_all(&self.bias));
-        let mut accelerations = lowering.solve(&self.matrix, &right);
+        let mut accelerations = lowering.solve(&matrix, &right);
+        for EliminatedCoordinate { place, couplings } in self.eliminated.iter().rev() {
+            let (row, x): (Vec<Expr>, Vec<Register>) =
+                couplings.iter().map(|&(i, a)| (a, accelerations[i])).unzip();
+            let moved = lowering.inner_product(&row, &x);
+            accelerations[*place] = lowering.difference(accelerations[*place], moved);
+        }
         let independent = accelerations.split_off(force.len());
         let multipliers = match &self.least {
             None => independent,

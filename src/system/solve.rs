@@ -42,11 +42,20 @@ impl<R: Real> Factored<R> {
         self.is_scaled = false;
         // loops of a known length are unrolled
         match self.size {
+            1 => self.take_only(entry),
             2 => self.factor_of::<2>(entry),
             3 => self.factor_of::<3>(entry),
             4 => self.factor_of::<4>(entry),
             _ => self.factor_of::<0>(entry),
         }
+    }
+
+    /// The same for one number, which is singular only where it is zero.
+    #[inline]
+    fn take_only(&mut self, mut entry: impl FnMut(usize, usize) -> R) -> bool {
+        let only = entry(0, 0);
+        self.entries[0] = only;
+        only.value() != 0.0
     }
 
     /// The same for a size that is known, or for any where that is zero.
@@ -113,6 +122,7 @@ impl<R: Real> Factored<R> {
     /// Solves for a right-hand side, in place.
     pub(super) fn solve(&mut self, right: &mut [R]) {
         match self.size {
+            1 => self.solve_of::<1>(right),
             2 => self.solve_of::<2>(right),
             3 => self.solve_of::<3>(right),
             4 => self.solve_of::<4>(right),
@@ -145,6 +155,7 @@ impl<R: Real> Factored<R> {
         over: impl Fn(R, R) -> R,
     ) {
         match self.size {
+            1 => self.solve_again_of::<1, FUSED>(right, over),
             2 => self.solve_again_of::<2, FUSED>(right, over),
             3 => self.solve_again_of::<3, FUSED>(right, over),
             4 => self.solve_again_of::<4, FUSED>(right, over),

@@ -412,7 +412,7 @@ impl<'a, A: Arithmetic> Emitter<'a, A> {
     }
 
     /// A register at order 0.
-    fn value(&self, register: Register) -> A::Number {
+    pub(super) fn value(&self, register: Register) -> A::Number {
         A::at(self.places.value(register as usize))
     }
 }

@@ -13,14 +13,14 @@ use crate::system::finishing_pass::LinearSolve;
 impl<A: Arithmetic> Emitter<'_, A> {
     /// `M_0 a_k = f_k − Σ_{j≥1} M_j a_{k−j}` by the factored M_0.
     pub(super) fn solution(&mut self, solution: LinearSolve) -> Result<(), NotCompiled> {
-        if self.code.lanes != Width::One {
-            // each orbit has pivots of its own
-            return Err(NotCompiled);
-        }
         let LinearSolve { register, block, first, count, inner } = solution;
         let plan = self.plan;
         let place = self.places.factored[block as usize];
         let n = place.size;
+        if self.code.lanes != Width::One && n > 1 {
+            // each orbit has pivots of its own
+            return Err(NotCompiled);
+        }
         let work = |offset: usize| Address { area: Area::Work, offset };
         let entry = |i: usize, j: usize| A::at(work(place.entries + (i * n + j) * A::SIZE));
         let right = plan.program.blocks[block as usize].right.iter();
@@ -52,7 +52,12 @@ impl<A: Arithmetic> Emitter<'_, A> {
         let upper = |i: usize, j: usize| work(place.upper + (i * n + j) * A::SIZE);
         let scales = !std::mem::replace(&mut self.scaled[block as usize], true);
         for (i, sum) in partial.iter_mut().enumerate() {
-            let pivot = self.shared(SharedDivisor::Pivot(block, i as u32), entry(i, i));
+            // a matrix of one number is that number, also in lanes
+            let number = match &plan.program.blocks[block as usize].matrix[..] {
+                &[only] => self.value(only),
+                _ => entry(i, i),
+            };
+            let pivot = self.shared(SharedDivisor::Pivot(block, i as u32), number);
             *sum = A::over_shared(self.code, *sum, pivot);
             for j in if scales { i + 1..n } else { 0..0 } {
                 let scaled = A::over_shared(self.code, entry(i, j), pivot);
