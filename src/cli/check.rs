@@ -22,8 +22,8 @@ use crate::printable;
 /// Report all errors in files, and whether what they claim is true.
 ///
 /// Reports go to standard error. A file's claims (`conserved`, `[expect]`) are checked by
-/// integrating the motion. If there are no errors, nothing is written but a summary, where a
-/// terminal shows it.
+/// integrating the motion. If there are no errors, nothing is written except a short summary on a
+/// terminal.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:

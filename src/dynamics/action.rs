@@ -86,7 +86,7 @@ impl Lagrangian {
     /// The Lagrangian of a model; of a Hamiltonian system by the inverse Legendre transform.
     ///
     /// # Errors
-    /// Returns an error if there is none, or the system is held to constraints.
+    /// Returns an error if there is none, or the system is subject to constraints.
     pub fn of(
         model: &Model,
         equations: &mut Equations,
@@ -97,7 +97,7 @@ impl Lagrangian {
         }
         if !model.constraints.is_empty() {
             return Err(unsuited(
-                "a path held to constraints is not varied freely: choose coordinates that need none",
+                "a path subject to constraints is not varied freely: choose coordinates that need none",
             ));
         }
         let lagrangian = equations

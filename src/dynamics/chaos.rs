@@ -1,4 +1,4 @@
-//! Whether neighbouring motions part exponentially, and whether that is chaos, by what was measured along one motion.
+//! Whether neighbouring motions separate exponentially, and whether that is chaos, by what was measured along one motion.
 //!
 //! In: the growth of tangent vectors, MEGNO, how the motion was carried. Out: a verdict with its reason. Never here: steps.
 
@@ -29,7 +29,7 @@ const ESCAPE: f64 = 0.5;
 /// A motion that is to close does so before neighbours have parted by this power of e: rounding has led it away from where it was later.
 const LOST: f64 = 20.0;
 
-/// Whether neighbouring motions part exponentially, and whether that is chaos.
+/// Whether neighbouring motions separate exponentially, and whether that is chaos.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Chaos {
     /// They do not.
@@ -85,7 +85,7 @@ impl Evidence<'_> {
         let (time, off) = (short(self.lasted), self.uncertainty);
         if has_parted(grown) && megno >= CHAOTIC && self.largest > 2.0 * off {
             let reason = format!(
-                "neighbouring motions part by e^{grown:.1} in a time of {time}, and MEGNO is {megno:.1}, \
+                "neighbouring motions separate by e^{grown:.1} in a time of {time}, and MEGNO is {megno:.1}, \
                  where regular motion has 2"
             );
             return (Chaos::Chaotic, reason);
@@ -96,7 +96,7 @@ impl Evidence<'_> {
         let rises = megno > SETTLED && self.megno_growth > RISING;
         if !rises && megno <= REGULAR && grown < GROWTH + math::ln(self.motion.steps as f64) {
             let reason = format!(
-                "neighbouring motions part no faster than in proportion to time: MEGNO is \
+                "neighbouring motions separate no faster than in proportion to time: MEGNO is \
                  {megno:.2}, and chaotic motion exceeds {CHAOTIC}"
             );
             return (Chaos::Regular, reason);
@@ -109,12 +109,12 @@ impl Evidence<'_> {
             )
         } else if between {
             format!(
-                "neighbouring motions part by e^{grown:.1} in a time of {time} and MEGNO is {megno:.1}, between regular (up to \
+                "neighbouring motions separate by e^{grown:.1} in a time of {time} and MEGNO is {megno:.1}, between regular (up to \
                  {REGULAR}) and chaotic (from {CHAOTIC}): a longer time may tell"
             )
         } else {
             format!(
-                "MEGNO is {megno:.1} (regular up to {REGULAR}, chaotic from {CHAOTIC}), but neighbouring motions part by \
+                "MEGNO is {megno:.1} (regular up to {REGULAR}, chaotic from {CHAOTIC}), but neighbouring motions separate by \
                  e^{grown:.1} in a time of {time}, and λ is known to ± {off:.1e}: a longer time may tell"
             )
         };

@@ -91,7 +91,7 @@ impl ConstrainedBalance {
         let (system, parameters) = (space.system(), space.parameters());
         let native = system.convert(start, Form::Velocity, parameters)?;
         let Some(mut projector) = system.projector(parameters) else {
-            return Err(DynamicsError::Unsuited("no constraint holds the motion".to_owned()));
+            return Err(DynamicsError::Unsuited("no constraint acts on the motion".to_owned()));
         };
         projector.take_levels(&native);
         let displaced = system.with_tangents(2 * system.degrees());

@@ -104,7 +104,7 @@ fn followed(
     }
     if space.is_constrained() && until < start.time {
         return Err(DynamicsError::Unsuited(
-            "constraints hold the motion, which is then followed forwards only".to_owned(),
+            "constraints act on the motion, which is then followed forwards only".to_owned(),
         ));
     }
     let n = space.dimension();

@@ -229,7 +229,7 @@ fn departing(
 
 /// By how much neighbours part.
 fn parted(grown: f64, time: f64) -> String {
-    format!("neighbouring motions part by e^{grown:.1} in a time of {}", short(time))
+    format!("neighbouring motions separate by e^{grown:.1} in a time of {}", short(time))
 }
 
 /// What was measured on the way, and what it shows by itself.

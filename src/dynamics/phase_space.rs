@@ -55,7 +55,7 @@ impl PhaseSpace {
     /// The phase space of a compiled system at these parameters.
     ///
     /// # Errors
-    /// Returns an error if the motion has no derivative everywhere, is held to constraints, or
+    /// Returns an error if the motion has no derivative everywhere, is subject to constraints, or
     /// impulses act on it.
     pub fn of(
         model: &Model,
@@ -70,7 +70,7 @@ impl PhaseSpace {
     /// The phase space of a system whose events do nothing but end the motion; here the motion continues past them.
     ///
     /// # Errors
-    /// Returns an error if the motion has no derivative everywhere, is held to constraints, or impulses act on it.
+    /// Returns an error if the motion has no derivative everywhere, is subject to constraints, or impulses act on it.
     pub fn without_end(
         model: &Model,
         equations: &Equations,
@@ -82,7 +82,7 @@ impl PhaseSpace {
         PhaseSpace::read(model, equations, system, parameters, false)
     }
 
-    /// The phase space of a system that may be held to constraints, and on whose motion no impulses act.
+    /// The phase space of a system that may be subject to constraints, and on whose motion no impulses act.
     ///
     /// # Errors
     /// Returns an error if the motion has no derivative everywhere, or impulses act on it.
@@ -96,13 +96,13 @@ impl PhaseSpace {
         PhaseSpace::read(model, equations, system, parameters, false)
     }
 
-    /// The phase space of a system that may be held to constraints. Its variables are then not independent: the states
+    /// The phase space of a system that may be subject to constraints. Its variables are then not independent: the states
     /// are those that satisfy the constraints, and the displacements those of [`PhaseSpace::allowed_displacements`].
     /// Without constraints, impulses may act on the motion.
     ///
     /// # Errors
     /// Returns an error if the motion has no derivative everywhere else, or if impulses or events act on a motion that is
-    /// held to constraints.
+    /// subject to constraints.
     pub fn on_constraints(
         model: &Model,
         equations: &Equations,
@@ -120,7 +120,7 @@ impl PhaseSpace {
     /// conservative.
     ///
     /// # Errors
-    /// Returns an error if the motion has no derivative everywhere else, or is held to constraints.
+    /// Returns an error if the motion has no derivative everywhere else, or is subject to constraints.
     pub fn through_impulses(
         model: &Model,
         equations: &Equations,

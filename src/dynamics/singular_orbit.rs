@@ -37,7 +37,7 @@ impl Newton<'_> {
             .collect();
         Ok(Some(format!(
             "the orbit that closes near the start, after {}, passes close to a singularity of its law, at {} after its \
-             start: {}. Neighbouring motions part there so far that rounding may change the matrix of its multipliers by \
+             start: {}. Neighbouring motions separate there so far that rounding may change the matrix of its multipliers by \
              {:.0e} of its size, so that they are not known. Begin farther from it, or with another period or energy",
             short(closed.period),
             short(rounding.worst - start.time),

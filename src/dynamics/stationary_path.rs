@@ -114,7 +114,7 @@ pub fn stationary_path(
                 continue;
             }
             return Err(no_path(
-                "Newton's method comes to no stationary path from there: begin with another one, \
+                "Newton's method does not converge to a stationary path from there: begin with another one, \
                  --near x=EXPR(t)",
             ));
         };

@@ -37,7 +37,7 @@ pub(super) fn refuse_constraints(system: &System) -> Result<(), DynamicsError> {
     if system.constraints() == 0 {
         return Ok(());
     }
-    let why = "the motion is held to constraints, and this asks for independent coordinates";
+    let why = "the motion is subject to constraints, and this asks for independent coordinates";
     Err(DynamicsError::Unsuited(why.to_owned()))
 }
 

@@ -56,7 +56,7 @@ impl Followed<'_> {
         }
         let (parted, at) = self.single_steps.outstanding(self.motion.steps)?;
         Some(format!(
-            "in the single step that ends at t = {} neighbouring motions part by e^{parted:.1}; the step leads past a pole of \
+            "in the single step that ends at t = {} neighbouring motions separate by e^{parted:.1}; the step leads past a pole of \
              the coordinates, or is too long; {} may tell",
             short(at),
             self.remedy()

@@ -27,7 +27,7 @@ use crate::system::{Form, MotionError, MotionErrorKind, Rates, State, System};
 /// Checks that the method has the properties it is chosen for.
 pub(super) fn fits(method: &Method, system: &System) -> Result<(), MethodError> {
     if system.constraints() > 0 {
-        let reason = "the motion is held to constraints, and would no longer be symplectic";
+        let reason = "the motion is subject to constraints, and would no longer be symplectic";
         return Err(MethodError { method: method.name, reason: reason.to_owned() });
     }
     Ok(())

@@ -14,8 +14,8 @@ pub(super) const METHOD: Method = Method {
     locates_kinks: false,
     stays_within_steps: true,
     needs: splitting::NEEDS,
-    about: "Half a kick, a drift, half a kick: the simplest symplectic method. Energy swings a \
-            little and does not drift. Hairer, Lubich & Wanner, Geometric Numerical Integration, \
+    about: "Half a kick, a drift, half a kick: the simplest symplectic method. The energy \
+            oscillates a little but does not drift. Hairer, Lubich & Wanner, Geometric Numerical Integration, \
             I.1.4.",
     fits: |system| splitting::fits(&METHOD, system),
     leapfrogs: || vec![1.0],

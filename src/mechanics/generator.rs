@@ -31,7 +31,7 @@ pub struct GeneratorFlow {
 ///
 /// # Errors
 /// Returns an error if G, H, the velocities or a column is not known as a function of q and p, or
-/// the system is held to constraints.
+/// the system is subject to constraints.
 pub fn flow_of(
     model: &Model,
     equations: &mut Equations,
@@ -40,7 +40,8 @@ pub fn flow_of(
     time: f64,
 ) -> Result<GeneratorFlow, NoClosedForm> {
     if !model.constraints.is_empty() {
-        let why = "the state is held to constraints, which the flow of a generator need not keep";
+        let why =
+            "the state is subject to constraints, which the flow of a generator need not keep";
         return Err(NoClosedForm(why.to_owned()));
     }
     let hamiltonian = equations.hamiltonian().clone()?;

@@ -71,7 +71,7 @@ pub(super) fn equations(
     let energy = energy_function(pool, &coordinates, lagrangian);
 
     let beside = if !constraints.is_empty() {
-        Some("the motion is held to constraints")
+        Some("the motion is subject to constraints")
     } else if dissipation != Expr::ZERO || forces.iter().any(|&f| f != Expr::ZERO) {
         Some(hamilton::FORCED)
     } else {

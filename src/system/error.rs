@@ -253,7 +253,7 @@ impl fmt::Display for MotionError {
                 "steps of size {step:e} from t = {time} are too many to be counted up to t = {until}"
             )?,
             MotionErrorKind::EventsAccumulate(name) => {
-                write!(f, "`{name}` comes ever faster and piles up at t = {time}")?;
+                write!(f, "`{name}` happens ever faster and accumulates at t = {time}")?;
             }
             MotionErrorKind::Grazes(name) => write!(
                 f,
@@ -278,7 +278,7 @@ impl fmt::Display for MotionError {
             }
             MotionErrorKind::Swings => write!(
                 f,
-                "what the events wait for swings too often within one step at t = {time}"
+                "the function of an event oscillates too often within one step at t = {time}"
             )?,
             MotionErrorKind::Cancelled => write!(f, "stopped on the way at t = {time}")?,
         }
@@ -324,7 +324,7 @@ impl fmt::Display for MotionError {
                     short(*step)
                 );
             }
-            MotionErrorKind::OutOfRange(None) => ": what is waited for does not happen before",
+            MotionErrorKind::OutOfRange(None) => ": what is searched for does not happen before",
             MotionErrorKind::Grazes(_) => ": nearby motions meet it or pass by",
             MotionErrorKind::Coincides(_) => {
                 ": which of them comes first is different in nearby motions"

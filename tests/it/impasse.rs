@@ -431,7 +431,7 @@ fn an_event_that_swings_beyond_a_step_is_reported() {
     let text = "[coordinates]\nx = { initial = 1.0, velocity = 0.0 }\n[lagrangian]\nL = \"1/2*x'^2 - 1/2*x^2\"\n\
                 [[events]]\nname = \"hit\"\nwhen = \"2 + sin(1e8*x)\"\naction = \"stop\"\n";
     let message = error(by("rk4", Some(0.1), text), 1.0);
-    assert!(message.contains("swings too often within one step"), "{message}");
+    assert!(message.contains("oscillates too often within one step"), "{message}");
     assert!(message.contains("try a smaller step"), "{message}");
     // negative: a thousand swings are followed
     let mut slower = by("rk4", Some(0.1), &text.replace("1e8", "1e4"));

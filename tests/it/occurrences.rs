@@ -187,7 +187,7 @@ fn a_ball_bounces_at_the_times_of_its_parabolas() {
     assert_eq!(progress, AdvanceOutcome::Stuck);
     let Status::Failed(error) = ball.status() else { panic!("it went on") };
     assert!((error.time - 9.0).abs() < 1e-6, "{}", error.time);
-    assert!(error.message.contains("piles up"), "{}", error.message);
+    assert!(error.message.contains("accumulates"), "{}", error.message);
     assert!(value(&ball, "x").abs() < 1e-9, "it did not fall through the floor");
 }
 

@@ -208,8 +208,8 @@ impl<'d> Table<'d> {
     /// A subtable, `[key]`.
     pub(super) fn table(&mut self, key: &'static str) -> Option<Table<'d>> {
         let (place, found) = self.take(key)?;
-        let table =
-            Table::of(found, format!("[{key}]"), place, &format!("[{key}]"), self.diagnostics)?;
+        let shape = format!("[{key}] on a line of its own, and its entries below it");
+        let table = Table::of(found, format!("[{key}]"), place, &shape, self.diagnostics)?;
         Some(match self.row(key).map(|row| row.kind) {
             Some(ValueKind::Table(section)) => table.with(section),
             _ => table,

@@ -59,7 +59,7 @@ fn of_a_regular_motion_the_expected_error_grows_with_its_shear() {
     assert!((power - 1.5).abs() < 0.1, "{power}");
 }
 
-/// A motion held to constraints comes back too, and its exponent is known; derivatives are not followed backwards there.
+/// A motion subject to constraints comes back too, and its exponent is known; derivatives are not followed backwards there.
 #[test]
 fn a_motion_under_constraints_returns() {
     let found = reverse(&["pendulum-rod", "--until", "20", "--tolerance", "1e-12"]);
