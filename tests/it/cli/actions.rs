@@ -553,7 +553,11 @@ fn an_energy_with_several_momenta_of_rest_is_reported_as_such() {
     // the energy falls again beyond p = 1/2
     let below = with_file(&file("1/2*p_x^2 - p_x^4 + 1/2*x^2", 1.0), &["actions", "system.toml"]);
     assert_eq!(below.code, 1);
-    assert!(below.stderr.contains("less energy at the start than at rest"), "{}", below.stderr);
+    assert!(
+        below.stderr.contains("less energy at the start than it would have at rest"),
+        "{}",
+        below.stderr
+    );
     // in a band of energies, E < 1 − cos 0 …, x turns where p = π
     let turned =
         with_file(&file("-cos(p_x) + 1/2*x^2", 0.0), &["actions", "system.toml", "--energy=1.5"]);
