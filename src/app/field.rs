@@ -86,7 +86,7 @@ impl InputField {
             | Purpose::TypedFlow
             | Purpose::Ramp(_)
             | Purpose::Surface(_) => return Ok(value),
-            Purpose::Step => "The step must be greater than zero.",
+            Purpose::Step => "The step must be above zero.",
             Purpose::Tolerance => "The tolerance must be between zero and one.",
         };
         let fits = value > 0.0 && (self.purpose == Purpose::Step || value < 1.0);

@@ -35,7 +35,7 @@ impl RampRequest {
         let to = number(model, parameters, to)?;
         let duration = number(model, parameters, duration)?;
         if duration <= 0.0 {
-            return Err("The duration of a ramp must be greater than zero.".to_owned());
+            return Err("The duration of a ramp must be above zero.".to_owned());
         }
         Ok(RampRequest { to, duration, form })
     }

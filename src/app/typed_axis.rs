@@ -78,10 +78,13 @@ impl App {
         if let Some(view) = &mut self.awaited.view {
             view.take_off_axes(&lost, lab);
         }
-        let sentence = format!(
-            "The text no longer defines {}, which was removed from the axis.",
-            lost.join(", ")
-        );
+        let was = if lost.len() == 1 {
+            "was removed from its axis"
+        } else {
+            "were removed from their axes"
+        };
+        let names = lost.join("`, `");
+        let sentence = format!("`{names}` {was}: the text no longer defines every name in it.");
         self.notifications.show(Notification::error(sentence));
         self.check_again().is_ok()
     }

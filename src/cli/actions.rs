@@ -32,8 +32,8 @@ use crate::system::ChannelKind;
 ///
 /// For each energy one row for every region that it allows, from left to right: libration between
 /// two turning points, or rotation; the action ∮ p dq, the period T, the frequency dE/dJ = 1/T.
-/// The separatrices follow, with the actions of their lobes. Without --energy it is the region
-/// in which the start lies. Of several coordinates one is taken in which the system separates;
+/// The separatrices follow, with the actions of their lobes. Without --energy the rows are those
+/// of the region in which the start lies. Of several coordinates one is taken in which the system separates;
 /// of a cyclic one the frequency is that of its mean advance; where it has no period, and so no action,
 /// the angular frequency is its mean rate.
 ///

@@ -85,7 +85,7 @@ impl FromStr for Scan {
             return Err("the step does not lead from FROM to TO".to_owned());
         }
         if count > MOST_VALUES {
-            return Err(format!("more than {MOST_VALUES} values are too many"));
+            return Err(format!("a scan takes at most {MOST_VALUES} values"));
         }
         // a rounding error must not cost the last one
         let last = (count + 1e-9).floor() as u32;

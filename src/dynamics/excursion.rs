@@ -1,4 +1,4 @@
-//! How far a motion goes from where it began, and whether it comes back: what neighbours that part show depends on it. Chaos is a
+//! How far a motion goes from where it began, and whether it comes back: what neighbours that separate show depends on it. Chaos is a
 //! growth of neighbours of a motion that is bounded and keeps returning; those of one that is at rest, escapes or follows linear
 //! equations may part as fast.
 //!

@@ -293,7 +293,7 @@ fn result(
     };
     // a motion that ends cannot be followed further
     let (verdict, reason) = match (&error, judged) {
-        // neighbours that part next to a pole of the coordinates tell nothing of the motion, which continues
+        // neighbours that separate next to a pole of the coordinates tell nothing of the motion, which continues
         (Some(DynamicsError::Motion(error)), _) if error.kind == MotionErrorKind::NoDerivative => {
             let reason = format!(
                 "the tangent vectors have no limit after {}, which is too short to tell",

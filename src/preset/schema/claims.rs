@@ -14,7 +14,7 @@ pub(super) const OBSERVABLE: SchemaTable = SchemaTable {
         key(
             "conserved",
             Flag,
-            "a claim that it is, which is proved, or held against a motion: a drift above 1e-10 of the size of its terms is wrong; or a claim that it is not",
+            "`true` claims that it is conserved, `false` that it is not; without a proof, a drift above 1e-10 of the size of its terms along the motion is an error",
         ),
         key(
             "unit",

@@ -148,7 +148,7 @@ fn momentum(row: &[f64]) -> f64 {
 fn what_is_no_ramp_is_refused() {
     for (typed, why) in [
         ("2", "the duration"),
-        ("2 in 0", "greater than zero"),
+        ("2 in 0", "above zero"),
         ("two in 3", "is not a number"),
         ("2 in 3 cubical", "is not a number"),
     ] {

@@ -144,7 +144,7 @@ fn what_is_no_table_is_refused() {
     plotted(DIAGONAL, &["--x", "z"]).fails(2, &[unknown]);
     plotted(DIAGONAL, &["--size", "9x9"]).fails(2, &["COLUMNSxROWS"]);
     plotted("a,b\none,two\n", &[]).fails(2, &["no row has numbers for both `a` and `b`"]);
-    plotted("a\n", &[]).fails(65, &["two columns with rows"]);
+    plotted("a\n", &[]).fails(65, &["does not have two columns with rows"]);
 }
 
 /// A sweep over two numbers is a map of what was measured.
@@ -203,7 +203,8 @@ fn what_has_no_table_says_what_has_one() {
         plotted(&report, &[]).fails(65, &[advice]);
     }
     let text = ["sweep", "pendulum", "--grid", "g=1:2:2", "--until", "1", "--format", "text"];
-    plotted(&super::phaselab(&text).success(), &[]).fails(65, &["two columns", advice]);
+    plotted(&super::phaselab(&text).success(), &[])
+        .fails(65, &["does not have two columns", advice]);
     plotted("{\"columns\": [\"a\", \"b\"], \"rows\": [[1]]}", &[])
         .fails(65, &["one number for each column"]);
     plotted("{\"columns\": ", &[]).fails(65, &["it is not JSON"]);
