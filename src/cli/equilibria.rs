@@ -11,6 +11,7 @@ use crate::dynamics::{
     with_virtual_work,
 };
 use crate::mechanics::ConstraintRow;
+use crate::view::glyphs::Glyphs;
 
 /// Find equilibria and the small oscillations about them.
 ///
@@ -180,5 +181,5 @@ fn text(study: &Study, found: &Equilibria) -> String {
     }
     text.truncate(text.trim_end().len());
     text.push('\n');
-    text
+    Glyphs::Braille.text(&text).into_owned()
 }

@@ -6,9 +6,9 @@ use crate::view::glyphs::Glyphs;
 /// The script that the reader's terminal can show.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum MathScript {
-    /// `θ̈ = −(g/l) sin θ`.
+    /// `θ″ = −(g/l) sin θ`, with the primes of the screen and of files.
     Unicode,
-    /// `theta'' = -g*sin(theta)/l`.
+    /// `theta'' = -(g/l)*sin(theta)`.
     Ascii,
 }
 
@@ -20,7 +20,7 @@ impl MathScript {
 
     pub(super) fn math(self, pool: &Pool, e: Expr) -> String {
         match self {
-            MathScript::Unicode => pool.unicode(e),
+            MathScript::Unicode => primed(&pool.unicode(e)),
             MathScript::Ascii => pool.ascii(e),
         }
     }
@@ -28,7 +28,7 @@ impl MathScript {
     pub(super) fn symbol(self, pool: &Pool, symbol: Symbol) -> String {
         let info = pool.symbol_info(symbol);
         match self {
-            MathScript::Unicode => info.unicode.clone(),
+            MathScript::Unicode => primed(&info.unicode),
             MathScript::Ascii => info.name.clone(),
         }
     }
@@ -39,4 +39,9 @@ impl MathScript {
             MathScript::Ascii => Glyphs::Ascii.text(text).into_owned(),
         }
     }
+}
+
+/// Formulas with a prime for each dot above a letter.
+fn primed(formula: &str) -> String {
+    Glyphs::Braille.text(formula).into_owned()
 }

@@ -50,6 +50,25 @@ pub fn unicode_name(name: &str) -> String {
     }
 }
 
+/// A text with the digits behind a single letter below the line: `by F1` → `by F₁`.
+pub fn with_subscripts(text: &str) -> String {
+    let is_of_word = |c: char| c.is_alphanumeric() || c == '_';
+    let lowered = |word: &str| {
+        let mut letters = word.chars();
+        let is_letter = letters.next().is_some_and(|c| c.is_ascii_alphabetic());
+        let digits = letters.as_str();
+        let is_number = !digits.is_empty() && digits.chars().all(|c| c.is_ascii_digit());
+        if is_letter && is_number { unicode_name(word) } else { word.to_owned() }
+    };
+    let mut shown = String::new();
+    for word in text.split_inclusive(|c| !is_of_word(c)) {
+        let letters = word.trim_end_matches(|c| !is_of_word(c));
+        shown.push_str(&lowered(letters));
+        shown.push_str(&word[letters.len()..]);
+    }
+    shown
+}
+
 /// The LaTeX notation of a name: `omega0` → `\omega_{0}`.
 pub fn latex_name(name: &str) -> String {
     let (stem, subscript) = split(name);

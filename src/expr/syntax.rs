@@ -227,7 +227,7 @@ fn not_a_product(left: &Syntax, right: &Syntax, names: &dyn Resolve) -> Option<S
 }
 
 fn no_function(name: &str, span: Span) -> SyntaxError {
-    let error = SyntaxError::new(span, format!("there is no function `{name}`"));
+    let error = SyntaxError::new(span, format!("unknown function `{name}`"));
     if let Some(help) = other_functions::written_here(name) {
         return error.with_help(help);
     }

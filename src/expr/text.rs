@@ -88,6 +88,6 @@ impl Style for Text {
     }
 
     fn constants_apart(&self) -> bool {
-        false
+        self.textbook
     }
 }

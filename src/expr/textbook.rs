@@ -3,6 +3,7 @@
 //!
 //! In: an expression. Out: an equal one, in a pool of its own, to be printed. Never here: the notation.
 
+mod coefficients;
 mod signs;
 
 use rustc_hash::FxHashMap;
@@ -46,7 +47,8 @@ impl Pool {
             _ => part,
         });
         let turned = pool.turn_signs(written);
-        print(&pool, turned)
+        let shorter = pool.shorten_coefficients(turned);
+        print(&pool, shorter)
     }
 
     /// A sum with its products multiplied out where terms combine and it is shorter so: `x (x − y) − ½ (x − y)²` as

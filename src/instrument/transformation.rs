@@ -25,7 +25,7 @@ use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
     Need, Offer, Physics, Picture, Plot, PlotContext, Present, Stroke, Upwards,
 };
-use crate::expr::Symbol;
+use crate::expr::{Symbol, with_subscripts};
 use crate::job::Job;
 use crate::mechanics::{TransformationReport, Valuation, relations_of};
 use crate::model::Transformation as Law;
@@ -118,7 +118,7 @@ impl Instrument for TransformationPlot {
     }
 
     fn heading(&self, plot: &Plot, present: &Present<'_>) -> Option<Heading> {
-        let name = shown(plot, present.physics).map(|shown| shown.law.name.clone());
+        let name = shown(plot, present.physics).map(|shown| with_subscripts(&shown.law.name));
         let columns = [plot.column(0)?, plot.column(1)?];
         // without an image the variables have no numbers
         let entry = |channel: usize| match present.value(channel) {

@@ -419,11 +419,9 @@ impl std::fmt::Display for Reason {
             Reason::Rotation(axis) => write!(f, "rotation about {axis}"),
             Reason::Casimir => f.write_str("Casimir, B ∇C = 0"),
             Reason::CommonRotation(names) => write!(f, "rotation of {names} together"),
-            Reason::Proved => f.write_str("dG/dt = 0 proved symbolically"),
-            Reason::Commutes => f.write_str("[G,H] + ∂G/∂t = 0 proved symbolically"),
-            Reason::ProvedOnConstraints => {
-                f.write_str("dG/dt = 0 on the constraints, proved symbolically")
-            }
+            Reason::Proved => f.write_str("dG/dt = 0, proved"),
+            Reason::Commutes => f.write_str("[G,H] + ∂G/∂t = 0, proved"),
+            Reason::ProvedOnConstraints => f.write_str("dG/dt = 0 on the constraints, proved"),
             Reason::Numerically => f.write_str("checked numerically"),
             Reason::Declared => f.write_str("stated by the file"),
             Reason::OfThisMotion => f.write_str("stated by the file, along this motion only"),

@@ -11,7 +11,7 @@ use super::kkt::ConstraintSystem;
 use super::lower::Lowering;
 use super::program::{Program, Register};
 use super::rhs::ProgramBuilder;
-use crate::expr::{Expr, FunctionId, Node, Symbol};
+use crate::expr::{Expr, FunctionId, Node, Symbol, with_subscripts};
 use crate::mechanics::{Equations, Flow, ImplicitMap};
 use crate::model::{self, Follow, Mechanics, Model, Shape};
 
@@ -48,7 +48,8 @@ impl ObservableList {
         let mut list = ObservableList::default();
         list.add_state(model, equations);
         for (i, o) in model.observables.iter().enumerate() {
-            list.add(ChannelKind::Observable(i), &o.name, &o.name, o.expression);
+            let shown = with_subscripts(&o.name);
+            list.add(ChannelKind::Observable(i), &o.name, &shown, o.expression);
             if let Some(channel) = list.channels.last_mut() {
                 channel.unit.clone_from(&o.unit);
             }
@@ -66,8 +67,8 @@ impl ObservableList {
         for (i, c) in equations.conserved.iter().enumerate() {
             let mut momenta = model.coordinates.iter().map(|q| model.pool.symbol_info(q.momentum));
             let known = momenta.find(|info| info.name == c.name);
-            let shown = known.map_or(c.name.as_str(), |info| &info.unicode);
-            list.add(ChannelKind::Conserved(i), &c.name, shown, c.expression);
+            let shown = known.map_or_else(|| with_subscripts(&c.name), |info| info.unicode.clone());
+            list.add(ChannelKind::Conserved(i), &c.name, &shown, c.expression);
         }
         if let Some(matrix) = equations.supplements.attitude_symbols {
             for (i, symbol) in matrix.into_iter().flatten().enumerate() {
@@ -183,7 +184,7 @@ impl ObservableList {
         self.index.entry(equations.energy).or_insert(self.channels.len() - 1);
         if let Mechanics::Poisson { casimirs, .. } = &model.mechanics {
             for (i, (name, e, _)) in casimirs.iter().enumerate() {
-                self.add(ChannelKind::Casimir(i), name, name, *e);
+                self.add(ChannelKind::Casimir(i), name, &with_subscripts(name), *e);
             }
         }
     }

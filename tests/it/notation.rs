@@ -1,7 +1,7 @@
 //! The notation of the screen can be typed: `½ m l² θ′²` is `1/2*m*l^2*theta'^2`.
 
 use phaselab::experiment::Derived;
-use phaselab::expr::{Expr, Pool, Zero};
+use phaselab::expr::{Expr, Pool, Zero, with_subscripts};
 use phaselab::mechanics::Report;
 use phaselab::model::{Allowed, Model, Ramped, Scope};
 use phaselab::preset::{Catalog, read};
@@ -119,7 +119,7 @@ fn what_could_be_read_in_two_ways_is_refused_with_both() {
     check(
         "x 2",
         &[
-            "a number is written in front of what it multiplies; write `2 x` for the product or `x^2` for the power",
+            "a number stands behind what it multiplies; write `2 x` for the product or `x^2` for the power",
         ],
     );
     check("2½", &["two numbers stand side by side; write `2*½` or `2 + ½`"]);
@@ -139,7 +139,7 @@ fn what_could_be_read_in_two_ways_is_refused_with_both() {
     check(
         "log(x)",
         &[
-            "there is no function `log`; write ln(x), the natural logarithm, or ln(x)/ln(10), that to base 10",
+            "unknown function `log`; write ln(x), the natural logarithm, or ln(x)/ln(10), that to base 10",
         ],
     );
     check(
@@ -328,6 +328,32 @@ L = "1/2*(m + M)*(x1'^2 + x2'^2 + l^2*theta'^2) - m*g*a*cos(theta)"
     check("5/7*sin(a)*g", "(5/7) g sin a", r"\frac{5}{7} g \sin a");
     check("l*m*cos(2*theta)*g", "m g l cos(2 θ)", r"m g l \cos\left(2 \theta\right)");
     check("x1'*(m + M)/2", "½ (m + M) ẋ₁", r"\frac{1}{2} \left(m + M\right) \dot{x_{1}}");
+    // the numbers of a sum and before it are as short as they can be
+    check(
+        "1/2*(x1' - 0.3*x1)^2",
+        "½ (ẋ₁ − 0.3 x₁)²",
+        r"\frac{1}{2} {\left(\dot{x_{1}} - \frac{3}{10} x_{1}\right)}^{2}",
+    );
+    check(
+        "m*(1/2*x1'^2 + 1/5*l^2*theta'^2)",
+        "½ m (ẋ₁² + ⅖ l² θ̇²)",
+        r"\frac{1}{2} m \left({\dot{x_{1}}}^{2} + \frac{2}{5} {l}^{2} {\dot{\theta}}^{2}\right)",
+    );
+    check(
+        "m*(1/2*x1'^2 + 1/4*l^2*theta'^2)",
+        "½ m (ẋ₁² + ½ l² θ̇²)",
+        r"\frac{1}{2} m \left({\dot{x_{1}}}^{2} + \frac{1}{2} {l}^{2} {\dot{\theta}}^{2}\right)",
+    );
+    check(
+        "(l/2*x1'^2 + 3/4*g*cos(theta))*sin(theta)",
+        "¼ (2 l ẋ₁² + 3 g cos θ) sin θ",
+        r"\frac{1}{4} \left(2 l {\dot{x_{1}}}^{2} + 3 g \cos \theta\right) \sin \theta",
+    );
+    check(
+        "m*(3/2*x1'^2 + x2'^2)",
+        "½ m (3 ẋ₁² + 2 ẋ₂²)",
+        r"\frac{1}{2} m \left(3 {\dot{x_{1}}}^{2} + 2 {\dot{x_{2}}}^{2}\right)",
+    );
     // halves go below a line that is there
     check("1/2*x1^2/m", "x₁²/(2 m)", r"\frac{{x_{1}}^{2}}{2 m}");
     // common denominators
@@ -389,6 +415,24 @@ L = "1/2*(m + M)*(x1'^2 + x2'^2 + l^2*theta'^2) - m*g*a*cos(theta)"
     check("m*sin(theta)^2 + M", "M + m sin² θ", r"M + m \sin^{2} \theta");
     check("-(-x1 - a)", "x₁ + a", "x_{1} + a");
     assert!(differ.is_empty(), "{}", differ.join("\n"));
+    // in the letters of a keyboard, too
+    let e = typed(&model, &mut pool, "-g*sin(theta)/l").unwrap();
+    assert_eq!(pool.ascii(e), "-(g/l)*sin(theta)");
+}
+
+#[test]
+fn digits_of_single_letters_stand_below_the_line() {
+    for (text, shown) in [
+        ("F1", "F₁"),
+        ("by F1 and F12", "by F₁ and F₁₂"),
+        ("Explorer 1", "Explorer 1"),
+        ("x1/2", "x₁/2"),
+        ("step1", "step1"),
+        ("½m v'² − p_x1", "½m v'² − p_x1"),
+        ("", ""),
+    ] {
+        assert_eq!(with_subscripts(text), shown, "{text}");
+    }
 }
 
 #[test]

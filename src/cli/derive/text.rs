@@ -379,8 +379,8 @@ impl TextReport<'_> {
             LeftSide::Symbol(symbol) => self.symbol(symbol),
             LeftSide::Rate(p) => match self.script {
                 MathScript::Ascii => format!("{}'", self.symbol(p)),
-                // the dot belongs over the letter p
-                MathScript::Unicode => self.symbol(p).replacen('p', "ṗ", 1),
+                // p_x′ would be the p of another coordinate
+                MathScript::Unicode => format!("d{}/dt", self.symbol(p)),
             },
             LeftSide::Added(letter, q) => format!("{letter}_{}", self.symbol(q)),
             LeftSide::Bracket(a, b) => format!("{{{}, {}}}", self.symbol(a), self.symbol(b)),

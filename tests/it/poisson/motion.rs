@@ -113,7 +113,7 @@ L = "1/2*I1*(theta'^2 + phi'^2*sin(theta)^2) + 1/2*I3*(psi' + phi'*cos(theta))^2
         }
     }
     // spin is not declared conserved, but found to be
-    assert_eq!(gauge(&free.snapshot(), "spin").reason, "[G,H] + ∂G/∂t = 0 proved symbolically");
+    assert_eq!(gauge(&free.snapshot(), "spin").reason, "[G,H] + ∂G/∂t = 0, proved");
 }
 
 #[test]
