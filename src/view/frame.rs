@@ -248,6 +248,30 @@ mod tests {
         }
     }
 
+    /// Over a slow line what can be read comes first, wherever it stands.
+    #[test]
+    fn letters_come_before_pictures() {
+        let paint = |area: Rect, buffer: &mut Buffer| {
+            for y in 0..area.height - 1 {
+                buffer.set_string(0, y, "⣿".repeat(area.width.into()), Style::new());
+            }
+            buffer.set_string(0, area.height - 1, "t 1.5", Style::new());
+        };
+        let mut screen = Frames::new(false).expect("memory");
+        let first = screen.next_within(SIZE, 40, paint).expect("bytes");
+        let first = String::from_utf8(first).expect("text");
+        let letters = first.find("1.5").expect("the letters");
+        assert!(first.find('⣿').is_none_or(|dots| dots > letters), "{first:?}");
+        // and those that change meanwhile come before the rest of the picture
+        let next = screen.next_within(SIZE, 40, |area, buffer: &mut Buffer| {
+            paint(area, buffer);
+            buffer.set_string(0, area.height - 1, "t 1.6", Style::new());
+        });
+        let next = String::from_utf8(next.expect("bytes")).expect("text");
+        let letters = next.find('6').expect("the digit");
+        assert!(next.find('⣿').is_some_and(|dots| dots > letters), "{next:?}");
+    }
+
     #[test]
     fn the_cursor_is_left_where_it_belongs() {
         let mut screen = Frames::new(true).expect("memory");

@@ -22,6 +22,9 @@ use super::pen::TerminalPen;
 /// to change a colour, so cells of one style are written one after the other.
 const WINDOW: usize = 64;
 
+/// The bytes that a cell rarely takes more than.
+const BYTES: usize = 8;
+
 #[derive(Debug)]
 pub(super) struct Encoder {
     bytes: Vec<u8>,
@@ -33,10 +36,10 @@ pub(super) struct Encoder {
     most: usize,
     /// Whether the screen must be cleared first.
     clear: bool,
-    /// Cells that did not fit in earlier frames, by row and column.
-    pending: BTreeMap<(u16, u16), Cell>,
-    /// Where the next frame begins with them: at the first of them from here on.
-    next: (u16, u16),
+    /// Cells that did not fit in earlier frames, those of pictures behind those of letters, by row and column.
+    pending: BTreeMap<(bool, u16, u16), Cell>,
+    /// Where the next frame begins with each of the two: at the first of them from here on.
+    next: [(u16, u16); 2],
     cursor: Option<Position>,
 }
 
@@ -51,7 +54,7 @@ impl Encoder {
             most: 0,
             clear: false,
             pending: BTreeMap::new(),
-            next: (0, 0),
+            next: [(0, 0); 2],
             cursor: None,
         }
     }
@@ -118,22 +121,64 @@ impl Encoder {
         best.map(|(_, index)| index)
     }
 
-    /// Writes pending cells in the order of rows: from the top after a frame that they did not fit in, then from the first that
-    /// the next frame had no room for either, wrapping around.
+    /// Keeps cells for later frames.
+    fn keep<'a>(&mut self, cells: impl Iterator<Item = ((u16, u16), &'a Cell)>) {
+        for ((y, x), cell) in cells {
+            let is_of_picture = is_of_picture(cell);
+            self.pending.remove(&(!is_of_picture, y, x));
+            self.pending.insert((is_of_picture, y, x), cell.clone());
+        }
+    }
+
+    /// Writes pending cells, those of letters first, each in the order of rows: from the top after a frame that they did not fit
+    /// in, then from the first that the next frame had no room for either, wrapping around.
     fn write_pending(&mut self) -> io::Result<()> {
-        let behind = self.pending.split_off(&self.next);
-        let before = std::mem::take(&mut self.pending);
-        for (place, cell) in behind.into_iter().chain(before) {
-            if self.pending.is_empty() && self.put(place, &cell)? {
-                continue;
+        let mut letters = std::mem::take(&mut self.pending);
+        let pictures = letters.split_off(&(true, 0, 0));
+        for (kind, mut before) in [letters, pictures].into_iter().enumerate() {
+            let (y, x) = self.next[kind];
+            let behind = before.split_off(&(kind == 1, y, x));
+            let mut is_first = true;
+            for (place, cell) in behind.into_iter().chain(before) {
+                let (_, y, x) = place;
+                if self.pending.is_empty() && self.put((y, x), &cell)? {
+                    continue;
+                }
+                if std::mem::take(&mut is_first) {
+                    self.next[kind] = (y, x);
+                }
+                self.pending.insert(place, cell);
             }
-            if self.pending.is_empty() {
-                self.next = place;
-            }
-            self.pending.insert(place, cell);
         }
         Ok(())
     }
+
+    /// Writes cells, next to each other as far as that takes fewer bytes, and keeps those for which there is no room.
+    fn write<'a>(
+        &mut self,
+        mut cells: impl Iterator<Item = ((u16, u16), &'a Cell)>,
+    ) -> io::Result<()> {
+        let mut window: Vec<_> = cells.by_ref().take(WINDOW).collect();
+        while let Some(index) = self.cheapest(&window) {
+            let (place, cell) = window.remove(index);
+            if !self.put(place, cell)? {
+                window.push((place, cell));
+                self.keep(window.into_iter().chain(cells));
+                self.next = [(0, 0); 2];
+                break;
+            }
+            window.extend(cells.next());
+        }
+        Ok(())
+    }
+}
+
+/// Whether a cell shows part of a picture, a frame or a bar, and no letter.
+fn is_of_picture(cell: &Cell) -> bool {
+    let first = cell.symbol().chars().next();
+    first.is_some_and(|c| {
+        matches!(c, '\u{2500}'..='\u{25ff}' | '\u{2800}'..='\u{28ff}' | '\u{1fb00}'..='\u{1fbff}' | '\u{1cd00}'..='\u{1ceaf}')
+    })
 }
 
 impl Backend for Encoder {
@@ -146,24 +191,22 @@ impl Backend for Encoder {
         if self.clear {
             self.pen()?;
         }
+        let cells = cells.map(|(x, y, cell)| ((y, x), cell));
         if self.has_pending() {
-            self.pending.extend(cells.map(|(x, y, cell)| ((y, x), cell.clone())));
+            self.keep(cells);
             return self.write_pending();
         }
-        let mut cells = cells.map(|(x, y, cell)| ((y, x), cell));
-        let mut window: Vec<_> = cells.by_ref().take(WINDOW).collect();
-        while let Some(index) = self.cheapest(&window) {
-            let (place, cell) = window.remove(index);
-            if !self.put(place, cell)? {
-                window.push((place, cell));
-                let rest = window.into_iter().chain(cells);
-                self.pending.extend(rest.map(|(place, cell)| (place, cell.clone())));
-                self.next = (0, 0);
-                break;
-            }
-            window.extend(cells.next());
+        if self.most == usize::MAX {
+            return self.write(cells);
         }
-        Ok(())
+        // where there may be no room for all, letters come first
+        let cells: Vec<_> = cells.collect();
+        if cells.len().saturating_mul(BYTES) <= self.most {
+            return self.write(cells.into_iter());
+        }
+        let (pictures, letters): (Vec<_>, Vec<_>) =
+            cells.into_iter().partition(|(_, cell)| is_of_picture(cell));
+        self.write(letters.into_iter().chain(pictures))
     }
 
     fn hide_cursor(&mut self) -> io::Result<()> {
