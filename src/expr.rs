@@ -60,7 +60,8 @@ pub use function::{
 };
 pub use node::{Expr, FunctionId, Node};
 pub use notation::{
-    latex_name, latex_of_unicode, plain_name, subscripts, unicode_name, without_dots,
+    latex_name, latex_of_unicode, plain_name, subscripts, unicode_name, with_subscripts,
+    without_dots,
 };
 pub use parse::{LEFT_TO_RIGHT, parse, parse_all};
 pub use plain::EULER;

@@ -8,7 +8,7 @@ use super::{Lab, ValueId, ValueInfo};
 use crate::mechanics::Valuation;
 use crate::model::RangeSpacing;
 use crate::num::rounded;
-use crate::system::{ChannelKind, InitialOverride};
+use crate::system::{ChannelKind, Form, InitialOverride};
 
 impl Lab {
     /// Returns the number of parameters, or of initial values.
@@ -91,6 +91,31 @@ impl Lab {
         let given =
             self.snapshot.as_ref().is_some_and(|seen| seen.setup.overrides.iter().any(is_changed));
         (follows && !given).then(|| model.pool.unicode(of_file))
+    }
+
+    /// The initial values as the lab lists them: of a Lagrangian system velocities in place of momenta, so that what was
+    /// set stays when a parameter changes. Momenta without velocities at these parameters stay momenta.
+    pub(super) fn as_listed(&self, given: Vec<InitialOverride>) -> Vec<InitialOverride> {
+        let system = &self.loaded.system;
+        let has_momentum = given.iter().any(|one| matches!(one, InitialOverride::Momentum(..)));
+        if system.form() != Form::Velocity || !has_momentum {
+            return given;
+        }
+        let parameters: Option<Vec<f64>> = (0..self.count(ValueId::Parameter))
+            .map(|index| self.value(ValueId::Parameter(index)))
+            .collect();
+        let start = self.loaded.model.run.start;
+        let all = self.given_with(&given);
+        let state = parameters.and_then(|values| system.initial(start, &values, &all).ok());
+        let Some(state) = state else { return given };
+        let velocity = |i: usize| state.values.get(system.degrees() + i).copied();
+        let listed = |one: InitialOverride| match one {
+            InitialOverride::Momentum(i, _) => {
+                velocity(i).map_or(one, |v| InitialOverride::Velocity(i, v))
+            }
+            InitialOverride::Position(..) | InitialOverride::Velocity(..) => one,
+        };
+        given.into_iter().map(listed).collect()
     }
 
     /// Returns the value: the one requested last, until the experiment confirms it.

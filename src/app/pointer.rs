@@ -394,7 +394,7 @@ impl Lab {
         };
         let given = plot.kind.start(PlotContext { plot, present: &present, answer: None }, at)?;
         if self.loaded.model.constraints.is_empty() {
-            return Ok(given);
+            return Ok(self.as_listed(given));
         }
         let why = "Constraints tie the initial values together; type them one by one.";
         Err(NoStart::Refused(why.to_owned()))

@@ -157,7 +157,7 @@ fn read(loaded: &Loaded, typed: &str) -> Result<NewSurface, String> {
             let names: Vec<&str> = model.events.iter().map(|event| event.name.as_str()).collect();
             return Err(match &names[..] {
                 [] => "The file has no events.".to_owned(),
-                _ => format!("There is no event `{name}`: the events are {}.", names.join(", ")),
+                _ => format!("Unknown event `{name}`: the events are {}.", names.join(", ")),
             });
         }
         let on = Some(NewZero::OfEvent(name.to_owned()));

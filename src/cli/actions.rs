@@ -33,13 +33,13 @@ use crate::system::ChannelKind;
 /// For each energy one row for every region that it allows, from left to right: libration between
 /// two turning points, or rotation; the action ∮ p dq, the period T, the frequency dE/dJ = 1/T.
 /// The separatrices follow, with the actions of their lobes. Without --energy the rows are those
-/// of the region in which the start lies. Of several coordinates one is taken in which the system separates;
-/// of a cyclic one the frequency is that of its mean advance; where it has no period, and so no action,
+/// of the region in which the start lies. With several coordinates, one is taken in which the system separates;
+/// for a cyclic one the frequency is that of its mean advance; where it has no period, and so no action,
 /// the angular frequency is its mean rate.
 ///
 /// With --until the motion is followed: in place of that table, action, frequency and the angle
 /// variable w = ∂S/∂J, in turns, at times up to then, and how far w is from growing evenly, w₀ + ν (t − t₀).
-/// w is a quadrature over places, ν the time of a return. Of a law that depends on the time they are those of the
+/// w is a quadrature over places, ν the time of a return. For a law that depends on the time they are those of the
 /// system frozen at each instant: the action is then its adiabatic invariant.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
@@ -314,7 +314,7 @@ fn coordinate(model: &Model, wanted: Option<&str>) -> Result<usize, CommandError
                 Some(near) => format!("did you mean `{near}`?"),
                 None => format!("there are {}", names.collect::<Vec<_>>().join(", ")),
             };
-            wrong(format!("there is no coordinate `{shown}`; {help}"))
+            wrong(format!("unknown coordinate `{shown}`; {help}"))
         }
     }
 }

@@ -368,5 +368,5 @@ pub(super) fn unknown(kind: &str, name: &str, names: &[&str]) -> CommandError {
         None if names.is_empty() => "there are none".to_owned(),
         None => format!("there are {}", names.join(", ")),
     };
-    CommandError::WrongUse(format!("there is no {kind} `{shown}`; {help}"))
+    CommandError::WrongUse(format!("unknown {kind} `{shown}`; {help}"))
 }

@@ -387,7 +387,7 @@ fn misspelt(words: &[OsString]) -> Option<String> {
     }
     let shown = printable::quoted(first);
     if let Some(near) = nearest(first, names.iter().copied()) {
-        return Some(format!("there is no command `{shown}`; did you mean `{near}`?"));
+        return Some(format!("unknown command `{shown}`; did you mean `{near}`?"));
     }
     // an option after a preset's name belongs to the lab, and its errors are reported there
     if is_path(first) || second.as_encoded_bytes().starts_with(b"-") {
@@ -415,5 +415,5 @@ fn unknown(word: &str) -> Option<String> {
             "`phaselab list` lists the presets, `phaselab --help` the commands".to_owned()
         }
     };
-    Some(format!("there is no command or preset `{}`; {help}", printable::quoted(word)))
+    Some(format!("unknown command or preset `{}`; {help}", printable::quoted(word)))
 }

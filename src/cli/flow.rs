@@ -10,7 +10,7 @@ use super::run::progress::Bar;
 use super::study::{self, Study, StudyArguments, shown, table};
 use crate::dynamics::{DynamicsError, FlowMap, flow_map};
 
-/// Differentiate a motion by its initial values.
+/// Differentiate a motion with respect to its initial values.
 ///
 /// The tangent map M = ∂η(T)/∂η(0) of the flow, η = (q…, p…), or the variables of brackets, by the
 /// variational equations: its determinant beside the one that the divergence of the motion

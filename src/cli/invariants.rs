@@ -160,9 +160,7 @@ fn parameter(model: &Model, name: &str) -> Result<usize, CommandError> {
         let names: Vec<&str> = model.parameters.iter().map(|p| p.name.as_str()).collect();
         let shown = printable::quoted(name);
         let known = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
-        CommandError::WrongUse(format!(
-            "--scan: there is no parameter `{shown}`; there are {known}"
-        ))
+        CommandError::WrongUse(format!("--scan: unknown parameter `{shown}`; there are {known}"))
     })
 }
 

@@ -122,9 +122,9 @@ mod tests {
             let error = read(line).1.expect_err(line);
             assert!(error.message().contains(part), "{line}: {}", error.message());
         };
-        check("phaselab pendulum --set q=1", "there is no parameter `q`");
+        check("phaselab pendulum --set q=1", "unknown parameter `q`");
         check("phaselab pendulum --init t=1", "phaselab run");
-        check("phaselab pendulum --method gaus", "there is no method `gaus`");
+        check("phaselab pendulum --method gaus", "unknown method `gaus`");
         check("phaselab pendulum --method rk4 --tolerance 1e-9", "--tolerance: rk4");
         assert!(read("phaselab pendulum").1.is_ok_and(|start| start.is_none()));
     }

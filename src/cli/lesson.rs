@@ -118,7 +118,7 @@ fn source(name: &str) -> Result<Document, CommandError> {
             || format!("there are {}", preset::lessons().join(", ")),
             |near| format!("did you mean `{near}`?"),
         );
-        CommandError::WrongUse(format!("there is no lesson `{}`; {help}", printable::quoted(name)))
+        CommandError::WrongUse(format!("unknown lesson `{}`; {help}", printable::quoted(name)))
     })
 }
 

@@ -119,7 +119,7 @@ fn of_command(
             let near = crate::diagnostic::nearest(word, names);
             let help = near.map_or(String::new(), |near| format!("; did you mean `{near}`?"));
             let word = crate::printable::quoted(word);
-            CommandError::WrongUse(format!("there is no command `{word}`{help}"))
+            CommandError::WrongUse(format!("unknown command `{word}`{help}"))
         })?;
     }
     let examples = examples(found);

@@ -64,7 +64,7 @@ pub(super) fn unknown_method(model: &Model) -> Option<Diagnostic> {
         return None;
     }
     let place = model.run.method_place.clone().unwrap_or_default();
-    let diagnostic = Diagnostic::error(place, format!("there is no method `{name}`"));
+    let diagnostic = Diagnostic::error(place, format!("unknown method `{name}`"));
     let names = METHODS.iter().map(|method| method.name);
     Some(match nearest(name, names.clone().chain([AUTO])) {
         Some(near) => diagnostic.with_help(format!("did you mean `{near}`?")),

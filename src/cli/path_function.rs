@@ -45,7 +45,7 @@ impl PathFunctions {
                 let names: Vec<&str> = model.coordinates.iter().map(|c| c.name.as_str()).collect();
                 let name = printable::quoted(name);
                 return Err(wrong(format!(
-                    "there is no coordinate `{name}`; there are {}",
+                    "unknown coordinate `{name}`; there are {}",
                     names.join(", ")
                 )));
             };

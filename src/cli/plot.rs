@@ -17,7 +17,7 @@ use crate::view::table_plot::{TablePlot, drawn};
 /// Two of its columns are drawn against each other, a third one as shades. By default these are, of
 /// a map, its three columns; of a section, a coordinate and its momentum; of a sweep, the first
 /// measure over the one or two numbers that were set; otherwise the first two columns whose numbers
-/// differ. Of what `lyapunov`, `spectrum` and `orbit --along` write with `--format json` the exponent
+/// differ. From what `lyapunov`, `spectrum` and `orbit --along` write with `--format json` the exponent
 /// is drawn against the time, the amplitudes against the frequencies, and the family against what it
 /// was followed along.
 #[derive(Debug, clap::Args)]
@@ -95,7 +95,7 @@ impl NumberTable {
         self.columns.iter().position(|column| column == name).ok_or_else(|| {
             let known: Vec<String> = self.columns.iter().map(|c| printable::quoted(c)).collect();
             CommandError::WrongUse(format!(
-                "there is no column `{}`; the columns are {}",
+                "unknown column `{}`; the columns are {}",
                 printable::quoted(name),
                 known.join(", ")
             ))

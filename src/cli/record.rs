@@ -209,7 +209,7 @@ fn find_marker<'a>(
             None => format!("there are {}", names.join(", ")),
         };
         let wanted = printable::quoted(wanted);
-        CommandError::WrongUse(format!("there is no marker `{wanted}`; {help}"))
+        CommandError::WrongUse(format!("unknown marker `{wanted}`; {help}"))
     })
 }
 

@@ -23,7 +23,7 @@ use crate::printable;
 /// largest exponent of the reversed motion, −λₙ; in proportion to the time where the motion is
 /// regular. What is expected is the sum of all, by the derivative of the flow. ε is the tolerance,
 /// or the rounding where a step back is the inverse of one forwards: errors that are independent,
-/// and add up as the root of their squares. Of rk4, dop853 and symplectic-euler ε is measured over
+/// and add up as the root of their squares. For rk4, dop853 and symplectic-euler ε is measured over
 /// steps there and back; such errors have one sign, and the sum is a bound. Where there is no way
 /// back, as over impulses or dry friction, the reason is given.
 #[derive(Debug, clap::Args)]

@@ -262,7 +262,7 @@ fn shown_columns(laid: &Laid, wanted: Option<&[String]>) -> Result<Vec<ShownColu
         let called = name.split_once('=').map_or(name.as_str(), |(name, _)| name).trim();
         let Some(place) = names.iter().position(|n| n == called) else {
             let message = format!(
-                "--columns: there is no column `{}`; there are {}",
+                "--columns: unknown column `{}`; there are {}",
                 printable::quoted(called),
                 names.join(", ")
             );

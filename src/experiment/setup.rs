@@ -73,7 +73,7 @@ pub fn with_override(
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 pub enum MethodNotFound {
     /// There is no method of that name.
-    #[error("there is no method `{}`{}", printable::quoted(.name), help(near.as_deref()))]
+    #[error("unknown method `{}`{}", printable::quoted(.name), help(near.as_deref()))]
     Unknown {
         /// The requested name.
         name: String,

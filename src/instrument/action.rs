@@ -31,6 +31,9 @@ const AXIS: Level = 0;
 const CURVES: Level = 1;
 const MOTION: Level = 2;
 
+/// An action below this part of what those of paths beside it differ by is a rounding error.
+const ROUNDING: f64 = 1e-14;
+
 /// The end of the path moves on by so many seconds of the wall clock at the file's own speed, at most so often.
 const GRID: f64 = 0.25;
 const MOST: f64 = 240.0;
@@ -261,6 +264,12 @@ fn varied(answer: Option<&Answer>) -> Option<&VariedAction> {
     found(answer).map(|found| &found.varied)
 }
 
+/// The action of the motion: 0 where rounding alone keeps it from that, as terms show that are as large as those beside it.
+fn value(varied: &VariedAction) -> f64 {
+    let beside = varied.curves.iter().flatten().map(|at| at[1].abs()).fold(0.0, f64::max);
+    if varied.action.abs() <= ROUNDING * beside { 0.0 } else { varied.action }
+}
+
 /// What is said of the motion's action, or why it has none.
 fn sentences(answer: Option<&Answer>, coordinate: Option<&str>) -> Vec<String> {
     let Some(computed) = computed(answer) else { return vec!["being computed".to_owned()] };
@@ -281,10 +290,10 @@ fn sentences(answer: Option<&Answer>, coordinate: Option<&str>) -> Vec<String> {
             [vec![nature(&found.varied)], beside_by(&found.varied, name)].concat()
         }
         Some(_) if computed.principle == Principle::Maupertuis && found.varied.action == 0.0 => {
-            vec!["at rest: no way that could be varied".to_owned()]
+            vec!["at rest: no path that could be varied".to_owned()]
         }
         Some(_) if computed.principle == Principle::Maupertuis && found.degrees == 1 => {
-            vec!["one coordinate: no other way at this H".to_owned()]
+            vec!["one coordinate: no other path at this H".to_owned()]
         }
         Some([]) if computed.principle == Principle::Maupertuis => {
             vec!["least among nearby paths of equal H".to_owned()]
@@ -299,7 +308,7 @@ fn sentences(answer: Option<&Answer>, coordinate: Option<&str>) -> Vec<String> {
             vec![not_least(count), format!("{count} kinetic foci from {}", at(first))]
         }
     };
-    let (letter, value) = (computed.principle.letter(), short(found.varied.action));
+    let (letter, value) = (computed.principle.letter(), short(value(&found.varied)));
     // the heading has the integral
     let action = format!("{letter} = {value} up to {}", at(&computed.duration));
     // of a motion that does not make the action stationary these slopes say nothing

@@ -33,7 +33,7 @@ pub struct Catalog {
 #[derive(Debug, thiserror::Error)]
 pub enum NotFound {
     /// No preset of that name.
-    #[error("there is no preset `{}`{}", printable::quoted(.name), meant(.file.as_deref(), .near.as_deref()))]
+    #[error("unknown preset `{}`{}", printable::quoted(.name), meant(.file.as_deref(), .near.as_deref()))]
     Name {
         /// The requested name.
         name: String,

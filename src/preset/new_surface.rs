@@ -48,7 +48,7 @@ impl NewSurface {
             Some(NewZero::Of(on)) => (Some(on.clone()), None),
             Some(NewZero::OfEvent(name)) => {
                 let event = event(&file, name);
-                let (on, own) = event.ok_or_else(|| format!("there is no event `{name}`"))?;
+                let (on, own) = event.ok_or_else(|| format!("unknown event `{name}`"))?;
                 (Some(on), own)
             }
         };

@@ -432,7 +432,7 @@ impl ScriptReading {
 }
 
 fn unknown(word: &LineText) -> Diagnostic {
-    let message = format!("there is no command `{}`", word.text);
+    let message = format!("unknown command `{}`", word.text);
     let diagnostic = Diagnostic::error(word.place.clone(), message);
     let names = COMMANDS.iter().map(|command| command.name);
     match nearest(&word.text, names.clone()) {

@@ -12,18 +12,20 @@ use crossterm::queue;
 pub(super) const MOST: usize = 56_000;
 
 /// Terminals that put what OSC 52 sends into the clipboard, by the beginnings of `TERM` and of `TERM_PROGRAM`.
-const TERMS: [&str; 8] =
-    ["alacritty", "contour", "foot", "rio", "tmux", "wezterm", "xterm-ghostty", "xterm-kitty"];
+const TERMS: [&str; 7] =
+    ["alacritty", "contour", "foot", "rio", "wezterm", "xterm-ghostty", "xterm-kitty"];
 const PROGRAMS: [&str; 8] =
     ["WezTerm", "WindowsTerminal", "contour", "ghostty", "kitty", "mintty", "rio", "vscode"];
 
-/// Whether the terminal of this environment is known to have a clipboard.
+/// Whether the terminal of this environment is known to have a clipboard. tmux, unless it is told otherwise, ignores what
+/// programs send for one, whatever terminal it runs in.
 pub(super) fn is_there(variable: &dyn Fn(&str) -> Option<String>) -> bool {
     let begins = |name: &str, known: &[&str]| {
         variable(name).is_some_and(|value| known.iter().any(|known| value.starts_with(known)))
     };
     let windows = variable("WT_SESSION").is_some_and(|value| !value.is_empty());
-    windows || begins("TERM", &TERMS) || begins("TERM_PROGRAM", &PROGRAMS)
+    let tmux = variable("TMUX").is_some_and(|value| !value.is_empty());
+    !tmux && (windows || begins("TERM", &TERMS) || begins("TERM_PROGRAM", &PROGRAMS))
 }
 
 pub(super) fn write(text: &str, mut out: impl Write) -> io::Result<()> {
@@ -43,6 +45,13 @@ mod tests {
         assert!(known("TERM_PROGRAM", "WezTerm") && known("WT_SESSION", "a"));
         assert!(!known("TERM", "xterm-256color") && !known("TERM", "linux"));
         assert!(!known("TERM_PROGRAM", "Apple_Terminal") && !known("WT_SESSION", ""));
+        assert!(!known("TERM", "tmux-256color"));
+        let in_tmux = |asked: &str| match asked {
+            "TMUX" => Some("/tmp/tmux-0/default,1,0".to_owned()),
+            "WT_SESSION" => Some("a".to_owned()),
+            _ => None,
+        };
+        assert!(!is_there(&in_tmux));
     }
 
     /// The bytes of the sequence, with the text in base64 (RFC 4648, its own example).

@@ -12,10 +12,15 @@ use crate::expr::{Expr, Symbol};
 use crate::mechanics::{
     ConservedKind, Flow, Holonomy, LeftSide, NoClosedForm, Report, ReportedEquation,
 };
+use crate::model::Coordinate;
 use crate::num::significant;
 
 /// Expressions with more nodes than this are not written out.
 const MOST: u64 = 4_000;
+
+/// The most characters of the solved equations of motion on the page, and in the small pane.
+const LONGEST_ON_PAGE: usize = 10_000;
+const LONGEST_IN_PANE: usize = 1_500;
 
 /// Definitions of more characters than this, with all others substituted into them, are named but not written out.
 const LONGEST_DEFINITION: usize = 200;
@@ -31,7 +36,7 @@ pub(super) fn document(lab: &Lab, style: &RenderStyle) -> TextPage {
     writer.law();
     writer.constraints();
     writer.occurrences();
-    writer.motion();
+    writer.motion(lab);
     writer.hamiltonian();
     writer.conserved();
     further::rows(lab, style, &mut writer.page);
@@ -49,7 +54,7 @@ pub(super) fn law(lab: &Lab, style: &RenderStyle) -> TextPage {
         writer.ramps();
         writer.page.gap();
         writer.released(lab);
-        writer.solved();
+        writer.motion_in_pane(lab);
     } else {
         writer.is_being_derived();
     }
@@ -227,21 +232,79 @@ impl EquationRows<'_> {
         format!("{name}; {words}")
     }
 
-    fn motion(&mut self) {
+    fn motion(&mut self, lab: &Lab) {
         let report = self.report;
         if report.model.is_lagrangian() {
             self.page.heading("Momenta");
             self.lines(&report.momenta);
         }
         self.page.heading("Equations of motion");
-        self.solved();
-        if let (Flow::Lagrange { momentum_rates, .. }, Err(_)) =
-            (&report.equations.flow, &report.motion)
-        {
-            for (coordinate, rate) in report.model.coordinates.iter().zip(momentum_rates) {
-                self.put(&self.left(LeftSide::Rate(coordinate.momentum)), *rate, "");
+        match &report.motion {
+            Ok(motion) => {
+                let length = self.length(motion);
+                let lagrange = self.lagrange();
+                if length <= LONGEST_ON_PAGE || lagrange.is_empty() {
+                    return self.lines(motion);
+                }
+                self.lines(&lagrange);
+                self.page.words(Role::Dim, self.solved_elsewhere(length, lab));
+            }
+            Err(why) => {
+                let words = format!("Not solved for the accelerations: {why}.");
+                self.page.words(Role::Dim, words);
+                self.lines(&self.lagrange());
             }
         }
+    }
+
+    /// Adds the equations solved for q̈, or for q̇ and ṗ; where they are long, Lagrange's equations, or where all are.
+    fn motion_in_pane(&mut self, lab: &Lab) {
+        let report = self.report;
+        let motion = match &report.motion {
+            Ok(motion) => motion,
+            Err(why) => {
+                let words = format!("Not solved for the accelerations: {why}.");
+                return self.page.words(Role::Dim, words);
+            }
+        };
+        let length = self.length(motion);
+        if length <= LONGEST_IN_PANE {
+            return self.lines(motion);
+        }
+        let lagrange: Vec<ReportedEquation> =
+            report.momenta.iter().copied().chain(self.lagrange()).collect();
+        if lagrange.len() > report.momenta.len() && self.length(&lagrange) <= LONGEST_IN_PANE {
+            self.lines(&lagrange);
+            self.page.words(Role::Dim, self.solved_elsewhere(length, lab));
+        } else {
+            let words = format!("{} equations of motion: page 2 has them.", motion.len());
+            self.page.words(Role::Dim, words);
+        }
+    }
+
+    /// Lagrange's equations as rates of the momenta; none of another law.
+    fn lagrange(&self) -> Vec<ReportedEquation> {
+        let Flow::Lagrange { momentum_rates, .. } = &self.report.equations.flow else {
+            return Vec::new();
+        };
+        let equation = |(coordinate, &right): (&Coordinate, &Expr)| ReportedEquation {
+            left: LeftSide::Rate(coordinate.momentum),
+            right,
+        };
+        self.report.model.coordinates.iter().zip(momentum_rates).map(equation).collect()
+    }
+
+    fn solved_elsewhere(&self, length: usize, lab: &Lab) -> String {
+        let name = &lab.loaded.name;
+        format!(
+            "Solved for the accelerations they have {length} characters: phaselab derive {name} prints them."
+        )
+    }
+
+    /// How many characters equations have on their right.
+    fn length(&self, lines: &[ReportedEquation]) -> usize {
+        let of = |line: &ReportedEquation| self.write(line.right).chars().count();
+        lines.iter().map(of).sum()
     }
 
     /// Says of which constraints the motion has left the equations are.
@@ -258,17 +321,6 @@ impl EquationRows<'_> {
         let names = names.join(", ");
         let words = format!("While the {constraint} {names} {hold}, which the motion has left:");
         self.page.words(Role::Warn, words);
-    }
-
-    /// Adds the equations solved for q̈, or for q̇ and ṗ.
-    fn solved(&mut self) {
-        match &self.report.motion {
-            Ok(motion) => self.lines(motion),
-            Err(why) => {
-                let words = format!("Not solved for the accelerations: {why}.");
-                self.page.words(Role::Dim, words);
-            }
-        }
     }
 
     fn hamiltonian(&mut self) {

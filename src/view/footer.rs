@@ -43,16 +43,40 @@ pub(super) fn footer(canvas: &mut Canvas<'_>, area: Rect, (app, body): (&App, Re
     let mut hints = hints(canvas, (app, body));
     let long = Hint::width;
     let mut wide = hints.iter().map(long).sum::<usize>() + 3 * hints.len();
-    // The last two hints, help and quit, are always shown; the others are dropped to make room for the meaning.
+    // The last hints, help and quit, and pause where there is room, are always shown; the others are dropped to make room for
+    // the meaning.
     let room = usize::from(area.width);
+    let pauses = |hint: &Hint| hint.action == Action::PlayPause && room >= ROOM_FOR_PAUSE;
+    let mut kept = if let Some(place) = hints.iter().position(pauses) {
+        let pause = hints.remove(place);
+        hints.insert(hints.len().saturating_sub(2), pause);
+        3
+    } else {
+        2
+    };
     // If its pane is small, a gauge's reason appears in full nowhere else.
     let gauge = app.lab.as_ref().is_some_and(|lab| lab.focus.pane == Pane::Gauges);
-    let last: usize = hints.iter().rev().take(2).map(|hint| long(hint) + 3).sum();
-    let whole = room.saturating_sub(last.saturating_sub(3) + 2);
-    let meaning = fitting(&meaning, [if gauge { whole } else { room * 2 / 3 }, whole]);
+    let beside = |kept: usize| {
+        let last: usize = hints.iter().rev().take(kept).map(|hint| long(hint) + 3).sum();
+        room.saturating_sub(last.saturating_sub(3) + 2)
+    };
+    let [narrow, whole] = [kept, 2].map(beside);
+    let first = if gauge { whole } else { narrow.min(room * 2 / 3) };
+    let meaning = fitting(&meaning, [first, narrow, whole]);
+    if meaning.width() > narrow {
+        kept = 2;
+    }
     let meant = if meaning.is_empty() { 0 } else { meaning.width().min(whole) + 2 };
-    while hints.len() > 2 && meant + wide > room + 3 {
-        wide -= long(&hints.remove(hints.len() - 3)) + 3;
+    while hints.len() > kept && meant + wide > room + 3 {
+        // the way to panes out of sight comes before the pause
+        let leads_on = hints.first().is_some_and(|hint| hint.action == Action::NextPane);
+        let dropped = if kept == 3 && hints.len() == 4 && leads_on {
+            kept = 2;
+            hints.len() - 3
+        } else {
+            hints.len() - kept - 1
+        };
+        wide -= long(&hints.remove(dropped)) + 3;
     }
     let all = (wide as u16).saturating_sub(3).min(area.width);
     canvas.left(columns(area, 0, area.width.saturating_sub(all + 2)), role, &meaning);
@@ -72,7 +96,7 @@ fn draw_hints(canvas: &mut Canvas<'_>, area: Rect, hints: &[Hint]) {
 
 /// The first of some texts, from the longest, that fits into a width, or else into one with fewer keys beside it. What the
 /// shorter ones leave out stands in the list, too.
-fn fitting(texts: &[String], widths: [usize; 2]) -> String {
+fn fitting(texts: &[String], widths: [usize; 3]) -> String {
     let fits = |width| texts.iter().find(move |text| text.width() <= width);
     widths.into_iter().find_map(fits).or(texts.last()).cloned().unwrap_or_default()
 }
@@ -102,6 +126,9 @@ pub(super) fn notice_role(notice: &Notification) -> Role {
     }
 }
 
+/// The width from which how to pause is always said.
+const ROOM_FOR_PAUSE: usize = 70;
+
 /// The most rows that a notification takes.
 const NOTICE: usize = 3;
 
@@ -109,6 +136,7 @@ const NOTICE: usize = 3;
 pub(super) fn notice(canvas: &mut Canvas<'_>, body: Rect, app: &App) {
     let Some((text, role)) = current_notification(app).filter(|_| !reads(app)) else { return };
     let room = usize::from(body.width.saturating_sub(6));
+    let text = with_minus_signs(&text, canvas.style.glyphs);
     let lines = words_in(&canvas.text(&text), room, NOTICE);
     let wide = lines.iter().map(|line| line.width()).max().unwrap_or(0).min(room);
     let framed = is_frame(canvas, row(body, usize::from(body.height).saturating_sub(1)));
@@ -299,6 +327,7 @@ fn open_field(canvas: &mut Canvas<'_>, (area, body): (Rect, Rect), app: &App, fi
     let typed = (canvas.text(field.input.value()).width() as u16).saturating_add(2).min(room);
     let taken = if field.diagnostic.is_some() { typed } else { room };
     let rest = columns(area, used + taken + 2, area.width);
+    let mut shorter = None;
     let (role, text) = match (&field.diagnostic, facts) {
         (Some(diagnostic), _) => (Role::Bad, diagnostic.clone()),
         (None, _) if field.purpose == Purpose::TypedFlow => {
@@ -316,7 +345,10 @@ fn open_field(canvas: &mut Canvas<'_>, (area, body): (Rect, Rect), app: &App, fi
                 format!("{min} to {max} ")
             });
             let unit = if facts.unit.is_empty() { "" } else { "   " };
-            (Role::Dim, format!("{range}{}{unit}{}", facts.unit, facts.about))
+            let range = format!("{range}{}", facts.unit);
+            let whole = format!("{range}{unit}{}", facts.about);
+            shorter = Some(range);
+            (Role::Dim, whole)
         }
         (None, None) => (Role::Dim, String::new()),
     };
@@ -327,6 +359,12 @@ fn open_field(canvas: &mut Canvas<'_>, (area, body): (Rect, Rect), app: &App, fi
         hints.remove(0);
     }
     let wide = wide(&hints).min(room) as u16;
-    canvas.left(columns(rest, 0, rest.width - wide), role, &text);
+    let left = rest.width - wide;
+    // what it means is left out whole, not cut
+    let text = match shorter {
+        Some(range) if canvas.text(&text).width() > left.into() => range,
+        _ => text,
+    };
+    canvas.left(columns(rest, 0, left), role, &text);
     draw_hints(canvas, columns(rest, (rest.width + 3).saturating_sub(wide), rest.width), &hints);
 }

@@ -12,7 +12,17 @@ use super::text_page::TextPage;
 use super::theme::Role;
 use crate::app::gestures::{GESTURES, MOUSE};
 use crate::app::keymap::{Binding, KEYS, KeyContext};
-use crate::app::{Drawn, HitTarget, synonyms};
+use crate::app::{Action, Drawn, HitTarget, Page, synonyms};
+
+/// What a newcomer looks for, in the order of the page.
+const FIRST: [Action; 6] = [
+    Action::PlayPause,
+    Action::Reset,
+    Action::NextPane,
+    Action::Show(Page::Equations),
+    Action::Undo,
+    Action::Quit,
+];
 
 /// Draws the page from `scroll` on, and above it the search, if there is one.
 pub(super) fn draw(
@@ -45,7 +55,7 @@ pub(super) fn draw(
     page.draw_in_columns(canvas, inner, scroll)
 }
 
-/// Builds the page: the keys of what has the focus come first, then those of the page around it, the mouse, then all
+/// Builds the page: a few keys to begin with, then those of what has the focus, then those of the page around it, the mouse, then all
 /// others. Of a search only what was found is left, by the words of the page or by other words for the same action.
 fn document(style: &RenderStyle, active: &[KeyContext], sought: &str) -> TextPage {
     let mut page = TextPage::default();
@@ -72,6 +82,13 @@ fn document(style: &RenderStyle, active: &[KeyContext], sought: &str) -> TextPag
         let rows = KEYS.iter().filter(|row| row.context == context).filter(fits);
         rows.map(|row| (keys(row, style), row.help)).collect()
     };
+    if sought.is_empty() && active.contains(&KeyContext::Experiment) {
+        let first = FIRST.iter().filter_map(|action| {
+            let row = KEYS.iter().find(|row| row.action == *action)?;
+            Some((keys(row, style), row.help))
+        });
+        section("To begin with", first.collect());
+    }
     for (index, context) in active.iter().enumerate() {
         let title = context.title();
         let title = if index == 0 { format!("Here: {title}") } else { title.to_owned() };

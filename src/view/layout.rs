@@ -8,7 +8,9 @@ use super::glyphs::Glyphs;
 use super::verdict::reasons_below;
 use super::wrap::words;
 use crate::app::{Lab, Pane, ValueId};
-use crate::instrument::{Instrument, MotionCurve};
+use crate::expr::{Expr, Rank};
+use crate::instrument::{Instrument, MotionCurve, Plot};
+use crate::model::Shape;
 
 /// The smallest usable screen.
 pub(super) const LEAST: (u16, u16) = (40, 10);
@@ -106,6 +108,9 @@ const REASON: u16 = 3;
 const SHORTEST: u16 = 4;
 const LAW: u16 = 6;
 
+/// The rows of the law from which some of its equations of motion are seen, too.
+const LAW_WITH_EQUATIONS: u16 = 9;
+
 /// Places plots at the left and lists in a column at the right.
 fn wide(area: Rect, lab: &Lab, glyphs: Glyphs) -> Vec<(Slot, Rect)> {
     let lists = (area.width * 3 / 10).clamp(LISTS.0, LISTS.1);
@@ -136,15 +141,22 @@ fn square(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
     slots
 }
 
-/// Places plots in two rows: two large ones, and below them as many as fit.
+/// Places plots in two rows: two large ones, and below them as many as fit. Where what is to lie below them alone is as high
+/// as wide, both rows have two of equal size.
 fn plots(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
     let below = usize::from((area.width / PLOT.0).max(1));
     let count = lab.plots.len();
     if count <= 2 || area.height < 2 * PLOT.1 {
         return side_by_side(area, &chosen(lab, 2));
     }
-    let shown = chosen(lab, 2 + below);
-    let (upper, lower) = split_rows(area, area.height * 3 / 5);
+    let is_square = |index: &usize| {
+        let plot = &lab.plots[*index];
+        plot.kind.is_transformed() || plot.kind.is_scene() && !is_level(plot, lab)
+    };
+    let four = below == 1 && count > 3 && arranged(lab, 3).last().is_some_and(is_square);
+    let (room, above) = if four { (4, area.height / 2) } else { (2 + below, area.height * 3 / 5) };
+    let shown = chosen(lab, room);
+    let (upper, lower) = split_rows(area, above);
     let (first, rest) = shown.split_at(2);
     let mut slots = side_by_side(upper, first);
     slots.extend(side_by_side(lower, rest));
@@ -166,9 +178,10 @@ fn column(area: Rect, lab: &Lab, glyphs: Glyphs) -> Vec<(Slot, Rect)> {
     ];
     let mut heights = wants.map(|want| want.max(SHORTEST));
     let bare = 2 * gauges + 3 + focused;
-    // What a value means is below the panes too, and gives way to the rows of gauges; then reasons do.
-    for (list, least) in [(0, parameters + 2), (2, bare)] {
-        let excess = (heights.iter().sum::<u16>() + LAW).saturating_sub(area.height);
+    // What a value means is below the panes too, and gives way to the rows of gauges; then reasons do, also to the equations of
+    // motion.
+    for (list, least, law) in [(0, parameters + 2, LAW), (2, bare, LAW_WITH_EQUATIONS)] {
+        let excess = (heights.iter().sum::<u16>() + law).saturating_sub(area.height);
         heights[list] -= excess.min(heights[list].saturating_sub(least.max(SHORTEST)));
     }
     let mut total: u16 = heights.iter().sum();
@@ -227,6 +240,18 @@ fn meaning(lab: &Lab, width: u16) -> u16 {
 /// is in none of them although there is a view of it, that view replaces the last phase portrait, or else the last one that
 /// is not against time; with room for three, it leaves (q, p) beside (Q, P) and replaces one against time or another map. Of the rest the plot that is focused, or was last, takes the last slot.
 fn chosen(lab: &Lab, room: usize) -> Vec<Pane> {
+    let mut shown = arranged(lab, room);
+    // What was in the last slot stays there while another one has the focus.
+    if let Some((last, others)) = shown.split_last_mut()
+        && let Some(front) = lab.focused_before().find(|index| !others.contains(index))
+    {
+        *last = front;
+    }
+    shown.into_iter().map(Pane::Plot).collect()
+}
+
+/// The same whatever has the focus, or had it.
+fn arranged(lab: &Lab, room: usize) -> Vec<usize> {
     let kind = |index: &usize| lab.plots[*index].kind;
     let mut shown: Vec<usize> = (0..lab.plots.len().min(room)).collect();
     let against_time = (0..lab.plots.len()).find(|index| kind(index).is_over_time());
@@ -261,13 +286,20 @@ fn chosen(lab: &Lab, room: usize) -> Vec<Pane> {
     {
         std::mem::swap(first, second);
     }
-    // What was in the last slot stays there while another one has the focus.
-    if let Some((last, others)) = shown.split_last_mut()
-        && let Some(front) = lab.focused_before().find(|index| !others.contains(index))
-    {
-        *last = front;
-    }
-    shown.into_iter().map(Pane::Plot).collect()
+    shown
+}
+
+/// Whether a picture is of a plane in which all that moves, moves along the horizontal.
+fn is_level(plot: &Plot, lab: &Lab) -> bool {
+    let (Some(eye), model) = (plot.eye(), &lab.loaded.model) else { return false };
+    let is_constant = |e: Expr| {
+        let symbols = model.pool.symbols_of(e).into_iter();
+        symbols.map(|s| model.pool.symbol_info(s).rank).all(|rank| rank == Rank::Constant)
+    };
+    let is_level = |shape: &Shape| {
+        !matches!(shape, Shape::Path { .. }) && shape.points().iter().all(|at| is_constant(at[1]))
+    };
+    eye.frame.is_none() && eye.is_plane(model) && eye.shapes(model).iter().all(is_level)
 }
 
 fn is_portrait(kind: &dyn Instrument) -> bool {

@@ -22,7 +22,7 @@ use crate::preset::{CatalogEntry, PresetOrigin};
 
 /// The least width of the list if it has something beside it, and of what is beside a list wider than that.
 const LIST: u16 = 34;
-const BESIDE: u16 = 37;
+const BESIDE: u16 = 33;
 
 /// The height from which a narrow screen has room for the preview below the list.
 const TALL: u16 = 20;

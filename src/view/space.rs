@@ -122,7 +122,9 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
     for (shape, rod) in q.lab.shapes(*eye) {
         match shape {
             Shape::Line { from, to } if painter.is_crowded_spoke([from, to]) => {}
-            Shape::Line { from, to } if rod => painter.rod(from, to),
+            Shape::Line { from, to } if rod && !painter.is_scenery([from, to]) => {
+                painter.rod(from, to);
+            }
             _ => painter.shape(shape, &mut cache),
         }
     }
@@ -216,20 +218,22 @@ impl ScenePainter<'_> {
         let ground = Pen::shaded(theme.line(Role::Level), GROUND);
         match shape {
             Shape::Line { from, to } => {
+                let pen = if self.is_scenery([from, to]) { &ground } else { &solid };
                 let (from, to) = (self.point(from), self.point(to));
-                self.curve(&[from, to], &solid);
+                self.curve(&[from, to], pen);
             }
             Shape::Spring { from, to } => {
                 let (from, to) = (self.point(from), self.point(to));
                 self.spring(from, to, &solid);
             }
             Shape::Circle { centre, radius, normal } => {
-                let turns = !scene::rests(self.q, normal);
+                // In space a circle that does not turn is part of the scenery.
+                let rests = scene::rests(self.q, normal)
+                    && (self.range.is_some() || scene::rests(self.q, centre));
                 let solid = self.own_pen(centre, solid);
                 let (centre, normal) = (self.point(centre), self.direction(normal));
                 let rim = circle::circle(centre, self.q.number(*radius), normal);
-                // In space a circle that does not turn is part of the scenery.
-                self.curve(&rim, if self.range.is_none() || turns { &solid } else { &ground });
+                self.curve(&rim, if rests { &ground } else { &solid });
             }
             Shape::Mass { at, radius } => {
                 let radius = radius.map(|radius| self.q.number(radius));
@@ -276,6 +280,11 @@ impl ScenePainter<'_> {
                 self.curve(&corners, &ground);
             }
         }
+    }
+
+    /// Whether a line between two points is part of the scenery: it stays where it is.
+    fn is_scenery(&self, ends: [&Point; 2]) -> bool {
+        ends.into_iter().all(|end| scene::rests(self.q, end))
     }
 
     /// The current position of a point of a shape in the reference frame.

@@ -162,7 +162,7 @@ fn wrong_use_is_reported_with_exit_2() {
 
 #[test]
 fn a_name_that_is_not_found_gets_the_nearest_one() {
-    phaselab(&["derive", "pendulm"]).fails(2, &["there is no preset `pendulm`", "`pendulum`"]);
+    phaselab(&["derive", "pendulm"]).fails(2, &["unknown preset `pendulm`", "`pendulum`"]);
     phaselab(&["run", "heavytop"]).fails(2, &["did you mean `heavy-top`?"]);
     phaselab(&["derive", "./pendulum"]).fails(2, &["cannot read ./pendulum"]);
     phaselab(&["derive", "pendulum.toml"]).fails(2, &["cannot read pendulum.toml"]);
@@ -206,7 +206,7 @@ fn a_file_in_the_folder_is_meant_by_its_name() {
     std::fs::write(home.path().join("spring.toml"), PENDULUM).expect("it can be written");
     for command in ["run", "check", "derive"] {
         let asked = done(program(home.path()).args([command, "spring"]));
-        asked.fails(2, &["there is no preset `spring`; did you mean the file `./spring.toml`?"]);
+        asked.fails(2, &["unknown preset `spring`; did you mean the file `./spring.toml`?"]);
     }
 }
 

@@ -25,7 +25,7 @@ impl RotationColumns {
             let called = name.split_once('=').map_or(name.as_str(), |(name, _)| name).trim();
             let place = columns.iter().position(|column| column == called);
             let Some(place) = place.filter(|&place| place > 0) else {
-                return wrong(format!("there is no column `{}`", printable::quoted(called)));
+                return wrong(format!("unknown column `{}`", printable::quoted(called)));
             };
             turning.places.push(place);
             turning.periods[i] = laid.system.period(place - 1, &laid.start.parameters);

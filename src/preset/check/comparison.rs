@@ -48,7 +48,7 @@ impl ModelBuilder<'_> {
 
     fn not_eliminated(&self, name: &Spanned<String>) -> Diagnostic {
         let known: Vec<&str> = self.model.coordinates.iter().map(|c| c.name.as_str()).collect();
-        let message = format!("there is no coordinate `{}`", name.get_ref());
+        let message = format!("unknown coordinate `{}`", name.get_ref());
         Diagnostic::error(name.span(), message).with_help(
             match nearest(name.get_ref().trim_end_matches('\''), known.iter().copied()) {
                 Some(near) => format!("did you mean `{near}`?"),

@@ -26,7 +26,7 @@ impl ModelBuilder<'_> {
                             Some(near) => format!("did you mean `{near}`?"),
                             None => format!("the coordinates are {}", names.join(", ")),
                         };
-                        let message = format!("there is no coordinate `{}`", coordinate.get_ref());
+                        let message = format!("unknown coordinate `{}`", coordinate.get_ref());
                         let error = Diagnostic::error(coordinate.span(), message);
                         self.diagnostics.push(error.with_help(help));
                     }

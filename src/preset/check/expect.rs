@@ -137,7 +137,7 @@ impl ModelBuilder<'_> {
             None if known.len() == 0 => "the file has no [[transformations]]".to_owned(),
             None => format!("there is {}", known.collect::<Vec<_>>().join(", ")),
         };
-        let message = format!("there is no transformation `{}`", name.get_ref());
+        let message = format!("unknown transformation `{}`", name.get_ref());
         self.diagnostics.push(Diagnostic::error(name.span(), message).with_help(help));
         None
     }
@@ -172,7 +172,7 @@ impl ModelBuilder<'_> {
             None if known.is_empty() => "the file has no [[events]] and no [[impulses]]".to_owned(),
             None => format!("what may happen is {}", known.join(", ")),
         };
-        let message = format!("there is no event or impulse `{}`", name.get_ref());
+        let message = format!("unknown event or impulse `{}`", name.get_ref());
         self.diagnostics.push(Diagnostic::error(name.span(), message).with_help(help));
         None
     }

@@ -74,7 +74,7 @@ impl ModelBuilder<'_> {
                 None if known.is_empty() => "the file has no [[frames]]".to_owned(),
                 None => format!("the frames are {}", known.join(", ")),
             };
-            let message = format!("there is no frame `{}`", name.get_ref());
+            let message = format!("unknown frame `{}`", name.get_ref());
             self.diagnostics.push(Diagnostic::error(name.span(), message).with_help(help));
         }
         found

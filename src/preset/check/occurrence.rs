@@ -134,9 +134,9 @@ impl ModelBuilder<'_> {
     fn unknown_momentum(&self, name: &Spanned<String>) -> Diagnostic {
         let poisson = self.model.is_poisson();
         let message = if poisson {
-            format!("there is no variable `{}` for an impulse to change", name.get_ref())
+            format!("unknown variable `{}` for an impulse to change", name.get_ref())
         } else {
-            format!("there is no momentum `{}` for an impulse to change", name.get_ref())
+            format!("unknown momentum `{}` for an impulse to change", name.get_ref())
         };
         let prefix = if poisson { "" } else { "p_" };
         let coordinates = self.model.coordinates.iter();
@@ -199,7 +199,7 @@ impl ModelBuilder<'_> {
                 Some(near) => format!("did you mean `{near}`?"),
                 None => "a direction is `rising`, `falling` or `either`".to_owned(),
             };
-            let message = format!("there is no direction `{word}`");
+            let message = format!("unknown direction `{word}`");
             self.diagnostics.push(Diagnostic::error(written.span(), message).with_help(help));
             Direction::Either
         })
@@ -238,7 +238,7 @@ impl ModelBuilder<'_> {
             None if known.is_empty() => format!("the file has no [[{kind}s]]"),
             None => format!("the {kind}s are {}", known.join(", ")),
         };
-        let message = format!("there is no {kind} `{object}`");
+        let message = format!("unknown {kind} `{object}`");
         self.diagnostics.push(Diagnostic::error(written.span(), message).with_help(help));
         None
     }

@@ -42,7 +42,7 @@ impl ModelBuilder<'_> {
                     Some(near) => format!("did you mean `{near}`?"),
                     None => "a scale is `linear` or `log`".to_owned(),
                 };
-                let message = format!("there is no scale `{other}`");
+                let message = format!("unknown scale `{other}`");
                 self.diagnostics.push(Diagnostic::error(written.span(), message).with_help(help));
                 RangeSpacing::Linear
             }

@@ -112,7 +112,7 @@ impl ModelBuilder<'_> {
                 None if known.is_empty() => "the file has no [parameters]".to_owned(),
                 None => format!("the parameters are {}", known.join(", ")),
             };
-            let message = format!("there is no parameter `{}`", name.get_ref());
+            let message = format!("unknown parameter `{}`", name.get_ref());
             self.diagnostics.push(Diagnostic::error(name.span(), message).with_help(help));
         }
         found

@@ -59,7 +59,7 @@ impl ModelBuilder<'_> {
                 Some(near) => format!("did you mean `{near}`?"),
                 None => format!("the variables are {}", known.join(", ")),
             };
-            let message = format!("there is no variable `{}`", name.get_ref());
+            let message = format!("unknown variable `{}`", name.get_ref());
             self.diagnostics.push(Diagnostic::error(name.span(), message).with_help(help));
         }
         found

@@ -53,7 +53,7 @@ impl ModelBuilder<'_> {
                     Some(near) => format!("did you mean `{near}`?"),
                     None => "a ramp is `smooth`, `cubic` or `linear`".to_owned(),
                 };
-                let message = format!("there is no form `{}` of a ramp", form.get_ref());
+                let message = format!("unknown form `{}` of a ramp", form.get_ref());
                 self.diagnostics.push(Diagnostic::error(form.span(), message).with_help(help));
             }
             known.map(|(_, form)| *form)
@@ -63,10 +63,8 @@ impl ModelBuilder<'_> {
         let symbol = known.map(|parameter| parameter.symbol);
         if symbol.is_none() {
             let names = self.model.parameters.iter().map(|p| p.name.as_str());
-            let diagnostic = Diagnostic::error(
-                name.span(),
-                format!("there is no parameter `{}`", name.get_ref()),
-            );
+            let diagnostic =
+                Diagnostic::error(name.span(), format!("unknown parameter `{}`", name.get_ref()));
             self.diagnostics.push(match nearest(name.get_ref(), names) {
                 Some(near) => diagnostic.with_help(format!("did you mean `{near}`?")),
                 None => diagnostic.with_help("give it a value in [parameters]"),

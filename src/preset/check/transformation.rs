@@ -274,7 +274,7 @@ impl ModelBuilder<'_> {
                 Some(i) => found.push(i),
                 None => {
                     let names: Vec<&str> = above.iter().map(|t| t.name.as_str()).collect();
-                    let message = format!("there is no transformation `{}` above", name.get_ref());
+                    let message = format!("unknown transformation `{}` above", name.get_ref());
                     let help = match nearest(name.get_ref(), names.iter().copied()) {
                         Some(near) => format!("did you mean `{near}`?"),
                         None if names.is_empty() => "there is none above".to_owned(),
@@ -297,7 +297,7 @@ impl ModelBuilder<'_> {
         let read = |name: &Spanned<String>, others: &[&str]| {
             let found = GeneratingType::by_name(name.get_ref());
             if found.is_none() {
-                let message = format!("there is no kind `{}` of transformation", name.get_ref());
+                let message = format!("unknown kind `{}` of transformation", name.get_ref());
                 let all = known().into_iter().chain(others.iter().copied()).collect::<Vec<_>>();
                 let help = match nearest(name.get_ref(), all.iter().copied()) {
                     Some(near) => format!("did you mean `{near}`?"),

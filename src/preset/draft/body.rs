@@ -125,7 +125,7 @@ fn known(solid: &Spanned<String>, diagnostics: &Diagnostics) -> Option<&'static 
             Some(near) => format!("did you mean `{near}`?"),
             None => format!("the solids are {}", SOLIDS.join(", ")),
         };
-        let message = format!("there is no solid `{name}`");
+        let message = format!("unknown solid `{name}`");
         diagnostics.push(Diagnostic::error(solid.span(), message).with_help(help));
     }
     known.copied()

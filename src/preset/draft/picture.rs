@@ -223,7 +223,7 @@ fn view_kind(
             Some(near) => format!("did you mean `{near}`?"),
             None => format!("the kinds are {}", listed("", "and")),
         };
-        let message = format!("there is no view of kind `{name}`");
+        let message = format!("unknown kind of view `{name}`");
         diagnostics.push(Diagnostic::error(written.span(), message).with_help(help));
     }
     kind

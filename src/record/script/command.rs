@@ -169,7 +169,7 @@ fn keys(line: &mut ScriptLine<'_>) -> Result<Vec<KeyEvent>, Diagnostic> {
             }
             (None, _) => keys.push(key::named(&word.text).map_err(|near| {
                 let diagnostic =
-                    Diagnostic::error(word.place, format!("there is no key `{}`", word.text));
+                    Diagnostic::error(word.place, format!("unknown key `{}`", word.text));
                 match near {
                     Some(near) => diagnostic.with_help(format!("did you mean `{near}`?")),
                     None => diagnostic.with_help("keys are z Tab Enter Shift-Left Ctrl-r F1 …"),

@@ -34,6 +34,26 @@ fn click(real: &mut Real, button: MouseButton, hit: HitTarget) {
     real.look();
 }
 
+/// A point of a portrait with momenta sets the listed velocity, which then is what stays, as one that was typed.
+#[test]
+fn a_start_by_a_click_keeps_its_velocity_when_a_parameter_changes() {
+    let mut real = Real::of("pendulum");
+    let index = picture(&real, "phase");
+    let hit = HitTarget::Plot { index, place: [0.5, 0.5], at: [1.0, 3.0] };
+    click(&mut real, MouseButton::Left, hit);
+    let begun = real.seen().initial.clone();
+    assert_eq!(begun[..], [1.0, 3.0], "m l² is 1 here");
+    real.app.lab.as_mut().unwrap().focus.pane = Pane::Parameters;
+    real.press("Right Right");
+    let mass = real.seen().parameters[0];
+    assert!(mass > 1.0, "{mass}");
+    assert_eq!(real.seen().initial, begun);
+    real.press("r");
+    let channels = real.lab().loaded.system.channels();
+    let momentum = channels.iter().position(|channel| channel.name == "p_theta").unwrap();
+    assert_eq!(real.seen().values[momentum], mass * 3.0);
+}
+
 #[test]
 fn the_right_button_adds_a_motion_and_the_left_one_begins_the_main_one() {
     let mut real = Real::of("pendulum");

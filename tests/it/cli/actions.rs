@@ -306,7 +306,7 @@ fn what_has_no_action_is_refused() {
         phaselab(&[&["actions"], arguments].concat()).fails(code, said);
     };
     refused(&["henon-heiles"], 2, &["--coordinate x or y"]);
-    refused(&["henon-heiles", "--coordinate=z"], 2, &["there is no coordinate `z`"]);
+    refused(&["henon-heiles", "--coordinate=z"], 2, &["unknown coordinate `z`"]);
     refused(&["henon-heiles", "--coordinate=x"], 1, &["does not separate"]);
     refused(&["duffing"], 1, &["not conserved"]);
     refused(&["kicked-rotor"], 1, &["not conserved"]);

@@ -119,7 +119,7 @@ fn wrong_scans_are_refused() {
         phaselab(&["invariants", "swinging-atwood", "--scan", scan]).fails(2, &["--scan"]);
     }
     phaselab(&["invariants", "swinging-atwood", "--scan", "q=1:2:1"])
-        .fails(2, &["no parameter `q`", "M, m, g"]);
+        .fails(2, &["unknown parameter `q`", "M, m, g"]);
     phaselab(&["invariants", "planet", "--degree", "0"]).fails(2, &["--degree"]);
 }
 

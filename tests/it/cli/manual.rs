@@ -77,5 +77,5 @@ fn man_shows_each_page_without_complaint() {
 
 #[test]
 fn a_command_that_is_none_has_no_page() {
-    phaselab(&["man", "derives"]).fails(2, &["there is no command `derives`", "`derive`"]);
+    phaselab(&["man", "derives"]).fails(2, &["unknown command `derives`", "`derive`"]);
 }

@@ -56,15 +56,15 @@ fn it_takes_them_after_its_name_too() {
 /// Who has just written a file asks for it by the same name.
 #[test]
 fn a_name_that_is_a_file_of_this_folder_is_understood() {
-    let said = "no command or preset `system`; did you mean the file `./system.toml`?";
+    let said = "unknown command or preset `system`; did you mean the file `./system.toml`?";
     super::with_file("", &["system"]).fails(2, &[said]);
-    super::with_file("", &["systen"]).fails(2, &["no command or preset `systen`"]);
+    super::with_file("", &["systen"]).fails(2, &["unknown command or preset `systen`"]);
 }
 
 #[test]
 fn a_word_that_is_no_command_stays_the_name_of_a_system() {
     phaselab(&["--fps", "4", "pendulum"]).fails(2, &["needs a terminal"]);
-    phaselab(&["--fps", "4", "tuor"]).fails(2, &["there is no command or preset `tuor`"]);
+    phaselab(&["--fps", "4", "tuor"]).fails(2, &["unknown command or preset `tuor`"]);
     let help = phaselab(&["--fps", "4", "--help"]).success();
     assert!(help.contains("Usage: phaselab"), "{help}");
 }

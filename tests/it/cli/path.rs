@@ -157,9 +157,9 @@ fn what_cannot_be_asked_of_a_path() {
     refused(&["--in", "1", "--to", "x'=1", "--to", "y=1"], "are coordinates");
     refused(&["--in", "1", "--along", "x=t"], "`y` is missing");
     refused(&["--in", "1", "--along", "x=y", "--along", "y=t"], "function of t");
-    refused(&["--in", "1", "--along", "z=t"], "no coordinate `z`");
+    refused(&["--in", "1", "--along", "z=t"], "unknown coordinate `z`");
     let along = ["--in", "1", "--along", "x=t", "--along", "y=t"];
-    refused(&[&along[..], &["--vary", "p_z=t"]].concat(), "no coordinate `p_z`");
+    refused(&[&along[..], &["--vary", "p_z=t"]].concat(), "unknown coordinate `p_z`");
     refused(&["--in", "1", "--to", "x=1", "--to", "y=1", "--epsilons", "1:2"], "from:to:count");
     let text =
         with_file(PENDULUM, &["path", "system.toml", "--in", "1", "--to", "theta=1"]).success();

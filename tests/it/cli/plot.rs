@@ -140,7 +140,7 @@ fn the_columns_of_other_commands_are_found() {
 fn what_is_no_table_is_refused() {
     let empty = "no row has numbers for all of `a`, `b` and `c`";
     plotted("a,b,c\n1,2,\n3,4,\n", &["--of", "c"]).fails(2, &[empty]);
-    let unknown = "there is no column `z`; the columns are x, y";
+    let unknown = "unknown column `z`; the columns are x, y";
     plotted(DIAGONAL, &["--x", "z"]).fails(2, &[unknown]);
     plotted(DIAGONAL, &["--size", "9x9"]).fails(2, &["COLUMNSxROWS"]);
     plotted("a,b\none,two\n", &[]).fails(2, &["no row has numbers for both `a` and `b`"]);

@@ -103,7 +103,7 @@ fn what_cannot_be_ramped_is_refused() {
     };
     refused(&["pendulum", "--ramp=l=1:2"], &["name=from:to:start:duration"]);
     refused(&["pendulum", "--ramp=l=1:2:0:0"], &["above zero"]);
-    refused(&["pendulum", "--ramp=ll=1:2:0:1"], &["there is no parameter `ll`", "`l`"]);
+    refused(&["pendulum", "--ramp=ll=1:2:0:1"], &["unknown parameter `ll`", "`l`"]);
     refused(&["pendulum", "--ramp=l=1:2:0:1", "--ramp=l=1:2:0:1"], &["twice"]);
     refused(&["pendulum", "--ramp=l=1:2:0:1", "--set=l=1"], &["--set and --ramp"]);
     refused(&["kicked-rotor", "--ramp=T=1:2:0:1"], &["`T`", "kick"]);

@@ -139,7 +139,7 @@ fn parameters_are_set_by_name() {
     assert_eq!(object["parameters"], serde_json::json!({ "m": 3.0, "w": -0.5 }));
     // the initial velocity is the parameter w
     assert_eq!(rows(&object)[0][2..4], [Some(-0.5), Some(-1.5)]);
-    run(&["--set", "mm=3"]).fails(2, &["there is no parameter `mm`", "did you mean `m`?"]);
+    run(&["--set", "mm=3"]).fails(2, &["unknown parameter `mm`", "did you mean `m`?"]);
     run(&["--set", "m"]).fails(2, &["name=value"]);
     run(&["--set", "m=heavy"]).fails(2, &["m=heavy"]);
     run(&["--set", "m=inf"]).fails(2, &["finite"]);
@@ -160,7 +160,7 @@ fn initial_values_are_set_by_name_and_momenta_solve_for_velocities() {
         first(&["--init", "p_theta=5", "--init", "theta=2", "--set", "m=4"]),
         [2.0, 1.25, 5.0]
     );
-    run(&["--init", "thta=1"]).fails(2, &["there is no initial value `thta`", "`theta`"]);
+    run(&["--init", "thta=1"]).fails(2, &["unknown initial value `thta`", "`theta`"]);
     run(&["--init", "theta'=1", "--init", "p_theta=1"]).fails(2, &["theta'", "p_theta"]);
     run(&["--init", "theta=x"]).fails(2, &["theta=x"]);
 }

@@ -353,7 +353,7 @@ fn what_is_not_right_is_refused_with_a_sentence() {
     refused(&["--on=x", "--count=0"], &["0"]);
     refused(&["--on=x", "--orbits=none.csv"], &["none.csv"]);
     let bad = |table: &str, said: &[&str]| with_starts(table, &[]).fails(2, said);
-    bad("y,z\n0,1\n", &["there is no parameter or initial value `z`"]);
+    bad("y,z\n0,1\n", &["unknown parameter or initial value `z`"]);
     bad("y\n0,1\n", &["line 2 has 2 cells"]);
     bad("y,y\n0,1\n", &["two columns `y`"]);
     bad("y\n", &["no rows"]);

@@ -124,9 +124,12 @@ fn what_is_made_of_nothing_is_an_error() {
         let text = format!("{FREE}{}", rest.join("\n"));
         with_file(&text, &["derive", "system.toml"]).fails(65, words);
     };
-    check(&[&made("b", "inverse", "\"sher\"", ""), SHEAR], &["no transformation `sher` above"]);
+    check(
+        &[&made("b", "inverse", "\"sher\"", ""), SHEAR],
+        &["unknown transformation `sher` above"],
+    );
     check(&[SHEAR, &made("b", "inverse", "\"sheer\"", "")], &["did you mean `shear`?"]);
-    check(&[SHEAR, &made("b", "inverse", "\"b\"", "")], &["no transformation `b` above"]);
+    check(&[SHEAR, &made("b", "inverse", "\"b\"", "")], &["unknown transformation `b` above"]);
     check(&[SHEAR, &made("b", "compose", "\"shear\"", "")], &["two or more"]);
     check(
         &[SHEAR, &made("b", "inverse", "\"shear\", \"shear\"", "")],

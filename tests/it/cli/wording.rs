@@ -19,14 +19,14 @@ fn a_number_out_of_range_names_the_range() {
 
 #[test]
 fn a_name_that_is_not_there_is_reported_with_those_that_are() {
-    let all = "there is no parameter or initial value `q`; there are m, l, g, theta0, theta, \
+    let all = "unknown parameter or initial value `q`; there are m, l, g, theta0, theta, \
                theta', p_theta, t";
     phaselab(&["sweep", "pendulum", "--grid", "q=1:2:3"]).fails(2, &[all]);
-    let family = "there is no parameter `q`; there are m, l, g, theta0, energy, period";
+    let family = "unknown parameter `q`; there are m, l, g, theta0, energy, period";
     phaselab(&["orbit", "pendulum", "--along", "q=1:2:3"]).fails(2, &[family]);
     phaselab(&["actions", "double-pendulum"]).fails(2, &["give --coordinate theta1 or theta2"]);
     let lists = "`phaselab list` lists the presets, `phaselab --help` the commands";
-    phaselab(&["zzzzzz"]).fails(2, &["there is no command or preset `zzzzzz`", lists]);
+    phaselab(&["zzzzzz"]).fails(2, &["unknown command or preset `zzzzzz`", lists]);
 }
 
 /// Before a demo is recorded, which takes a while, and not after it.
@@ -42,7 +42,7 @@ fn a_still_that_cannot_be_drawn_is_reported_at_once() {
     assert_eq!(record(&[]).code, 65);
     for (still, reported) in [
         (&["--still", "a.png"][..], "a still ends in .svg, .txt or .ans"),
-        (&["--still", "a.svg", "--at", "Nowhere"], "there is no marker `Nowhere`"),
+        (&["--still", "a.svg", "--at", "Nowhere"], "unknown marker `Nowhere`"),
     ] {
         let refused = record(still);
         assert_eq!(refused.code, 2, "{}", refused.stderr);

@@ -238,7 +238,7 @@ fn a_key_shows_the_next_principle() {
 /// With one coordinate there is one way at an energy; where the motion rests there is none, and no foci are counted on it.
 #[test]
 fn one_coordinate_has_no_other_way() {
-    for (velocity, words) in [("0.0", "at rest: no way"), ("1.6", "no other way at this H")] {
+    for (velocity, words) in [("0.0", "at rest: no path"), ("1.6", "no other path at this H")] {
         let text = format!(
             "title = \"t\"\n[coordinates]\nq = {{ initial = 0.0, velocity = {velocity} }}\n\
              [lagrangian]\nL = \"1/2*q'^2 + cos(q)\"\n[[views]]\nkind = \"abbreviated\"\nx = \"q\"\n"

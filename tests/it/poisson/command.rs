@@ -47,9 +47,9 @@ fn run_has_variables_energy_casimirs_and_observables() {
         .collect();
     assert_eq!(names, ["energy", "length", "vertical", "spin"]);
     with_file(TOP, &["run", "system.toml", "--init", "L1'=1"])
-        .fails(2, &["no initial value `L1'`"]);
+        .fails(2, &["unknown initial value `L1'`"]);
     with_file(TOP, &["run", "system.toml", "--init", "p_L1=1"])
-        .fails(2, &["no initial value `p_L1`", "there are L1, L2"]);
+        .fails(2, &["unknown initial value `p_L1`", "there are L1, L2"]);
     with_file(TOP, &["run", "system.toml", "--method", "yoshida4"])
         .fails(2, &["yoshida4", "brackets"]);
 }

@@ -167,7 +167,7 @@ fn a_path_is_a_file_and_a_name_is_a_preset() {
 fn a_misspelt_name_gets_the_nearest() {
     let catalog = Catalog::with_folder(None);
     let error = catalog.find("pendulm").unwrap_err();
-    assert_eq!(error.to_string(), "there is no preset `pendulm`; did you mean `pendulum`?");
+    assert_eq!(error.to_string(), "unknown preset `pendulm`; did you mean `pendulum`?");
     for (wanted, meant) in [
         ("Simple pendulum", "pendulum"),
         ("simple pendulun", "pendulum"),
@@ -177,10 +177,10 @@ fn a_misspelt_name_gets_the_nearest() {
         ("racket", "free-rigid-body"),
     ] {
         let said = catalog.find(wanted).unwrap_err().to_string();
-        assert_eq!(said, format!("there is no preset `{wanted}`; did you mean `{meant}`?"));
+        assert_eq!(said, format!("unknown preset `{wanted}`; did you mean `{meant}`?"));
     }
     let error = catalog.find("zzzzzz").unwrap_err();
-    assert_eq!(error.to_string(), "there is no preset `zzzzzz`; `phaselab list` lists the presets");
+    assert_eq!(error.to_string(), "unknown preset `zzzzzz`; `phaselab list` lists the presets");
 }
 
 #[test]

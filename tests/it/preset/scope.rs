@@ -86,7 +86,7 @@ fn the_nearest_name_is_one_that_may_stand_there() {
         "y",
         "0..1 unknown name `y`; give it a value in [parameters], or define it in [definitions]",
     );
-    check(Observable, "sqr(x)", "0..3 there is no function `sqr`; did you mean `sqrt`?");
+    check(Observable, "sqr(x)", "0..3 unknown function `sqr`; did you mean `sqrt`?");
 }
 
 /// An unknown function hides no unknown name beside it or in it.

@@ -41,17 +41,17 @@ fn a_demo_is_shown_without_the_footer() {
 fn errors_stand_in_their_places() {
     let check = |text: &str, expected: &[&str]| assert_eq!(diagnostics(text), expected, "{text}");
     check("Wait 1s", &[]);
-    check("  # nothing\n\nWiat 2s", &["3:1 there is no command `Wiat`; did you mean `Wait`?"]);
-    check("wait 2s", &["1:1 there is no command `wait`; did you mean `Wait`?"]);
+    check("  # nothing\n\nWiat 2s", &["3:1 unknown command `Wiat`; did you mean `Wait`?"]);
+    check("wait 2s", &["1:1 unknown command `wait`; did you mean `Wait`?"]);
     // a byte order mark in front is none of its words
     check("\u{feff}Wait 1s", &[]);
-    check("\u{feff}Wait 1s\nWiat 2s", &["2:1 there is no command `Wiat`; did you mean `Wait`?"]);
+    check("\u{feff}Wait 1s\nWiat 2s", &["2:1 unknown command `Wiat`; did you mean `Wait`?"]);
     check("Wait", &["1:5 here a time is missing"]);
     check("Wait 2", &["1:6 is 2 in seconds or milliseconds?; write 2s or 2ms"]);
     check("Wait soon", &["1:6 `soon` is not a time; write it as 2s, 0.5s or 150ms"]);
     check("Wait 1s 2s", &["1:9 unexpected `2s`; it is written Wait 2s"]);
     check("Wait 1s\nWait 9999999s", &["2:14 a demo may last an hour; this one lasts 10000000 s"]);
-    check("Press Tba\nWait 1s", &["1:7 there is no key `Tba`; did you mean `Tab`?"]);
+    check("Press Tba\nWait 1s", &["1:7 unknown key `Tba`; did you mean `Tab`?"]);
     check("Press x3", &["1:7 `x3` belongs after a key; as in Press Down x3"]);
     check("Press", &["1:6 here a key is missing"]);
     check("Caption bare words", &["1:9 a text belongs in quotes; write it as \"bare words\""]);

@@ -25,6 +25,15 @@ fn tab_comes_first_where_panes_are_hidden() {
     assert!(!all.contains("tabs"), "{all}");
 }
 
+/// How to pause is said on a standard screen, too.
+#[test]
+fn the_pause_is_in_the_footer_of_a_standard_screen() {
+    let real = Real::of("pendulum");
+    let footer = footer(&real, (80, 24));
+    assert!(footer.ends_with("Space pause   ? help   q quit "), "{footer:?}");
+    assert!(footer.contains("Tab pane"), "{footer}");
+}
+
 #[test]
 fn space_resumes_what_it_has_paused() {
     let mut real = Real::of("pendulum");

@@ -291,7 +291,7 @@ fn without_colour_a_sphere_leaves_the_curve_on_it_in_sight() {
 #[test]
 fn no_line_of_a_formula_hangs_left_of_its_sign() {
     let mut further = 0;
-    for name in ["double-pendulum", "heavy-top", "chain-pendulum"] {
+    for name in ["double-pendulum", "heavy-top", "swinging-atwood"] {
         let mut app = lab(name, 1.0);
         press(&mut app, "2");
         for size in [(80, 250), (100, 250)] {

@@ -51,7 +51,8 @@ fn the_help_begins_here_and_is_searched() {
     let mut app = in_lab();
     press(&mut app, "Tab Tab Tab Tab ?");
     let text = rows(&screen(&app, &rich(), (80, 24)));
-    assert!(text[2].contains("Here: Plots"), "{text:#?}");
+    assert!(text[2].contains("To begin with") && text[3].contains("pause or resume"), "{text:#?}");
+    assert!(text.iter().any(|row| row.contains("Here: Plots")), "{text:#?}");
     let buffer = screen(&app, &rich(), (200, 60));
     let left = find(&buffer, "Here: Plots").expect("left");
     let right: String = (2..8)

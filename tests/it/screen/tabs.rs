@@ -56,6 +56,42 @@ fn all_titles_fit_beside_a_plot_of_a_standard_screen_and_are_clicked_there() {
     }
 }
 
+/// What is as high as wide is not drawn in a flat slot: two rows of two pictures then; a motion along a line has one.
+#[test]
+fn a_square_picture_has_a_square_slot() {
+    for (name, rows_of_frames) in [
+        ("symplectic-euler", 2),
+        ("moving-axes", 2),
+        ("thrown-ball", 2),
+        ("another-momentum", 1),
+        ("pendulum", 1),
+    ] {
+        let real = Real::of(name);
+        let drawn = rows(&screen(&real.app, &rich(), (120, 40)));
+        let corners = |row: &&String| row.chars().take(78).filter(|c| *c == '╭').count() == 2;
+        assert_eq!(drawn.iter().filter(corners).count(), rows_of_frames, "{name}: {drawn:#?}");
+    }
+}
+
+/// The equations of a chain of four are Lagrange's where the solved ones would fill hundreds of rows, and those of five bodies
+/// are on page 2; both say where all are.
+#[test]
+fn long_equations_are_not_spread_out_in_the_pane() {
+    for (name, said) in [
+        ("chain-pendulum", "phaselab derive chain-pendulum"),
+        ("solar-system", "15 equations of motion: page 2"),
+    ] {
+        let mut real = Real::of(name);
+        if let Some(lab) = &mut real.app.lab {
+            lab.focus.pane = Pane::Law;
+            lab.focus.zoomed = true;
+        }
+        let drawn = rows(&screen(&real.app, &rich(), (120, 120))).join(" ");
+        let words: Vec<&str> = drawn.split_whitespace().filter(|word| *word != "│").collect();
+        assert!(words.join(" ").contains(said), "{name}: {drawn}");
+    }
+}
+
 /// A picture that was brought into a slot stays there while another one is focused.
 #[test]
 fn a_tab_stays_while_another_picture_has_the_focus() {
