@@ -43,16 +43,17 @@ impl FourLaneKernel for StateSum<'_> {
         let StateSum { low, known, high, units, x, out } = self;
         let (values, carry) = (&mut out.values[..units.len()], &mut out.carry[..units.len()]);
         let mut first = 0;
-        // four numbers side by side, none of which waits for another
-        while first + LANES <= units.len() && x.low == 0.0 {
-            let (i, j, k, l) = (first, first + 1, first + 2, first + 3);
+        // four numbers side by side, none of which waits for another; the last four may have some of those before once more
+        while first < units.len() && units.len() >= LANES && x.low == 0.0 {
+            let start = first.min(units.len() - LANES);
+            let (i, j, k, l) = (start, start + 1, start + 2, start + 3);
             let low = [low.of(i), low.of(j), low.of(k), low.of(l)];
             let high = [high.of(i), high.of(j), high.of(k), high.of(l)];
             let (sums, left) = sums_of_four::<L, FUSED>(lanes, (low, high, known), x.high);
             for lane in 0..LANES {
                 let number = DoubleDouble { high: sums[lane], low: left[lane] };
-                let number = in_unit(number, units[first + lane]);
-                (values[first + lane], carry[first + lane]) = (number.high, number.low);
+                let number = in_unit(number, units[start + lane]);
+                (values[start + lane], carry[start + lane]) = (number.high, number.low);
             }
             first += LANES;
         }

@@ -188,6 +188,12 @@ fn take_matrices<R: Real>(
     let size = size_of::<R>() / size_of::<f64>();
     for (place, factored) in places.iter().zip(matrices) {
         let n = factored.size();
+        if n == 1 {
+            // the code reads the number where it lies
+            let is_pivot = |x: DoubleDouble| x.high.is_finite() && x.has_reciprocal();
+            regular &= factored.rows().all(|(_, entries)| is_pivot(entries[0].double()));
+            continue;
+        }
         for (i, (row, entries)) in factored.rows().enumerate() {
             for (j, entry) in entries.iter().enumerate() {
                 let at = place.entries + (i * n + j) * size;
