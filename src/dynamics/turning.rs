@@ -70,3 +70,18 @@ pub(super) fn common_period(rates: &[f64]) -> Option<f64> {
     let count = (1..=TURNS).find(common).filter(|_| slowest.is_finite())?;
     Some(f64::from(count) * turn)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::common_period;
+
+    #[test]
+    fn turns_have_a_period_in_common_up_to_a_billionth_and_sixty_four_turns() {
+        let turns = |rates: &[f64]| Some(common_period(rates)? * rates[0] / std::f64::consts::TAU);
+        assert_eq!(turns(&[2.0, 3.0]), Some(2.0));
+        assert_eq!(turns(&[1.0, 1.0 + 0.9e-9]), Some(1.0));
+        assert_eq!(turns(&[1.0, 1.0 + 1.1e-9]), None);
+        assert_eq!(turns(&[64.0, 65.0]).map(f64::round), Some(64.0));
+        assert_eq!(turns(&[65.0, 66.0]), None);
+    }
+}

@@ -62,7 +62,8 @@ pub(super) fn refuse_acts_but(
         |action: EventAction| matches!(action, EventAction::Mark | EventAction::Section(_));
     let mut events = system.discontinuities().events.iter();
     let may_be = |action: EventAction| passive(action) || allowed(action);
-    if !events.all(|event| event.action.written().is_some_and(may_be)) {
+    // a step of the law in time that no momentum has changes no state
+    if !events.all(|event| event.action.written().is_none_or(may_be)) {
         return unsuited("events act on the motion, across which its derivatives are not computed");
     }
     Ok(())

@@ -36,9 +36,14 @@ impl Experiment {
                 self.recorder.insert(clock, self.motion.values());
                 // no event of the file
                 let time = short(occurrence.time);
-                return Ok(format!(
-                    "L has a step at t = {time}: the velocities jump, the momenta do not"
-                ));
+                let system = self.motion.system();
+                let law = if self.model.is_lagrangian() { "L" } else { "H" };
+                let jumps = if system.discontinuities().momenta_jump {
+                    "the velocities jump, the momenta do not"
+                } else {
+                    "the energy jumps with it"
+                };
+                return Ok(format!("{law} has a step at t = {time}: {jumps}"));
             }
             OccurrenceKind::Impulse { .. } => {
                 let before = self.motion.values_before()?;

@@ -54,12 +54,6 @@ pub(super) fn measure(
             }
         }
     }
-    // the rates are evaluated at times that are rounded, which is all there is of them where a ramp has just begun
-    for time in [place.time.next_up(), place.time.next_down()] {
-        if rates.evaluate(time, place.numbers, &mut there).is_ok() && rates.sides().agrees(&sides) {
-            widen(noise, &there, &here);
-        }
-    }
     for pass in 0..2 {
         let own = noise.to_vec();
         for way in 0..WAYS {
@@ -72,16 +66,22 @@ pub(super) fn measure(
             {
                 continue;
             }
-            widen(noise, &there, &here);
+            widen(noise, &there, &here, f64::EPSILON);
+        }
+    }
+    // the rates are evaluated at times that are rounded, which is all there is of them where a ramp has just begun
+    for time in [place.time.next_up(), place.time.next_down()] {
+        if rates.evaluate(time, place.numbers, &mut there).is_ok() && rates.sides().agrees(&sides) {
+            widen(noise, &there, &here, 0.0);
         }
     }
     Ok(())
 }
 
-/// Counts the differences between two sets of rates as rounding.
-fn widen(noise: &mut [f64], there: &[f64], here: &[f64]) {
+/// Counts the differences between two sets of rates, and the rounding of each, as rounding.
+fn widen(noise: &mut [f64], there: &[f64], here: &[f64], rounding: f64) {
     for ((noise, there), here) in noise.iter_mut().zip(there).zip(here) {
-        let change = (there - here).abs() + f64::EPSILON * here.abs();
+        let change = (there - here).abs() + rounding * here.abs();
         if change.is_finite() {
             *noise = noise.max(change);
         }

@@ -36,12 +36,63 @@ impl Equations {
         self.has_sign_of(self.law, &self.places()) || self.law_cut_at_a_place().is_some()
     }
 
-    /// Returns whether the energy jumps at a time with L (or H), while no momentum does: by how much depends on where the motion is, and
-    /// the rate of the energy does not show it.
+    /// The functions of the time alone, finite at all times, at whose zeros L (or H), and the energy with it, or a momentum of L as a
+    /// function of the velocities has a step.
+    pub fn steps_in_time(&self) -> Vec<Expr> {
+        let mut steps = self.value_steps();
+        steps.extend(self.momentum_steps());
+        steps.sort_unstable();
+        steps.dedup();
+        steps
+    }
+
+    /// Returns whether the energy jumps at such zeros with L (or H), while the state is continuous.
     pub fn energy_jumps_in_time(&self) -> bool {
+        !self.value_steps().is_empty() && !self.momenta_jump()
+    }
+
+    /// The functions among these at whose zeros L (or H) itself has a step. Where it has roots or poles in the time there are none: a
+    /// motion that is begun anew there might begin at a singularity.
+    fn value_steps(&self) -> Vec<Expr> {
+        let (time, places) = ([self.symbols.time], self.places());
+        let mut steps = self.signs_of(self.law, &time);
+        // one with a kink may be zero for a while, and leave it where no sign changes
+        steps.retain(|&e| {
+            let is_of_time = !self.pool.depends_on_any(e, &places);
+            is_of_time && !self.may_have_poles(e) && !self.pool.may_have_kink(e, &time)
+        });
+        steps.retain(|_| !self.is_singular_in_time());
+        steps
+    }
+
+    /// Whether L (or H) has a root, a power that is not whole, or a pole of the time alone.
+    fn is_singular_in_time(&self) -> bool {
+        let (time, places) = (self.symbols.time, self.places());
+        let is_of_time =
+            |e: Expr| self.pool.depends_on_any(e, &[time]) && !self.pool.depends_on_any(e, &places);
+        self.pool.reachable(&[self.law]).into_iter().any(|e| match self.pool.node(e) {
+            Node::Product(_, factors) => factors.iter().any(|&(base, n)| {
+                is_of_time(base) && (n.is_negative() || n.as_integer().is_none())
+            }),
+            Node::Power(base, _) => is_of_time(*base),
+            Node::Call(
+                FunctionId::Asin
+                | FunctionId::Acos
+                | FunctionId::Ln
+                | FunctionId::Tan
+                | FunctionId::Cot,
+                argument,
+            ) => is_of_time(argument[0]),
+            _ => false,
+        })
+    }
+
+    /// Returns whether the energy jumps at a time with L (or H) that is not a zero of one of [these
+    /// functions](Equations::steps_in_time): by how much depends on where the motion is, and the rate of the energy does not show it.
+    pub fn energy_jumps_elsewhere_in_time(&self) -> bool {
         let places = self.places();
         let is_of_time = |e: &Expr| !self.pool.depends_on_any(*e, &places);
-        let known = self.momentum_steps();
+        let known = self.steps_in_time();
         let mut steps = self.steps_of(self.law, &[self.symbols.time]).into_iter();
         steps.any(|e| is_of_time(&e) && !known.contains(&e))
             || self.law_cuts().iter().any(is_of_time)
@@ -73,10 +124,12 @@ impl Equations {
             || !self.momentum_steps_by(|p, time| self.saturated_poles(p, &[time])).is_empty()
     }
 
-    /// Returns whether the rates of momenta switch at zeros of these functions, too.
+    /// Returns whether the rates of momenta, or of the variables, switch at zeros of these functions, too.
     pub fn momentum_rates_switch_at(&self, steps: &[Expr]) -> bool {
-        let Flow::Lagrange { momentum_rates, .. } = &self.flow else { return false };
-        self.pool.reachable(momentum_rates).into_iter().any(|e| match self.pool.node(e) {
+        let (Flow::Lagrange { momentum_rates: rates, .. }
+        | Flow::Hamilton { momentum_rates: rates, .. }
+        | Flow::Poisson { rates }) = &self.flow;
+        self.pool.reachable(rates).into_iter().any(|e| match self.pool.node(e) {
             Node::Call(FunctionId::Sign | FunctionId::Abs, arguments) => {
                 arguments.iter().any(|a| steps.contains(a))
             }

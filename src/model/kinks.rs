@@ -21,7 +21,19 @@ impl Model {
             }
             _ => false,
         };
-        reached.into_iter().any(|e| self.is_switch(e) && !is_located(e))
+        reached
+            .into_iter()
+            .any(|e| self.is_switch(e) && !is_located(e) && !self.is_constant_between(e, located))
+    }
+
+    /// Whether an expression changes at the zeros of `located` functions only, as max(0, sign(t)) does.
+    fn is_constant_between(&self, e: Expr, located: &[Expr]) -> bool {
+        let node = self.pool.node(e);
+        match node {
+            Node::Call(FunctionId::Sign, argument) if located.contains(&argument[0]) => true,
+            Node::Symbol(symbol) => self.parameters.iter().any(|p| p.symbol == *symbol),
+            _ => node.parts().into_iter().all(|part| self.is_constant_between(part, located)),
+        }
     }
 
     /// Whether the law has an angle that is folded back, as acos(cos(x)) and asin(sin(x)): it has kinks where the function in it

@@ -9,7 +9,7 @@ use super::inertia::Inertia;
 use super::kkt::ConstraintSystem;
 use super::legendre::{self, Legendre};
 use super::machine_code::CodeCache;
-use super::observables::{ObservableList, Observables};
+use super::observables::{ObservableList, Observables, has_work};
 use super::program::Program;
 use super::rhs::{MotionPrograms, ProgramBuilder, Quadratures, Tangents};
 use super::separability::NotSeparable;
@@ -143,7 +143,7 @@ impl System {
         let quadratures = Quadratures {
             action: list.depends(&equations, equations.symbols.action)
                 || Discontinuities::depend(model, &equations, equations.symbols.action),
-            work: equations.energy_rate != Expr::ZERO || !model.impulses.is_empty(),
+            work: has_work(model, &equations),
         };
         let mut builder = ProgramBuilder {
             pool: equations.pool.clone(),

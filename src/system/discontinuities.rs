@@ -14,7 +14,7 @@ use crate::model::{Direction, EventAction, Model};
 /// The events and impulses of a motion.
 #[derive(Clone, Debug)]
 pub struct Discontinuities {
-    /// Events, in the order of the file, the surfaces of section, and the steps in time of the momenta.
+    /// Events, in the order of the file, the surfaces of section, and the steps in time of the law.
     pub events: Vec<CompiledEvent>,
     /// Impulses, in the order of the file.
     pub impulses: Vec<CompiledImpulse>,
@@ -27,7 +27,7 @@ pub struct Discontinuities {
     /// The times of every impulse, followed by its interval (zero for none), as functions of the
     /// parameters.
     pub(super) schedule: Arc<Program>,
-    /// The functions of the time alone at whose zeros a momentum of L jumps, as a function of the velocities.
+    /// The functions of the time alone at whose zeros the law has a step, or a momentum of L as a function of the velocities.
     pub(super) steps: Arc<Program>,
     /// Whether a momentum of L, as a function of the velocities, jumps at a time, at such a zero or at a pole.
     pub momenta_jump: bool,
@@ -39,7 +39,7 @@ pub struct Discontinuities {
 pub enum CompiledAction {
     /// What the event of the file, or the surface of section, says.
     Written(EventAction),
-    /// The momenta of L have a step in time there, as functions of the velocities. No file writes it.
+    /// The law has a step in time there, or the momenta of L have one, as functions of the velocities. No file writes it.
     StepInTime,
 }
 
@@ -100,7 +100,7 @@ impl Discontinuities {
         model: &Model,
         builder: &mut ProgramBuilder<'_>,
     ) -> Result<Discontinuities, Symbol> {
-        let steps = builder.equations.momentum_steps();
+        let steps = builder.equations.steps_in_time();
         let mut lowering = builder.lowering();
         let instants = lowering.lower_all(&steps);
         let instants = lowering.finish(instants)?;

@@ -39,6 +39,14 @@ pub(super) struct ObservableList {
     precise: usize,
 }
 
+/// Whether work is done on the energy: by what acts on the motion, by impulses, or by steps of the law in time. Where these are in the
+/// momenta, what moves is known on one side of them only.
+pub(super) fn has_work(model: &Model, equations: &Equations) -> bool {
+    equations.energy_rate != Expr::ZERO
+        || !model.impulses.is_empty()
+        || equations.energy_jumps_in_time()
+}
+
 impl ObservableList {
     pub(super) fn of(
         model: &Model,
@@ -59,9 +67,8 @@ impl ObservableList {
             list.add(ChannelKind::Extra(i), &c.written, &shown, c.expression);
         }
         list.columns = list.channels.len();
-        let changes = equations.energy_rate != Expr::ZERO || !model.impulses.is_empty();
-        // by how much it jumps with the law is in no rate
-        if changes && !equations.energy_jumps_in_time() {
+        // by how much it jumps with the law is in no rate, and known only where that is located
+        if has_work(model, equations) && !equations.energy_jumps_elsewhere_in_time() {
             list.push(ChannelKind::EnergyBalance, "energy balance", "energy balance", None);
         }
         for (i, c) in equations.conserved.iter().enumerate() {

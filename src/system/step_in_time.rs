@@ -43,8 +43,10 @@ impl System {
         let before = self.convert(&before, self.form(), parameters)?;
         let mut after = before.clone();
         after.set_time(after_it);
-        let momenta = self.convert(&before, Form::Momentum, parameters)?;
-        let after = self.with_momenta(&after, &momenta, parameters)?;
+        if self.discontinuities().momenta_jump {
+            let momenta = self.convert(&before, Form::Momentum, parameters)?;
+            after = self.with_momenta(&after, &momenta, parameters)?;
+        }
         let after = self.with_work((&before, after), parameters)?;
         Ok(Some((before, after)))
     }

@@ -24,7 +24,7 @@ pub struct StepsInTime {
 }
 
 impl System {
-    /// The steps in time of the law, at which velocities jump and momenta do not; `None` if it has none.
+    /// The steps in time of the law, at which its value, or velocities beside momenta that do not, jump; `None` if it has none.
     pub fn steps_in_time(&self, parameters: &[f64]) -> Option<StepsInTime> {
         let program = &self.discontinuities().steps;
         if program.outputs() == 0 {

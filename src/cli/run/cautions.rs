@@ -24,8 +24,7 @@ pub(super) fn before(model: &Model, system: &System, equations: &Equations, meth
              make the step a steep slope, as with tanh, or give the impulse as an event"
         ));
     }
-    let steps = equations.momentum_steps();
-    if !steps.is_empty() {
+    if !equations.momentum_steps().is_empty() {
         stderr::report(
             "L has a step in time in its momenta, which keep their values there while the velocities jump",
         );
@@ -37,6 +36,7 @@ pub(super) fn before(model: &Model, system: &System, equations: &Equations, meth
         );
     }
     // steps end there
+    let steps = equations.steps_in_time();
     let keeps_accuracy = method.stays_within_steps || !equations.momentum_rates_switch_at(&steps);
     let located = if keeps_accuracy { &steps[..] } else { &[] };
     let has_kinks = system.has_kinks() && model.has_kinks_beside_smooth_ramps(located);

@@ -322,8 +322,8 @@ impl InvariantMonitor {
         let (moving, seen) = (self.moving(), self.seen.greatest());
         let is_energy = self.invariant.quantity == Some(ENERGY);
         let within_rounding = self.drift.farthest <= self.rounding.explained;
-        let is_seen = moving > 0.0 && seen > RESOLVED * moving;
-        self.invariant.broken.is_none() && is_energy && within_rounding && is_seen
+        let is_resolved = is_resolved(seen, moving);
+        self.invariant.broken.is_none() && is_energy && within_rounding && is_resolved
     }
 
     /// Records by how much rounding of the state changes the value, in units of ε.
@@ -363,6 +363,11 @@ impl InvariantMonitor {
     }
 }
 
+/// Whether a change that was seen is so great a part of what moves that a value is not exact.
+fn is_resolved(seen: f64, moving: f64) -> bool {
+    moving > 0.0 && seen > RESOLVED * moving
+}
+
 /// Whether what moves is error and no motion, where a value has been so far from its reference, and rounding explains so much.
 fn is_error(moving: f64, farthest: f64, explained: f64) -> bool {
     // terms that balance each other move by more than their sum
@@ -371,7 +376,13 @@ fn is_error(moving: f64, farthest: f64, explained: f64) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::is_error;
+    use super::{is_error, is_resolved};
+
+    #[test]
+    fn a_value_is_exact_up_to_a_billionth_of_what_moves() {
+        assert!(!is_resolved(1.9e-9, 2.0) && is_resolved(2.1e-9, 2.0));
+        assert!(!is_resolved(1.0, 0.0), "where nothing moves it is not known of what it is a part");
+    }
 
     #[test]
     fn what_moves_is_error_up_to_a_thousand_times_rounding_and_twice_the_distance() {

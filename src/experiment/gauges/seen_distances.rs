@@ -80,3 +80,20 @@ fn greater(
         (one, other) => one.or(other),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::SeenDistances;
+
+    #[test]
+    fn a_change_is_one_of_the_state_beyond_four_units_in_the_last_place_of_its_terms() {
+        let seen = |units: f64, size: f64| {
+            let mut seen = SeenDistances::default();
+            seen.note(1.0, units * f64::EPSILON * size, size);
+            seen.greatest() > 0.0
+        };
+        for size in [1e-300, 3.0, 1e200] {
+            assert!(!seen(3.9, size) && seen(4.1, size), "{size}");
+        }
+    }
+}

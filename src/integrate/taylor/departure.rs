@@ -30,6 +30,7 @@ impl Taylor {
             self.kinks.choose(&mut self.series, sides);
             match self.expand_beyond_jumps(left) {
                 Ok(step) if self.kinks.leads_on(&self.series, step, self.history.stride) => {
+                    self.kinks.begin_beside(&self.series, step);
                     let hopeless = step < HOPELESS * self.history.stride && !rough;
                     if hopeless && self.leap_beside(Some(step), left, 0.0)? {
                         return Ok(None);
@@ -110,7 +111,15 @@ impl Taylor {
                     let is_off = |i: usize| {
                         kinks::is_off_surface(&self.series, i, longest, self.history.stride)
                     };
-                    opposite.iter().map(|&(i, _)| i).filter(|&i| !is_off(i)).collect()
+                    // what is exactly zero has no rounding
+                    let is_exact = |i: usize| {
+                        let levels = [sides[i], self.series.sides()[i]].contains(&Side::Level);
+                        let switch = self.series.switch(i);
+                        let is_zero = levels || switch[0] == 0.0;
+                        is_zero && kinks::side_of(switch) == self.series.sides()[i]
+                    };
+                    let is_back = |&i: &usize| !is_exact(i) && !is_off(i);
+                    opposite.iter().map(|&(i, _)| i).filter(is_back).collect()
                 }
             };
             for &i in &back {

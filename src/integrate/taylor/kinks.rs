@@ -51,6 +51,8 @@ pub(super) struct Kinks {
     certain: Vec<(usize, usize)>,
     /// The rates of change with which switches came to zero, where the motion did not merely touch their surfaces.
     arrival: Vec<(usize, f64)>,
+    /// Whether the motion begins here: no switch is zero by rounding, and those that depend on another may be far from it.
+    begins: bool,
 }
 
 /// A surface met within a step.
@@ -106,7 +108,7 @@ impl Kinks {
         rates: &mut ExactRates,
         state: &State,
     ) -> Result<(), MotionError> {
-        *self = Kinks::default();
+        *self = Kinks { begins: true, ..Kinks::default() };
         if series.switches() == 0 {
             return Ok(());
         }
@@ -145,7 +147,8 @@ impl Kinks {
 
     /// The series of the switches whose surface the state lies on and that have a side.
     pub(super) fn on_surface(&self, series: &Series) -> Vec<(usize, Vec<f64>)> {
-        let sided = self.on_surface.iter().filter(|&&i| series.sides()[i] != Side::Between);
+        let is_sided = |&&i: &&usize| matches!(series.sides()[i], Side::Positive | Side::Negative);
+        let sided = self.on_surface.iter().filter(is_sided);
         sided.map(|&i| (i, series.switch(i).to_vec())).collect()
     }
 
@@ -186,19 +189,34 @@ impl Kinks {
     /// last steps, if there were any.
     pub(super) fn leads_on(&self, series: &Series, step: f64, stride: f64) -> bool {
         let reach = (step / series.scale().abs()).min(1.0).min(known_ahead(series, stride));
-        self.on_surface.iter().all(|&i| self.leads_on_at(series, i, reach))
+        self.on_surface.iter().all(|&i| {
+            let is_off = self.begins && is_off_surface(series, i, step, stride);
+            self.leads_on_at(series, i, if is_off { None } else { Some(reach) })
+        })
     }
 
-    /// The switches beside the surfaces whose values at the origin are not those of their sides, with the sides of the values:
-    /// they have jumped, or they are zero to rounding.
+    /// The switches that are not on their sides, with those on which they are: beside the surfaces by their values at the origin, or
+    /// their first terms where they are zero there, since they have jumped, or are zero to rounding; on a surface where they are zero
+    /// for a while, or no longer.
     pub(super) fn opposite(&self, series: &Series) -> Vec<(usize, Side)> {
-        let beside = (0..series.switches()).filter(|i| !self.on_surface.contains(i));
         let opposite = |i: usize| {
-            let value = series.switch(i)[0];
-            let side = if value > 0.0 { Side::Positive } else { Side::Negative };
-            (value.abs() > 0.0 && side != series.sides()[i]).then_some((i, side))
+            let (now, side) = (series.sides()[i], side_of(series.switch(i)));
+            let is_free = !self.on_surface.contains(&i) || now == Side::Level;
+            let may_leave = is_free && !(now == Side::Between && series.switch(i)[0] == 0.0);
+            let may_be_level = side == Side::Level && now != Side::Between;
+            (side != now && (may_leave || may_be_level)).then_some((i, side))
         };
-        beside.filter_map(opposite).collect()
+        (0..series.switches()).filter_map(opposite).collect()
+    }
+
+    /// Forgets the surfaces on which a motion does not begin after all, by the sides of other switches.
+    pub(super) fn begin_beside(&mut self, series: &Series, step: f64) {
+        if std::mem::take(&mut self.begins) {
+            let is_off = |i: usize| {
+                series.sides()[i] != Side::Between && is_off_surface(series, i, step, 0.0)
+            };
+            self.on_surface.retain(|&i| !is_off(i));
+        }
     }
 
     /// The first surface that the series meets before `end`, in its unit of time; `stride` as in
@@ -244,6 +262,7 @@ impl Kinks {
         self.touched = !moved && (self.touched || self.stalled >= STALLS);
         self.certain.clear();
         self.arrival.clear();
+        self.begins = false;
         if let (Some(crossing), true) = (&crossing, moved) {
             self.arrival.clone_from(&crossing.rates);
         }
@@ -258,14 +277,20 @@ impl Kinks {
     }
 
     /// Whether the motion moves to the chosen side of a surface, that is whether the term of the switch that decides has
-    /// that sign.
-    fn leads_on_at(&self, series: &Series, i: usize, reach: f64) -> bool {
+    /// that sign. One that is off the surface by the sides of others, where there is no `reach`, or stays where it is, as that of
+    /// max(0, sign(t)) at t = 0, has its value.
+    fn leads_on_at(&self, series: &Series, i: usize, reach: Option<f64>) -> bool {
         let sign = match series.sides()[i] {
             Side::Between => return series.weight(i)[0].abs() <= 1.0 + 1e-12,
+            Side::Level => return side_of(series.switch(i)) == Side::Level,
             Side::Positive => 1.0,
             Side::Negative => -1.0,
         };
-        self.deciding(i, series, reach).is_none_or(|k| sign * series.switch(i)[k] > 0.0)
+        let switch = series.switch(i);
+        match reach.and_then(|reach| self.deciding(i, series, reach)) {
+            Some(k) => sign * switch[k] > 0.0,
+            None => sign * switch[0] >= 0.0,
+        }
     }
 
     /// The point where a switch leaves its side. If the step begins on its surface, the switch
@@ -315,6 +340,15 @@ fn rate_of_crossing(switch: &[f64], x: f64) -> Option<f64> {
 /// Whether a switch leaves its surface as fast as it came there.
 fn is_same_rate(now: f64, before: f64) -> bool {
     (now - before).abs() <= SAME * before.abs()
+}
+
+/// The side of a switch just after the origin.
+pub(super) fn side_of(switch: &[f64]) -> Side {
+    match switch.iter().find(|x| **x != 0.0) {
+        Some(x) if *x < 0.0 => Side::Negative,
+        Some(_) => Side::Positive,
+        None => Side::Level,
+    }
 }
 
 /// Whether the motion is off the surface of a switch, beyond the rounding of one that it is on; `step` and `stride` as in
@@ -373,7 +407,7 @@ fn falls(coefficients: &[f64], end: f64) -> Option<f64> {
 fn candidates(before: &[Side]) -> Vec<Vec<Side>> {
     let through = |side: &Side| match side {
         Side::Positive => Side::Negative,
-        Side::Negative | Side::Between => Side::Positive,
+        Side::Negative | Side::Between | Side::Level => Side::Positive,
     };
     let flipped: Vec<Side> = before.iter().map(through).collect();
     let mut all = vec![flipped];

@@ -316,6 +316,7 @@ impl<R: Real> Orders<'_, R> {
                 match side {
                     Side::Positive => row(k)[positive],
                     Side::Negative => row(k)[negative],
+                    Side::Level => (row(k)[positive] + row(k)[negative]) * 0.5,
                     Side::Between => {
                         let weights = match mode {
                             Some(mode) => &self.weights[mode as usize * stride..][..stride],

@@ -10,4 +10,6 @@ pub enum Side {
     /// Between the branches: their mean, plus half their difference times a weight in [−1, 1] that
     /// keeps the switch at zero.
     Between,
+    /// On the surface for a while, whatever the weight, as the switch of sign(max(0, x)) is for x < 0: the mean of the branches.
+    Level,
 }

@@ -934,6 +934,9 @@ fn the_energy_jumps_with_the_law_at_a_time_and_no_balance_is_lost() {
     }
     assert!((x - at).abs() < 1e-12, "{x} {at}");
     for drive in [
+        "sign(t - 2)*sqrt(abs(t - 2))",
+        "sign(t - 2)*exp(-1/(t - 2)^2)",
+        "max(0, sign(sin(40*t)))",
         "sin(t)*sign(sin(3*t))",
         "(max(0, t - 1) + sign(t - 2))",
         "acos(cos(t))*sign(sin(t))",
@@ -944,6 +947,31 @@ fn the_energy_jumps_with_the_law_at_a_time_and_no_balance_is_lost() {
     ] {
         let done = run(drive, "8");
         assert_eq!((done.code, done.stderr.as_str()), (0, ""), "{drive}");
+    }
+    // where the instants can be located the energy is balanced across them
+    for (located, drive) in [
+        (true, "0.5*t*sign(t - 2)"),
+        (true, "sin(t)*sign(sin(3*t))"),
+        (true, "(max(0, t - 1) + sign(t - 2))"),
+        (true, "max(0, sign(sin(40*t)))"),
+        (false, "(cos(t)^2)^0.5/cos(t)"),
+        (false, "sign(t - 2)*sqrt(abs(t - 2))"),
+        (false, "sign(t - 2)*exp(-1/(t - 2)^2)"),
+        (false, "sign(max(0, t - 2))"),
+        (false, "atan(tan(2*t))"),
+        (false, "t*atan(1/(t - 2))"),
+    ] {
+        let text = format!(
+            "title = \"A step\"\n[coordinates]\nx = {{ initial = 1.0, velocity = 0.2 }}\n\
+             [lagrangian]\nL = \"1/2*x'^2 - 1/2*x^2 + x*{drive}\"\n"
+        );
+        let words = ["run", "system.toml", "--until", "8", "--format", "json"];
+        let read = with_file(&text, &words).json();
+        let invariants = read["invariants"].as_array().unwrap();
+        let balance = invariants.iter().find(|gauge| gauge["name"] == "energy balance");
+        assert_eq!(balance.is_some(), located, "{drive}: {invariants:?}");
+        let verdict = balance.map_or("exact", |gauge| gauge["verdict"].as_str().unwrap());
+        assert_eq!(verdict, "exact", "{drive}: {balance:?}");
     }
     // a force that does work without a step has its balance
     let text = "title = \"Driven\"\n[coordinates]\nx = { initial = 1.0 }\n[lagrangian]\nL = \"1/2*x'^2 - 1/2*x^2 + x*max(0, t - 2)\"\n";

@@ -181,12 +181,16 @@ fn a_force_that_jumps_with_the_mass_is_followed_or_that_is_reported() {
         with_file(text, &["run", "system.toml", "--at", "3", "--method", method]).stderr
     };
     assert!(reported(&text, "yoshida4").contains("yoshida4 steps over the kinks"));
-    // elsewhere no step ends
+    // a step ends where the potential jumps, too, and not where a force alone does
     let apart = text.replace("x^2*(3 - sign(t - 1))", "x^2*(3 - sign(t - 1.5))");
+    let alone = format!("{}\nforces = {{ x = \"sign(t - 1.5)\" }}", text.trim_end());
     for method in ["dop853", "rk4", "gauss6"] {
-        assert!(reported(&apart, method).contains(" steps over the kinks"), "{method}");
+        assert!(!reported(&apart, method).contains(" kinks "), "{method}");
+        assert!(reported(&alone, method).contains(" steps over the kinks"), "{method}");
     }
-    assert!(!reported(&apart, "taylor").contains(" kinks "));
+    for text in [&apart, &alone] {
+        assert!(!reported(text, "taylor").contains(" kinks "));
+    }
 }
 
 /// At a pole no function that can be evaluated shows the step: the velocities are kept, and that is reported.
@@ -369,4 +373,56 @@ fn a_mass_that_changes_slowly_is_followed_long_after_its_step() {
     };
     let (stepped, smooth) = (end("(1 + sign(t - 3))/2"), end("1"));
     assert!((stepped - smooth).abs() < 1e-7, "{stepped} and {smooth}");
+}
+
+/// A spring that is stiffer by a half from t = 1.03 on, an instant that no step ends at by itself. Until then x = cos t; the energy
+/// jumps by x²/4, and every method that stays within its steps keeps its balance as well as it keeps an energy.
+#[test]
+fn the_energy_is_balanced_where_the_potential_jumps() {
+    let (at, w) = (1.03_f64, 1.5_f64.sqrt());
+    let after = |t: f64| at.cos() * (w * (t - at)).cos() - at.sin() / w * (w * (t - at)).sin();
+    for law in [
+        "velocity = 0 }\n[lagrangian]\nL = \"1/2*x'^2 - 1/2*x^2*(5 + sign(t - 1.03))/4\"\n",
+        "momentum = 0 }\n[hamiltonian]\nH = \"1/2*p_x^2 + 1/2*x^2*(5 + sign(t - 1.03))/4\"\n",
+    ] {
+        let text = format!("title = \"T\"\n[coordinates]\nx = {{ initial = 1, {law}");
+        for (method, step, error) in [
+            ("taylor", None, 1e-15),
+            ("dop853", None, 1e-11),
+            ("gauss6", Some("0.05"), 1e-9),
+            ("rk4", Some("0.01"), 1e-8),
+            ("leapfrog", Some("0.01"), 1e-3),
+        ] {
+            let step = step.map_or(Vec::new(), |step| vec!["--step", step]);
+            let words = ["run", "system.toml", "--at", "3", "--format", "json", "--method", method];
+            let done = with_file(&text, &[&words[..], &step].concat());
+            assert_eq!(done.code, 0, "{method} {law}");
+            assert!(!done.stderr.contains("kinks"), "{method} {law}: {}", done.stderr);
+            let read: serde_json::Value = serde_json::from_str(&done.stdout).unwrap();
+            let x = read["rows"][0][1].as_f64().unwrap();
+            assert!((x - after(3.0)).abs() < error, "{method}: {x} is not {}", after(3.0));
+            let gauge = |name: &str| {
+                let gauges = read["invariants"].as_array().unwrap();
+                gauges.iter().find(|gauge| gauge["name"] == name).unwrap().clone()
+            };
+            assert_eq!(gauge("energy")["verdict"], "not conserved", "{method}");
+            let jump = at.cos().powi(2) / 4.0;
+            let gained = gauge("energy")["final"].as_f64().unwrap() - 0.5;
+            assert!((gained - jump).abs() < error, "{method}: {gained} is not {jump}");
+            let drift = gauge("energy balance")["max_drift"].as_f64().unwrap();
+            assert!(drift < error, "{method}: {drift}");
+        }
+    }
+}
+
+/// Derivatives of a motion whose energy jumps and whose state does not are those of the motion.
+#[test]
+fn a_potential_that_jumps_in_time_has_tangents() {
+    let text = "title = \"T\"\n[coordinates]\nx = { initial = 1, velocity = 0 }\n[lagrangian]\n\
+        L = \"1/2*x'^2 - 1/2*x^2*(5 + sign(t - 1.03))/4\"\n";
+    let read = with_file(text, &["flow", "system.toml", "--until", "3", "--format", "json"]).json();
+    let (at, w) = (1.03_f64, 1.5_f64.sqrt());
+    let wanted = at.cos() * (w * (3.0 - at)).cos() - at.sin() / w * (w * (3.0 - at)).sin();
+    let found = read["matrix"][0][0].as_f64().unwrap();
+    assert!((found - wanted).abs() < 1e-13, "{found} is not {wanted}");
 }

@@ -166,6 +166,49 @@ fn a_switch_that_jumps_with_another_is_on_the_side_of_its_value() {
     near(&run.to(3.0), &[0.25, 1.0], 1e-16);
 }
 
+/// At the start the sign is 0, and so is the switch of what it is in, which no term of a series leads away from there.
+#[test]
+fn a_motion_may_begin_where_a_switch_jumps_with_another() {
+    for (force, wanted) in [
+        ("max(0, sign(t))", 1.0),
+        ("max(sign(t), 0)", 1.0),
+        ("max(0, -sign(t))", 0.0),
+        ("min(0, -sign(t))", -1.0),
+        ("abs(sign(t) + 1)", 2.0),
+        ("sign(max(0, sign(t)) - 1/2)", 1.0),
+        ("max(0, sign(x' + t))", 1.0),
+    ] {
+        let mut run = one("0.0", "0.0", "1/2*x'^2", "0", force);
+        near(&run.to(2.0), &[2.0 * wanted, 2.0 * wanted], 1e-15);
+    }
+    // the switch of the maximum is off its surface, and leads back to it at t = 1
+    let mut run = one("0.0", "0.0", "1/2*x'^2", "0", "max(abs(t), sign(t))");
+    near(&run.to(1.0), &[0.5, 1.0], 1e-15);
+    near(&run.to(2.0), &[0.5 + 1.0 + 2.0 / 3.0, 2.5], 1e-15);
+    // it comes to its surface where the sign is that of t > 0
+    let mut run = one("0.0", "0.0", "1/2*x'^2", "0", "min(1 - t, sign(t))");
+    near(&run.to(1.0), &[1.0 / 3.0, 0.5], 1e-15);
+    // on and off, eight times
+    let mut run = one("0.0", "0.0", "1/2*x'^2", "0", "max(0, sign(sin(pi*t)))");
+    near(&run.to(16.0), &[64.0 + 4.0, 8.0], 1e-14);
+}
+
+/// The sign of what is zero for a while is zero as long: a force that is there for x > 0 only, in both directions, and in time.
+#[test]
+fn a_sign_is_zero_where_its_argument_is() {
+    for step in ["sign(max(0, x))", "max(0, sign(max(0, x)))", "sign(x + abs(x))"] {
+        let mut run = one("-1.0", "1.0", "1/2*x'^2", "0", &format!("-{step}"));
+        near(&run.to(0.5), &[-0.5, 1.0], 1e-15);
+        near(&run.to(2.0), &[0.5, 0.0], 1e-15);
+        near(&run.to(4.0), &[-1.0, -1.0], 1e-14);
+    }
+    let mut run = one("0.0", "0.0", "1/2*x'^2", "0", "sign(min(0, sign(t - 1)))");
+    near(&run.to(1.0), &[-0.5, -1.0], 1e-15);
+    near(&run.to(2.0), &[-1.5, -1.0], 1e-15);
+    let mut run = one("0.0", "1.0", "1/2*x'^2", "0", "sign(max(0, t - 1))");
+    near(&run.to(3.0), &[3.0 + 2.0, 3.0], 1e-14);
+}
+
 #[test]
 fn a_live_exponent_makes_no_kink_where_it_is_an_integer() {
     // V = x^n/2 with n = 2 known only at run time: the oscillator, through x = 0
