@@ -38,12 +38,6 @@ impl Batch {
     pub fn half<L: FourLanes>(&self, lanes: L, at: usize) -> L::Numbers {
         lanes.from_array(self.0.as_chunks::<LANES>().0[at])
     }
-
-    /// Sets them.
-    #[inline(always)]
-    pub fn set_half<L: FourLanes>(&mut self, lanes: L, at: usize, numbers: L::Numbers) {
-        self.0.as_chunks_mut::<LANES>().0[at] = lanes.to_array(numbers);
-    }
 }
 
 impl<const N: usize> Batch<N> {

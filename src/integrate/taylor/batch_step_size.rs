@@ -3,50 +3,31 @@
 //! In: the series of a [`BatchSeries`]. Out: for each lane the step that [`StepSize`](super::step_size::StepSize)
 //! finds for that orbit alone, to the last bit. Never here: the rule and its constants.
 //!
-//! Each orbit has a number that mostly allows the least, not the same as its neighbours'. Its series come first, put together lane by
-//! lane; that the other numbers allow as much is then seen by multiplications.
+//! Beside one another the rule would take more: what one orbit need not ask, the seven others would wait for. So the series are put
+//! together orbit by orbit, and each is asked by itself.
 
 use super::argument_step::{
     FARTHEST_ARGUMENT, before_pole, may_pass_pole, of_argument, of_steep_pole,
 };
-use super::last_orders::{BEFORE, FIRST, LANES, LAST, ROOM, has_radius, last_orders};
-use super::rough_logarithms::{four_logarithms, rough_exponentials};
-use super::step_size::{Shares, reciprocals};
+use super::last_orders::LANES;
+use super::step_size::{SeriesCounts, StepSize};
 use crate::num::{BATCH, Batch, FourLaneKernel, FourLanes, in_four_lanes};
 use crate::system::BatchSeries;
 
-/// The rule for several orbits at once.
+/// The rule for several orbits.
 #[derive(Clone, Debug)]
 pub(super) struct BatchStepSize {
-    motion: Shares,
-    integrals: Shares,
+    rule: StepSize,
     /// The number whose series allowed the least last time, in each lane.
     least: [usize; BATCH],
-    scratch: Box<RuleScratch>,
-}
-
-/// Room for what the rule computes.
-#[derive(Clone, Debug)]
-struct RuleScratch {
-    logs: [Batch; ROOM],
-    /// The series of the numbers that allowed the least.
-    likely: [Batch; ROOM],
-    /// The powers of the shortest step so far.
-    powers: [Batch; ROOM],
+    /// The series of all numbers of one orbit after those of another, padded to whole chunks.
+    gathered: Vec<[f64; LANES]>,
 }
 
 impl BatchStepSize {
     pub(super) fn new(tolerance: f64, order: usize) -> BatchStepSize {
-        BatchStepSize {
-            motion: Shares::of_motion(tolerance, order),
-            integrals: Shares::of_integrals(tolerance, order),
-            least: [0; BATCH],
-            scratch: Box::new(RuleScratch {
-                logs: [Batch::splat(0.0); ROOM],
-                likely: [Batch::splat(0.0); ROOM],
-                powers: [Batch::splat(0.0); ROOM],
-            }),
-        }
+        let rule = StepSize::new(tolerance, order);
+        BatchStepSize { rule, least: [0; BATCH], gathered: Vec::new() }
     }
 
     /// The longest step of each lane, in its unit; infinite for a polynomial, NaN where a coefficient
@@ -83,77 +64,45 @@ impl BatchStepSize {
 
     #[inline(always)]
     fn by_coefficients<L: FourLanes>(&mut self, lanes: L, series: &BatchSeries) -> Batch {
-        let mut steps = Batch::splat(f64::NAN);
-        // in one loop, so that there is one copy of what it does
-        for place in 0..BATCH / LANES {
-            steps.set_half(lanes, place, self.of_half(lanes, series, place));
-        }
-        steps
-    }
-
-    /// The steps of one half of the orbits.
-    #[inline(always)]
-    fn of_half<L: FourLanes>(&mut self, lanes: L, series: &BatchSeries, at: usize) -> L::Numbers {
-        let BatchStepSize { motion, integrals, least, scratch } = self;
-        let RuleScratch { logs, likely, powers } = &mut **scratch;
-        let likely = &mut likely[..=series.order()];
+        let BatchStepSize { rule, least, gathered } = self;
+        let (len, inputs, terms) = (series.len(), series.inputs(), series.order() + 1);
+        let stride = terms.div_ceil(LANES);
+        gathered.resize(BATCH * len * stride, [0.0; LANES]);
         // zero, or NaN where a coefficient is not finite
-        let (mut finite, zero) = ([lanes.splat(0.0); 2], lanes.splat(0.0));
-        for i in 0..series.len() {
+        let zero = lanes.splat(0.0);
+        let mut finite = [zero; BATCH / LANES];
+        for i in 0..len {
             let coefficients = series.coefficients(i);
-            for k in 0..coefficients.len() {
-                let none = lanes.mul(coefficients[k].half(lanes, at), zero);
-                finite[k % 2] = lanes.add(finite[k % 2], none);
-            }
-        }
-        let own = LANES * at..LANES * (at + 1);
-        for lane in own.clone() {
-            let coefficients = series.coefficients(least[lane]);
-            for k in 0..likely.len() {
-                likely[k].0[lane] = coefficients[k].0[lane];
-            }
-        }
-        let mut shortest = lanes.splat(f64::INFINITY);
-        let mut step = shortest;
-        // in one loop, so that there is one copy of what it does
-        for place in 0..=series.len() {
-            let (coefficients, shares) = match place.checked_sub(1) {
-                None => (&*likely, &*motion),
-                Some(i) if i < series.inputs() => (series.coefficients(i), &*motion),
-                Some(i) => (series.coefficients(i), &*integrals),
-            };
-            if place > 0 && shares.screen.passes_all(lanes, coefficients, powers, at) {
-                continue;
-            }
-            let found = of_one(lanes, (coefficients, at), shares, shortest, logs);
-            let below = lanes.above(shortest, found);
-            if place > 0 && below == 0 {
-                continue;
-            }
-            if (1..=series.inputs()).contains(&place) {
-                for (bit, lane) in own.clone().enumerate() {
-                    if below >> bit & 1 == 1 {
-                        least[lane] = place - 1;
+            for chunk in 0..stride {
+                let rows = &coefficients[LANES * chunk..terms.min(LANES * (chunk + 1))];
+                for half in 0..BATCH / LANES {
+                    let mut four = [zero; LANES];
+                    for row in 0..rows.len() {
+                        four[row] = rows[row].half(lanes, half);
+                        finite[half] = lanes.add(finite[half], lanes.mul(four[row], zero));
+                    }
+                    let columns = lanes.transposed(four);
+                    for column in 0..LANES {
+                        let lane = LANES * half + column;
+                        gathered[(lane * len + i) * stride + chunk] =
+                            lanes.to_array(columns[column]);
                     }
                 }
             }
-            shortest = found;
-            step = lanes.from_array(rough_exponentials(lanes.to_array(shortest)));
-            set_powers(lanes, &mut powers[..coefficients.len()], step, at);
         }
-        lanes.add(step, lanes.add(finite[0], finite[1]))
-    }
-}
-
-/// The powers of a step, four apart.
-#[inline(always)]
-fn set_powers<L: FourLanes>(lanes: L, powers: &mut [Batch], step: L::Numbers, at: usize) {
-    let square = lanes.mul(step, step);
-    let mut next = [lanes.splat(1.0), step, square, lanes.mul(square, step)];
-    let fourth = lanes.mul(square, square);
-    for k in 0..powers.len() {
-        powers[k].set_half(lanes, at, next[k % 4]);
-        next[k % 4] = lanes.mul(next[k % 4], fourth);
+        let counts = SeriesCounts { inputs, switches: 0, integrals: len - inputs };
+        let mut steps = Batch::splat(f64::NAN);
+        for lane in 0..BATCH {
+            if lanes.to_array(finite[lane / LANES])[lane % LANES].is_nan() {
+                continue;
+            }
+            let own = gathered[lane * len * stride..][..len * stride].as_flattened();
+            rule.least = least[lane];
+            let of = |i: usize| &own[LANES * stride * i..][..terms];
+            steps.0[lane] = rule.by_coefficients(lanes, counts, of);
+            least[lane] = rule.least;
+        }
+        steps
     }
 }
 
@@ -170,90 +119,4 @@ impl FourLaneKernel for BatchByCoefficients<'_> {
     fn run<L: FourLanes, const FUSED: bool>(self, lanes: L) -> Batch {
         self.rule.by_coefficients(lanes, self.series)
     }
-}
-
-/// The logarithms of the steps that one series allows one half of the orbits, or `shortest` where that is less.
-///
-/// What the lowest orders allow to each of the last orders is no more than what all orders allow; an order that already allows
-/// `shortest` by these is not asked any further, and the one to which they allow the least is asked first.
-#[inline(always)]
-fn of_one<L: FourLanes>(
-    lanes: L,
-    (coefficients, at): (&[Batch], usize),
-    shares: &Shares,
-    mut shortest: L::Numbers,
-    logs: &mut [Batch; ROOM],
-) -> L::Numbers {
-    let (none, any) = (lanes.splat(f64::NEG_INFINITY), lanes.splat(f64::INFINITY));
-    let p = coefficients.len() - 1;
-    for k in 0..=p {
-        let size = lanes.abs(coefficients[k].half(lanes, at));
-        logs[k].set_half(lanes, at, four_logarithms(lanes, size));
-    }
-    let first = *last_orders(p).start();
-    let mut lowest = [any; LAST + BEFORE];
-    for k in first..=p {
-        let own = logs[k].half(lanes, at);
-        let reciprocals = reciprocals(k);
-        let (mut most, mut radius) = (none, none);
-        for j in 0..(2 + FIRST).min(k) {
-            let apart = lanes.sub(logs[j].half(lanes, at), own);
-            let root = lanes.mul(apart, lanes.splat(reciprocals[j]));
-            if j < FIRST {
-                most = lanes.max(most, lanes.add(root, lanes.splat(shares.table[j])));
-            }
-            if (2..k - 1).contains(&j) {
-                radius = lanes.max(radius, root);
-            }
-        }
-        let radius =
-            if has_radius(k) { lanes.add(radius, lanes.splat(shares.log_part)) } else { any };
-        lowest[k - first] = allowed(lanes, (most, radius), (own, shares.indulgence(k, p)));
-    }
-    for _ in first..=p {
-        let mut least = any;
-        for i in 0..lowest.len() {
-            least = lanes.min(least, lowest[i]);
-        }
-        let shorter = lanes.above(shortest, least);
-        if shorter == 0 {
-            break;
-        }
-        let mut place = 0;
-        for i in 0..lowest.len() {
-            if lanes.equal(lowest[i], least) & shorter != 0 {
-                place = i;
-            }
-        }
-        let k = first + place;
-        let own = logs[k].half(lanes, at);
-        let (reciprocals, table) = (&reciprocals(k)[..k], &shares.table[..k]);
-        let (mut most, mut radius) = (none, none);
-        for j in 0..k {
-            let apart = lanes.sub(logs[j].half(lanes, at), own);
-            let root = lanes.mul(apart, lanes.splat(reciprocals[j]));
-            most = lanes.max(most, lanes.add(root, lanes.splat(table[j])));
-            if (2..k - 1).contains(&j) {
-                radius = lanes.max(radius, root);
-            }
-        }
-        let radius = lanes.add(radius, lanes.splat(shares.log_part));
-        let radius = lanes.where_below(radius, lanes.splat(f64::MIN), any, radius);
-        let found = allowed(lanes, (most, radius), (own, shares.indulgence(k, p)));
-        shortest = lanes.min(shortest, found);
-        lowest[place] = any;
-    }
-    shortest
-}
-
-/// The logarithm of the step that one order allows, from what the tolerance and the radius of convergence give.
-#[inline(always)]
-fn allowed<L: FourLanes>(
-    lanes: L,
-    (most, radius): (L::Numbers, L::Numbers),
-    (own, indulgence): (L::Numbers, f64),
-) -> L::Numbers {
-    let log = lanes.add(lanes.min(most, radius), lanes.splat(indulgence));
-    // a coefficient that vanishes allows anything
-    lanes.where_below(own, lanes.splat(f64::MIN), lanes.splat(f64::INFINITY), log)
 }

@@ -49,32 +49,21 @@ pub(super) fn four_logarithms<L: FourLanes>(lanes: L, x: L::Numbers) -> L::Numbe
 /// An exponential to eight digits or so: a power of two, and the power series of the rest. Infinite or zero beyond ±709.
 #[inline(always)]
 pub(super) fn rough_exponential(x: f64) -> f64 {
-    rough_exponentials([x])[0]
-}
-
-/// The same of several numbers, to the last bit. Written lane by lane, as vector instructions do it.
-#[inline(always)]
-pub(super) fn rough_exponentials<const N: usize>(x: [f64; N]) -> [f64; N] {
     const MIDDLE: f64 = 1.5 * (1_u64 << 52) as f64;
     const TERMS: [f64; 7] =
         [1.0 / 5040.0, 1.0 / 720.0, 1.0 / 120.0, 1.0 / 24.0, 1.0 / 6.0, 0.5, 1.0];
     const ABOVE: f64 = 709.0;
-    let mut exponentials = [0.0; N];
-    for lane in 0..N {
-        let x = x[lane];
-        // the nearest integer, in the last digits of 1.5 × 2⁵²
-        let rounded = x * std::f64::consts::LOG2_E + MIDDLE;
-        let t = x - (rounded - MIDDLE) * std::f64::consts::LN_2;
-        let power = f64::from_bits((rounded.to_bits() << 52).wrapping_add(1.0_f64.to_bits()));
-        let mut sum = 0.0;
-        for term in TERMS {
-            sum = (sum + term) * t;
-        }
-        let within = power * (1.0 + sum);
-        let beyond = if x > 0.0 { f64::INFINITY } else { 0.0 };
-        exponentials[lane] = if x.abs() > ABOVE { beyond } else { within };
+    // the nearest integer, in the last digits of 1.5 × 2⁵²
+    let rounded = x * std::f64::consts::LOG2_E + MIDDLE;
+    let t = x - (rounded - MIDDLE) * std::f64::consts::LN_2;
+    let power = f64::from_bits((rounded.to_bits() << 52).wrapping_add(1.0_f64.to_bits()));
+    let mut sum = 0.0;
+    for term in TERMS {
+        sum = (sum + term) * t;
     }
-    exponentials
+    let within = power * (1.0 + sum);
+    let beyond = if x > 0.0 { f64::INFINITY } else { 0.0 };
+    if x.abs() > ABOVE { beyond } else { within }
 }
 
 #[cfg(test)]

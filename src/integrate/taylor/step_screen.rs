@@ -8,7 +8,7 @@ use super::last_orders::{
     CHUNKS, CLEARLY, FAINT, FIRST, LANES, LastOrders, ROOM, WIDTH, has_radius, indulgence_of,
     lanes_of_last_orders,
 };
-use crate::num::{Batch, FourLanes, math};
+use crate::num::{FourLanes, math};
 
 /// With the terms a_j = |c_j| h^j at a step h, the bound of the j-th order on the k-th is no shorter
 /// than h where a_j times a constant is no less than a_k. The lowest orders mostly suffice.
@@ -98,53 +98,6 @@ impl StepScreen {
             }
             let allowed = lanes.min(by_tolerance, by_radius);
             if lanes.above(allowed, terms[i]) != lanes.all_lanes() {
-                return false;
-            }
-        }
-        true
-    }
-
-    /// The same for one half of several orbits, each with its own step: whether it holds for all of them.
-    #[inline(always)]
-    pub(super) fn passes_all<L: FourLanes>(
-        &self,
-        lanes: L,
-        coefficients: &[Batch],
-        powers: &[Batch; ROOM],
-        at: usize,
-    ) -> bool {
-        if coefficients.len() < WIDTH {
-            return false;
-        }
-        let (faint, zero) = (lanes.splat(FAINT), lanes.splat(0.0));
-        let mut low = [zero; 2 + FIRST];
-        for j in 0..low.len() {
-            let own = lanes.abs(coefficients[j].half(lanes, at));
-            let term = lanes.mul(own, powers[j].half(lanes, at));
-            low[j] = lanes.where_below(own, faint, zero, term);
-        }
-        for place in 0..WIDTH {
-            let (chunk, lane) = (place / LANES, place % LANES);
-            if self.entering[chunk][lane] == 0.0 {
-                continue;
-            }
-            let own = lanes.abs(coefficients[self.first + place].half(lanes, at));
-            let term = lanes.mul(own, powers[self.first + place].half(lanes, at));
-            // a coefficient that vanishes allows anything
-            let term = lanes.where_below(own, faint, lanes.splat(-1.0), term);
-            let mut tolerance = lanes.mul(low[0], lanes.splat(self.by_tolerance[0][chunk][lane]));
-            let mut radius = lanes.mul(low[2], lanes.splat(self.by_radius[0][chunk][lane]));
-            // one order of each is mostly enough
-            if lanes.above(lanes.min(tolerance, radius), term) == lanes.all_lanes() {
-                continue;
-            }
-            for j in 1..FIRST {
-                let factor = lanes.splat(self.by_tolerance[j][chunk][lane]);
-                tolerance = lanes.max(tolerance, lanes.mul(low[j], factor));
-                let factor = lanes.splat(self.by_radius[j][chunk][lane]);
-                radius = lanes.max(radius, lanes.mul(low[j + 2], factor));
-            }
-            if lanes.above(lanes.min(tolerance, radius), term) != lanes.all_lanes() {
                 return false;
             }
         }

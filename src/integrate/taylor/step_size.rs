@@ -63,7 +63,7 @@ pub(super) struct StepSize {
     motion: Shares,
     integrals: Shares,
     /// The number whose series allowed the least last time. Taken first, it mostly shows that the others allow more.
-    least: usize,
+    pub(super) least: usize,
 }
 
 impl StepSize {
@@ -101,32 +101,39 @@ impl StepSize {
 
     /// The step that the coefficients allow, which are finite.
     #[inline(always)]
-    fn by_coefficients<L: FourLanes>(&mut self, lanes: L, series: &Series) -> f64 {
+    pub(super) fn by_coefficients<'a, L: FourLanes>(
+        &mut self,
+        lanes: L,
+        counts: SeriesCounts,
+        coefficients_of: impl Fn(usize) -> &'a [f64],
+    ) -> f64 {
         let StepSize { motion, integrals: spared, least } = self;
+        let SeriesCounts { inputs, switches, integrals } = counts;
         let mut shortest = ShortestStep::new();
-        let (inputs, switches) = (series.inputs(), series.switches());
         let first = *least;
         // in one loop, so that there is one copy of what it does
-        for place in 0..series.len() + switches {
+        for place in 0..inputs + switches + integrals {
             let i = match place {
                 0 => first,
                 place if place <= first => place - 1,
                 place => place,
             };
-            // the numbers, the switches, the integrals
-            let (coefficients, shares) = if i < inputs {
-                (series.coefficients(i), &*motion)
-            } else if i < inputs + switches {
-                (series.switch(i - inputs), &*motion)
-            } else {
-                (series.coefficients(i - switches), &*spared)
-            };
-            if shortest.take(lanes, coefficients, shares) && i < inputs {
+            let shares = if i < inputs + switches { &*motion } else { &*spared };
+            if shortest.take(lanes, coefficients_of(i), shares) && i < inputs {
                 *least = i;
             }
         }
         shortest.step()
     }
+}
+
+/// The numbers of series that limit a step, which are taken in this order.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SeriesCounts {
+    /// The numbers of the motion.
+    pub(super) inputs: usize,
+    pub(super) switches: usize,
+    pub(super) integrals: usize,
 }
 
 struct ShortestStep {
@@ -183,7 +190,14 @@ impl FourLaneKernel for ByCoefficients<'_> {
 
     #[inline(always)]
     fn run<L: FourLanes, const FUSED: bool>(self, lanes: L) -> f64 {
-        self.rule.by_coefficients(lanes, self.series)
+        let ByCoefficients { rule, series } = self;
+        let (inputs, switches) = (series.inputs(), series.switches());
+        let counts = SeriesCounts { inputs, switches, integrals: series.len() - inputs };
+        rule.by_coefficients(lanes, counts, |i| match i {
+            i if i < inputs => series.coefficients(i),
+            i if i < inputs + switches => series.switch(i - inputs),
+            i => series.coefficients(i - switches),
+        })
     }
 }
 
@@ -206,30 +220,21 @@ const RECIPROCALS: [f64; ROOM] = {
 
 /// The logarithm of a tolerance, divided among the orders: `ln ε / (p − j)` for the j-th of p.
 #[derive(Clone, Debug)]
-pub(super) struct Shares {
-    pub(super) table: [f64; ROOM],
-    pub(super) log_part: f64,
-    log_indulgence: f64,
+struct Shares {
     order: usize,
     bounds: OrderBounds,
-    pub(super) screen: StepScreen,
+    screen: StepScreen,
 }
 
 impl Shares {
     /// Those of the coordinates and rates, at the tolerance of a method.
-    pub(super) fn of_motion(tolerance: f64, order: usize) -> Shares {
+    fn of_motion(tolerance: f64, order: usize) -> Shares {
         Shares::new(tolerance * SHARE, order)
     }
 
     /// Those of what does not act on the motion.
-    pub(super) fn of_integrals(tolerance: f64, order: usize) -> Shares {
+    fn of_integrals(tolerance: f64, order: usize) -> Shares {
         Shares::new(tolerance * SHARE * SPARED, order)
-    }
-
-    /// By how much the logarithm of the step may be longer for the k-th of p orders.
-    #[inline(always)]
-    pub(super) fn indulgence(&self, k: usize, p: usize) -> f64 {
-        indulgence_of(self.log_indulgence, k, p)
     }
 
     /// The logarithm of the step that all orders allow, or `before` where that is less; the lowest allow as much as is said.
@@ -262,21 +267,14 @@ impl Shares {
         let screen = StepScreen::new(order, &table, log_part, log_indulgence);
         let indulgence = |k: usize| indulgence_of(log_indulgence, k, order);
         let bounds = OrderBounds::new(order, &table, log_part, indulgence);
-        Shares { table, log_part, log_indulgence, order, bounds, screen }
+        Shares { order, bounds, screen }
     }
-}
-
-/// The reciprocals of k − j for j = 0, 1, …, k − 1.
-#[inline(always)]
-pub(super) fn reciprocals(k: usize) -> &'static [f64] {
-    &RECIPROCALS[ROOM - k..]
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::integrate::taylor::last_orders::LANES;
-    use crate::num::{BATCH, Batch, ScalarLanes};
+    use crate::num::ScalarLanes;
 
     /// A series whose terms grow by a factor from one to the next.
     fn geometric(ratio: f64) -> Vec<f64> {
@@ -328,12 +326,6 @@ mod tests {
                         without = without.min(found);
                         let passes = shares.screen.passes(ScalarLanes, &series, &with.powers);
                         passed += usize::from(passes);
-                        let all: Vec<Batch> = series.iter().map(|&c| Batch::splat(c)).collect();
-                        let powers = with.powers.map(Batch::splat);
-                        for at in 0..BATCH / LANES {
-                            let all_pass = shares.screen.passes_all(ScalarLanes, &all, &powers, at);
-                            assert_eq!(all_pass, passes, "{series:?}");
-                        }
                         let lowest = shares.bounds.of_lowest(ScalarLanes, &series);
                         let log = lowest.least;
                         assert!(log <= found, "{series:?}");
