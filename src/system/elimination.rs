@@ -84,8 +84,8 @@ impl EliminatedCoordinate {
             let moved = pool.mul(a, force[self.place]);
             let rest = pool.sub(force[i], moved);
             force[i] = pool.simplify(rest);
-            let beside = matrix[i].iter().enumerate().filter(|(j, _)| *j != i);
-            if beside.into_iter().all(|(_, &entry)| entry == Expr::ZERO) {
+            let mut beside = matrix[i].iter().enumerate().filter(|(j, _)| *j != i);
+            if beside.all(|(_, &entry)| entry == Expr::ZERO) {
                 let shared = common_factors(pool, matrix[i][i], force[i]);
                 matrix[i][i] = pool.div(matrix[i][i], shared);
                 force[i] = pool.div(force[i], shared);
