@@ -1,4 +1,5 @@
-//! Signals of commands without a screen: each ends the command within a fifth of a second, with exit code 128 + n.
+//! Signals of commands without a screen: each ends the command within a fifth of a second, with exit code 128 + n. Output that is
+//! being written is waited for, up to a second and a half.
 //!
 //! In: SIGINT, SIGTERM, SIGHUP, SIGQUIT. Out: a token that the work checks, the signal's number, and the end of the
 //! process if the work does not end by itself. A command with nothing to finish is ended at once. Never here: the
