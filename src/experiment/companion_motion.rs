@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use super::Trail;
 use super::companion::{Companion, CompanionOrigin};
-use super::companion_record::{CompanionRecord, Due, RecordSeen};
+use super::companion_record::{CompanionRecord, DueRow, RecordSeen};
 use super::step_log::{LoggedState, StepLog};
 use crate::analysis::DistanceHistory;
 use crate::integrate::{Method, OccurrenceKind, Propagator, Reached, Settings, Stepping};
@@ -27,7 +27,7 @@ const GROWTH: f64 = 8.0;
 /// What a companion has yet to meet on its way, at a time of the main motion.
 enum Upcoming {
     /// A row of the main motion.
-    Row(Due),
+    Row(DueRow),
     /// Another law or method.
     Change(f64, CompanionChange),
 }
@@ -232,7 +232,7 @@ impl CompanionMotion {
     }
 
     /// The main motion has a new row.
-    pub(super) fn expect(&mut self, due: Due) {
+    pub(super) fn expect(&mut self, due: DueRow) {
         // it has been there before the main motion was carried back
         if self.message.is_some() || due.0 < self.motion.state().time {
             return;

@@ -12,7 +12,7 @@ use crate::model::EventAction;
 use crate::system::System;
 
 /// A row of the main motion that a companion has yet to reach: its time, and the canonical variables.
-pub(super) type Due = (f64, Arc<[f64]>);
+pub(super) type DueRow = (f64, Arc<[f64]>);
 
 pub(super) struct CompanionRecord {
     /// The value of each channel where it has come to.
@@ -60,7 +60,7 @@ impl CompanionRecord {
     /// Adds a row at the time of one of the main motion, with the distance of the canonical `variables` from it.
     pub(super) fn add_row(
         &mut self,
-        (time, main): &Due,
+        (time, main): &DueRow,
         variables: &[usize],
         periods: &[Option<f64>],
     ) {

@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 use super::Companion;
 use super::companion_motion::CompanionMotion;
-use super::companion_record::Due;
+use super::companion_record::DueRow;
 use crate::analysis::DistanceHistory;
 
 /// The most motions beside the main one.
@@ -40,7 +40,7 @@ impl Companions {
         }
     }
 
-    pub(super) fn due(&self, time: f64, values: &[f64]) -> Due {
+    pub(super) fn due(&self, time: f64, values: &[f64]) -> DueRow {
         (time, self.variables.iter().map(|&i| values[i]).collect())
     }
 

@@ -203,7 +203,7 @@ mod tests {
         };
         let head = "{\"version\":2,\"width\":80,\"height\":24}\n";
         check("", 1, "not the head");
-        check("{\"version\":1,\"width\":80,\"height\":24}", 1, "not of 1");
+        check("{\"version\":1,\"width\":80,\"height\":24}", 1, "not of version 1");
         check("{\"version\":3}", 1, "no size");
         check("{\"version\":2,\"width\":0,\"height\":24}", 1, "0x24");
         check("{\"version\":2,\"width\":1000000,\"height\":1000000}", 1, "1000000x1000000");

@@ -54,7 +54,7 @@ pub(super) enum LessonStage {
     /// Time passes.
     Playing,
     /// It waits to be read.
-    Said,
+    Reading,
     /// It waits for an option to be chosen.
     Choosing(usize),
     /// It waits for a number, with what is wrong with the last.
@@ -274,7 +274,7 @@ impl Lesson {
         match step {
             LessonStep::Say(text) => {
                 self.said = vec![paragraph(ParagraphKind::Text, text)];
-                self.enter(LessonStage::Said);
+                self.enter(LessonStage::Reading);
             }
             LessonStep::Ask(text) => {
                 let options = self.options();
@@ -348,7 +348,7 @@ impl Lesson {
         self.said = said;
         let (right, truth) = verdict;
         self.verdicts.push(AnswerVerdict { question, right, truth });
-        self.enter(LessonStage::Said);
+        self.enter(LessonStage::Reading);
         Ok(())
     }
 
@@ -366,7 +366,7 @@ impl Lesson {
             let done = found.map_or_else(|| "Done.".to_owned(), |found| format!("Done: {found}."));
             self.said.push(paragraph(ParagraphKind::Right, done));
             self.runner.suspend(true);
-            self.enter(LessonStage::Said);
+            self.enter(LessonStage::Reading);
         }
     }
 

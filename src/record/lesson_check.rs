@@ -85,7 +85,7 @@ fn take(
     loop {
         match &lesson.stage {
             LessonStage::Playing => lesson.next_event().map_err(|diagnostic| vec![diagnostic])?,
-            LessonStage::Said | LessonStage::Free => lesson.proceed(),
+            LessonStage::Reading | LessonStage::Free => lesson.proceed(),
             LessonStage::Choosing(_) | LessonStage::Typing(..) | LessonStage::Pointing(_) => {
                 let index = lesson.verdicts.len();
                 let answer = lesson.question.as_ref().map(|question| answer(index, question));

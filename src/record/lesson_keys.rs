@@ -39,15 +39,15 @@ impl Lesson {
             _ => {}
         }
         let nothing = format!("{} does nothing here", keys::name(&key));
-        let reads = matches!(self.stage, LessonStage::Said | LessonStage::Choosing(_));
+        let reads = matches!(self.stage, LessonStage::Reading | LessonStage::Choosing(_));
         if reads && self.looks_around(key) {
             return Pressed::Taken;
         }
         let continues = matches!(key.code, KeyCode::Enter | KeyCode::Char(' ') | KeyCode::F(9));
         match &mut self.stage {
-            LessonStage::Said if continues => self.proceed(),
+            LessonStage::Reading if continues => self.proceed(),
             LessonStage::Ended if continues => return Pressed::Leave,
-            LessonStage::Playing | LessonStage::Said | LessonStage::Ended => {
+            LessonStage::Playing | LessonStage::Reading | LessonStage::Ended => {
                 self.notice = Some(nothing);
             }
             LessonStage::Choosing(selected) => {

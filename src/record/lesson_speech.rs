@@ -64,7 +64,7 @@ impl Lesson {
                 }
                 None => "watch · q leaves",
             },
-            LessonStage::Said => "Enter continues · Tab other panes · q leaves",
+            LessonStage::Reading => "Enter continues · Tab other panes · q leaves",
             LessonStage::Ended => "Enter leaves",
             LessonStage::Task { .. } | LessonStage::Free if self.is_typing_in_lab() => {
                 "Enter accepts what is typed · Esc cancels"

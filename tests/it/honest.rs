@@ -31,7 +31,7 @@ struct Function {
     is_test: bool,
 }
 
-fn sources(folder: &Path, texts: &mut Vec<(PathBuf, String)>) {
+pub(crate) fn sources(folder: &Path, texts: &mut Vec<(PathBuf, String)>) {
     for entry in fs::read_dir(folder).expect("a folder of the package") {
         let path = entry.expect("an entry").path();
         if path.is_dir() {
@@ -44,7 +44,7 @@ fn sources(folder: &Path, texts: &mut Vec<(PathBuf, String)>) {
 }
 
 /// Code with the same lines, without comments and the text of strings.
-fn plain(code: &str) -> String {
+pub(crate) fn plain(code: &str) -> String {
     let (mut plain, mut left) = (String::new(), code);
     while let Some(at) = left.find(['"', '/', '\'', 'r']) {
         plain.push_str(&left[..at]);

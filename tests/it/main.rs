@@ -66,6 +66,7 @@ mod thresholds;
 mod transformation;
 mod units;
 mod vector_field;
+mod words;
 mod worker;
 
 use proptest::test_runner::Config;

@@ -21,7 +21,7 @@ pub(super) struct FormulaMonitors {
     since: f64,
 }
 
-pub(super) struct Formula {
+pub(super) struct MonitoredFormula {
     pub(super) name: String,
     pub(super) shown: String,
     pub(super) reason: String,
@@ -58,9 +58,12 @@ struct FormulaValues {
 
 impl FormulaMonitors {
     /// The monitors of formulas in `pool`, without a reference.
-    pub(super) fn new(pool: Arc<Pool>, formulas: impl IntoIterator<Item = Formula>) -> Self {
-        let monitor = |(place, formula): (usize, Formula)| {
-            let Formula { name, shown, reason, proved, broken, expression } = formula;
+    pub(super) fn new(
+        pool: Arc<Pool>,
+        formulas: impl IntoIterator<Item = MonitoredFormula>,
+    ) -> Self {
+        let monitor = |(place, formula): (usize, MonitoredFormula)| {
+            let MonitoredFormula { name, shown, reason, proved, broken, expression } = formula;
             InvariantMonitor::new(MonitoredInvariant {
                 name,
                 shown,
@@ -83,9 +86,9 @@ impl FormulaMonitors {
             let mut scope = Scope::new(model, Allowed::Observable, "a constant of the motion");
             let expression = scope.read(&mut pool, &constant.expression)?;
             let FoundConstant { name, shown, reason, proved, .. } = constant.clone();
-            Some(Formula { name, shown, reason, proved, broken: None, expression })
+            Some(MonitoredFormula { name, shown, reason, proved, broken: None, expression })
         };
-        let formulas: Vec<Formula> = found.iter().filter_map(formula).collect();
+        let formulas: Vec<MonitoredFormula> = found.iter().filter_map(formula).collect();
         Self::new(Arc::new(pool), formulas)
     }
 

@@ -10,7 +10,7 @@
 
 use std::sync::Arc;
 
-use super::formula_monitors::{ChannelValues, Formula, FormulaMonitors};
+use super::formula_monitors::{ChannelValues, FormulaMonitors, MonitoredFormula};
 use crate::analysis::{Errors, Verdict};
 use crate::experiment::{Gauge, Reference};
 use crate::expr::{Expr, Pool, Symbol, Zero};
@@ -71,7 +71,7 @@ impl IntegrationConstants {
             let info = own.pool.symbol_info(symbol);
             let (name, shown) = (info.name.clone(), info.unicode.clone());
             let (reason, broken) = (format!("{reason}{between}"), broken.clone());
-            Formula { name, shown, reason, proved, broken, expression }
+            MonitoredFormula { name, shown, reason, proved, broken, expression }
         };
         let is_new = |symbol: Symbol| {
             let info = equations.pool.symbol_info(symbol);
@@ -81,12 +81,12 @@ impl IntegrationConstants {
         let alpha = alpha.map(|&(constant, alpha, _)| {
             formula(constant.symbol, alpha, "constant of the complete integral S".to_owned())
         });
-        let alpha: Vec<Formula> = alpha.collect();
+        let alpha: Vec<MonitoredFormula> = alpha.collect();
         let beta = all.iter().map(|&(constant, _, beta)| {
             let name = &equations.pool.symbol_info(constant.symbol).unicode;
             formula(constant.conjugate, beta, format!("∂S/∂{name}, while p = ∂S/∂q"))
         });
-        let beta: Vec<Formula> = beta.collect();
+        let beta: Vec<MonitoredFormula> = beta.collect();
         let pool = Arc::new(own.pool);
         let [alpha, beta] =
             [alpha, beta].map(|formulas| FormulaMonitors::new(Arc::clone(&pool), formulas));

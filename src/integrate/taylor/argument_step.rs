@@ -158,7 +158,7 @@ mod tests {
     }
 
     #[test]
-    fn arguments_move_as_far_as_their_functions_stay_reported() {
+    fn arguments_move_as_far_as_their_functions_stay_resolved() {
         let line = |value: f64| [value, 1.0, 0.0, 0.0, 0.0];
         let step = |function, value| of_argument(function, &line(value), None);
         let near = |step: f64, wanted: f64| assert!((step / wanted - 1.0).abs() < 1e-9, "{step}");

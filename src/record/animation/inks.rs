@@ -18,7 +18,7 @@ const MOST: usize = 255;
 const MOST_FLAT: usize = 200;
 
 /// The indices of an ink on a ground, from none to full coverage.
-pub(super) type Ramp = [u8; LEVELS + 1];
+pub(super) type InkRamp = [u8; LEVELS + 1];
 
 /// How many pixels are drawn in which ink on which ground, with which coverage.
 #[derive(Default)]
@@ -38,7 +38,7 @@ impl Tally {
 /// The colours of a GIF.
 pub(super) struct Inks {
     colours: Vec<Rgb>,
-    ramps: HashMap<(Rgb, Rgb), Ramp>,
+    ramps: HashMap<(Rgb, Rgb), InkRamp>,
 }
 
 impl Inks {
@@ -74,7 +74,7 @@ impl Inks {
     }
 
     /// The indices of an ink on a ground.
-    pub(super) fn ramp(&mut self, ink: Rgb, ground: Rgb) -> Ramp {
+    pub(super) fn ramp(&mut self, ink: Rgb, ground: Rgb) -> InkRamp {
         let colours = &self.colours;
         *self.ramps.entry((ink, ground)).or_insert_with(|| {
             std::array::from_fn(|level| nearest(colours, blend(ink, ground, level)))

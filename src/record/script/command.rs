@@ -6,12 +6,19 @@ use crossterm::event::KeyEvent;
 
 use super::claim::claim;
 use super::line::ScriptLine;
-use super::{Asked, AskedAxis, LessonStep, Said, ScriptStep, SweepPath, Word};
+use super::{Asked, AskedAxis, LessonStep, ScriptHeader, ScriptStep, SweepPath, Word};
 use crate::app::key;
 use crate::diagnostic::Diagnostic;
 use crate::view::colour::ColourDepth;
 use crate::view::glyphs::Glyphs;
 use crate::view::theme::PALETTES;
+
+/// What a line of a script means.
+pub(super) enum ParsedLine {
+    /// A setting of the whole demo.
+    Setting(Box<dyn FnOnce(&mut ScriptHeader)>),
+    Step(ScriptStep),
+}
 
 /// One row of the table.
 pub struct CommandRow {
@@ -21,14 +28,14 @@ pub struct CommandRow {
     pub form: &'static str,
     /// A description in one sentence.
     pub about: &'static str,
-    pub(super) read: fn(&mut ScriptLine<'_>) -> Result<Said, Diagnostic>,
+    pub(super) read: fn(&mut ScriptLine<'_>) -> Result<ParsedLine, Diagnostic>,
 }
 
 const fn row(
     name: &'static str,
     form: &'static str,
     about: &'static str,
-    read: fn(&mut ScriptLine<'_>) -> Result<Said, Diagnostic>,
+    read: fn(&mut ScriptLine<'_>) -> Result<ParsedLine, Diagnostic>,
 ) -> CommandRow {
     CommandRow { name, form, about, read }
 }
@@ -67,16 +74,16 @@ pub const COMMANDS: &[CommandRow] = &[
     row("Free", "Free \"TEXT\"", "lesson: give the lab to the person until F9; after what is said of it, the system restarts as its file says", free),
 ];
 
-fn head(say: impl FnOnce(&mut super::ScriptHeader) + 'static) -> Said {
-    Said::Head(Box::new(say))
+fn head(say: impl FnOnce(&mut ScriptHeader) + 'static) -> ParsedLine {
+    ParsedLine::Setting(Box::new(say))
 }
 
-fn open(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
+fn open(line: &mut ScriptLine<'_>) -> Result<ParsedLine, Diagnostic> {
     let name = line.name("the name of a preset or file")?;
     Ok(head(|head| head.open = Some(name)))
 }
 
-fn title(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
+fn title(line: &mut ScriptLine<'_>) -> Result<ParsedLine, Diagnostic> {
     let title = line.quoted("a title")?.text;
     Ok(head(|head| head.title = Some(title)))
 }
@@ -97,13 +104,13 @@ pub fn read_size(text: &str) -> Result<(u16, u16), String> {
     Err(format!("a screen has from {a}x{b} to {c}x{d} characters"))
 }
 
-fn size(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
+fn size(line: &mut ScriptLine<'_>) -> Result<ParsedLine, Diagnostic> {
     let word = line.need("a size")?;
     let size = read_size(&word.text).map_err(|why| Diagnostic::error(word.place, why))?;
     Ok(head(move |head| head.size = Some(size)))
 }
 
-fn fps(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
+fn fps(line: &mut ScriptLine<'_>) -> Result<ParsedLine, Diagnostic> {
     let word = line.need("a number of frames")?;
     let fps = word.text.parse().ok().filter(|n| (1..=60).contains(n)).ok_or_else(|| {
         Diagnostic::error(
@@ -114,18 +121,18 @@ fn fps(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
     Ok(head(move |head| head.fps = fps))
 }
 
-fn theme(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
+fn theme(line: &mut ScriptLine<'_>) -> Result<ParsedLine, Diagnostic> {
     let names: Vec<Word> = PALETTES.iter().map(|palette| palette.name).collect();
     let name = line.one_of("a theme", &names)?;
     Ok(head(move |head| head.theme = name))
 }
 
-fn colour(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
+fn colour(line: &mut ScriptLine<'_>) -> Result<ParsedLine, Diagnostic> {
     let name = line.one_of("a depth of colour", &["true", "256", "16", "never"])?;
     Ok(head(move |head| head.colour = ColourDepth::named(name).unwrap_or(ColourDepth::True)))
 }
 
-fn glyphs(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
+fn glyphs(line: &mut ScriptLine<'_>) -> Result<ParsedLine, Diagnostic> {
     let word = line.need("a set of glyphs")?;
     let glyphs = Glyphs::named(&word.text).ok_or_else(|| {
         let message = format!("`{}` is not a set of glyphs", word.text);
@@ -134,20 +141,20 @@ fn glyphs(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
     Ok(head(move |head| head.glyphs = glyphs))
 }
 
-fn hide(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
+fn hide(line: &mut ScriptLine<'_>) -> Result<ParsedLine, Diagnostic> {
     line.one_of("what is hidden", &["footer"])?;
     Ok(head(|head| head.footer = false))
 }
 
-fn pace(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
-    Ok(Said::Step(ScriptStep::Pace(line.time()?)))
+fn pace(line: &mut ScriptLine<'_>) -> Result<ParsedLine, Diagnostic> {
+    Ok(ParsedLine::Step(ScriptStep::Pace(line.time()?)))
 }
 
 /// The most times that a key may be pressed in a row.
 const MOST_PRESSES: usize = 1000;
 
-fn press(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
-    Ok(Said::Step(ScriptStep::Press(keys(line)?)))
+fn press(line: &mut ScriptLine<'_>) -> Result<ParsedLine, Diagnostic> {
+    Ok(ParsedLine::Step(ScriptStep::Press(keys(line)?)))
 }
 
 /// The names of keys to the end of the line.
@@ -180,22 +187,22 @@ fn keys(line: &mut ScriptLine<'_>) -> Result<Vec<KeyEvent>, Diagnostic> {
     if keys.is_empty() { Err(line.missing("a key")) } else { Ok(keys) }
 }
 
-fn typed(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
-    Ok(Said::Step(ScriptStep::Type(line.quoted("a text")?.text)))
+fn typed(line: &mut ScriptLine<'_>) -> Result<ParsedLine, Diagnostic> {
+    Ok(ParsedLine::Step(ScriptStep::Type(line.quoted("a text")?.text)))
 }
 
-fn wait(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
-    Ok(Said::Step(ScriptStep::Wait(line.time()?)))
+fn wait(line: &mut ScriptLine<'_>) -> Result<ParsedLine, Diagnostic> {
+    Ok(ParsedLine::Step(ScriptStep::Wait(line.time()?)))
 }
 
-fn set(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
+fn set(line: &mut ScriptLine<'_>) -> Result<ParsedLine, Diagnostic> {
     let name = line.until(&["="], "the name of a parameter or an initial value")?;
     expect(line, "=")?;
     let value = line.until(&[], "a value")?;
-    Ok(Said::Step(ScriptStep::Set(name, value)))
+    Ok(ParsedLine::Step(ScriptStep::Set(name, value)))
 }
 
-fn sweep(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
+fn sweep(line: &mut ScriptLine<'_>) -> Result<ParsedLine, Diagnostic> {
     let mut ways: Vec<SweepPath> = Vec::new();
     loop {
         let name = line.name("the name of a parameter or an initial value")?;
@@ -215,7 +222,7 @@ fn sweep(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
         }
     }
     expect(line, "in")?;
-    Ok(Said::Step(ScriptStep::Sweep { ways, time: line.time()? }))
+    Ok(ParsedLine::Step(ScriptStep::Sweep { ways, time: line.time()? }))
 }
 
 fn expect(line: &mut ScriptLine<'_>, word: &str) -> Result<(), Diagnostic> {
@@ -226,20 +233,20 @@ fn expect(line: &mut ScriptLine<'_>, word: &str) -> Result<(), Diagnostic> {
     Err(Diagnostic::error(here, format!("here `{word}` is missing")))
 }
 
-fn speed(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
-    Ok(Said::Step(ScriptStep::Speed(line.until(&[], "a speed")?)))
+fn speed(line: &mut ScriptLine<'_>) -> Result<ParsedLine, Diagnostic> {
+    Ok(ParsedLine::Step(ScriptStep::Speed(line.until(&[], "a speed")?)))
 }
 
-fn look(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
+fn look(line: &mut ScriptLine<'_>) -> Result<ParsedLine, Diagnostic> {
     expect(line, "at")?;
-    Ok(Said::Step(ScriptStep::Look(line.until(&[], "a time")?)))
+    Ok(ParsedLine::Step(ScriptStep::Look(line.until(&[], "a time")?)))
 }
 
-fn focus(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
-    Ok(Said::Step(ScriptStep::Focus(line.until(&[], "a pane")?)))
+fn focus(line: &mut ScriptLine<'_>) -> Result<ParsedLine, Diagnostic> {
+    Ok(ParsedLine::Step(ScriptStep::Focus(line.until(&[], "a pane")?)))
 }
 
-fn extent(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
+fn extent(line: &mut ScriptLine<'_>) -> Result<ParsedLine, Diagnostic> {
     let mut ranges = Vec::new();
     while !line.is_over() {
         let of = line.until(&["from"], "the name of a quantity")?;
@@ -251,35 +258,35 @@ fn extent(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
             return Err(line.missing("the name of a quantity"));
         }
     }
-    Ok(Said::Step(ScriptStep::Extent(ranges)))
+    Ok(ParsedLine::Step(ScriptStep::Extent(ranges)))
 }
 
-fn caption(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
+fn caption(line: &mut ScriptLine<'_>) -> Result<ParsedLine, Diagnostic> {
     let text = if line.is_over() { String::new() } else { line.quoted("a text")?.text };
-    Ok(Said::Step(ScriptStep::Caption(text)))
+    Ok(ParsedLine::Step(ScriptStep::Caption(text)))
 }
 
-fn marker(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
+fn marker(line: &mut ScriptLine<'_>) -> Result<ParsedLine, Diagnostic> {
     let name = line.quoted("a name")?;
     if name.text.trim().is_empty() {
         return Err(Diagnostic::error(name.place, "a chapter has a name"));
     }
-    Ok(Said::Step(ScriptStep::Marker(name.text)))
+    Ok(ParsedLine::Step(ScriptStep::Marker(name.text)))
 }
 
-fn assert(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
-    Ok(Said::Step(ScriptStep::Assert(claim(line)?)))
+fn assert(line: &mut ScriptLine<'_>) -> Result<ParsedLine, Diagnostic> {
+    Ok(ParsedLine::Step(ScriptStep::Assert(claim(line)?)))
 }
 
-fn lesson(step: LessonStep) -> Said {
-    Said::Step(ScriptStep::Lesson(step))
+fn lesson(step: LessonStep) -> ParsedLine {
+    ParsedLine::Step(ScriptStep::Lesson(step))
 }
 
-fn say(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
+fn say(line: &mut ScriptLine<'_>) -> Result<ParsedLine, Diagnostic> {
     Ok(lesson(LessonStep::Say(line.quoted("a text")?.text)))
 }
 
-fn ask(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
+fn ask(line: &mut ScriptLine<'_>) -> Result<ParsedLine, Diagnostic> {
     Ok(lesson(LessonStep::Ask(line.quoted("a question")?.text)))
 }
 
@@ -289,14 +296,14 @@ fn aside(line: &mut ScriptLine<'_>, word: &str) -> Result<Option<String>, Diagno
     Ok(text.map(|text| text.text))
 }
 
-fn option(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
+fn option(line: &mut ScriptLine<'_>) -> Result<ParsedLine, Diagnostic> {
     let text = line.quoted("an option")?.text;
     let why = aside(line, "why")?;
     expect(line, "if")?;
     Ok(lesson(LessonStep::Option { text, why, claim: claim(line)? }))
 }
 
-fn predict(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
+fn predict(line: &mut ScriptLine<'_>) -> Result<ParsedLine, Diagnostic> {
     let text = line.quoted("a question")?.text;
     let is_curve = line.take("curve");
     if is_curve || line.take("point") {
@@ -334,21 +341,21 @@ fn axes(line: &mut ScriptLine<'_>) -> Result<[AskedAxis; 2], Diagnostic> {
 }
 
 #[expect(clippy::unnecessary_wraps, reason = "a reader of the table")]
-fn outcome(_: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
+fn outcome(_: &mut ScriptLine<'_>) -> Result<ParsedLine, Diagnostic> {
     Ok(lesson(LessonStep::Outcome))
 }
 
-fn task(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
+fn task(line: &mut ScriptLine<'_>) -> Result<ParsedLine, Diagnostic> {
     let text = line.quoted("a text")?.text;
     let hint = aside(line, "hint")?;
     expect(line, "until")?;
     Ok(lesson(LessonStep::Task { text, hint, claim: claim(line)? }))
 }
 
-fn solution(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
+fn solution(line: &mut ScriptLine<'_>) -> Result<ParsedLine, Diagnostic> {
     Ok(lesson(LessonStep::Solution(keys(line)?)))
 }
 
-fn free(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
+fn free(line: &mut ScriptLine<'_>) -> Result<ParsedLine, Diagnostic> {
     Ok(lesson(LessonStep::Free(line.quoted("a text")?.text)))
 }
