@@ -25,7 +25,7 @@ pub use catalog::{
 pub use law_digest::law_digest;
 pub use new_surface::{NewSurface, NewZero, SurfaceView};
 pub use read::{Checked, UNTITLED, read, read_with};
-pub use rewrite::{InitialState, NewObservable, NewRamp, Rewrite};
+pub use rewrite::{InitialValue, NewObservable, NewRamp, Rewrite};
 pub use schema::reference;
 pub use settings::{Plain, Setting};
 pub use template::template;

@@ -7,7 +7,7 @@ use crate::claims::false_claims;
 use crate::diagnostic::{Diagnostic, Document, Severity};
 use crate::model::{AttitudeSource, Model};
 use crate::num::math;
-use crate::preset::{InitialState, Rewrite};
+use crate::preset::{InitialValue, Rewrite};
 use crate::system::{ChannelKind, System};
 
 /// The exported file.
@@ -54,11 +54,11 @@ impl Export {
         };
         if begun && all_active {
             rewrite.start = Some(snapshot.time).filter(|time| *time != model.run.start);
-            rewrite.initial = initial_states(model, |kind| value(system, snapshot, kind));
+            rewrite.initial = initial_values(model, |kind| value(system, snapshot, kind));
             rewrite.attitude = attitude(system, snapshot).filter(|_| is_integrated(model));
         } else {
             let count = model.coordinates.len();
-            rewrite.initial = initial_states(model, |kind| match kind {
+            rewrite.initial = initial_values(model, |kind| match kind {
                 ChannelKind::Position(i) => snapshot.initial.get(i).copied(),
                 ChannelKind::Velocity(i) | ChannelKind::Momentum(i) => {
                     snapshot.initial.get(count + i).copied()
@@ -135,7 +135,7 @@ fn wrong_in_motion(document: &Document) -> ExportErrors {
 }
 
 /// The start of every coordinate or variable, from the values of channels.
-fn initial_states(model: &Model, value: impl Fn(ChannelKind) -> Option<f64>) -> Vec<InitialState> {
+fn initial_values(model: &Model, value: impl Fn(ChannelKind) -> Option<f64>) -> Vec<InitialValue> {
     let of = |(i, c): (usize, &crate::model::Coordinate)| {
         let rate = if model.is_poisson() {
             None
@@ -144,7 +144,7 @@ fn initial_states(model: &Model, value: impl Fn(ChannelKind) -> Option<f64>) -> 
         } else {
             Some(("momentum", value(ChannelKind::Momentum(i))?))
         };
-        Some(InitialState { name: c.name.clone(), value: value(ChannelKind::Position(i))?, rate })
+        Some(InitialValue { name: c.name.clone(), value: value(ChannelKind::Position(i))?, rate })
     };
     model.coordinates.iter().enumerate().filter_map(of).collect()
 }

@@ -10,7 +10,7 @@ mod inputs;
 mod integration_constants;
 mod invariant_monitor;
 mod mean;
-mod monitored;
+mod monitors;
 mod seen_distances;
 
 use std::sync::Arc;
@@ -28,7 +28,7 @@ use formula_monitors::{ChannelValues, FormulaMonitors};
 pub(super) use inputs::GaugeInputs;
 use integration_constants::IntegrationConstants;
 use invariant_monitor::{InvariantMonitor, MonitoredStep};
-use monitored::{monitors, with_energy_opened};
+use monitors::{monitors, with_energy_opened};
 
 /// Rounding errors are measured once per this many samples.
 const MEASURED: u64 = 16;

@@ -16,7 +16,7 @@ pub struct Rewrite {
     /// The time of the initial values.
     pub start: Option<f64>,
     /// The changed initial values of coordinates or variables.
-    pub initial: Vec<InitialState>,
+    pub initial: Vec<InitialValue>,
     /// The initial Euler angles, for a body whose attitude is integrated.
     pub attitude: Option<[f64; 3]>,
     /// Their new values, by name.
@@ -29,7 +29,7 @@ pub struct Rewrite {
 
 /// The initial value of a coordinate or variable.
 #[derive(Clone, Debug, PartialEq)]
-pub struct InitialState {
+pub struct InitialValue {
     /// The name of the coordinate or variable.
     pub name: String,
     /// Where it begins.

@@ -31,7 +31,7 @@ impl Glyph {
     }
 }
 
-/// What distinguishes the glyphs of characters: bold, italic, underlined, strikethrough through.
+/// What distinguishes the glyphs of characters: bold, italic, underlined, struck through.
 type Weight = [bool; 4];
 
 /// The characters that were drawn.

@@ -413,7 +413,7 @@ fn along_a_ramp_action_and_angle_are_those_of_the_instant() {
 }
 
 #[test]
-fn what_has_no_angle_along_its_motion_is_reported_so() {
+fn what_has_no_angle_along_its_motion_says_so() {
     let refused = |arguments: &[&str], code: i32, said: &[&str]| {
         phaselab(&[&["actions"], arguments].concat()).fails(code, said);
     };

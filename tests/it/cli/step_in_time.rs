@@ -162,7 +162,7 @@ fn errors_of_equal_steps_are_of_their_order() {
 
 /// A force that jumps at the same instant is followed by methods that evaluate it within steps only, and the others say that it is not.
 #[test]
-fn a_force_that_jumps_with_the_mass_is_followed_or_that_is_reported() {
+fn a_force_that_jumps_with_the_mass_is_followed_or_it_says_that_it_is_not() {
     let law = law("(3 - sign(t - 1))/2", "1/2*x^2*(3 - sign(t - 1))/2");
     for (method, within) in
         [("taylor", 1e-15), ("dop853", 1e-11), ("rk4", 2e-6), ("gauss6", 1e-10), ("leapfrog", 1e-3)]

@@ -143,7 +143,7 @@ fn the_oscillator_by_its_angle() {
 }
 
 #[test]
-fn a_map_that_is_not_canonical_is_reported_so_with_its_bracket() {
+fn a_map_that_is_not_canonical_is_called_so_with_its_bracket() {
     let polar = transformation(
         "x = p sin θ, p_x = p cos θ",
         "kind = \"explicit\"\nQ = { U = \"p_q*sin(q)\" }\nP = { V = \"p_q*cos(q)\" }",
