@@ -141,8 +141,7 @@ fn quotient_by_ln_2(x: DoubleDouble) -> DoubleDouble {
 }
 
 /// 2¹⁰⁰.
-const FAR_EXPONENT: i128 = 100;
-const FAR_UNIT: f64 = (1_i128 << FAR_EXPONENT) as f64;
+const FAR_UNIT: f64 = (1_i128 << 100) as f64;
 
 impl Real for ExtendedRange {
     const UNBOUNDED: bool = true;
@@ -219,6 +218,10 @@ impl Analytic for ExtendedRange {
             return ExtendedRange::moderate(x.exp());
         }
         let n = (x.high / LN_2.high).round();
+        if !n.is_finite() && self.mantissa.high.is_finite() {
+            let exponent = Exponent::beyond_range(self.mantissa.high / LN_2.high, self.exponent);
+            return ExtendedRange::new(DoubleDouble::ONE, exponent);
+        }
         if !n.is_finite() {
             return ExtendedRange::moderate(DoubleDouble::from(math::exp(x.high)));
         }
@@ -240,8 +243,8 @@ impl Analytic for ExtendedRange {
             return ExtendedRange::moderate(DoubleDouble::from(math::ln(high)));
         }
         let rest = ExtendedRange::moderate(self.mantissa.ln());
-        let exponent = self.exponent.value().scaled(FAR_UNIT.recip());
-        rest + ExtendedRange::new(LN_2 * exponent, Exponent::of(FAR_EXPONENT))
+        let (exponent, unit) = self.exponent.value();
+        rest + ExtendedRange::new(LN_2 * exponent, unit)
     }
 
     fn sin_cos(self) -> (ExtendedRange, ExtendedRange) {
