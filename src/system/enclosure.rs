@@ -371,7 +371,7 @@ fn of_function(function: FunctionId, u: Interval, v: Interval) -> (Interval, Int
     let within = |x: Interval| x.within(ONE);
     // the sine between angles: it is largest at π/2 after any turns, and least at −π/2
     let sine = |u: Interval| {
-        if !(u.width() < TAU) || u.magnitude() > 1e15 {
+        if u.width().is_nan() || u.width() >= TAU || u.magnitude() > 1e15 {
             return ONE;
         }
         let ends = Interval::between(math::sin(u.low), math::sin(u.high), 4.0);

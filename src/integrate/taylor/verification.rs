@@ -223,7 +223,7 @@ impl Taylor {
                 rounding.get_or_insert_with(|| rounding_at(&mut self.enclosure, &self.state));
             let by_rounding = rounding[i] * (scale / unit).abs() * width;
             // a NaN is missed
-            if !(apart <= shown + by_rounding) {
+            if apart.is_nan() || apart > shown + by_rounding {
                 return Ok(true);
             }
         }

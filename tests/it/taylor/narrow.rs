@@ -1,6 +1,7 @@
 //! What a series does not show before it is near: steep walls ahead of where a force is zero to all digits, thin barriers, short pulses.
 
 use super::{Run, near};
+use crate::nonempty;
 use phaselab::num::gauss;
 
 /// ∫ f from a to b, by Gauss's rule on many pieces.
@@ -73,7 +74,7 @@ const UNITS: [(f64, f64); 3] = [(1.0, 1.0), (1e-7, 1e3), (3e9, 1e-4)];
 /// Asserts that a motion is at u with the velocity w at a time, whatever rows are asked for before.
 #[track_caller]
 fn arrives(wall: &Wall, from: (f64, f64), time: f64, (u, w): (f64, f64), size: f64) {
-    for units in UNITS {
+    for units in nonempty(UNITS) {
         for rows in [1, 7, 60] {
             let mut run = run(wall, units, from);
             for k in 1..=rows {
@@ -93,7 +94,7 @@ fn arrives(wall: &Wall, from: (f64, f64), time: f64, (u, w): (f64, f64), size: f
 
 #[test]
 fn a_wall_ahead_of_where_the_force_is_zero_reflects() {
-    for wall in &WALLS {
+    for wall in nonempty(&WALLS) {
         let (near, far) = wall.flat;
         let (inside, outside) = ((wall.value)(0.0), (wall.value)(10.0));
         let (low, high) = (inside.min(outside), inside.max(outside));
@@ -104,7 +105,8 @@ fn a_wall_ahead_of_where_the_force_is_zero_reflects() {
         let is_well = inside < outside;
         let edge = if is_well { near } else { far };
         let there = time_to_turn(wall, energy, edge, turn);
-        for start in if is_well { [0.0, 0.2, -0.31] } else { [far, 13.0, 2000.0] } {
+        let starts = if is_well { [0.0, 0.2, -0.31] } else { [far, 13.0, 2000.0] };
+        for start in nonempty(starts) {
             let time = 2.0 * ((edge - start).abs() / speed + there);
             let toward = if is_well { speed } else { -speed };
             arrives(wall, (start, toward), time, (start, -toward), start.abs());
@@ -114,7 +116,7 @@ fn a_wall_ahead_of_where_the_force_is_zero_reflects() {
 
 #[test]
 fn a_wall_is_passed_with_the_speed_that_it_leaves() {
-    for wall in &WALLS {
+    for wall in nonempty(&WALLS) {
         let (near, far) = wall.flat;
         let (inside, outside) = ((wall.value)(0.0), (wall.value)(10.0));
         let energy = inside.max(outside) + 0.3;
@@ -131,7 +133,7 @@ fn a_wall_is_passed_with_the_speed_that_it_leaves() {
 #[test]
 fn thin_barriers_reflect_in_any_unit() {
     for (c, n) in [(1e-25, 2), (1e-40, 4), (1e-60, 12), (1e-34, 3)] {
-        for (length, speed) in UNITS {
+        for (length, speed) in nonempty(UNITS) {
             let strength = c * speed * speed * length.powi(n);
             let mut run = Run::new(&format!(
                 "title = \"Thin\"\n[coordinates]\nx = {{ initial = {length:e}, velocity = {:e} }}\n[lagrangian]\nL = \"1/2*x'^2 - {strength:e}/x^{n}\"\n",
