@@ -99,7 +99,15 @@ impl Interval {
             (0.0, high) => Interval { low: below(1.0 / high, 1.0).max(0.0), high: f64::INFINITY },
             (low, 0.0) => Interval { low: f64::NEG_INFINITY, high: above(1.0 / low, 1.0).min(0.0) },
             _ if self.has_zero() => Interval::ALL,
-            (low, high) => Interval::between(1.0 / high, 1.0 / low, 1.0),
+            (low, high) => {
+                let Interval { low: least, high: most } =
+                    Interval::between(1.0 / high, 1.0 / low, 1.0);
+                let is_positive = low > 0.0;
+                Interval {
+                    low: if is_positive { least.max(0.0) } else { least },
+                    high: if is_positive { most } else { most.min(0.0) },
+                }
+            }
         }
     }
 
