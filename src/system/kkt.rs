@@ -5,7 +5,7 @@
 //! In: M, f and the constraints' rows as expressions. Out: registers. Never here: which constraints
 //! are enforced; `conditions` decides that numerically.
 
-use super::elimination::{EliminatedCoordinate, eliminate};
+use super::elimination::{EliminatedCoordinate, Elimination, eliminate};
 use super::lower::Lowering;
 use super::program::Register;
 use crate::expr::{Expr, Pool, Symbol};
@@ -23,7 +23,7 @@ pub(super) struct ConstraintSystem {
     bias: Vec<Expr>,
     least: Option<LeastNorm>,
     /// The coordinates that were eliminated from the matrix, in this order.
-    eliminated: Vec<EliminatedCoordinate>,
+    elimination: Elimination,
 }
 
 /// Two numbers for each constraint, 1 or 0.
@@ -90,18 +90,18 @@ impl ConstraintSystem {
             }
             LeastNorm { b, normal, g: products(pool, &a, &a) }
         });
-        let eliminated = if rows.is_empty() {
+        let elimination = if rows.is_empty() {
             let symbols = &equations.symbols;
             let coordinates = &equations.coordinates;
             let auxiliary = equations.supplements.auxiliary.iter().flat_map(|own| &own.symbols);
             let varying = coordinates.iter().flat_map(|c| [c.position, c.velocity]);
             let varying: Vec<Symbol> =
                 varying.chain(auxiliary.copied()).chain([symbols.time]).collect();
-            eliminate(pool, &mut matrix, &varying)
+            eliminate(pool, &mut matrix, varying)
         } else {
-            Vec::new()
+            Elimination::default()
         };
-        ConstraintSystem { switches, matrix, bias, least, eliminated }
+        ConstraintSystem { switches, matrix, bias, least, elimination }
     }
 
     /// Returns the accelerations and binds them and the multipliers to their symbols.
@@ -112,13 +112,11 @@ impl ConstraintSystem {
         force: &[Expr],
     ) -> Vec<Register> {
         let (mut matrix, mut force) = (self.matrix.clone(), force.to_vec());
-        for coordinate in &self.eliminated {
-            coordinate.transform(lowering.pool, &mut matrix, &mut force);
-        }
+        self.elimination.transform(lowering.pool, &mut matrix, &mut force);
         let mut right = lowering.lower_all(&force);
         right.extend(lowering.lower_all(&self.bias));
         let mut accelerations = lowering.solve(&matrix, &right);
-        for EliminatedCoordinate { place, couplings } in self.eliminated.iter().rev() {
+        for EliminatedCoordinate { place, couplings } in self.elimination.coordinates.iter().rev() {
             let (row, x): (Vec<Expr>, Vec<Register>) =
                 couplings.iter().map(|&(i, a)| (a, accelerations[i])).unzip();
             let moved = lowering.inner_product(&row, &x);

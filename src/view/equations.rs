@@ -65,6 +65,14 @@ pub(super) fn law(lab: &Lab, style: &RenderStyle) -> TextPage {
     writer.page
 }
 
+/// Says where equations that are too long for the page can be seen.
+fn solved_elsewhere(length: usize, lab: &Lab) -> String {
+    let name = &lab.loaded.name;
+    format!(
+        "Solved for the accelerations they have {length} characters: phaselab derive {name} prints them."
+    )
+}
+
 /// Whether the law is there as one reads it.
 fn is_derived(lab: &Lab) -> bool {
     lab.loaded.equations.supplements.law_with_ramps_named.is_none()
@@ -247,7 +255,7 @@ impl EquationRows<'_> {
                     return self.lines(motion);
                 }
                 self.lines(&lagrange);
-                self.page.words(Role::Dim, self.solved_elsewhere(length, lab));
+                self.page.words(Role::Dim, solved_elsewhere(length, lab));
             }
             Err(why) => {
                 let words = format!("Not solved for the accelerations: {why}.");
@@ -275,7 +283,7 @@ impl EquationRows<'_> {
             report.momenta.iter().copied().chain(self.lagrange()).collect();
         if lagrange.len() > report.momenta.len() && self.length(&lagrange) <= LONGEST_IN_PANE {
             self.lines(&lagrange);
-            self.page.words(Role::Dim, self.solved_elsewhere(length, lab));
+            self.page.words(Role::Dim, solved_elsewhere(length, lab));
         } else {
             let words = format!("{} equations of motion: page 2 has them.", motion.len());
             self.page.words(Role::Dim, words);
@@ -292,13 +300,6 @@ impl EquationRows<'_> {
             right,
         };
         self.report.model.coordinates.iter().zip(momentum_rates).map(equation).collect()
-    }
-
-    fn solved_elsewhere(&self, length: usize, lab: &Lab) -> String {
-        let name = &lab.loaded.name;
-        format!(
-            "Solved for the accelerations they have {length} characters: phaselab derive {name} prints them."
-        )
     }
 
     /// How many characters equations have on their right.

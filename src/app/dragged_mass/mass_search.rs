@@ -37,7 +37,7 @@ impl MassSearch {
 /// The least step that leads to the place, damped where it does not change with the coordinates.
 fn gauss_newton(slopes: DMatrix<f64>, left: &DVector<f64>) -> Option<DVector<f64>> {
     let across = slopes.transpose();
-    let squares = &slopes * &across;
+    let squares = slopes * &across;
     let damping = DAMPING * squares.trace() * DMatrix::identity(left.len(), left.len());
     Some(across * (squares + damping).lu().solve(left)?)
 }
