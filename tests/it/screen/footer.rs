@@ -30,7 +30,7 @@ fn tab_comes_first_where_panes_are_hidden() {
 fn the_pause_is_in_the_footer_of_a_standard_screen() {
     let real = Real::of("pendulum");
     let footer = footer(&real, (80, 24));
-    assert!(footer.ends_with("Space pause   ? help   q quit "), "{footer:?}");
+    assert!(footer.ends_with("Space pause   ? help   q quit"), "{footer:?}");
     assert!(footer.contains("Tab pane"), "{footer}");
 }
 
