@@ -39,6 +39,7 @@ impl Interval {
     }
 
     /// The values of a rising elementary function.
+    #[must_use]
     pub fn rising(self, f: impl Fn(f64) -> f64) -> Interval {
         Interval::between(f(self.low), f(self.high), ELEMENTARY)
     }

@@ -82,7 +82,9 @@ fn arrives(wall: &Wall, from: (f64, f64), time: f64, (u, w): (f64, f64), size: f
             }
             let state = &run.stepper.state().values;
             let (x, v) = (state[0] / units.0, state[1] / units.1);
-            let within = 3e-10 + 1e-13 * size;
+            // the force of a quotient is a difference of terms that grow within a step: some 1e-14 of the speed is lost in each step
+            // across the wall
+            let within = 3e-10 + 1e-12 * size;
             assert!(
                 (x - u).abs() < within && (v - w).abs() < 1e-9,
                 "{} from {from:?}, {units:?}, {rows} rows: {x} {v}, not {u} {w}",
