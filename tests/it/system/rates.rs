@@ -113,11 +113,11 @@ fn accelerations_solve_the_equations_however_they_are_eliminated() {
     for law in ELIMINATED {
         let names: &[&str] =
             if law.contains('w') { &["x", "y", "z", "w"] } else { &["x", "y", "z"] };
-        let coordinates: String =
+        let coordinates: Vec<String> =
             names.iter().map(|q| format!("{q} = {{ initial = 0.6, velocity = 0.3 }}\n")).collect();
         let ready = prepared(&format!(
             "title = \"Law\"\n[coordinates]\n{}[parameters]\na = 1.3\nb = 0.7\nc = 0.4\n[lagrangian]\nL = \"{law}\"\n",
-            coordinates
+            coordinates.concat()
         ));
         let parameters = ready.model.parameter_values();
         let mut rates = ready.system.native_rates();
