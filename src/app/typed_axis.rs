@@ -78,13 +78,13 @@ impl App {
         if let Some(view) = &mut self.awaited.view {
             view.take_off_axes(&lost, lab);
         }
-        let was = if lost.len() == 1 {
-            "was removed from its axis"
+        let (was, its) = if lost.len() == 1 {
+            ("was removed from its axis", "its")
         } else {
-            "were removed from their axes"
+            ("were removed from their axes", "their")
         };
         let names = lost.join("`, `");
-        let sentence = format!("`{names}` {was}: the text no longer defines every name in it.");
+        let sentence = format!("`{names}` {was}: the text no longer defines all of {its} names.");
         self.notifications.show(Notification::error(sentence));
         self.check_again().is_ok()
     }

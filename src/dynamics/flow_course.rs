@@ -44,7 +44,7 @@ const TIMES: f64 = 64.0;
 const TIMES_IN_STEPS: f64 = 16.0;
 
 /// Follows a motion from a state of the space through increasing times, and `report`s the time after each step. A motion that cannot
-/// continue has the moments up to there, and the error.
+/// continue has the derivatives up to there, and the error.
 ///
 /// # Errors
 /// Returns an error if the motion cannot begin, or M cannot be evaluated.
@@ -60,12 +60,12 @@ pub fn flow_course(
     carrier.start(start, &DMatrix::identity(n, n))?;
     let mut divergence = Divergence::of(space, method);
     let (mut logarithm, mut done) = (0.0, start.time);
-    let mut moments = Vec::new();
+    let mut flows = Vec::new();
     let mut waiting = times;
     while let Some(&last) = waiting.last() {
         let jumped = carrier.jump_determinant();
         if let Err(error) = carrier.step(last) {
-            return Ok((moments, Some(error)));
+            return Ok((flows, Some(error)));
         }
         let (_, end) = carrier.interval();
         let passed = waiting.partition_point(|&time| time <= end);
@@ -81,7 +81,7 @@ pub fn flow_course(
             // an impulse acts at the end of a step
             let jumped = if time < end { jumped } else { carrier.jump_determinant() };
             let expected = math::exp(logarithm) * jumped;
-            moments.push(FlowAtTime::of(space, (time, steps), matrix, expected));
+            flows.push(FlowAtTime::of(space, (time, steps), matrix, expected));
         }
         if !left.is_empty() && done < end {
             logarithm += divergence.along(space, &mut carrier, [done, end])?;
@@ -90,7 +90,7 @@ pub fn flow_course(
         waiting = left;
         report(end);
     }
-    Ok((moments, None))
+    Ok((flows, None))
 }
 
 impl FlowAtTime {
@@ -147,7 +147,7 @@ mod tests {
 
     #[test]
     fn a_map_is_symplectic_up_to_sixteen_times_its_rounding() {
-        let moment = |residual: f64| FlowAtTime {
+        let flow = |residual: f64| FlowAtTime {
             time: 1.0,
             matrix: DMatrix::identity(2, 2),
             determinant: 1.0,
@@ -158,9 +158,9 @@ mod tests {
             rounding_floor: 1e-15,
             residual_lost: false,
         };
-        assert!(moment(0.0).is_at_rounding() && moment(15.9e-15).is_at_rounding());
-        assert!(!moment(16.1e-15).is_at_rounding() && !moment(f64::NAN).is_at_rounding());
-        let unknown = FlowAtTime { symplectic_residual: None, ..moment(0.0) };
+        assert!(flow(0.0).is_at_rounding() && flow(15.9e-15).is_at_rounding());
+        assert!(!flow(16.1e-15).is_at_rounding() && !flow(f64::NAN).is_at_rounding());
+        let unknown = FlowAtTime { symplectic_residual: None, ..flow(0.0) };
         assert!(!unknown.is_at_rounding());
     }
 }

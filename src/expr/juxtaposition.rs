@@ -58,13 +58,13 @@ impl Parser<'_> {
                     format!("write `{left}*{right}` or `{left} + {right}`"),
                 ),
                 Token::Name(..) => (
-                    "a number stands behind what it multiplies".to_owned(),
+                    "a number comes after what it multiplies".to_owned(),
                     format!(
                         "write `{right} {left}` for the product or `{left}^{right}` for the power"
                     ),
                 ),
                 _ => (
-                    "a number stands behind what it multiplies".to_owned(),
+                    "a number comes after what it multiplies".to_owned(),
                     format!(
                         "write `{right} (...)` for the product or `(...)^{right}` for the power"
                     ),

@@ -3,14 +3,73 @@
 //! In: a text for the eye. Out: the same in ASCII, as a whole or character by character, so that a search finds what it
 //! is typed for. Never here: what a screen can show.
 
-/// Spells a text in ASCII. Characters without a spelling become `?`; combining dots become primes, as in `x'`.
+use std::borrow::Cow;
+
+/// Spells a text in ASCII. Characters without a spelling become `?`; combining dots become primes, as in `x'`; a partial
+/// derivative ∂G/∂t, which `dG/dt` is not, is `d_t G`.
 pub fn spell(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
-    spell_each(text, |_, caret, letters| {
+    spell_each(&with_indices(text), |_, caret, letters| {
         out.push_str(caret);
         out.push_str(letters);
     });
     out
+}
+
+/// A text whose partial derivatives are written with indices: ∂²S/∂q∂α as d_q d_α S. A ∂ that begins none stays.
+fn with_indices(text: &str) -> Cow<'_, str> {
+    if !text.contains('∂') {
+        return Cow::Borrowed(text);
+    }
+    let mut out = String::with_capacity(text.len());
+    let mut rest = text;
+    while let Some(at) = rest.find('∂') {
+        let (before, derivative) = rest.split_at(at);
+        out.push_str(before);
+        rest = match partial_derivative(derivative) {
+            Some((function, variables, after)) => {
+                let indices: Vec<String> =
+                    variables.iter().map(|variable| format!("d_{variable}")).collect();
+                out.push_str(&indices.join(" "));
+                if !function.is_empty() {
+                    out.push(' ');
+                    out.push_str(function);
+                }
+                after
+            }
+            None => {
+                out.push('∂');
+                &derivative['∂'.len_utf8()..]
+            }
+        };
+    }
+    out.push_str(rest);
+    Cow::Owned(out)
+}
+
+/// The function and the variables of the partial derivative that a text begins with, and what follows it.
+fn partial_derivative(text: &str) -> Option<(&str, Vec<&str>, &str)> {
+    let name = |text: &str| {
+        let of_name = |c: char| {
+            c.is_alphanumeric() || matches!(c, '_' | '\'' | '′' | '″' | '\u{307}' | '\u{308}')
+        };
+        text.find(|c: char| !of_name(c)).unwrap_or(text.len())
+    };
+    let raised = |c: char| superscript(c).is_some();
+    let text = text.strip_prefix('∂')?.trim_start_matches(raised);
+    let end = if text.starts_with('(') { text.find(')')? + 1 } else { name(text) };
+    let (function, mut rest) = text.split_at(end);
+    rest = rest.strip_prefix('/')?;
+    let mut variables = Vec::new();
+    while let Some(variable) = rest.strip_prefix('∂') {
+        let (variable, after) = variable.split_at(name(variable));
+        if variable.is_empty() {
+            return None;
+        }
+        variables.push(variable);
+        rest = after;
+    }
+    (!variables.is_empty()).then_some((function, variables, rest))
 }
 
 /// The letters in which each character of a text is spelt in ASCII, or the character itself where it has no spelling.

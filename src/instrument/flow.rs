@@ -53,7 +53,7 @@ struct ComputedFlow {
     outcome: Result<Courses, String>,
 }
 
-/// The moments of the map of the method, and of the exact flow where the method is another one.
+/// The derivatives of the map of the method, and of the exact flow where the method is another one.
 struct Courses {
     own: Vec<FlowAtTime>,
     exact: Option<Vec<FlowAtTime>>,
@@ -124,9 +124,9 @@ impl Instrument for FlowPlot {
             let upwards = Upwards::Named("‖MJMᵀ − J‖".to_owned(), [0.0, 1.0]);
             return Some(Picture::Axes { upwards, layers, occurrences: None });
         };
-        let curve = |moments: &[FlowAtTime], of: &dyn Fn(&FlowAtTime) -> Option<f64>| {
-            let point = |moment: &FlowAtTime| Some([moment.time, of(moment)?]);
-            moments.iter().filter_map(point).collect::<Vec<[f64; 2]>>()
+        let curve = |flows: &[FlowAtTime], of: &dyn Fn(&FlowAtTime) -> Option<f64>| {
+            let point = |flow: &FlowAtTime| Some([flow.time, of(flow)?]);
+            flows.iter().filter_map(point).collect::<Vec<[f64; 2]>>()
         };
         let mut lines = Vec::new();
         let name = if courses.is_hamiltonian {
@@ -135,7 +135,7 @@ impl Instrument for FlowPlot {
             lines.push((CURVE, curve(&courses.own, &power), Ink::Curve(0)));
             "log₁₀ ‖MJMᵀ − J‖"
         } else {
-            let expected = |moment: &FlowAtTime| Some(moment.determinant_expected);
+            let expected = |flow: &FlowAtTime| Some(flow.determinant_expected);
             lines.push((BESIDE, curve(&courses.own, &expected), Ink::Level));
             lines.push((CURVE, curve(&courses.own, &determinant), Ink::Curve(0)));
             "det M"
@@ -283,15 +283,15 @@ fn sentences(PlotContext { present, answer, .. }: PlotContext<'_>) -> Vec<String
     };
     lines.push(format!("t = {}: {found}, expected {expected}", at.trim_end()));
     if courses.is_hamiltonian && own.symplectic_residual.is_some() {
-        let of_square = |moment: &FlowAtTime, residual: f64| {
-            let largest = moment.matrix.amax();
+        let of_square = |flow: &FlowAtTime, residual: f64| {
+            let largest = flow.matrix.amax();
             format!("{} of |M|²", size(residual / (largest * largest)))
         };
         let beside = courses.exact.as_deref().and_then(|exact| now(present, exact));
-        let beside = beside.and_then(|moment| Some((moment, residual(moment)?)));
-        let exact = beside.map_or_else(String::new, |(moment, x)| {
-            if moment.is_at_rounding() {
-                format!(", at rounding ({}) by the exact flow", of_square(moment, x))
+        let beside = beside.and_then(|flow| Some((flow, residual(flow)?)));
+        let exact = beside.map_or_else(String::new, |(flow, x)| {
+            if flow.is_at_rounding() {
+                format!(", at rounding ({}) by the exact flow", of_square(flow, x))
             } else {
                 format!(", {} by the exact flow", size(x))
             }
@@ -326,26 +326,26 @@ fn rows(matrix: &DMatrix<f64>, short: &dyn Fn(f64) -> String) -> String {
     (0..matrix.nrows()).map(row).collect::<Vec<_>>().join(" | ")
 }
 
-/// The last moment that the motion has passed.
-fn now<'a>(present: &Present<'_>, moments: &'a [FlowAtTime]) -> Option<&'a FlowAtTime> {
-    let passed = moments.partition_point(|moment| moment.time <= present.time);
-    moments.get(passed.checked_sub(1)?)
+/// The last derivative at a time that the motion has passed.
+fn now<'a>(present: &Present<'_>, flows: &'a [FlowAtTime]) -> Option<&'a FlowAtTime> {
+    let passed = flows.partition_point(|flow| flow.time <= present.time);
+    flows.get(passed.checked_sub(1)?)
 }
 
 /// det M, where rounding leaves something of it.
-fn determinant(moment: &FlowAtTime) -> Option<f64> {
-    (!moment.determinant_lost).then_some(moment.determinant)
+fn determinant(flow: &FlowAtTime) -> Option<f64> {
+    (!flow.determinant_lost).then_some(flow.determinant)
 }
 
 /// ‖MJMᵀ − J‖, where it is more than rounding of large entries.
-fn residual(moment: &FlowAtTime) -> Option<f64> {
-    moment.symplectic_residual.filter(|_| !moment.residual_lost)
+fn residual(flow: &FlowAtTime) -> Option<f64> {
+    flow.symplectic_residual.filter(|_| !flow.residual_lost)
 }
 
 /// The power of ten of ‖MJMᵀ − J‖; at rounding that of what rounding leaves, so that it is seen as a floor.
-fn power(moment: &FlowAtTime) -> Option<f64> {
-    let residual = residual(moment)?;
-    let seen = if moment.is_at_rounding() { moment.rounding_floor } else { residual };
+fn power(flow: &FlowAtTime) -> Option<f64> {
+    let residual = residual(flow)?;
+    let seen = if flow.is_at_rounding() { flow.rounding_floor } else { residual };
     let power = math::ln(seen) / math::ln(10.0);
     (!power.is_nan()).then_some(power.max(LEAST_POWER))
 }

@@ -71,7 +71,9 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, selected: Opt
     let width = area.width.saturating_sub(3);
     let reasons = reasons_below(lab, gauges, width, canvas.style.glyphs);
     let more: usize = reasons.iter().map(Vec::len).sum();
-    let reasons = Some(reasons).filter(|_| rows >= 2 * gauges.len() + more);
+    // reasons give way to the headings
+    let least = 2 * gauges.len() + more + usize::from(area.width >= HEADED);
+    let reasons = Some(reasons).filter(|_| rows >= least);
     let taken = height * gauges.len() + if reasons.is_some() { more } else { 0 };
     let headed = rows > taken && area.width >= HEADED;
     let single = (height == 1).then(|| single_row(canvas, area.width.saturating_sub(3), gauges));

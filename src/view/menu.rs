@@ -59,7 +59,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, menu: &Menu) {
     if shown.is_empty() {
         let text = match menu.purpose {
             Choosing::Contents { .. } | Choosing::Axis { .. } => {
-                "no match; Enter takes it as an expression"
+                "no match; Enter uses it as an expression"
             }
             Choosing::Action => "no match: F1 lists all keys",
             _ => "no match",

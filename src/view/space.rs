@@ -216,9 +216,11 @@ impl ScenePainter<'_> {
         let theme = &self.q.style.theme;
         let solid = Pen::new(theme[Role::Text], SOLID);
         let ground = Pen::shaded(theme.line(Role::Level), GROUND);
+        // a line in fragments cannot be told from the blanks beside it, so what is fixed is dim, but whole
+        let fixed = Pen::new(ground.style, GROUND);
         match shape {
             Shape::Line { from, to } => {
-                let pen = if self.is_scenery([from, to]) { &ground } else { &solid };
+                let pen = if self.is_scenery([from, to]) { &fixed } else { &solid };
                 let (from, to) = (self.point(from), self.point(to));
                 self.curve(&[from, to], pen);
             }
@@ -233,7 +235,8 @@ impl ScenePainter<'_> {
                 let solid = self.own_pen(centre, solid);
                 let (centre, normal) = (self.point(centre), self.direction(normal));
                 let rim = circle::circle(centre, self.q.number(*radius), normal);
-                self.curve(&rim, if rests { &ground } else { &solid });
+                let still = if self.range.is_some() { &ground } else { &fixed };
+                self.curve(&rim, if rests { still } else { &solid });
             }
             Shape::Mass { at, radius } => {
                 let radius = radius.map(|radius| self.q.number(radius));

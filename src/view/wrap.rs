@@ -178,7 +178,7 @@ pub(super) fn break_up(
             }
         } else {
             // A parenthesis stays whole if a line of its own suffices.
-            for (place, part) in parts(&term, depth).into_iter().enumerate() {
+            for (place, part) in signed(parts(&term, depth), fits).into_iter().enumerate() {
                 let spaced = place == 0 || !part.starts_with('*');
                 if fits(&part) {
                     pieces.push(TextPiece { text: part, spaced, nested });
@@ -194,6 +194,22 @@ pub(super) fn break_up(
             }
         }
     }
+}
+
+/// The parts of a term of a sum, of which the first two are one where they fit: a line that ended with `+ g` would end with a term.
+fn signed(mut parts: Vec<String>, fits: impl Fn(&str) -> bool) -> Vec<String> {
+    if let [first, second, ..] = &parts[..]
+        && first.starts_with(['+', '−', '-'])
+        && first.contains(' ')
+    {
+        let space = if second.starts_with('*') { "" } else { " " };
+        let both = format!("{first}{space}{second}");
+        if fits(&both) {
+            parts[0] = both;
+            parts.remove(1);
+        }
+    }
+    parts
 }
 
 /// Cuts a formula before each `+`, `−`, `-` and `=` between spaces that is at most `depth` deep in parentheses.

@@ -119,7 +119,7 @@ fn what_could_be_read_in_two_ways_is_refused_with_both() {
     check(
         "x 2",
         &[
-            "a number stands behind what it multiplies; write `2 x` for the product or `x^2` for the power",
+            "a number comes after what it multiplies; write `2 x` for the product or `x^2` for the power",
         ],
     );
     check("2½", &["two numbers stand side by side; write `2*½` or `2 + ½`"]);

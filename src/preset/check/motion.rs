@@ -97,7 +97,7 @@ impl ModelBuilder<'_> {
 
     fn no_coordinate(&self, name: &toml::Spanned<String>) -> Diagnostic {
         let kind = if self.model.is_poisson() { "variable" } else { "coordinate" };
-        let message = format!("unknown {kind} `{}` for a force to act on", name.get_ref());
+        let message = format!("unknown {kind} `{}`", name.get_ref());
         let diagnostic = Diagnostic::error(name.span(), message);
         let known: Vec<&str> = self.model.coordinates.iter().map(|c| c.name.as_str()).collect();
         let bare = name.get_ref().trim_end_matches('\'');

@@ -134,9 +134,9 @@ impl ModelBuilder<'_> {
     fn unknown_momentum(&self, name: &Spanned<String>) -> Diagnostic {
         let poisson = self.model.is_poisson();
         let message = if poisson {
-            format!("unknown variable `{}` for an impulse to change", name.get_ref())
+            format!("unknown variable `{}`", name.get_ref())
         } else {
-            format!("unknown momentum `{}` for an impulse to change", name.get_ref())
+            format!("unknown momentum `{}`", name.get_ref())
         };
         let prefix = if poisson { "" } else { "p_" };
         let coordinates = self.model.coordinates.iter();

@@ -53,7 +53,7 @@ impl ModelBuilder<'_> {
                     Some(near) => format!("did you mean `{near}`?"),
                     None => "a ramp is `smooth`, `cubic` or `linear`".to_owned(),
                 };
-                let message = format!("unknown form `{}` of a ramp", form.get_ref());
+                let message = format!("unknown ramp form `{}`", form.get_ref());
                 self.diagnostics.push(Diagnostic::error(form.span(), message).with_help(help));
             }
             known.map(|(_, form)| *form)

@@ -274,7 +274,10 @@ impl ModelBuilder<'_> {
                 Some(i) => found.push(i),
                 None => {
                     let names: Vec<&str> = above.iter().map(|t| t.name.as_str()).collect();
-                    let message = format!("unknown transformation `{}` above", name.get_ref());
+                    let message = format!(
+                        "unknown transformation `{}`: only those above this one can be used",
+                        name.get_ref()
+                    );
                     let help = match nearest(name.get_ref(), names.iter().copied()) {
                         Some(near) => format!("did you mean `{near}`?"),
                         None if names.is_empty() => "there is none above".to_owned(),

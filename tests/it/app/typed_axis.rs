@@ -123,6 +123,10 @@ fn an_axis_that_no_longer_fits_the_text_is_given_up() {
     app.update(AppEvent::FileRead { text: own.replace("m2", "mass2"), asked: false });
     let (text, is_right) = judged(&mut app);
     assert!(text.contains("m2*theta1") && !is_right, "{text}");
+    let shown = app.notifications.shown.as_ref().map(|one| &*one.text);
+    let sentence =
+        "`m₂·θ₁` was removed from its axis: the text no longer defines all of its names.";
+    assert_eq!(shown, Some(sentence));
     let text = checked(&mut app);
     assert!(!text.contains("m2*theta1") && text.contains("mass2"), "{text}");
     assert!(text.contains("theta1'^2"), "{text}");
@@ -135,6 +139,22 @@ fn an_axis_that_no_longer_fits_the_text_is_given_up() {
     let mut fresh = lab("double-pendulum", 1.0);
     focus(&mut fresh);
     assert_eq!(axes(&app), axes(&fresh));
+}
+
+/// One sentence names all that are given up together.
+#[test]
+fn axes_that_no_longer_fit_the_text_are_named_together() {
+    let mut app = lab("double-pendulum", 1.0);
+    ask(&mut app, "m2*theta1");
+    checked(&mut app);
+    write(&mut app, "m2*theta2");
+    checked(&mut app);
+    let own = app.lab.as_ref().unwrap().loaded.document.text.clone();
+    app.update(AppEvent::FileRead { text: own.replace("m2", "mass2"), asked: false });
+    assert!(!judged(&mut app).1);
+    let shown = app.notifications.shown.as_ref().map(|one| &*one.text);
+    let sentence = "`m₂·θ₁`, `m₂·θ₂` were removed from their axes: the text no longer defines all of their names.";
+    assert_eq!(shown, Some(sentence));
 }
 
 /// What the system has already needs no change of the text, however it is written.

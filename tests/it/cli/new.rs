@@ -58,7 +58,7 @@ fn the_notation_of_the_screen_is_written_plainly() {
     let checked = read(&plain).unwrap();
     assert_eq!(checked.plain, [], "what is plain is left alone");
     let wrong = PENDULUM.replace("theta'^2", "θ′ 2");
-    with_file(&wrong, &["fmt", "system.toml"]).fails(65, &["a number stands behind", "1 error"]);
+    with_file(&wrong, &["fmt", "system.toml"]).fails(65, &["a number comes after", "1 error"]);
 }
 
 #[test]

@@ -126,10 +126,13 @@ fn what_is_made_of_nothing_is_an_error() {
     };
     check(
         &[&made("b", "inverse", "\"sher\"", ""), SHEAR],
-        &["unknown transformation `sher` above"],
+        &["unknown transformation `sher`: only those above this one"],
     );
     check(&[SHEAR, &made("b", "inverse", "\"sheer\"", "")], &["did you mean `shear`?"]);
-    check(&[SHEAR, &made("b", "inverse", "\"b\"", "")], &["unknown transformation `b` above"]);
+    check(
+        &[SHEAR, &made("b", "inverse", "\"b\"", "")],
+        &["unknown transformation `b`: only those above this one"],
+    );
     check(&[SHEAR, &made("b", "compose", "\"shear\"", "")], &["two or more"]);
     check(
         &[SHEAR, &made("b", "inverse", "\"shear\", \"shear\"", "")],

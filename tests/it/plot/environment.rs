@@ -100,7 +100,12 @@ fn ascii_spells_what_it_cannot_show() {
     check("θ̇₁ [rad/s]", "theta1' [rad/s]");
     check("½ m l² θ̇² + m g l cos θ", "1/2 m l^2 theta'^2 + m g l cos theta");
     check("kg m² s⁻¹⁰", "kg m^2 s^-10");
-    check("∂L/∂φ = 0 ⇒ p_φ − const", "dL/dphi = 0 => p_phi - const");
+    check("∂L/∂φ = 0 ⇒ p_φ − const", "d_phi L = 0 => p_phi - const");
+    // a partial derivative is no total one
+    check("dG/dt = [G, H] + ∂G/∂t", "dG/dt = [G, H] + d_t G");
+    check("d/dt(∂L/∂q̇₁) − ∂L/∂q₁", "d/dt(d_q1' L) - d_q1 L");
+    check("det ∂²S/∂q∂α, ∂²H/∂p²", "det d_q d_alpha S, d_p^2 H");
+    check("∂(Q, P)/∂t, ∂/∂x, ∂φ", "d_t (Q, P), d_x, dphi");
     check("日", "?");
     assert_eq!(Braille.text("θ₁²"), "θ₁²");
 }
