@@ -5,9 +5,9 @@ mod accuracy;
 mod branches;
 mod far;
 mod kinks;
-mod narrow;
 mod piecewise;
 mod roots;
+mod saturated;
 mod steps;
 
 use phaselab::integrate::{METHODS, Settings, Stepper};

@@ -544,7 +544,7 @@ fn a_map_that_moves_has_the_grid_of_the_instant() {
             let parts = if way.starts_with("kind = \"F2\"") {
                 ["½ P²", "½ Q²", "⅕ t Q"]
             } else {
-                ["½ P²", "0.02 (5 Q + t)²", "− 0.02"]
+                ["½ P²", "½ (Q + ⅕ t)²", "− 0.02"]
             };
             assert!(parts.iter().all(|part| k.contains(part)), "{k}");
         }

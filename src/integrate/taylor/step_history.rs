@@ -21,10 +21,6 @@ pub(super) struct StepHistory {
     is_leaving: bool,
     /// Whether the motion approaches, or passes closely, a point where a power is zero.
     pub(super) is_passing: bool,
-    /// How wide the place in the law is before which the last step had to end.
-    pub(super) narrow: Option<f64>,
-    /// The size of the steps from which on the motion is no longer in a narrow place.
-    out_of: f64,
     /// Whether no series continues from the current state.
     pub(super) landed: bool,
     /// The step before which the motion was last taken to touch rest, and did not.
@@ -41,8 +37,6 @@ impl Default for StepHistory {
             last: f64::INFINITY,
             is_leaving: false,
             is_passing: false,
-            narrow: None,
-            out_of: 0.0,
             landed: false,
             touch_tried: f64::INFINITY,
             leaps: (0, f64::NAN),
@@ -53,15 +47,7 @@ impl Default for StepHistory {
 /// A step is long from this part of the longest one on.
 const LONG: f64 = 0.1;
 
-/// A motion is out of a narrow place when its steps are this many times as long as that is wide.
-const OUT_OF: f64 = 10.0;
-
 impl StepHistory {
-    /// Whether the motion is in a place of the law that is narrow, where steps may be short.
-    pub(super) fn is_in_narrow_place(&self) -> bool {
-        self.out_of > 0.0
-    }
-
     /// Whether the last step was about as long as any since the last kink.
     pub(super) fn is_long(&self) -> bool {
         self.last >= LONG * self.stride
@@ -104,14 +90,5 @@ impl StepHistory {
     pub(super) fn stepped(&mut self, size: f64, landed: bool, turned: bool) {
         (self.last, self.landed) = (size, landed);
         self.stride = if turned { size } else { self.stride.max(size) };
-        if let Some(width) = self.narrow.take() {
-            // what follows is as short as that place is narrow
-            (self.stride, self.out_of) = (width, OUT_OF * width);
-        } else if size > self.out_of {
-            self.out_of = 0.0;
-        } else {
-            // nothing there is short beside the steps before
-            self.stride = size;
-        }
     }
 }

@@ -94,7 +94,7 @@ fn an_error_is_reported_at_its_place_in_the_whole_text() {
         ("[x, y +]", "", "too early"),
         ("x, y, p_x", " p_x", "third"),
         ("x, ", "", "missing"),
-        ("x 2", "x 2", "in front"),
+        ("x 2", "x 2", "comes after"),
     ] {
         let Err(diagnostic) = Inquiry::of(&model, &equations, text, equations.pool.cancel()) else {
             panic!("{text} is read")

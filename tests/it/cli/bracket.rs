@@ -84,7 +84,8 @@ fn wrong_words_get_a_caret() {
     with_file(PENDULUM, &["bracket", "system.toml", "theta", "thet'"])
         .fails(2, &["unknown name `thet`", "did you mean `theta'`?", "G: "]);
     phaselab(&["bracket", "pendulum", "theta"]).fails(2, &["<G>"]);
-    phaselab(&["bracket", "pendulum", "theta", "1", "--set", "q=1"]).fails(2, &["no parameter"]);
+    phaselab(&["bracket", "pendulum", "theta", "1", "--set", "q=1"])
+        .fails(2, &["unknown parameter"]);
 }
 
 /// A map without a closed form, at any time: its brackets follow from derivatives of its relations.

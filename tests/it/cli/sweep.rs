@@ -198,7 +198,7 @@ fn a_resumed_sweep_goes_on_and_computes_no_row_again() {
     assert!(!path("out.csv.journal").exists());
     sweep(&["-o", "out.csv", "--resume"]).says("out.csv is complete");
     fs::write(path("other.csv"), "x\n1\n").unwrap();
-    sweep(&["-o", "other.csv", "--resume"]).fails(2, &["not of this sweep"]);
+    sweep(&["-o", "other.csv", "--resume"]).fails(2, &["does not belong to this sweep"]);
     assert_eq!(fs::read_to_string(path("other.csv")).unwrap(), "x\n1\n");
 }
 

@@ -109,7 +109,7 @@ fn what_a_file_says_of_a_step_is_checked() {
         ("step = \"h\"", "step = \"2*h\"", "`step` is not a step of `symplectic-euler`"),
         ("step = \"h\"", "step = \"-h\"", "its step is not above 0"),
         ("symplectic-euler", "symplectic-eular", "did you mean `symplectic-euler`?"),
-        ("symplectic-euler", "taylor", "methods of fixed step are"),
+        ("symplectic-euler", "taylor", "fixed-step methods are"),
         ("symplectic-euler", "rk4", "`step` is not a step of `rk4`"),
     ] {
         let found = diagnostics(&ENTANGLED.replace(from, to));

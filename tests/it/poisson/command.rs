@@ -15,7 +15,7 @@ fn derive_prints_brackets_casimirs_and_rates() {
     ] {
         assert!(page.contains(lines), "no {lines} in {page}");
     }
-    assert!(page.contains("\nEquations of motion\n  L̇₁ = "), "{page}");
+    assert!(page.contains("\nEquations of motion\n  L₁′ = "), "{page}");
     assert!(!page.contains("Cyclic") && !page.contains("Momenta"), "{page}");
 
     let object = with_file(BODY, &["derive", "system.toml", "--format", "json"]).json();
