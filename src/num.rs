@@ -23,6 +23,7 @@ mod format;
 mod four_lanes;
 mod horner;
 mod instruction_set;
+mod interval;
 pub mod math;
 mod number;
 mod polytope;
@@ -47,6 +48,7 @@ pub use format::{
 pub use four_lanes::{FourLaneKernel, FourLanes, LANES, ScalarLanes, in_four_lanes};
 pub use horner::{Polynomial, four_tails, padded, polynomial, tail, tails};
 pub use instruction_set::{Kernel, vectorized};
+pub use interval::Interval;
 pub use number::{Number, gcd};
 pub use polytope::OrientationPolytope;
 pub use power_series::{cosine_of_arctangent, cosine_of_half, square_root};

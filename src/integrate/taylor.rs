@@ -25,7 +25,6 @@ mod order_bounds;
 mod rough_logarithms;
 mod start_slope;
 mod static_friction;
-mod steep;
 mod step_end;
 mod step_history;
 mod step_screen;
@@ -34,6 +33,7 @@ mod sticking;
 mod touch;
 mod trial_velocities;
 mod unit_of_time;
+mod verification;
 
 pub(super) use batch::TaylorBatch;
 use collocation_step::CollocationStep;
@@ -48,7 +48,7 @@ use super::method::{Method, MethodError, Preserves, Settings, Stepping};
 use super::stepper::Stepper;
 use crate::num::DoubleDouble;
 use crate::system::{
-    ExactRates, MotionError, MotionErrorKind, Series, Side, State, StepSeries, System,
+    Enclosure, ExactRates, MotionError, MotionErrorKind, Series, Side, State, StepSeries, System,
 };
 
 /// The default tolerance. It is far below the last digit shown, so that the results carry the error
@@ -91,6 +91,7 @@ pub(super) struct Taylor {
     history: StepHistory,
     kinks: Kinks,
     rates: ExactRates,
+    enclosure: Enclosure,
     bridge: CollocationStep,
     /// The sizes of the numbers where the motion began.
     sizes: Vec<f64>,
@@ -122,6 +123,7 @@ impl Taylor {
         let series = system.series(order, exact);
         let (rates, bridge) =
             (system.exact_rates(), CollocationStep::new(system.state_len(), system.moving()));
+        let enclosure = system.enclosure();
         let system = system.clone();
         Ok(Taylor {
             system,
@@ -135,6 +137,7 @@ impl Taylor {
             history: StepHistory::default(),
             kinks: Kinks::default(),
             rates,
+            enclosure,
             bridge,
             sizes: Vec::new(),
             course: StepCourse::Series,
@@ -282,6 +285,7 @@ impl Stepper for Taylor {
         self.series.set_parameters(&parameters);
         self.series.set_scale(1.0);
         self.rates.set_parameters(&parameters);
+        self.enclosure.set_parameters(&parameters);
         self.kinks.begin(&mut self.series, &mut self.rates, &self.state)
     }
 

@@ -172,6 +172,16 @@ impl BatchSeries {
         self.builder.jet.steep_poles()
     }
 
+    /// The series of what is divided by.
+    pub fn divisors(&self) -> impl Iterator<Item = &[Batch]> {
+        self.builder.jet.divisors()
+    }
+
+    /// The series of the arguments of tangents, each with what is to be taken from it to have the pole at π/2.
+    pub fn tangents(&self) -> impl Iterator<Item = (&[Batch], f64)> {
+        self.builder.jet.tangents()
+    }
+
     /// Writes the states at times after the origins into `out`, in the lanes that have one, by the
     /// polynomials.
     pub fn states_after(

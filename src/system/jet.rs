@@ -267,6 +267,16 @@ impl<R: Coefficient> Jet<R> {
         })
     }
 
+    /// The series of what is divided by.
+    pub fn divisors(&self) -> impl Iterator<Item = &[R]> {
+        self.tables.index.divisors.iter().map(|&u| self.series(u))
+    }
+
+    /// The series of the arguments of tangents, each with what is to be taken from it to have the pole at π/2.
+    pub fn tangents(&self) -> impl Iterator<Item = (&[R], f64)> {
+        self.tables.index.tangents.iter().map(|&(u, zero)| (self.series(u), -zero))
+    }
+
     pub(super) fn series(&self, register: Register) -> &[R] {
         let Tables { series, stride, index, .. } = &self.tables;
         &series[index.start(register, *stride)..][..*stride]

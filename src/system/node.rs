@@ -46,7 +46,9 @@ impl Lowering<'_> {
             return self.lower(opened);
         }
         let degree = |&(base, exponent): &(Expr, Number)| {
-            exponent.as_integer().filter(|&n| n > 0 && !self.is_fixed(self.known[&base]))
+            let n = exponent.as_integer();
+            let n = n.filter(|&n| n > 0 && !self.is_fixed(self.known[&base]))?;
+            Some(n.saturating_mul(self.lowest_degree(base)))
         };
         let degree = factors.iter().filter_map(degree).fold(0_i64, i64::saturating_add);
         self.program.steep |= degree >= STEEP;
@@ -72,6 +74,22 @@ impl Lowering<'_> {
             (None, None) => self.constant(DoubleDouble::ONE),
         };
         parts[3].map_or(above, |below| self.push(Op::Divide(above, below)))
+    }
+
+    /// The degree of the lowest terms of a sum of powers without a constant; 1 of anything else.
+    fn lowest_degree(&self, base: Expr) -> i64 {
+        let Node::Sum(constant, terms) = self.pool.node(base) else { return 1 };
+        if !constant.is_zero() {
+            return 1;
+        }
+        let degree = |&(_, term): &(Number, Expr)| match self.pool.node(term) {
+            Node::Product(_, factors) => factors
+                .iter()
+                .map(|(_, n)| n.as_integer().unwrap_or(0).max(0))
+                .fold(0_i64, i64::saturating_add),
+            _ => 1,
+        };
+        terms.iter().map(degree).min().unwrap_or(1).max(1)
     }
 
     /// Lowers a power with a numeric exponent. Returns true if it belongs in the denominator.

@@ -360,6 +360,16 @@ impl Series {
         self.high.jet.steep_poles()
     }
 
+    /// The series of what is divided by.
+    pub fn divisors(&self) -> impl Iterator<Item = &[f64]> {
+        self.high.jet.divisors()
+    }
+
+    /// The series of the arguments of tangents, each with what is to be taken from it to have the pole at π/2.
+    pub fn tangents(&self) -> impl Iterator<Item = (&[f64], f64)> {
+        self.high.jet.tangents()
+    }
+
     /// Writes the state at a time `after` the origin into `out`, by the polynomials.
     pub fn state_after(&self, after: DoubleDouble, out: &mut State) {
         let x = after * self.scale.recip();

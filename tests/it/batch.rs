@@ -259,6 +259,33 @@ fn an_orbit_that_leaves_the_ordinary_is_carried_alone_and_the_others_go_on() {
     assert_eq!(arrived, [false, true, true, false]);
 }
 
+/// Side by side, none passes a barrier that its series does not show.
+#[test]
+fn thin_barriers_reflect_every_orbit() {
+    let ready = line("1/2*x'^2 - 1e-25/x^2", "");
+    assert!(goes_side_by_side(&ready));
+    let first = ready.system.initial(0.0, &ready.model.parameter_values(), &[]).unwrap();
+    let states: Vec<State> = (0..BATCH + 3)
+        .map(|i| {
+            let mut state = first.clone();
+            (state.values[0], state.values[1]) = (1.0 + 0.1 * i as f64, [-1.0, 0.5][i % 2]);
+            state
+        })
+        .collect();
+    let from: Vec<Option<&State>> = states.iter().map(Some).collect();
+    for tolerance in TOLERANCES {
+        let flow = flow(&ready, tolerance);
+        let together = flow.carry_all(&from, &[0.0, 5.0], &[0], |_| ()).unwrap();
+        for (i, (one, state)) in together.iter().zip(&states).enumerate() {
+            assert_eq!(bits(one), bits(&flow.carry(state, &[0.0, 5.0], &[0])), "{tolerance} {i}");
+            let start = 1.0 + 0.1 * i as f64;
+            let expected = [5.0 - start, start + 2.5][i % 2];
+            let end = one.end.as_ref().expect("it arrives").values[0];
+            assert!((end - expected).abs() < 1e-7, "{tolerance} {i}: {end}, not {expected}");
+        }
+    }
+}
+
 /// An orbit that takes more steps than are allowed is given up, after as many of them whether it is carried alone or not.
 #[test]
 fn an_orbit_that_takes_too_many_steps_is_given_up() {

@@ -5,6 +5,7 @@ mod accuracy;
 mod branches;
 mod far;
 mod kinks;
+mod narrow;
 mod piecewise;
 mod roots;
 mod saturated;

@@ -10,6 +10,7 @@ use super::decimal_limit::DecimalLimit;
 use super::expansion::{NEARBY_UNITS, UnitTrial, UnitTrials};
 use super::step_end::{SOON_STALLED, VANISHING_IN_F64};
 use super::unit_of_time::UnitOfTime;
+use super::verification::may_hide_in_lane;
 use super::{EXACT_BELOW, METHOD, part_of_step, step_size};
 use crate::integrate::lane_status::LaneStatus;
 use crate::integrate::method::{Method, Settings};
@@ -116,7 +117,12 @@ impl TaylorBatch {
             if going[i] {
                 let scale = self.series.scale().0[i].abs();
                 match lane.choose(steps[i], scale, left[i]) {
-                    Some(chosen) if self.series.keeps_digits(i) => after[i] = chosen,
+                    Some(chosen)
+                        if self.series.keeps_digits(i)
+                            && !may_hide_in_lane(&self.series, i, (chosen.high / scale).abs()) =>
+                    {
+                        after[i] = chosen;
+                    }
                     _ => lane.status = LaneStatus::Irregular,
                 }
             }

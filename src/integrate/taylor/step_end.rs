@@ -6,9 +6,9 @@
 
 use super::branches::Passing;
 use super::kinks::{KinkCrossing, represents};
-use super::{Taylor, branches, hold_on_kinks, steep};
+use super::{Taylor, branches, hold_on_kinks};
 use crate::num::DoubleDouble;
-use crate::system::{MotionError, MotionErrorKind, Side};
+use crate::system::{MotionError, MotionErrorKind};
 
 /// A step shorter than this part of those before it ends at a point where a series has no radius of convergence.
 const VANISHING: f64 = 1e-11;
@@ -86,12 +86,15 @@ impl Taylor {
     ) -> Result<bool, MotionError> {
         let (time, scale) = (self.state.time.abs(), self.series.scale());
         let may_turn = self.series.switches() > 0 || self.series.is_steep();
-        if may_turn || step <= SMALLEST * time || self.vanishes(step) {
+        if may_turn || step <= self.smallest() * time || self.vanishes(step) {
             return Ok(false);
         }
         let last = step >= left.high.abs();
         let after = if last { left } else { DoubleDouble::from(step.copysign(left.high)) };
-        if branches::may_stray(&self.series, after.high / scale) {
+        let x = after.high / scale;
+        if branches::may_stray(&self.series, x)
+            || self.may_hide(x) && self.agreeing_part(after)? < 1.0
+        {
             return Ok(false);
         }
         self.begin = self.state.time;
@@ -110,7 +113,14 @@ impl Taylor {
     /// Whether a step is so short that it ends at a point where a series has no radius of convergence.
     fn vanishes(&self, step: f64) -> bool {
         let part = if self.exact { VANISHING } else { VANISHING_IN_F64 };
-        step < part * self.history.stride || step < SOON_STALLED * self.state.time.abs()
+        let stalls = step < SOON_STALLED * self.state.time.abs();
+        step < part * self.history.stride || (stalls && !self.history.is_in_narrow_place())
+    }
+
+    /// How short a step may be relative to the time. The time is in double-double, but only before what is known to be narrow is
+    /// it worth while.
+    fn smallest(&self) -> f64 {
+        if self.history.is_in_narrow_place() { NEAREST } else { SMALLEST }
     }
 
     /// Where a step ends that may be this long, with `left` to go; `None` if another kind of step was taken instead.
@@ -137,13 +147,14 @@ impl Taylor {
         self.history.is_passing = zero.is_some() || (self.history.is_passing && vanishing);
         let approaching = self.history.is_passing || (vanishing && found.is_some());
         let nearest = approaching && step <= NEAREST * time;
-        let leaving = self.history.leads_away(step, SMALLEST * time);
+        let smallest = self.smallest() * time;
+        let leaving = self.history.leads_away(step, smallest);
         // nearer than that a number which goes to zero as well has no digits to gain
         let known = if nearest { (NEARLY, Some(&self.sizes[..])) } else { (LAST_DIGIT, None) };
         let crossing = found
             .filter(|crossing| !vanishing || crossing.is_known(&self.series, known.0, known.1));
         let zero = zero.filter(|&x| represents(&self.series, x, known));
-        let short = step <= SMALLEST * time && !approaching && !leaving;
+        let short = step <= smallest && !approaching && !leaving;
         if short || (nearest && crossing.is_none() && zero.is_none()) {
             let kind = MotionErrorKind::StepUnderflow(step);
             return Err(self.system.error(kind, self.state.time, &self.state.values));
@@ -156,13 +167,15 @@ impl Taylor {
             }
             None => StepEnd { after, crossing: None, last, landed: false, vanishing },
         };
-        let hardly_moves = step < TOUCHING * self.history.stride || step < STALLED * time;
+        let stalled = step < STALLED * time && !self.history.is_in_narrow_place();
+        let hardly_moves = step < TOUCHING * self.history.stride || stalled;
         if let Some(x) = zero {
             (end_of_step.last, end_of_step.landed) = (false, true);
             end_of_step.after = DoubleDouble::from(x * scale);
         } else if vanishing
             && !approaching
             && hardly_moves
+            && !self.meets_pole(BEYOND * step / scale.abs())?
             && self.leap(left.high, BEYOND * step)?
         {
             return Ok(None);
@@ -272,51 +285,33 @@ impl Taylor {
     }
 
     /// Advances along the series and shortens the step until no root has left its branch there, and
-    /// no steep power is missed.
+    /// the law within it does not contradict its series.
     /// Returns the part of the time that is left.
     fn advance(&mut self, after: DoubleDouble) -> Result<f64, MotionError> {
         let (mut part, scale) = (1.0, self.series.scale());
-        let steep = self.series.is_steep() && !self.series.sides().contains(&Side::Between);
-        if !steep && !branches::may_stray(&self.series, after.high / scale) {
-            self.series.state_after(after, &mut self.state);
+        if self.may_hide(after.high / scale) {
+            part = self.agreeing_part(after)?;
+        }
+        if !branches::may_stray(&self.series, after.high * part / scale) {
+            self.series.state_after(after * part, &mut self.state);
             return Ok(part);
         }
         let from = self.state.clone();
         for _ in 0..HALVINGS {
             let x = after.high * part / scale;
-            if !(steep && self.misses_a_steep_power(after * part)?) {
-                self.series.state_after(after * part, &mut self.state);
-                if self.series.guards() == 0 {
-                    return Ok(part);
-                }
-                let outcome = self.evaluate_rates();
-                if outcome.is_ok() && !branches::strayed(&self.series, x, &self.rates) {
-                    return Ok(part);
-                }
+            self.series.state_after(after * part, &mut self.state);
+            if self.series.guards() == 0 {
+                return Ok(part);
+            }
+            let outcome = self.evaluate_rates();
+            if outcome.is_ok() && !branches::strayed(&self.series, x, &self.rates) {
+                return Ok(part);
             }
             part *= 0.5;
         }
         self.state = from;
         let kind = MotionErrorKind::StepUnderflow(after.high * part);
         Err(self.system.error(kind, self.state.time, &self.state.values))
-    }
-
-    /// Whether the rates within a step, up to near its end, where kinks are, are not those of the series.
-    fn misses_a_steep_power(&mut self, after: DoubleDouble) -> Result<bool, MotionError> {
-        for part in steep::parts(&self.series) {
-            let within = after * part;
-            self.series.state_after(within, &mut self.state);
-            match self.evaluate_rates() {
-                Err(error) if error.kind == MotionErrorKind::Cancelled => return Err(error),
-                Err(_) => return Ok(true),
-                Ok(()) => {}
-            }
-            let x = within.high / self.series.scale();
-            if steep::missed(&self.series, x, &self.rates, self.tolerance) {
-                return Ok(true);
-            }
-        }
-        Ok(false)
     }
 
     /// Sets numbers that have reached zero to exactly zero.

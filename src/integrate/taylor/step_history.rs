@@ -21,6 +21,12 @@ pub(super) struct StepHistory {
     is_leaving: bool,
     /// Whether the motion approaches, or passes closely, a point where a power is zero.
     pub(super) is_passing: bool,
+    /// How wide the place in the law is before which the last step had to end.
+    pub(super) narrow: Option<f64>,
+    /// The size of the steps from which on the motion is no longer in a narrow place.
+    out_of: f64,
+    /// How many steps in succession had to end before such a place.
+    shortened: u32,
     /// Whether no series continues from the current state.
     pub(super) landed: bool,
     /// The step before which the motion was last taken to touch rest, and did not.
@@ -37,6 +43,9 @@ impl Default for StepHistory {
             last: f64::INFINITY,
             is_leaving: false,
             is_passing: false,
+            narrow: None,
+            out_of: 0.0,
+            shortened: 0,
             landed: false,
             touch_tried: f64::INFINITY,
             leaps: (0, f64::NAN),
@@ -47,7 +56,25 @@ impl Default for StepHistory {
 /// A step is long from this part of the longest one on.
 const LONG: f64 = 0.1;
 
+/// A motion is out of a narrow place when its steps are this many times as long as that is wide.
+const OUT_OF: f64 = 10.0;
+
+/// So many steps in succession end before a narrow place; the next one is taken as its series allows. From the foot of a wall on
+/// the series shows it, so that a few are enough.
+const SHORTENED: u32 = 64;
+
 impl StepHistory {
+    /// Whether a step may end before a narrow place.
+    pub(super) fn may_be_shortened(&mut self) -> bool {
+        self.narrow = None;
+        self.shortened < SHORTENED
+    }
+
+    /// Whether the motion is in a place of the law that is narrow, where steps may be short.
+    pub(super) fn is_in_narrow_place(&self) -> bool {
+        self.out_of > 0.0
+    }
+
     /// Whether the last step was about as long as any since the last kink.
     pub(super) fn is_long(&self) -> bool {
         self.last >= LONG * self.stride
@@ -90,5 +117,18 @@ impl StepHistory {
     pub(super) fn stepped(&mut self, size: f64, landed: bool, turned: bool) {
         (self.last, self.landed) = (size, landed);
         self.stride = if turned { size } else { self.stride.max(size) };
+        if let Some(width) = self.narrow.take() {
+            // what follows is as short as that place is narrow
+            (self.stride, self.out_of) = (width, OUT_OF * width);
+            self.shortened += 1;
+            return;
+        }
+        self.shortened = 0;
+        if size > self.out_of {
+            self.out_of = 0.0;
+        } else {
+            // nothing there is short beside the steps before
+            self.stride = size;
+        }
     }
 }

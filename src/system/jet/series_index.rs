@@ -17,6 +17,10 @@ pub(super) struct SeriesIndex {
     pub(super) arguments: Vec<(FunctionId, Register)>,
     /// The bases of high negative powers.
     pub(super) steep_poles: Vec<SteepPole>,
+    /// What is divided by.
+    pub(super) divisors: Vec<Register>,
+    /// The arguments of tangents, each with what is to be taken from it to have the pole at π/2.
+    pub(super) tangents: Vec<(Register, f64)>,
     /// For each register of the program, its place among these; [`NOWHERE`] if it has none.
     places: Vec<u32>,
 }
@@ -82,6 +86,10 @@ impl SeriesIndex {
         for pole in &steep_poles {
             wanted[pole.base as usize] = true;
         }
+        let divisors = divisors(program);
+        for &divisor in &divisors {
+            wanted[divisor as usize] = true;
+        }
         let registers: Vec<Register> =
             (0..).zip(&wanted).filter_map(|(r, wanted)| wanted.then_some(r)).collect();
         let mut places = vec![NOWHERE; wanted.len()];
@@ -95,8 +103,14 @@ impl SeriesIndex {
             Op::Call(function, [argument, _]) => Some((function, argument)),
             _ => None,
         });
-        let arguments = arguments.collect();
-        SeriesIndex { registers, copies, arguments, steep_poles, places }
+        let arguments: Vec<(FunctionId, Register)> = arguments.collect();
+        let tangents = arguments.iter().filter_map(|&(function, u)| match function {
+            FunctionId::Tan => Some((u, 0.0)),
+            FunctionId::Cot => Some((u, std::f64::consts::FRAC_PI_2)),
+            _ => None,
+        });
+        let tangents = tangents.collect();
+        SeriesIndex { registers, copies, arguments, steep_poles, divisors, tangents, places }
     }
 
     /// Where the series of a register begins, if they are `stride` apart.
@@ -132,6 +146,24 @@ fn steep_poles(program: &Program) -> Vec<SteepPole> {
         }
     }
     poles
+}
+
+/// The varying factors of what is divided by, each once.
+fn divisors(program: &Program) -> Vec<Register> {
+    let mut divisors = Vec::new();
+    for &r in &program.body {
+        let below = match program.ops[r as usize] {
+            Op::Divide(_, below) if !program.fixed[below as usize] => factors(program, below),
+            Op::Power(base, exponent) if program.constants[exponent as usize].high < 0.0 => {
+                vec![(base, 1.0)]
+            }
+            _ => continue,
+        };
+        divisors.extend(below.into_iter().map(|(base, _)| base));
+    }
+    divisors.sort_unstable();
+    divisors.dedup();
+    divisors
 }
 
 /// The varying factors that are multiplied in a register, each with its degree.
