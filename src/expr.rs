@@ -67,7 +67,7 @@ pub use parse::{LEFT_TO_RIGHT, parse, parse_all};
 pub use plain::EULER;
 pub use pool::{NODE_LIMIT, Pool};
 pub use range::{is_never_negative, keeps_its_sign};
-pub use spelling::{spell, spelt, subscript};
+pub use spelling::{spell, spelt, spelt_derivatives, subscript};
 pub use symbol::{Rank, Symbol, SymbolInfo};
 pub use syntax::{BinaryOperator, Resolve, Span, Syntax, SyntaxError, SyntaxKind};
 pub use zero_test::Zero;

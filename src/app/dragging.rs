@@ -3,8 +3,8 @@
 //! In: the place of the mouse in the units of the picture. Out: initial values, at rest. Never here: the mouse, or where anything is
 //! on the screen.
 
-use super::Lab;
 use super::dragged_mass::DraggedMass;
+use super::{Effect, Lab};
 use crate::instrument::CameraPose;
 use crate::system::InitialOverride;
 
@@ -34,6 +34,24 @@ impl Lab {
     pub(super) fn dragged_to(&mut self, at: [f64; 2]) -> Option<Vec<InitialOverride>> {
         let now = self.valuation();
         self.dragged.as_mut()?.drag_to(&self.loaded, &now, at)
+    }
+
+    /// Starts the motion with the values of a mass that is dragged for the first time since it was taken hold of. Its picture, which
+    /// shows these ranges, keeps them.
+    pub(super) fn start_drag(
+        &mut self,
+        values: &[InitialOverride],
+        (eye, ranges): (CameraPose, [[f64; 2]; 2]),
+    ) -> Vec<Effect> {
+        let before = self.earlier_window.clone();
+        self.keep_windows();
+        let plane = [0, 1].map(|k| {
+            let [low, high] = ranges[k].map(|end| end - eye.pan[k] * (ranges[k][1] - ranges[k][0]));
+            let (middle, half) = (f64::midpoint(low, high), (high - low) / 2.0 * eye.zoom);
+            [middle - half, middle + half]
+        });
+        self.earlier_window = self.earlier_window.clone().with_plane(eye.view, plane);
+        self.start_in_window(values, before)
     }
 
     /// Lets go of the mass. The initial values at which it was left, if an angle is beyond the turn about zero, to which it is brought

@@ -14,6 +14,8 @@ pub(super) struct EarlierWindow {
     bounds: Arc<[(f64, f64)]>,
     /// The hulls of the points in space.
     hulls: Arc<[Hull]>,
+    /// The picture of a plane in which a mass was dragged last: its view of the file, and the ranges of its axes.
+    plane: Option<(Option<usize>, [[f64; 2]; 2])>,
 }
 
 impl EarlierWindow {
@@ -28,7 +30,18 @@ impl EarlierWindow {
             Some(earlier) => Hull { polytope: hull.polytope.joined(earlier), ..*hull },
             None => *hull,
         });
-        Self { bounds: bounds.collect(), hulls: hulls.collect() }
+        Self { bounds: bounds.collect(), hulls: hulls.collect(), plane: self.plane }
+    }
+
+    /// The same, and the ranges of a picture of a plane.
+    #[must_use]
+    pub(super) fn with_plane(self, view: Option<usize>, ranges: [[f64; 2]; 2]) -> Self {
+        Self { plane: Some((view, ranges)), ..self }
+    }
+
+    /// The ranges of the axes of a picture of a plane.
+    pub(super) fn plane(&self, view: Option<usize>) -> Option<[[f64; 2]; 2]> {
+        self.plane.filter(|(of, _)| *of == view).map(|(_, ranges)| ranges)
     }
 
     /// The least and greatest value of a channel.

@@ -152,6 +152,11 @@ impl Lab {
         self.earlier_window.hull(channels)
     }
 
+    /// The ranges that a picture of a plane has kept from before a mass was dragged in it.
+    pub fn plane_before(&self, eye: CameraPose) -> Option<[[f64; 2]; 2]> {
+        self.earlier_window.plane(eye.view).filter(|_| eye.frame.is_none())
+    }
+
     /// Keeps what the pictures show for the motion that is begun next.
     pub(super) fn keep_windows(&mut self) {
         let Some(snapshot) = &self.snapshot else { return };

@@ -161,7 +161,10 @@ impl App {
                 }
                 // what is dragged does not move by itself
                 let mut effects = vec![Effect::Execute(Command::Pause)];
-                effects.extend(lab.start(&values));
+                effects.extend(match lab.plots.get(index).and_then(Plot::eye) {
+                    Some(eye) => lab.start_drag(&values, (eye, window.ranges)),
+                    None => lab.start(&values),
+                });
                 effects
             }
             (

@@ -4,6 +4,7 @@
 //! is typed for. Never here: what a screen can show.
 
 use std::borrow::Cow;
+use std::ops::Range;
 
 /// Spells a text in ASCII. Characters without a spelling become `?`; combining dots become primes, as in `x'`; a partial
 /// derivative ∂G/∂t, which `dG/dt` is not, is `d_t G`.
@@ -45,6 +46,18 @@ fn with_indices(text: &str) -> Cow<'_, str> {
     }
     out.push_str(rest);
     Cow::Owned(out)
+}
+
+/// The partial derivatives of a text: the characters of each, counted from its first, and how it is spelt in ASCII.
+pub fn spelt_derivatives(text: &str) -> Vec<(Range<usize>, String)> {
+    let mut found = Vec::new();
+    for (count, (at, _)) in text.char_indices().enumerate().filter(|(_, (_, c))| *c == '∂') {
+        if let Some((.., after)) = partial_derivative(&text[at..]) {
+            let whole = &text[at..text.len() - after.len()];
+            found.push((count..count + whole.chars().count(), spell(whole)));
+        }
+    }
+    found
 }
 
 /// The function and the variables of the partial derivative that a text begins with, and what follows it.

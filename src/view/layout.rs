@@ -178,8 +178,12 @@ fn column(area: Rect, lab: &Lab, glyphs: Glyphs) -> Vec<(Slot, Rect)> {
     ];
     let mut heights = wants.map(|want| want.max(SHORTEST));
     let bare = 2 * gauges + 3 + focused;
-    // What a value means is below the panes too, and gives way to the rows of gauges; then reasons do, also to the equations of
-    // motion.
+    // What a value means is below the panes too, and gives way to the rows of gauges, and to reasons but for its first row; then
+    // reasons do, also to the equations of motion.
+    let excess = (heights.iter().sum::<u16>() + LAW_WITH_EQUATIONS).saturating_sub(area.height);
+    if heights[0].saturating_sub(parameters + 4) >= excess {
+        heights[0] -= excess;
+    }
     for (list, least, law) in [(0, parameters + 2, LAW), (2, bare, LAW_WITH_EQUATIONS)] {
         let excess = (heights.iter().sum::<u16>() + law).saturating_sub(area.height);
         heights[list] -= excess.min(heights[list].saturating_sub(least.max(SHORTEST)));

@@ -10,7 +10,7 @@ use unicode_width::UnicodeWidthStr;
 use super::canvas::{Canvas, Span, columns, row};
 use super::theme::Role;
 use crate::app::{PageSearch, smart_case};
-use crate::expr::spelt;
+use crate::expr::{spelt, spelt_derivatives};
 
 /// The characters of a text as they are compared, each in the letters in which it is spelt: `theta` and `θ` are the same, and so
 /// are `x^2` and `x²`.
@@ -33,13 +33,18 @@ fn prefix(text: &[Vec<char>], mut letters: &[char]) -> Option<usize> {
 
 /// Where some words stand in a row, counted in characters.
 fn places(line: &[Span], words: &str) -> Vec<Range<usize>> {
-    let text: String = line.iter().map(|(text, _)| text.as_str()).collect();
-    let (text, sought) = (folded(&text, words), folded(words, words).concat());
+    let row: String = line.iter().map(|(text, _)| text.as_str()).collect();
+    let (text, sought) = (folded(&row, words), folded(words, words).concat());
     if sought.is_empty() {
         return Vec::new();
     }
     let here = |at: usize| Some(at..at + prefix(&text[at..], &sought)?);
-    (0..text.len()).filter_map(here).collect()
+    let mut places: Vec<Range<usize>> = (0..text.len()).filter_map(here).collect();
+    // ∂G/∂t is found as a fraction, and as the d_t G that ASCII has
+    let is_typed = |spelling: &str| folded(spelling, words).concat().starts_with(&sought);
+    let derivatives = spelt_derivatives(&row).into_iter();
+    places.extend(derivatives.filter(|(_, text)| is_typed(text)).map(|(place, _)| place));
+    places
 }
 
 /// The rows in which some words stand.
@@ -122,6 +127,14 @@ mod tests {
         assert_eq!(found("eta", "θ and β"), none, "a letter is not found in part");
         assert_eq!(found("the", "θ"), none);
         assert_eq!(found("?", "✦"), none, "what has no spelling is itself");
+        assert_eq!(found("d_t", "E   ∂L/∂t = 0"), only(4..9));
+        assert_eq!(found("d_t L", "E   ∂L/∂t = 0, dL/dt"), only(4..9));
+        assert_eq!(found("dL/dt", "∂L/∂t = 0"), only(0..5));
+        assert_eq!(found("d_p_theta", "∂H/∂p_θ"), only(0..7));
+        assert_eq!(found("d_t", "∂L/∂q, d_θ"), none);
+        for rate in ["θ′", "θ\u{307}"] {
+            assert_eq!(found("theta'", rate), only(0..2));
+        }
         assert_eq!(found("", "θ"), none);
     }
 }

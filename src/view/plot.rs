@@ -12,7 +12,7 @@ mod stroke;
 pub mod ticks;
 
 pub use axes::{Axes, DrawnAxis};
-pub use camera::{Bounds, Camera, Extent};
+pub use camera::{Bounds, Camera, Extent, MARGIN};
 pub use depth::{DepthBuffer, Visibility};
 pub use raster::{Ages, CachedTrail, Letters, Marker, Pen, Raster};
 pub use scale::{PlotFrame, Scale, ScaleKind};

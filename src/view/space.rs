@@ -8,6 +8,7 @@ mod body;
 mod circle;
 mod colours;
 mod common_scale;
+mod edge_block;
 mod filling;
 mod ghost;
 mod line;
@@ -272,8 +273,10 @@ impl ScenePainter<'_> {
                 self.limb(self.point(centre), self.q.number(*radius).abs(), &ground);
             }
             Shape::Path { points } => {
+                let rests = points.iter().all(|point| scene::rests(self.q, point));
+                let pen = if rests && self.range.is_none() { &fixed } else { &ground };
                 let points: Vec<_> = points.iter().map(|point| self.point(point)).collect();
-                self.curve(&points, &ground);
+                self.curve(&points, pen);
             }
             Shape::Body { at } => self.body(at),
             Shape::Plane { at, normal, size } => {

@@ -142,11 +142,11 @@ impl Theme {
         Shade { style: self[role], coverage, dash: Dash::Full }
     }
 
-    /// A style as it looks at a distance: `far` is 0 at the front of the picture and 1 at its back. Among few colours, and
+    /// A style as it looks at a distance, still legible: `far` is 0 at the front of the picture and 1 at its back. Among few colours, and
     /// without any, only the farther half is dimmed.
     pub fn receding(&self, style: Style, far: f64) -> Style {
         let own = style.fg.and_then(Rgb::of).unwrap_or(self.palette.foreground);
-        let Rgb(r, g, b) = own.mix(self.palette.background, 0.6 * far);
+        let Rgb(r, g, b) = self.palette.faded(own, 0.6 * far);
         match self.depth {
             _ if far <= 0.0 => style,
             ColourDepth::True => style.fg(Color::Rgb(r, g, b)),
@@ -189,7 +189,7 @@ impl Theme {
         found.map_or(style, |(_, colour)| style.fg(colour))
     }
 
-    /// The fading trail of the n-th series, from nearly the background to its colour, brightened.
+    /// The fading trail of the n-th series, from a faint one to its colour, brightened.
     ///
     /// The contrast with the background never decreases from one step to the next. Without colour, old steps are
     /// dimmed and thinned out.

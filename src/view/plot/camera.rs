@@ -10,6 +10,9 @@ use ratatui::layout::Rect;
 use super::scale::{PlotFrame, Scale};
 use crate::num::{OrientationPolytope, math};
 
+/// The size of a picture relative to what is in it; what is more keeps markers away from the edge.
+pub const MARGIN: f64 = 1.05;
+
 /// A view of space, orthographic or with slight perspective.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
@@ -95,8 +98,7 @@ impl Camera {
         let least = half(0).max(half(1)).max(f64::MIN_POSITIVE) * 1e-3;
         let scale = |k: usize| {
             let middle = low[k] / 2.0 + high[k] / 2.0;
-            // A margin of a twentieth keeps markers away from the edge.
-            let half = half(k).max(least) * 1.05 / self.zoom;
+            let half = half(k).max(least) * MARGIN / self.zoom;
             Scale::linear(middle - half, middle + half)
         };
         let fitted = PlotFrame::equal(scale(0), scale(1), area);

@@ -17,10 +17,14 @@ pub(super) const FORCES: [&str; 4] = ["centrifugal", "Coriolis", "Euler", "of th
 
 /// Draws the directions of the axes in the lower left corner, each as an arm with its name.
 pub(super) fn compass(canvas: &mut Canvas<'_>, area: Rect, camera: &Camera) {
-    if area.width < 30 || area.height < 14 {
-        return;
-    }
-    let corner = Rect { x: area.x + 1, y: area.bottom() - 6, width: 12, height: 6 };
+    let (width, height) = match area.height {
+        _ if area.width < 30 => return,
+        0..9 => return,
+        // a low picture leaves the room at its sides
+        9..14 => (9, 4),
+        _ => (12, 6),
+    };
+    let corner = Rect { x: area.x + 1, y: area.bottom() - height, width, height };
     let axes = [("x", [1.0, 0.0, 0.0]), ("y", [0.0, 1.0, 0.0]), ("z", [0.0, 0.0, 1.0])];
     let tips = axes.map(|(name, axis)| {
         let [right, up, _] = camera.project(axis);

@@ -6,7 +6,7 @@ use super::solid::Occluder;
 use crate::view::plot::Pen;
 
 /// The thickness, in columns, from which on a piece is drawn in blocks: two quarters of a cell across, however it turns.
-const THICK: f64 = 3.0;
+const THICK: f64 = 2.0;
 
 /// How a piece is drawn with tones. It follows from its size on the screen and not from its attitude, so that it does not change
 /// while it turns.
@@ -67,13 +67,13 @@ mod tests {
     }
 
     #[test]
-    fn what_is_thinner_than_three_columns_is_not_filled_from_that_side() {
+    fn what_is_thinner_than_two_columns_is_not_filled_from_that_side() {
         for column in [0.01, 5.0] {
             let of = |extents: [f64; 2]| PieceStyle::of(extents.map(|x| x * column), column);
-            assert_eq!(of([0.0, 2.9]), PieceStyle::Lines);
-            assert_eq!(of([2.9, 2.9]), PieceStyle::Lines);
-            assert_eq!(of([2.9, 3.1]), PieceStyle::Sheet);
-            assert_eq!(of([3.1, 3.1]), PieceStyle::Solid);
+            assert_eq!(of([0.0, 1.9]), PieceStyle::Lines);
+            assert_eq!(of([1.9, 1.9]), PieceStyle::Lines);
+            assert_eq!(of([1.9, 2.1]), PieceStyle::Sheet);
+            assert_eq!(of([2.1, 2.1]), PieceStyle::Solid);
         }
     }
 }

@@ -11,7 +11,7 @@ use crate::expr::{Expr, Symbol};
 use crate::instrument::CameraPose;
 use crate::model::{Point, Shape};
 use crate::num::{OrientationPolytope, math};
-use crate::view::plot::{Bounds, Camera, Extent, PlotFrame};
+use crate::view::plot::{Bounds, Camera, Extent, MARGIN, PlotFrame};
 use crate::view::quantity::{Quantities, QuantitySource};
 
 pub(super) struct Scene {
@@ -55,6 +55,13 @@ impl Scene {
                     let hull = extent.hull.map(|hull| hull.rounded(step));
                     *extent = Extent { low, high, hull, ..*extent };
                 }
+            }
+        }
+        if let Some([x, y]) = q.lab.plane_before(eye) {
+            // the margin is in these ranges
+            let corner = |k: usize| [x, y].map(|ends| within(ends, k));
+            for [x, y] in [0, 1].map(corner) {
+                scene.bounds = scene.bounds.with([x, y, 0.0]);
             }
         }
         match reference_frame {
@@ -216,6 +223,12 @@ impl Scene {
             self.points.push(point);
         }
     }
+}
+
+/// An end of a range without the margin that a camera leaves at each side.
+fn within([low, high]: [f64; 2], end: usize) -> f64 {
+    let half = (high - low) / 2.0 / MARGIN;
+    f64::midpoint(low, high) + if end == 0 { -half } else { half }
 }
 
 /// What is around the point that the camera follows, and around the same point of the comparison motion, in the picture of the

@@ -1,5 +1,5 @@
 //! Shaded surfaces, where the terminal has colours enough: a cell that a surface covers has a background, on which lines are
-//! drawn; the edges of surfaces are dots of braille where it is drawn with these, and blocks of a quarter of a cell elsewhere.
+//! drawn; the edges of surfaces are blocks of a quarter of a cell or, where it has four rows of dots, of a row of them.
 //!
 //! In: the dots that surfaces cover, how brightly they are lit. Out: backgrounds and blocks. Never here: lines, or
 //! terminals of few colours, where surfaces are dots.
@@ -9,6 +9,7 @@ use ratatui::layout::{Position, Rect};
 use ratatui::style::{Color, Style};
 use ratatui::symbols::pixel::QUADRANTS;
 
+use super::edge_block;
 use crate::view::glyphs::Glyphs;
 use crate::view::theme::{Theme, Tones};
 
@@ -174,15 +175,17 @@ impl Shading {
         }
     }
 
-    /// Draws the dots of a cell that surfaces cover in part, with those of a line that is their edge; returns whether it did. Other
-    /// lines yield to a surface that covers half of their cell, and marks stay.
+    /// Draws what surfaces cover of a cell that they cover in part: as a block, or as dots with those of a line that is their edge;
+    /// returns whether it did. Other lines yield to a surface that covers half of their cell, and marks stay.
     fn draw_edge(&self, index: usize, cell: &mut Cell, lined: bool) -> bool {
         let Some(covered) = self.braille.as_ref().map(|dots| dots[index]) else { return false };
         let quarters = &self.cells[index];
         let symbol = cell.symbol().chars().next().unwrap_or(' ');
         let blank = symbol == ' ';
         let is_braille = matches!(symbol, '\u{2800}'..='\u{28ff}');
-        if covered == u8::MAX || self.is_whole(quarters) || !blank && !is_braille {
+        let block = edge_block::nearest(covered);
+        let is_whole = if lined { self.is_whole(quarters) } else { block.is_none() };
+        if is_whole || !blank && !is_braille {
             return false;
         }
         let line = if blank { 0 } else { (u32::from(symbol) & 0xff) as u8 };
@@ -190,12 +193,16 @@ impl Shading {
         if !blank && !lined && !yields {
             return true;
         }
-        let dots = if lined { covered | line } else { covered };
-        cell.set_char(char::from_u32(0x2800 + u32::from(dots)).unwrap_or(symbol));
+        if let Some(block) = block.filter(|_| !lined) {
+            let tone = self.tone(whole(quarters)).unwrap_or_default();
+            cell.set_char(block).set_style(Style::reset().fg(tone));
+            return true;
+        }
+        cell.set_char(char::from_u32(0x2800 + u32::from(covered | line)).unwrap_or(symbol));
         let tones = quarters.iter().find(|quarter| quarter.count > 0).map(|quarter| quarter.tones);
         let tones = tones.and_then(|tones| self.tones.get(usize::from(tones)));
         // dots are sparser than a background, and brighter than it where they are as bright to the eye
-        if let Some(tone) = tones.and_then(|(tones, _)| tones.last()).filter(|_| blank || !lined) {
+        if let Some(tone) = tones.and_then(|(tones, _)| tones.last()).filter(|_| blank) {
             cell.set_style(Style::reset().fg(*tone));
         }
         true
@@ -204,11 +211,7 @@ impl Shading {
     /// The colours of the quarters that are covered. Those of a cell that differ by one tone have the same one: a block takes
     /// more bytes than a background, and its edge would move with every change of the light.
     fn colours(&self, quarters: &[Quarter; 4]) -> [Option<Color>; 4] {
-        let whole = quarters.iter().fold(Quarter::default(), |sum, quarter| Quarter {
-            count: sum.count + quarter.count,
-            light: sum.light + quarter.light,
-            tones: quarter.tones,
-        });
+        let whole = whole(quarters);
         let steps = quarters.map(|quarter| self.step(quarter));
         let one = quarters.iter().all(|quarter| quarter.tones == whole.tones);
         let apart = steps.iter().max().zip(steps.iter().min()).map_or(0, |(high, low)| high - low);
@@ -242,6 +245,16 @@ fn is_of_dots(symbol: &str) -> bool {
         blocks || matches!(c, '\u{2800}'..='\u{28ff}' | '\u{1fb00}'..='\u{1fbaf}')
     };
     symbol.chars().all(of_dots)
+}
+
+/// What is covered of a cell, with the tones of the last quarter of which something is.
+fn whole(quarters: &[Quarter; 4]) -> Quarter {
+    let covered = quarters.iter().filter(|quarter| quarter.count > 0);
+    covered.fold(Quarter::default(), |sum, quarter| Quarter {
+        count: sum.count + quarter.count,
+        light: sum.light + quarter.light,
+        tones: quarter.tones,
+    })
 }
 
 /// Whether nothing of a cell is covered.
@@ -316,9 +329,9 @@ mod tests {
         assert_eq!(cells, expected);
     }
 
-    /// With braille the covered dots of a cell are drawn, so that a rim is as round as a line; a line yields to them.
+    /// With the four rows of braille a block may fill one or three of them; a line yields to it.
     #[test]
-    fn an_edge_in_braille_is_its_dots() {
+    fn an_edge_beside_braille_is_a_block() {
         let shading = row(1, 3, Glyphs::Braille);
         let mut buffer = Buffer::empty(Rect::new(0, 0, 4, 1));
         buffer[(2, 0)].set_symbol("⠉");
@@ -327,7 +340,7 @@ mod tests {
         shading.draw(&mut buffer, &theme, |_| false);
         let cells: Vec<_> = buffer.content.iter().map(|cell| (cell.symbol(), cell.bg)).collect();
         let none = Color::Reset;
-        assert_eq!(cells, [(" ", Color::Blue), ("⡇", none), ("⡇", none), ("●", Color::Blue)]);
+        assert_eq!(cells, [(" ", Color::Blue), ("▌", none), ("▌", none), ("●", Color::Blue)]);
         assert_eq!(buffer[(2, 0)].fg, Color::Blue);
     }
 }

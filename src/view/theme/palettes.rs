@@ -36,7 +36,20 @@ impl Palette {
     pub fn is_dark(&self) -> bool {
         self.background.brightness() < self.foreground.brightness()
     }
+
+    /// A colour with a share of the background, or with as much of it as leaves a line legible.
+    pub(super) fn faded(&self, colour: Rgb, share: f64) -> Rgb {
+        let shares = (0..=FADES).rev().map(|step| share * f64::from(step) / f64::from(FADES));
+        let mut faded = shares.map(|share| colour.mix(self.background, share));
+        faded.find(|faded| faded.contrast(self.background) >= LINE).unwrap_or(colour)
+    }
 }
+
+/// The least contrast of a line with the background. Source: WCAG 2.2, "non-text contrast".
+const LINE: f64 = 3.0;
+
+/// The steps in which a colour is faded.
+const FADES: u32 = 16;
 
 /// Every palette; the first is the default.
 pub const PALETTES: [Palette; 5] = [DARK, LIGHT, CONTRAST, COLOUR_BLIND, TERMINAL];
@@ -75,7 +88,7 @@ const DARK: Palette = Palette {
         ink(0xe8_64_5a, Color::LightRed, BOLD, REVERSED),
         own(REVERSED, NONE),
         ink(0xd8_6f_a8, Color::LightMagenta, NONE, BOLD),
-        ink(0x60_74_a4, Color::DarkGray, NONE, DIM),
+        ink(0x6a_80_b2, Color::DarkGray, NONE, DIM),
     ],
     curves: [
         ink(0x4f_b3_e8, Color::Cyan, NONE, NONE),
@@ -87,7 +100,7 @@ const DARK: Palette = Palette {
         ink(0xb8_bc_c8, Color::Gray, NONE, NONE),
     ],
     heat: [
-        ink(0x4a_3f_8c, Color::LightBlue, NONE, NONE),
+        ink(0x6a_5f_c0, Color::LightBlue, NONE, NONE),
         ink(0x2f_7f_a8, Color::Cyan, NONE, NONE),
         ink(0x4f_bf_7a, Color::Yellow, NONE, NONE),
         ink(0xf5_e6_5a, Color::White, NONE, NONE),
@@ -113,7 +126,7 @@ const LIGHT: Palette = Palette {
         ink(0xb8_1c_1c, Color::Red, BOLD, REVERSED),
         own(REVERSED, NONE),
         ink(0xa0_2c_78, Color::Magenta, NONE, BOLD),
-        ink(0x7f_8f_b6, Color::DarkGray, NONE, DIM),
+        ink(0x6b_7c_a8, Color::DarkGray, NONE, DIM),
     ],
     curves: [
         ink(0x00_6a_a8, Color::Blue, NONE, NONE),
@@ -125,8 +138,8 @@ const LIGHT: Palette = Palette {
         ink(0x50_54_60, Color::Black, NONE, NONE),
     ],
     heat: [
-        ink(0xc8_b8_50, Color::Cyan, NONE, NONE),
-        ink(0x3f_a0_70, Color::DarkGray, NONE, NONE),
+        ink(0x9a_8a_20, Color::Cyan, NONE, NONE),
+        ink(0x2f_8a_5c, Color::DarkGray, NONE, NONE),
         ink(0x2a_60_90, Color::Red, NONE, NONE),
         ink(0x30_18_60, Color::Black, NONE, NONE),
     ],
@@ -189,7 +202,7 @@ const COLOUR_BLIND: Palette = Palette {
         ink(0xe8_72_22, Color::LightRed, BOLD, REVERSED),
         own(REVERSED, NONE),
         ink(0xe6_9f_d0, Color::LightMagenta, NONE, BOLD),
-        ink(0x5f_74_a0, Color::DarkGray, NONE, DIM),
+        ink(0x66_7b_a8, Color::DarkGray, NONE, DIM),
     ],
     curves: [
         ink(0x56_b4_e9, Color::LightCyan, NONE, NONE),
@@ -201,7 +214,7 @@ const COLOUR_BLIND: Palette = Palette {
         ink(0xe8_c8_e0, Color::White, NONE, NONE),
     ],
     heat: [
-        ink(0x3a_4a_80, Color::LightBlue, NONE, NONE),
+        ink(0x54_68_a8, Color::LightBlue, NONE, NONE),
         ink(0x56_84_b0, Color::Cyan, NONE, NONE),
         ink(0xc0_b0_60, Color::LightYellow, NONE, NONE),
         ink(0xff_f4_b0, Color::White, NONE, NONE),

@@ -25,10 +25,10 @@ pub(super) struct Ramps {
 }
 
 impl Ramps {
-    /// `ages` steps from nearly the background to the colour, which only the newest reaches, a little brightened.
+    /// `ages` steps from the faintest line that is still legible to the colour, which only the newest reaches, a little brightened.
     pub(super) fn trail(&self, ink: &PaletteColour, ages: usize) -> Vec<Shade> {
-        let background = self.palette.background;
         let colour = ink.rgb.unwrap_or(self.palette.foreground);
+        let faintest = self.palette.faded(colour, 0.62);
         let newest = colour.mix(self.palette.foreground, 0.12);
         let base = ink.ansi;
         // Bright has more contrast than plain on black, but less on white.
@@ -41,7 +41,7 @@ impl Ramps {
         let bright = if self.contrast(bright) > self.contrast(base) { bright } else { base };
         self.steps(ages, &[oldest, base, base, bright], |fresh| {
             if fresh < 0.75 {
-                background.mix(colour, 0.38 + 0.62 * fresh / 0.75)
+                faintest.mix(colour, fresh / 0.75)
             } else {
                 colour.mix(newest, (fresh - 0.75) / 0.25)
             }

@@ -115,6 +115,26 @@ fn ramps_only_grow_stronger() {
     }
 }
 
+/// What is old, far away or sparse is faint, and still a line on the page.
+#[test]
+fn what_fades_stays_legible() {
+    for palette in &PALETTES {
+        let theme = Theme::new(palette, ColourDepth::True);
+        if theme.depth() != ColourDepth::True {
+            continue;
+        }
+        let lines = (0..CURVES).map(|series| theme.curve(series)).chain([theme[Role::Level]]);
+        let far = lines.map(|style| theme.receding(style, 1.0));
+        let old = (0..CURVES).map(|series| theme.trail(series)[0].style);
+        for style in nonempty(far.chain(old).chain([theme.density()[0].style])) {
+            let contrast = colour(palette, style).contrast(palette.background);
+            assert!(contrast >= 3.0, "{} {style:?}: {contrast:.2}", palette.name);
+        }
+        let bold = theme.receding(theme[Role::Text], 1.0);
+        assert!(colour(palette, bold).contrast(palette.background) < 8.0, "it is far away");
+    }
+}
+
 #[test]
 fn true_colour_ramps_are_smooth_and_of_rising_luminance() {
     let theme = Theme::dark(ColourDepth::True).with_ages(16);

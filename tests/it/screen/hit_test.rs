@@ -424,6 +424,39 @@ fn a_mass_is_brought_where_the_mouse_is_or_as_near_as_it_can_be() {
     }
 }
 
+/// The ellipse of a planet that is dragged before it has moved becomes a line, and the picture stays as it is, zoomed or not.
+#[test]
+fn a_picture_keeps_its_window_when_a_mass_is_dragged() {
+    let size = (120, 40);
+    for notches in [0, 2] {
+        let mut real = Real::of("planet");
+        let planet = |real: &Real| *masses(&real.app, size).last().expect("a planet");
+        let window = |real: &Real, cell| match at(&real.app, size, cell) {
+            Some(HitTarget::Mass { window, .. }) => window.ranges,
+            other => panic!("{other:?}"),
+        };
+        for _ in 0..notches {
+            let cell = planet(&real);
+            act(&mut real, size, ScrollUp, cell);
+        }
+        let from = planet(&real);
+        let before = window(&real, from);
+        let to = (from.0 - 1, from.1 - 3);
+        act(&mut real, size, Down(Left), from);
+        act(&mut real, size, Drag(Left), to);
+        act(&mut real, size, Up(Left), to);
+        let after = window(&real, to);
+        for k in 0..2 {
+            let length = before[k][1] - before[k][0];
+            for end in 0..2 {
+                let off = (after[k][end] - before[k][end]).abs() / length;
+                assert!(off < 1e-9, "{notches} {before:?} {after:?}");
+            }
+        }
+        assert!(real.seen().initial[0] > 0.1, "it was dragged");
+    }
+}
+
 /// A planet is not pulled through its sun, where its distance would change sign.
 #[test]
 fn a_planet_is_not_pulled_through_its_sun() {

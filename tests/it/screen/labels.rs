@@ -127,6 +127,11 @@ fn the_triad_stands_in_the_corner() {
         let row: String = (1..9).map(|x| buffer[(x, floor - 1)].symbol()).collect();
         assert!(row.trim_end().ends_with('x'), "{:#?}", rows(&buffer));
         assert_eq!(buffer[(2, floor - 3)].symbol(), "z", "{:#?}", rows(&buffer));
+        // a low picture has it beside the scene, too
+        let text = rows(&screen(&lab("sleeping-top", 1.0), &look, (80, 24)));
+        let corner: String =
+            text[8..13].iter().flat_map(|row| row.chars().skip(1).take(9)).collect();
+        assert!(["x", "y", "z"].iter().all(|axis| corner.contains(axis)), "{text:#?}");
     }
 }
 

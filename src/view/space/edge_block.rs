@@ -1,0 +1,37 @@
+//! Blocks at the edges of surfaces: the character that fills nearly the part of a cell that its covered dots stand for.
+//!
+//! In: covered dots, as braille has them. Out: a block. Never here: colours.
+
+use ratatui::symbols::pixel::QUADRANTS;
+
+/// The dots of each quarter of a cell, as braille has them, in the order of [`QUADRANTS`].
+const QUARTERS: [u8; 4] = [0x03, 0x18, 0x44, 0xa0];
+
+/// The blocks of whole rows of dots: the last of the four, the last three, and the first, for which there is one of half its height.
+const ROWS: [(u8, char); 3] = [(0xc0, '▂'), (0xf6, '▆'), (0x09, '▔')];
+
+/// The block that differs from these dots by the fewest of them; `None` if that is the whole cell.
+pub(super) fn nearest(dots: u8) -> Option<char> {
+    let quadrants = (1..15).map(|set: usize| {
+        let filled = (0..4).filter(|k| set >> k & 1 == 1).fold(0, |dots, k| dots | QUARTERS[k]);
+        (filled, QUADRANTS[set])
+    });
+    let apart = |filled: u8| (filled ^ dots).count_ones();
+    let (filled, block) = quadrants.chain(ROWS).min_by_key(|(filled, _)| apart(*filled))?;
+    (apart(filled) < apart(u8::MAX)).then_some(block)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::nearest;
+
+    #[test]
+    fn a_block_fills_what_the_dots_cover() {
+        let rows = [0x09, 0x1b, 0x3f, 0xff, 0xf6, 0xe4, 0xc0];
+        let expected = [Some('▔'), Some('▀'), None, None, Some('▆'), Some('▄'), Some('▂')];
+        assert_eq!(rows.map(nearest), expected);
+        assert_eq!([0x47, 0xb8, 0x03, 0xe7].map(nearest), ['▌', '▐', '▘', '▙'].map(Some));
+        // of a quarter one dot is enough, and of the whole cell one may be missing
+        assert_eq!([0x01, 0x80, 0x7f, 0xf7].map(nearest), [Some('▘'), Some('▗'), None, None]);
+    }
+}
