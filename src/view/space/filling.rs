@@ -34,12 +34,13 @@ impl PieceStyle {
 /// cannot be told apart.
 const SMALL: f64 = 6.0;
 
-/// The same for one that is thin from one side, where its two rims run into each other, such as a wheel.
+/// The same for one that is flat, of fewer columns than this from one side, where its two rims run into each other, such as a wheel.
 const SMALL_SHEET: f64 = 22.0;
+const FLAT: f64 = 3.0;
 
 /// Whether a piece with these extents is too small for edges in ASCII, where a column of cells has this width.
 pub(super) fn is_small([least, other]: [f64; 2], column: f64) -> bool {
-    let most = if least / column < THICK { SMALL_SHEET } else { SMALL };
+    let most = if least / column < FLAT { SMALL_SHEET } else { SMALL };
     other / column < most
 }
 
