@@ -20,6 +20,12 @@ const BUDGET: f64 = 1e10;
 /// A sum is no more than rounding up to this part of the size of its terms.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
+/// An integral over parts is settled once halving them changes no more than this part of its terms.
+const SETTLED: f64 = 4e-15;
+
+/// The most parts of an integral across corners that are halved.
+const MOST_PARTS: usize = 8192;
+
 /// A Lagrangian at fixed parameters, as a function of (t, q, q̇).
 pub struct Lagrangian {
     degrees: usize,
@@ -235,19 +241,16 @@ impl Lagrangian {
     /// # Errors
     /// Returns an error if L is not finite on the path, or the integral does not settle.
     pub fn action(&mut self, path: &mut dyn Path, duration: f64) -> Result<f64, DynamicsError> {
-        self.integral(path, duration, None, &mut Lagrangian::value)
+        self.integral(path, duration, &mut Lagrangian::value)
     }
 
-    /// The integral of a function of (t, state) along a path, by the same rule, up to a part of its terms: to rounding,
-    /// if none is given.
+    /// The integral of a function of (t, state) along a path, by the same rule.
     pub(super) fn integral(
         &mut self,
         path: &mut dyn Path,
         duration: f64,
-        settled: Option<f64>,
         integrand: &mut dyn FnMut(&mut Lagrangian, f64, &[f64]) -> f64,
     ) -> Result<f64, DynamicsError> {
-        let settled = settled.unwrap_or(4e-15);
         let rule = gauss(12);
         let mut before = f64::NAN;
         let mut parts = 2;
@@ -270,14 +273,61 @@ impl Lagrangian {
             if !sum.is_finite() {
                 return Err(unsuited("L is not finite on this path"));
             }
-            if (sum - before).abs() <= settled * size {
+            if (sum - before).abs() <= SETTLED * size {
                 // terms that cancel leave their rounding
                 return Ok(if sum.abs() <= ROUNDING * size { 0.0 } else { sum });
             }
             before = sum;
             parts *= 2;
         }
-        Err(unsuited("the integral of L along this path does not settle: the path is not smooth"))
+        Err(unsuited(
+            "the integral along this path does not settle: what is integrated is not smooth",
+        ))
+    }
+
+    /// The integral of a function that may have corners, such as the root of a square, to a part of its terms: only the parts
+    /// that still change are halved.
+    pub(super) fn integral_across_corners(
+        &mut self,
+        path: &mut dyn Path,
+        duration: f64,
+        settled: f64,
+        integrand: &mut dyn FnMut(&mut Lagrangian, f64, &[f64]) -> f64,
+    ) -> Result<f64, DynamicsError> {
+        let rule = gauss(12);
+        let mut over = |from: f64, width: f64| {
+            let terms = rule.iter().map(|&(x, weight)| {
+                let time = from + width * x;
+                width * weight * integrand(self, time, &path.at(time))
+            });
+            terms.fold([0.0_f64, 0.0], |[sum, size], term| [sum + term, size + term.abs()])
+        };
+        let mut open = Vec::new();
+        let mut size = 0.0;
+        for part in 0..4 {
+            let (width, part) = (0.25 * duration, f64::from(part));
+            let [sum, of_part] = over(part * width, width);
+            size += of_part;
+            open.push((part * width, width, sum));
+        }
+        let (mut sum, mut parts) = (0.0, 0);
+        while let Some((from, width, before)) = open.pop() {
+            let half = 0.5 * width;
+            let ([first, _], [second, _]) = (over(from, half), over(from + half, half));
+            if !(first + second).is_finite() {
+                return Err(unsuited("L is not finite on this path"));
+            }
+            if (first + second - before).abs() <= settled * size {
+                sum += first + second;
+            } else {
+                open.extend([(from, half, first), (from + half, half, second)]);
+            }
+            parts += 1;
+            if parts > MOST_PARTS {
+                return Err(unsuited("the integral along this path does not settle"));
+            }
+        }
+        Ok(sum)
     }
 
     /// The action of a path given at nodes, column by column, with its derivatives; `None` where it has none, or once a search

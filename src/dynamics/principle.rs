@@ -26,7 +26,7 @@ pub fn abbreviated_action(
     path: &mut dyn Path,
     duration: f64,
 ) -> Result<f64, DynamicsError> {
-    lagrangian.integral(path, duration, None, &mut |lagrangian, time, state| {
+    lagrangian.integral(path, duration, &mut |lagrangian, time, state| {
         let momenta = lagrangian.momenta(time, state);
         momenta.iter().zip(&state[lagrangian.degrees()..]).map(|(p, v)| p * v).sum()
     })
@@ -45,12 +45,13 @@ pub fn action_at_energy(
     energy: f64,
 ) -> Result<f64, DynamicsError> {
     let mut lost = None;
-    let found = lagrangian.integral(path, duration, Some(SETTLED), &mut |lagrangian, time, at| {
+    let mut integrand = |lagrangian: &mut Lagrangian, time: f64, at: &[f64]| {
         rate_at_energy(lagrangian, (time, at), energy).unwrap_or_else(|why| {
             lost.get_or_insert(why);
             f64::NAN
         })
-    });
+    };
+    let found = lagrangian.integral_across_corners(path, duration, SETTLED, &mut integrand);
     match lost {
         Some(why) => Err(why.into()),
         None => found,
@@ -155,7 +156,7 @@ impl Hamiltonian {
         duration: f64,
     ) -> Result<f64, DynamicsError> {
         let n = self.degrees;
-        lagrangian.integral(path, duration, None, &mut |_, time, at| {
+        lagrangian.integral(path, duration, &mut |_, time, at| {
             let (velocities, momenta) = (&at[n..2 * n], &at[2 * n..]);
             let product: f64 = momenta.iter().zip(velocities).map(|(p, v)| p * v).sum();
             product - self.value(time, &[&at[..n], momenta].concat())

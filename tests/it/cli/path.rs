@@ -198,6 +198,19 @@ fn the_abbreviated_action_of_a_free_particle_is_the_length_of_its_way() {
     close(varied(0, "action"), 1.0 + 0.25 * 0.25 * PI * PI * 0.5, 1e-12);
 }
 
+/// A way that turns back has a corner there in √((E − V) T): it counts there and back.
+#[test]
+fn the_abbreviated_action_of_a_way_that_turns_back_is_its_length() {
+    let free = PLANE.replace(" - 1/2*(x^2 + y^2)", "");
+    let words = ["--in", "2", "--along", "x=t", "--along", "y=0", "--vary", "x=sin(pi*t)"];
+    let found = path(&free, &[&words[..], &["--epsilons", "-1:1:3"]].concat());
+    // x = t + sin(πt) turns where cos(πt) = −1/π
+    let turn = (-1.0 / PI).acos() / PI;
+    let at = |t: f64| t + (PI * t).sin();
+    let length = 2.0 * at(turn) - 2.0 * at(2.0 - turn) + 2.0;
+    close(found["varied"][2]["abbreviated"].as_f64().unwrap(), length, 1e-9);
+}
+
 /// The same of a motion under forces: it is stationary, at its own energy, and at no other path.
 #[test]
 fn a_motion_makes_the_abbreviated_action_stationary() {
