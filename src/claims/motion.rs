@@ -170,10 +170,13 @@ impl<'a> ClaimedMotion<'a> {
         };
         let state = system.initial(model.run.start, &parameters, &[]);
         let state = state.map_err(|error| match &error.kind {
-            MotionErrorKind::ConstraintMissed(..)
-            | MotionErrorKind::VelocitiesMissed(..)
-            | MotionErrorKind::FreeVelocities(_) => {
+            MotionErrorKind::ConstraintMissed(..) | MotionErrorKind::VelocitiesMissed(..) => {
                 refused(place_of(model, &error), error.to_string())
+            }
+            MotionErrorKind::FreeVelocities(names) => {
+                let name = names.first().map_or("x", |name| name.trim_end_matches('\''));
+                let help = format!("{name} = {{ initial = ..., velocity = 0 }} starts from rest");
+                refused(place_of(model, &error), error.to_string()).with_help(help)
             }
             _ => motion
                 .at_the_start(model, equations, Some(&error))

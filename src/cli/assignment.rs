@@ -4,7 +4,7 @@ use std::str::FromStr;
 
 use crate::diagnostic::nearest;
 use crate::diagnostic::{Diagnostic, report};
-use crate::expr::{Expr, Pool};
+use crate::expr::{Expr, Pool, spell};
 use crate::integrate::ACCURACIES;
 use crate::mechanics::{Valuation, body_constants};
 use crate::model::{Allowed, Model, Scope, WrittenExpr};
@@ -27,7 +27,7 @@ impl FromStr for Assignment {
 
     fn from_str(text: &str) -> Result<Assignment, String> {
         let (name, value) = text.split_once('=').ok_or("write it as name=value")?;
-        let (name, value) = (name.trim().to_owned(), value.trim().to_owned());
+        let (name, value) = (name_in_letters(name), value.trim().to_owned());
         if name.is_empty() || value.is_empty() {
             return Err("write it as name=value".to_owned());
         }
@@ -49,6 +49,14 @@ impl Assignment {
     pub(super) fn name(&self) -> &str {
         &self.name
     }
+}
+
+/// A name as files write it, for one as the screen shows it: `theta'` for `θ′`.
+pub(super) fn name_in_letters(name: &str) -> String {
+    let name = name.trim();
+    let spelt = spell(name);
+    let is_name = spelt.chars().all(|c| c.is_ascii_alphanumeric() || c == '_' || c == '\'');
+    if is_name { spelt } else { name.to_owned() }
 }
 
 /// The greatest length of an error message that quotes an invalid value.

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use std::str::FromStr;
 use std::time::Instant;
 
-use super::assignment::{self, Assignment, number, seconds, whole};
+use super::assignment::{self, Assignment, name_in_letters, number, seconds, whole};
 use super::error::CommandError;
 use super::format::Format;
 use super::open;
@@ -90,7 +90,7 @@ impl FromStr for Scan {
         // a rounding error must not cost the last one
         let last = (count + 1e-9).floor() as u32;
         let values = (0..=last).map(|k| from + step * f64::from(k)).collect();
-        Ok(Scan { name: name.trim().to_owned(), values })
+        Ok(Scan { name: name_in_letters(name), values })
     }
 }
 

@@ -4,7 +4,7 @@ use std::str::FromStr;
 
 use serde_json::{Map, Value, json};
 
-use super::assignment::{self, number};
+use super::assignment::{self, name_in_letters, number};
 use super::decimal;
 use super::error::CommandError;
 use super::interrupt::Interrupt;
@@ -70,7 +70,7 @@ impl FromStr for SweptValues {
             return Err(format!("a family has 2 to {MOST} values, between two different ends"));
         }
         Ok(SweptValues {
-            name: name.trim().to_owned(),
+            name: name_in_letters(name),
             values: decimal::divisions(from, to, count - 1).collect(),
         })
     }

@@ -5,7 +5,7 @@
 use std::path::Path;
 use std::str::FromStr;
 
-use super::assignment::{self, Assignment, number};
+use super::assignment::{self, Assignment, name_in_letters, number};
 use super::decimal::divisions;
 use super::error::CommandError;
 use crate::ensemble::Start;
@@ -41,7 +41,7 @@ impl FromStr for GridAxis {
         let (name, range) = text.split_once('=').ok_or(form)?;
         let parts: Vec<&str> = range.split(':').collect();
         let &[from, to, count] = parts.as_slice() else { return Err(form.to_owned()) };
-        let name = name.trim().to_owned();
+        let name = name_in_letters(name);
         if name.is_empty() {
             return Err(form.to_owned());
         }

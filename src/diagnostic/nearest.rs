@@ -10,9 +10,12 @@ pub fn with_index(word: &str, candidates: &[&str]) -> Option<String> {
 }
 
 /// Returns the candidate closest to a misspelt word, if one is close enough: at most a third of the
-/// letters differ, and not all of them, or one is in the wrong place. Words of more than 64 letters are not compared.
+/// letters differ, and not all of them, or one is in the wrong place; or if the word is an abbreviation of three letters or
+/// more, as `params`. Words of more than 64 letters are not compared.
 pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let folded = word.to_lowercase();
+    let stem = folded.trim_end_matches('s');
+    let mut abbreviated = None;
     let longer = |c: &str| word.chars().count().max(c.chars().count());
     let sorted = |word: &str| {
         let mut letters: Vec<char> = word.to_lowercase().chars().collect();
@@ -26,8 +29,14 @@ pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
     candidates
         .into_iter()
         .filter(|c| longer(c) <= 64)
+        .inspect(|c| {
+            if stem.chars().count() >= 3 && c.to_lowercase().starts_with(stem) {
+                abbreviated.get_or_insert(*c);
+            }
+        })
         .map(|c| (strsim::damerau_levenshtein(&folded, &c.to_lowercase()), c))
         .filter(|&(distance, c)| near(distance, c) && distance < longer(c))
         .min_by_key(|&(distance, _)| distance)
         .map(|(_, c)| c)
+        .or(abbreviated)
 }

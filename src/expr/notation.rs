@@ -82,7 +82,8 @@ pub fn latex_name(name: &str) -> String {
     if subscript.is_empty() { stem } else { format!("{stem}_{{{}}}", latex_name(subscript)) }
 }
 
-/// The plain name of which this is the notation: `θ₁` → `theta1`. `None` if a character has none.
+/// The plain name of which this is the notation, with its index below the line or on it: `θ₁` and `θ1` → `theta1`. `None` if a
+/// character has none.
 pub fn plain_name(shown: &str) -> Option<String> {
     let mut name = String::new();
     for c in shown.chars() {
@@ -96,7 +97,7 @@ pub fn plain_name(shown: &str) -> Option<String> {
             return None;
         }
     }
-    Some(name).filter(|name| unicode_name(name) == shown)
+    Some(name).filter(|name| [shown, &subscripts(shown)].contains(&unicode_name(name).as_str()))
 }
 
 /// LaTeX for a Unicode symbol from a file (`θ`, `I₁`), with letters by their names.

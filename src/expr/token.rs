@@ -178,6 +178,7 @@ fn unexpected(text: &str, start: usize) -> SyntaxError {
     let span = Span { start, end: start + c.len_utf8() };
     let error = SyntaxError::new(span, format!("`{c}` has no meaning in an expression"));
     let help = match c {
+        '=' if text[start + 1..].trim() == "0" => "an expression is one side only: leave `= 0` out",
         '=' => "an expression is one side only; what must vanish is written as a difference",
         '<' | '>' | '≤' | '≥' => {
             "an expression is a number: an event is where one passes 0, and (1 + sign(x))/2 is 1 where x > 0"

@@ -258,7 +258,7 @@ impl Scope {
                     return Err(SyntaxError::new(span, message));
                 }
             },
-            _ if primes > 0 => return Err(self.without_velocity(name, span)),
+            _ if primes > 0 => return Err(self.without_velocity(pool, name, span)),
             Meaning::Symbol(symbol) => pool.variable(symbol),
             Meaning::Defined(e) => e,
             Meaning::Later => {

@@ -13,6 +13,9 @@ pub(super) fn number_with_unit(text: &str) -> Option<String> {
     let unit = unit.trim();
     match unit.chars().next() {
         None if number != pointed => Some(with_point(&pointed)),
+        Some(_) if separated && ["°", "deg", "degree", "degrees"].contains(&unit) => {
+            Some(format!("angles are in radians: \"{pointed}*pi/180\""))
+        }
         Some(first) if separated && is_unit(unit, first) => {
             Some(format!("a unit has a key of its own: {{ value = {pointed}, unit = \"{unit}\" }}"))
         }

@@ -13,7 +13,7 @@ use toml_parser::{Expected, ParseError, Source};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Diagnostics;
 use crate::diagnostic::SourceRange;
-use crate::expr::plain_name;
+use crate::expr::{plain_name, unicode_name};
 use crate::preset::number_help::{decimal_comma, number_with_unit};
 use crate::printable;
 
@@ -218,7 +218,7 @@ fn in_key(key: &str, place: SourceRange) -> Slip {
     }
     let help = plain_name(key).map_or_else(
         || "letters to be shown are given by `symbol`: theta = { symbol = \"θ\" }".to_owned(),
-        |plain| format!("write {plain}, which is shown as {key}"),
+        |plain| format!("write {plain}, which is shown as {}", unicode_name(&plain)),
     );
     Slip::new(place, "a key is made of ASCII letters, digits, `_` and `-`", Loses::Value).help(help)
 }

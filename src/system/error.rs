@@ -195,7 +195,7 @@ impl fmt::Display for MotionError {
             )?,
             MotionErrorKind::FreeVelocities(names) => write!(
                 f,
-                "the constraints do not say with which velocities the motion starts: give {}",
+                "the constraints leave velocities at the start undetermined: give {}",
                 names.join(", ")
             )?,
             MotionErrorKind::SeveralStarts(starts) => write!(

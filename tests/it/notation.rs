@@ -58,6 +58,7 @@ fn the_notation_of_the_screen_means_the_plain_one() {
         scope.read(&mut pool, plain);
         assert_eq!(scope.plain, None, "{plain} is plain");
     };
+    check("ω0² x₁", "omega0^2*x1");
     check("½ m l² θ′²", "1/2*m*l^2*theta'^2");
     check("½ m l² θ̇² − m g l cos θ", "1/2*m*l^2*theta'^2 - m*g*l*cos(theta)");
     check("m g l(1 − cos θ)", "m*g*l*(1 - cos(theta))");

@@ -4,7 +4,7 @@
 
 use std::str::FromStr;
 
-use crate::cli::assignment::{self, Assignment, number};
+use crate::cli::assignment::{self, Assignment, name_in_letters, number};
 use crate::cli::error::CommandError;
 use crate::model::{Model, Ramp, RampForm};
 use crate::printable;
@@ -38,7 +38,7 @@ impl FromStr for RampArgument {
             return Err("the duration of a ramp must be above zero".to_owned());
         }
         Ok(RampArgument {
-            name: name.trim().to_owned(),
+            name: name_in_letters(name),
             values: [number(from)?, number(to)?],
             start: number(start)?,
             duration,

@@ -6,7 +6,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::meaning::Meaning;
-use crate::expr::{Symbol, SymbolInfo, unicode_name, without_dots};
+use crate::expr::{Symbol, SymbolInfo, subscript, unicode_name, without_dots};
 
 /// The names in the file for what the screen shows, by the shown name and its primes.
 #[derive(Clone, Debug, Default)]
@@ -35,11 +35,16 @@ impl ShownNames {
         // a Greek letter for its name, also where the file shows another symbol
         for name in names.keys() {
             let (letters, dots) = without_dots(&unicode_name(name));
-            if letters != *name
-                && !names.contains_key(&letters)
-                && !shown.names.contains_key(&(letters.clone(), dots))
-            {
-                shown.add(&letters, name);
+            // θ1 as well as θ₁
+            let on_the_line: String = letters.chars().map(|c| subscript(c).unwrap_or(c)).collect();
+            for letters in [letters, on_the_line] {
+                if !letters.is_ascii()
+                    && letters != *name
+                    && !names.contains_key(&letters)
+                    && !shown.names.contains_key(&(letters.clone(), dots))
+                {
+                    shown.add(&letters, name);
+                }
             }
         }
         shown

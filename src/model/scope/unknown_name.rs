@@ -6,11 +6,14 @@ use super::allowed::{Allowed, SymbolRole};
 use super::meaning::Meaning;
 use super::{MOST_ERRORS, Scope, notations};
 use crate::diagnostic::{nearest, with_index};
-use crate::expr::{FUNCTIONS, Span, SyntaxError, plain_name};
+use crate::expr::{Expr, FUNCTIONS, Pool, Span, SyntaxError, plain_name};
 use crate::model::{Attitude, BodyNames};
 
 /// What is said of a velocity of something that is not a coordinate.
 const VELOCITIES: &str = "only coordinates have velocities";
+
+/// The longest rate of a definition that is written out.
+const LONGEST_RATE: usize = 240;
 
 impl Scope {
     /// The error for a name that the place does not know.
@@ -145,16 +148,61 @@ impl Scope {
         }
     }
 
-    /// The error for a prime after a name that is not a coordinate.
-    pub(super) fn without_velocity(&self, name: &str, span: Span) -> SyntaxError {
+    /// The error for a prime after a name that is not a coordinate. The rate of a definition is given, to be written out.
+    pub(super) fn without_velocity(
+        &mut self,
+        pool: &mut Pool,
+        name: &str,
+        span: Span,
+    ) -> SyntaxError {
         let message = format!("`{name}` is not a coordinate and has no velocity");
         let error = SyntaxError::new(span, message);
+        if let Some(&Meaning::Defined(e)) = self.names.get(name) {
+            let rate = self.rate_in_letters(pool, e).map(|rate| {
+                let own = Some(format!("v{name}")).filter(|own| !self.knows(own));
+                let own = own.unwrap_or_else(|| format!("{name}_rate"));
+                format!("write its rate out, as a definition: {own} = \"{rate}\"")
+            });
+            return SyntaxError { help: rate, ..error };
+        }
         let moves = |m: &Meaning| matches!(m, Meaning::Position(_) | Meaning::Other(_));
         let moving = self.names.iter().filter(|(_, m)| moves(m));
         match nearest(name, moving.map(|(n, _)| n.as_str())) {
             Some(near) => error.with_help(format!("did you mean `{near}'`?")),
             None => error,
         }
+    }
+}
+
+impl Scope {
+    /// The rate of an expression of q, q̇ and t, if it may be used here and is not too long to be copied.
+    fn rate_in_letters(&mut self, pool: &mut Pool, e: Expr) -> Option<String> {
+        let mut seeds = Vec::new();
+        for meaning in self.names.values() {
+            if let Meaning::Position([position, velocity, acceleration]) = *meaning {
+                let (rate, second) = (pool.variable(velocity), pool.variable(acceleration));
+                seeds.extend([(position, rate), (velocity, second)]);
+            }
+        }
+        let contained = pool.symbols_of(e);
+        for (&symbol, role) in &self.kinds {
+            let is_followed = matches!(
+                role,
+                SymbolRole::Position
+                    | SymbolRole::Velocity
+                    | SymbolRole::Acceleration
+                    | SymbolRole::Inertia
+            );
+            if *role == SymbolRole::Time {
+                seeds.push((symbol, Expr::ONE));
+            } else if !is_followed && contained.contains(&symbol) {
+                return None;
+            }
+        }
+        let rate = pool.derivation(e, &seeds);
+        let rate =
+            if self.offender(pool, rate).is_none() { pool.ascii(rate) } else { return None };
+        (rate.len() <= LONGEST_RATE).then_some(rate)
     }
 }
 

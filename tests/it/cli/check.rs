@@ -625,3 +625,17 @@ fn what_has_decayed_is_held_against_what_is_left_of_it() {
         check(swings, at, "1e-9").fails(65, &["x': this is", "1 error"]);
     }
 }
+
+/// Two blocks on a string: without any velocity the constraint leaves one of them open.
+#[test]
+fn a_velocity_that_constraints_leave_open_is_named_with_what_to_write() {
+    let file = "[coordinates]\nx = 0\ny = 0\n[lagrangian]\nL = \"1/2*(x'^2 + y'^2) - x\"\n\
+                [[constraints]]\nname = \"string\"\nexpression = \"x + y\"\n";
+    let said = [
+        "leave velocities at the start undetermined: give y'",
+        "y = { initial = ..., velocity = 0 }",
+    ];
+    with_file(file, &["check", "system.toml"]).fails(65, &said);
+    let given = file.replace("y = 0", "y = { initial = 0, velocity = 0 }");
+    assert_eq!(with_file(&given, &["check", "system.toml"]).success(), "");
+}

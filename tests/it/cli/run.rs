@@ -160,6 +160,9 @@ fn initial_values_are_set_by_name_and_momenta_solve_for_velocities() {
         first(&["--init", "p_theta=5", "--init", "theta=2", "--set", "m=4"]),
         [2.0, 1.25, 5.0]
     );
+    // names as the screen shows them
+    assert_eq!(first(&["--init", "θ′=-3"]), first(&["--init", "theta'=-3"]));
+    assert_eq!(first(&["--init", "p_θ=5"]), first(&["--init", "p_theta=5"]));
     run(&["--init", "thta=1"]).fails(2, &["unknown initial value `thta`", "`theta`"]);
     run(&["--init", "theta'=1", "--init", "p_theta=1"]).fails(2, &["theta'", "p_theta"]);
     run(&["--init", "theta=x"]).fails(2, &["theta=x"]);
@@ -529,7 +532,7 @@ fn an_energy_changed_by_rounding_of_the_place_is_reported() {
         let done = with_file(&text, &["run", "system.toml", "--at", "0,1e-11", "--strict"]);
         assert_eq!(done.code, code, "{}", done.stderr);
         if code == 1 {
-            reported(&done, &["`energy` leaves its value by ", "as rounding of x explains"]);
+            reported(&done, &["`energy` departs from its value by ", "as rounding of x explains"]);
             assert!(!done.stderr.contains("singular"), "{}", done.stderr);
         }
     }
@@ -1216,7 +1219,7 @@ fn a_coordinate_without_inertia_is_named_and_a_start_without_a_state_is_an_error
     };
     stops(&file("1/2*x'^2 - x - s*x", ""), &[], "the coordinate `s` has no kinetic term in L");
     let held = "[[constraints]]\nname = \"a\"\nexpression = \"x - s^3\"\n";
-    stops(&file("1/2*x'^2 - x", held), &[], "do not say with which velocities the motion starts");
+    stops(&file("1/2*x'^2 - x", held), &[], "leave velocities at the start undetermined");
 }
 
 #[test]
