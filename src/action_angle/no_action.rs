@@ -10,7 +10,7 @@ use crate::num::short;
 pub enum NoAction {
     /// The coordinate does not return.
     #[error(
-        "the coordinate turned at {} and not at {}: its motion is not one of its own, the system does not separate in it",
+        "the coordinate turned at {} and not at {}: its motion depends on the other coordinates, and the system does not separate in it",
         short(*.found),
         short(*.expected)
     )]

@@ -288,8 +288,8 @@ impl App {
 
     fn change_frames(&mut self, more: bool) -> Vec<Effect> {
         let Some(rate) = self.meter.next_rate(more) else {
-            let end = if more { "most" } else { "fewest" };
-            return self.notify(format!("{} frames a second are the {end}.", self.meter.asked));
+            let end = if more { "highest" } else { "lowest" };
+            return self.notify(format!("The {end} rate is {} frames a second.", self.meter.asked));
         };
         self.meter.asked = rate;
         self.notifications.show(Notification::info(format!("At most {rate} frames a second.")));

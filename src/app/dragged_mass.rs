@@ -83,7 +83,7 @@ impl DraggedMass {
     pub(super) fn can_begin(&self, loaded: &Loaded, now: &Valuation) -> Result<(), &'static str> {
         let here: Vec<f64> = self.moved.iter().map(|i| now.at(position(loaded, *i))).collect();
         let Some((here, _)) = self.at_rest(loaded, now, &here) else {
-            return Err("It cannot be dragged: no momentum is at rest here.");
+            return Err("It cannot be dragged: no momentum brings it to rest here.");
         };
         if self.masses.determinant(&|symbol| here.at(symbol)).is_infinite() {
             return Err("It cannot be dragged: at rest its mass is infinite.");

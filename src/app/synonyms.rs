@@ -4,15 +4,34 @@
 //! searched.
 
 use super::action::{Action, AxisChoice};
+use super::page::Page;
 
 /// Returns other words for an action.
 pub fn synonyms(action: Action) -> &'static [&'static str] {
     match action {
         Action::Ask => &["is this conserved", "conserved", "constant of the motion", "commute"],
-        Action::SearchFurther => &["conserved quantities", "first integrals", "invariants"],
-        Action::Equilibria => {
-            &["stable", "unstable", "stability", "equilibrium", "fixed points", "normal modes"]
+        Action::SearchFurther => {
+            &["conserved quantities", "first integrals", "invariants", "integrable", "Liouville"]
         }
+        Action::Equilibria => &[
+            "stable",
+            "unstable",
+            "stability",
+            "equilibrium",
+            "fixed points",
+            "normal modes",
+            "eigenvalues",
+            "linearise",
+        ],
+        Action::ApplyFlow => {
+            &["Noether", "Lie symmetries", "generator", "canonical transformation"]
+        }
+        Action::Active => &["canonical transformation", "active and passive"],
+        Action::Show(Page::Equations) => {
+            &["equations of motion", "momenta", "canonical", "symmetries"]
+        }
+        Action::TypeSurface => &["Poincaré section", "stroboscope", "return map"],
+        Action::Diagram => &["bifurcation", "sweep"],
         Action::Exponents => &["chaos", "Lyapunov", "predictable", "sensitive"],
         Action::AddNeighbour => &["butterfly effect", "sensitive"],
         Action::ByChaos => &["chaos"],
@@ -30,10 +49,10 @@ pub fn synonyms(action: Action) -> &'static [&'static str] {
         Action::Closer(AxisChoice::Both) => &["zoom in", "magnify"],
         Action::Farther(AxisChoice::Both) => &["zoom out"],
         Action::Home => &["restore the view", "original view"],
-        Action::ChooseAxes => &["another plot", "graph"],
+        Action::ChooseAxes => &["another plot", "graph", "phase portrait"],
         Action::ChooseMethod => &["integrator", "solver"],
-        Action::Spectrum => &["Fourier", "frequency"],
-        Action::PeriodicOrbit => &["closed orbit"],
+        Action::Spectrum => &["Fourier", "frequency", "quasi-periodic", "torus"],
+        Action::PeriodicOrbit => &["closed orbit", "Floquet", "monodromy"],
         Action::Pin => &["compare", "keep"],
         Action::Still => &["picture", "image", "print"],
         Action::Data => &["export", "save the data"],

@@ -179,6 +179,11 @@ fn text(study: &Study, found: &Equilibria) -> String {
             turns.join(", or in ")
         ));
     }
+    if found.is_complete {
+        text.push_str(
+            "found by searching around the start; that there are no others is not proved\n",
+        );
+    }
     text.truncate(text.trim_end().len());
     text.push('\n');
     Glyphs::Braille.text(&text).into_owned()

@@ -85,12 +85,12 @@ pub(super) fn execute(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let wrong = |message: &str| Err(CommandError::WrongUse(message.to_owned()));
     if !arguments.merge.is_empty() {
         if arguments.format != TableFormat::Csv {
-            return wrong("--merge: shards are put together as comma-separated values");
+            return wrong("--merge writes comma-separated values, --format csv");
         }
         return merge::execute(&arguments.merge, arguments.output.as_deref());
     }
     let Some(motion) = &arguments.motion else {
-        return wrong("name a preset or a file to sweep, or put shards together with --merge");
+        return wrong("name a preset or a file to sweep, or merge shards with --merge");
     };
     if arguments.format != TableFormat::Csv && (arguments.shard.is_some() || arguments.resume) {
         return wrong("--shard and --resume write comma-separated values, --format csv");
@@ -187,9 +187,9 @@ impl Remarks {
             let (name, drift) = (printable::line(&worst.name), size(worst.drift));
             let row = index + 1;
             let of_them = match count {
-                1 => format!("in row {row} a conserved quantity leaves its value"),
+                1 => format!("in row {row} a conserved quantity departs from its value"),
                 _ => format!(
-                    "in {count} {rows} a conserved quantity leaves its value, most in row {row}"
+                    "in {count} {rows} a conserved quantity departs from its value, most in row {row}"
                 ),
             };
             stderr::report(&format!(

@@ -205,7 +205,7 @@ impl Instrument for Phase {
             },
             Measure {
                 word: "separatrices",
-                about: "how many curves part kinds of motion there",
+                about: "how many curves separate kinds of motion there",
                 value: |context| landscape(context.answer).map(|l| l.separatrices.len() as f64),
             },
         ]

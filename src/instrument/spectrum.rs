@@ -303,13 +303,13 @@ fn sentences(physics: Physics<'_>, answer: Option<&Answer>) -> Vec<String> {
         let (at, apart) = (brief(close.frequency), brief(close.apart));
         all.insert(
             second,
-            format!("two lines around {at}, {apart} apart, cannot be told apart in this time"),
+            format!("two lines around {at}, {apart} apart, cannot be resolved in this time"),
         );
     } else if lines.is_continuous() && lines.turns.is_none() {
-        all.insert(0, format!("no sum of lines: they leave {:.0} %", 100.0 * lines.part_left()));
+        all.insert(0, format!("not a sum of lines: they leave {:.0} %", 100.0 * lines.part_left()));
     }
     if let Some(turns) = lines.turns {
-        all.push(format!("no line: nothing came back, {} of a turn at most", brief(turns)));
+        all.push(format!("no line: nothing has returned, {} of a turn at most", brief(turns)));
     } else if lines.lines.is_empty() {
         all.push("no line stands out".to_owned());
     }

@@ -43,7 +43,7 @@ pub fn diagnosis(variables: Variables<'_>, size: Option<(u16, u16)>) -> Vec<Doct
     let terminal = term.as_deref().unwrap_or("TERM is not set");
     let depth = ColourDepth::from_environment(variables);
     let colours = match depth {
-        ColourDepth::None => "none; weight and reverse instead",
+        ColourDepth::None => "none; bold and reversed text instead",
         ColourDepth::Ansi16 => "16",
         ColourDepth::Ansi256 => "256",
         ColourDepth::True => "24 bits",

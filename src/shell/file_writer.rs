@@ -113,7 +113,7 @@ impl FileWriter {
             outcomes.push((path, done));
         }
         for path in self.open.keys() {
-            let slow = io::Error::new(ErrorKind::TimedOut, "the disk takes too long");
+            let slow = io::Error::new(ErrorKind::TimedOut, "writing takes too long");
             outcomes.push((path.clone(), Err(named(path, &slow))));
         }
         outcomes

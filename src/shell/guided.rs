@@ -82,7 +82,7 @@ impl Guided {
             GuideKind::Lesson(_) => preset::lesson(&name),
             GuideKind::Demo => preset::demo(&name),
         };
-        let source = source.ok_or_else(|| format!("{name} is no longer there"))?;
+        let source = source.ok_or_else(|| format!("{name} no longer exists"))?;
         let report = |diagnostics: &[Diagnostic]| source.report(diagnostics, false);
         let script = Script::read(&source).map_err(|diagnostics| report(&diagnostics))?;
         let open = script.head.open.as_ref().map_or_else(|| name.clone(), |open| open.text.clone());

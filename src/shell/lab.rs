@@ -42,7 +42,7 @@ pub fn run(request: &Request) -> Result<Ending, LabError> {
     if request.open.is_none() {
         match session_file::read() {
             Ok(saved) if regular::find(&catalog, &saved.open).is_ok() => offered = Some(saved),
-            Ok(saved) => no_offer = Some(format!("{} is no longer there", saved.open)),
+            Ok(saved) => no_offer = Some(format!("{} no longer exists", saved.open)),
             Err(why) => no_offer = Some(why.to_string()),
         }
     }

@@ -73,7 +73,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App, lab: &Lab) ->
         }
     }
     if let Some(Status::Failed(error)) = lab.snapshot.as_ref().map(|s| &s.status) {
-        stopped(canvas, area, error);
+        stopped(canvas, area, (lab, error));
     }
     DrawnPanes { single: is_single(area), law: in_view, in_view: in_sight }
 }
@@ -82,7 +82,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App, lab: &Lab) ->
 pub(super) fn draw_motion(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab) {
     plot(canvas, area, lab, (view_of_motion(lab).unwrap_or(0), &[]));
     if let Some(Status::Failed(error)) = lab.snapshot.as_ref().map(|s| &s.status) {
-        stopped(canvas, area, error);
+        stopped(canvas, area, (lab, error));
     }
 }
 
@@ -229,13 +229,18 @@ fn plot(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, (index, sharing): (usize
     }
 }
 
-/// Draws a box over the panes that explains why the motion cannot continue.
-fn stopped(canvas: &mut Canvas<'_>, area: Rect, error: &RunError) {
+/// Draws a box over the panes that explains why the motion cannot begin or continue, and what may help.
+fn stopped(canvas: &mut Canvas<'_>, area: Rect, (lab, error): (&Lab, &RunError)) {
+    let (title, keys) = if error.time == lab.loaded.model.run.start {
+        ("The motion cannot begin", "E edit the file   u undo the last change")
+    } else {
+        ("The motion cannot continue", "r back to the start   u undo the last change")
+    };
     let width = area.width.saturating_sub(4).min(70);
     let text = canvas.text(&capitalised(&error.message));
     let lines = words(&text, usize::from(width.saturating_sub(4)));
     let height = (lines.len() as u16 + 4).min(area.height);
-    let title = canvas.span(Role::Bad, "The motion cannot continue");
+    let title = canvas.span(Role::Bad, title);
     // the keys are those of the pane below it
     let beside = std::mem::replace(&mut canvas.beside, true);
     let (_, inner) = canvas.dialog(area, (width, height), title);
@@ -243,6 +248,5 @@ fn stopped(canvas: &mut Canvas<'_>, area: Rect, error: &RunError) {
     for (index, line) in lines.iter().enumerate() {
         canvas.left(row(inner, index), Role::Text, line);
     }
-    let keys = "r back to the start   u undo the last change";
     canvas.left(row(inner, lines.len() + 1), Role::Dim, keys);
 }

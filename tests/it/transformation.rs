@@ -191,7 +191,7 @@ fn only_new_variables_are_its_axes() {
         Err(diagnostics) => format!("{diagnostics:?}"),
     };
     let said = report(text);
-    assert!(said.contains("is shown in its new variables, and this is none"), "{said}");
+    assert!(said.contains("is shown in its new variables, and this is not one"), "{said}");
     assert!(said.contains("write one of X, Y"), "{said}");
     assert_eq!(report(&text.replace("y = \"p_q\"", "y = \"Y\"")), "");
 }

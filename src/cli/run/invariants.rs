@@ -103,6 +103,6 @@ fn description(gauge: &Gauge, about: &str) -> String {
             format!("{name} oscillates without trend, by {drift} of what moves{since}")
         }
         Verdict::Secular(_) => format!("{name} drifts away: off by {drift} of what moves{since}"),
-        _ => format!("{name} leaves its value by {drift} of what moves{since}"),
+        _ => format!("{name} departs from its value by {drift} of what moves{since}"),
     }
 }

@@ -32,7 +32,7 @@ impl RotationColumns {
         }
         if names.len() == 1 && turning.periods[0].is_none() {
             return wrong(format!(
-                "`{}` has no period, so it takes two columns to tell a turn, such as {0},p_{0}",
+                "`{}` has no period, so two columns are needed to count turns, such as {0},p_{0}",
                 printable::quoted(&names[0])
             ));
         }

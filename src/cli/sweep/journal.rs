@@ -137,7 +137,7 @@ impl Journal {
                 return Err(CommandError::WrongUse(message));
             }
             if !resume {
-                let message = format!("{name} has an unfinished sweep; --resume continues it");
+                let message = format!("{name} holds an unfinished sweep; --resume continues it");
                 return Err(CommandError::WrongUse(message));
             }
         }

@@ -31,7 +31,7 @@ impl Principle {
                 "the principle of Maupertuis: ∫ p dq of the ways beside the motion, with its ends and energy"
             }
             Principle::PhaseSpace => {
-                "the principle in phase space: q and p are varied apart, the ends of p are free"
+                "the principle in phase space: q and p are varied independently, the ends of p are free"
             }
         }
     }

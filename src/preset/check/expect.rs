@@ -59,7 +59,7 @@ impl ModelBuilder<'_> {
         let name = written.name.as_ref().and_then(|name| self.occurrence(name));
         let nth = match &written.nth {
             None => Some(1),
-            Some(nth) => self.whole(nth, 1, "`nth` counts from 1 in whole numbers"),
+            Some(nth) => self.whole(nth, 1, "`nth` must be a whole number, 1 or more"),
         };
         self.not_before_the_start(written.at.as_ref());
         self.tolerance(written.within.as_ref());
@@ -78,7 +78,7 @@ impl ModelBuilder<'_> {
         let name = written.name.as_ref().and_then(|name| self.occurrence(name));
         self.not_before_the_start(written.until.as_ref());
         let is = written.is.as_ref()?;
-        let count = self.whole(is, 0, "`is` counts in whole numbers from 0");
+        let count = self.whole(is, 0, "`is` must be a whole number, 0 or more");
         Some(ExpectedCount {
             name: name?,
             until: *written.until.as_ref()?.get_ref(),
@@ -155,7 +155,7 @@ impl ModelBuilder<'_> {
             }
         };
         let is = written.invariants.as_ref()?;
-        let count = self.whole(is, 0, "`invariants` counts in whole numbers from 0")?;
+        let count = self.whole(is, 0, "`invariants` must be a whole number, 0 or more")?;
         Some(ExpectedInvariants { is: count, degree: degree?, place: is.span() })
     }
 
@@ -170,7 +170,7 @@ impl ModelBuilder<'_> {
         let help = match nearest(name.get_ref(), known.iter().copied()) {
             Some(near) => format!("did you mean `{near}`?"),
             None if known.is_empty() => "the file has no [[events]] and no [[impulses]]".to_owned(),
-            None => format!("what may happen is {}", known.join(", ")),
+            None => format!("the events and impulses are {}", known.join(", ")),
         };
         let message = format!("unknown event or impulse `{}`", name.get_ref());
         self.diagnostics.push(Diagnostic::error(name.span(), message).with_help(help));

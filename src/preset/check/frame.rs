@@ -24,7 +24,7 @@ impl ModelBuilder<'_> {
             }
             if let (Some(place), None) = (&frame.attitude, &self.model.attitude) {
                 let message = "there is no [attitude] for this frame to turn with";
-                let help = "say how the body stands in [attitude]";
+                let help = "give the orientation of the body in [attitude]";
                 self.diagnostics.push(Diagnostic::error(place.clone(), message).with_help(help));
             }
             let axis = frame.axis.as_ref().map(|f| self.axis(f, &mut fixed));

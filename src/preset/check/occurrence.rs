@@ -184,8 +184,9 @@ impl ModelBuilder<'_> {
             let help = "an event happens where its expression crosses zero";
             self.diagnostics.push(diagnostic.with_help(help));
         } else if keeps_its_sign(&mut self.model.pool, e) {
-            let message = "this never changes its sign, at most it touches zero: it never happens";
-            let help = "an event is where the expression crosses zero: x - 2 does in place of abs(x - 2) or (x - 2)^2";
+            let message =
+                "this never changes sign, it touches zero at most: the event never happens";
+            let help = "an event is where the expression crosses zero: write x - 2 in place of abs(x - 2) or (x - 2)^2";
             self.diagnostics.push(Diagnostic::warning(formula.span(), message).with_help(help));
         }
         moves
@@ -246,12 +247,12 @@ impl ModelBuilder<'_> {
 
 fn no_action(written: &Spanned<String>, verb: &str) -> Diagnostic {
     let text = written.get_ref();
-    let message = format!("an event cannot do `{text}`");
+    let message = format!("unknown action `{text}`");
     let help = match (verb, nearest(verb, ["mark", "stop", "release", "impulse"])) {
         ("release" | "impulse", _) => format!("name which: `{verb}:NAME`"),
         (_, Some(near @ ("mark" | "stop"))) => format!("did you mean `{near}`?"),
         (_, Some(near)) => format!("did you mean `{near}:NAME`?"),
-        _ => format!("it can do {ACTIONS}"),
+        _ => format!("the actions are {ACTIONS}"),
     };
     Diagnostic::error(written.span(), message).with_help(help)
 }

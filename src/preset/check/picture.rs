@@ -157,7 +157,7 @@ impl ModelBuilder<'_> {
         }
         let names: Vec<&str> =
             all.iter().map(|&s| self.model.pool.symbol_info(s).name.as_str()).collect();
-        let message = "a transformation is shown in its new variables, and this is none";
+        let message = "a transformation is shown in its new variables, and this is not one";
         let help = if names.is_empty() {
             "the file has no [[transformations]]".to_owned()
         } else {
@@ -200,7 +200,8 @@ impl ModelBuilder<'_> {
         let found = found.or(position.or(rate).map(Variation::Initial));
         if found.is_none() {
             let rates = if model.is_lagrangian() { "velocity" } else { "momentum" };
-            let message = "an axis of a map is a parameter or an initial value, and this is none";
+            let message =
+                "an axis of a map is a parameter or an initial value, and this is neither";
             let help = format!("write a parameter, a coordinate or its {rates}");
             self.diagnostics.push(Diagnostic::error(written.span(), message).with_help(help));
         }
@@ -218,7 +219,7 @@ impl ModelBuilder<'_> {
         if !self.model.coordinates.iter().any(|c| Some(c.position) == symbol) {
             let names: Vec<&str> = self.model.coordinates.iter().map(|c| c.name.as_str()).collect();
             let message = format!(
-                "`x` of a view of kind `{}` is a coordinate, and this is none",
+                "`x` of a view of kind `{}` is a coordinate, and this is not one",
                 kind.name()
             );
             let help = format!("write one of {}", names.join(", "));

@@ -123,7 +123,7 @@ impl ModelBuilder<'_> {
         let mut symbols = Vec::new();
         for (k, name) in all.iter().enumerate() {
             if all[..k].iter().any(|before| before.get_ref() == name.get_ref()) {
-                let message = format!("`{}` would be two new variables", name.get_ref());
+                let message = format!("two new variables would be called `{}`", name.get_ref());
                 self.error(name.span(), message);
             }
             symbols.push(if names.new_variable(name, self.diagnostics) {
@@ -377,7 +377,7 @@ impl ModelBuilder<'_> {
         }
         for (name, _) in wanted.iter().zip(&found).filter(|(_, e)| e.is_none()) {
             if !table.iter().any(|(written, _)| written.get_ref() == name) {
-                let message = format!("the transformation does not say what `{name}` is");
+                let message = format!("the transformation does not define `{name}`");
                 self.error(written.place.clone(), message);
             }
         }

@@ -171,7 +171,7 @@ pub(super) fn attitude(top: &mut Table<'_>) -> Option<DraftAttitude> {
         }
         (true, true, _) => {
             let message = "[attitude] has both `euler` and `omega`";
-            let help = "either angles or an angular velocity say how a body stands";
+            let help = "the orientation of a body follows from angles or from an angular velocity";
             top.diagnostics.push(Diagnostic::error(table.place.clone(), message).with_help(help));
         }
         (true, false, Some(start)) => {

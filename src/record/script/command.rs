@@ -207,11 +207,9 @@ fn sweep(line: &mut ScriptLine<'_>) -> Result<ParsedLine, Diagnostic> {
     loop {
         let name = line.name("the name of a parameter or an initial value")?;
         if let Some(first) = ways.iter().find(|way| way.name.text == name.text) {
-            let message = format!("`{}` cannot go two ways at once", name.text);
+            let message = format!("`{}` cannot be swept twice at once", name.text);
             let diagnostic = Diagnostic::error(name.place, message);
-            return Err(
-                diagnostic.with_also(first.name.place.clone(), "it is carried here already")
-            );
+            return Err(diagnostic.with_also(first.name.place.clone(), "it is swept here already"));
         }
         let from = line.take("from").then(|| line.until(&["to"], "a value")).transpose()?;
         expect(line, "to")?;

@@ -101,7 +101,7 @@ impl ScriptReading {
             ParsedLine::Setting(say) => {
                 if !self.steps.is_empty() {
                     let message = format!("`{}` comes too late: the demo has begun", word.text);
-                    let help = "what holds for the whole demo stands before what happens";
+                    let help = "settings of the whole demo come before its first step";
                     return Err(Diagnostic::error(word.place.clone(), message).with_help(help));
                 }
                 if let Some(first) = self.given.insert(command.name, word.place.clone()) {

@@ -117,6 +117,12 @@ fn the_palette_knows_other_words() {
         ("gif", "record the screen"),
         ("print", "write a screenshot"),
         ("action variable", "show actions: action variable"),
+        ("poincare", "type the surface of a section"),
+        ("eigenvalues", "find equilibria"),
+        ("integrable", "search for constants of the motion"),
+        ("Floquet", "find the periodic orbit"),
+        ("noether", "carry the state along the flow"),
+        ("canonical", "show page 2"),
     ] {
         let found = lines(&lab, query);
         assert!(found.first().is_some_and(|line| line.starts_with(first)), "{query}: {found:?}");

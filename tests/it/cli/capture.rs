@@ -106,7 +106,7 @@ fn share(amplitude: f64, tilt: f64, count: usize) -> (f64, f64) {
     let found = done(program(home.path()).arg("sweep").args(words).args(method));
     // steps as long as these let the energy swing a little, and the sweep says so
     assert!(
-        found.stderr.is_empty() || found.stderr.contains("leaves its value"),
+        found.stderr.is_empty() || found.stderr.contains("departs from its value"),
         "{}",
         found.stderr
     );

@@ -210,7 +210,7 @@ fn a_resumed_sweep_remarks_on_all_of_its_rows() {
         ["harmonic-oscillator", "--grid=x=0.5:1.5:3", "--until=40", "--method=rk4", "--step=1.5"];
     let sweep = |more: &[&str]| in_folder(home.path(), &[&coarse[..], more].concat());
     let whole = sweep(&[]);
-    let remark = "in 3 rows a conserved quantity leaves its value, most in row ";
+    let remark = "in 3 rows a conserved quantity departs from its value, most in row ";
     assert!(whole.stderr.contains(remark), "{}", whole.stderr);
     let text = whole.stdout;
     let identity = text.lines().find(|line| line.starts_with("# sweep:")).unwrap();
@@ -417,7 +417,7 @@ fn a_conserved_quantity_that_leaves_its_value_is_reported_in_one_line() {
     for (name, quantity) in [("harmonic-oscillator", "J"), ("damped-oscillator", "energy balance")]
     {
         let reported = swept(name, &coarse);
-        let expected = "in 3 rows a conserved quantity leaves its value, most in row ";
+        let expected = "in 3 rows a conserved quantity departs from its value, most in row ";
         assert!(
             reported.contains(expected) && reported.contains(&format!("`{quantity}` is off by ")),
             "{reported}"
@@ -433,6 +433,6 @@ fn a_conserved_quantity_that_leaves_its_value_is_reported_in_one_line() {
     let rows = format!("--output={}", rows.display());
     for more in [rows.as_str(), "--format=json"] {
         let reported = swept("harmonic-oscillator", &[&coarse[..], &[more]].concat());
-        assert!(reported.contains("a conserved quantity leaves its value"), "{reported}");
+        assert!(reported.contains("a conserved quantity departs from its value"), "{reported}");
     }
 }

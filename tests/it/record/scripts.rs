@@ -59,7 +59,7 @@ fn errors_stand_in_their_places() {
     check(
         "Wait 1s\nSize 80x24",
         &[
-            "2:1 `Size` comes too late: the demo has begun; what holds for the whole demo stands before what happens",
+            "2:1 `Size` comes too late: the demo has begun; settings of the whole demo come before its first step",
         ],
     );
     check("Size 80x24\nSize 90x24\nWait 1s", &["2:1 `Size` is given twice"]);
@@ -94,7 +94,7 @@ fn errors_stand_in_their_places() {
     check("Sweep l 2 in 1s", &["1:9 here `to` is missing"]);
     check("Sweep l to 2 and g to 3 in 1s", &[]);
     check("Sweep l to 2 and in 1s", &["1:21 here `to` is missing"]);
-    check("Sweep l to 2 and l to 3 in 1s", &["1:18 `l` cannot go two ways at once"]);
+    check("Sweep l to 2 and l to 3 in 1s", &["1:18 `l` cannot be swept twice at once"]);
     check(
         "Sweep l to 2 and gg to 3 in 1s",
         &["1:18 pendulum has no parameter or initial value `gg`; did you mean `g`?"],

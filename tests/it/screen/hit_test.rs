@@ -1032,7 +1032,7 @@ fn what_is_dragged_is_released_when_the_keys_lead_elsewhere() {
 fn a_mass_that_cannot_rest_says_why() {
     let size = (120, 40);
     for (law, why) in [
-        ("p_x + p_x^3 + 1/2*x^2", "no momentum is at rest here"),
+        ("p_x + p_x^3 + 1/2*x^2", "no momentum brings it to rest here"),
         ("1/4*p_x^4 + 1/2*x^2", "at rest its mass is infinite"),
     ] {
         let text = format!(

@@ -351,11 +351,20 @@ fn status_and_error_are_reported() {
     let message = "the bob left the world".to_owned();
     seen.status =
         Status::Failed(phaselab::experiment::RunError { time: 2.0, message, ends_motion: true });
-    app.update(AppEvent::Snapshot(Arc::new(seen)));
+    app.update(AppEvent::Snapshot(Arc::new(seen.clone())));
     let buffer = screen(&app, &rich(), (120, 40));
     for text in
         ["stopped", "The motion cannot continue", "The bob left the world", "r back to the start"]
     {
+        assert!(find(&buffer, text).is_some(), "{text}");
+    }
+    // at the start nothing leads back
+    let message = "no velocities".to_owned();
+    seen.status =
+        Status::Failed(phaselab::experiment::RunError { time: 0.0, message, ends_motion: true });
+    app.update(AppEvent::Snapshot(Arc::new(seen)));
+    let buffer = screen(&app, &rich(), (120, 40));
+    for text in ["The motion cannot begin", "No velocities", "E edit the file"] {
         assert!(find(&buffer, text).is_some(), "{text}");
     }
 }
