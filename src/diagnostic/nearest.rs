@@ -26,7 +26,7 @@ pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
     let near = |distance: usize, c: &str| {
         distance <= (longer(c) / 3).max(1) || (distance == 2 && sorted(word) == sorted(c))
     };
-    candidates
+    let found = candidates
         .into_iter()
         .filter(|c| longer(c) <= 64)
         .inspect(|c| {
@@ -37,6 +37,7 @@ pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         .map(|c| (strsim::damerau_levenshtein(&folded, &c.to_lowercase()), c))
         .filter(|&(distance, c)| near(distance, c) && distance < longer(c))
         .min_by_key(|&(distance, _)| distance)
-        .map(|(_, c)| c)
-        .or(abbreviated)
+        .map(|(_, c)| c);
+    // `init` is `initial`, although `unit` is one letter away
+    found.filter(|c| c.to_lowercase().starts_with(stem)).or(abbreviated).or(found)
 }
