@@ -2,7 +2,7 @@
 //!
 //! Each opened system has one token. Its [`Pool`](crate::expr::Pool) checks it while expressions
 //! grow, and the compiled [`System`](crate::system::System) checks it while series are built and
-//! steps are taken. Never here: signals, clocks, threads.
+//! steps are taken. In: a request. Out: whether there was one. Never here: signals, clocks, threads.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};

@@ -55,8 +55,8 @@ mod zero_test;
 
 pub use attempt::Attempt;
 pub use function::{
-    BilinearEquation, Convolution, Divisor, FUNCTIONS, Function, KinkBranches, Operand, Recurrence,
-    Rule,
+    BilinearEquation, Convolution, Divisor, FUNCTIONS, Function, KinkBranches, Recurrence, Rule,
+    SeriesOperand,
 };
 pub use node::{Expr, FunctionId, Node};
 pub use notation::{

@@ -27,6 +27,7 @@ mod motion_state;
 mod opening;
 mod orbit;
 mod orbit_crossings;
+mod path_so_far;
 mod paths;
 mod periodic_points;
 mod phase;

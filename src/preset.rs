@@ -1,6 +1,6 @@
-//! The preset file: its text in, a checked [`Model`](crate::model::Model) or every error with its range out.
+//! The preset file.
 //!
-//! The stages: [`Document`](crate::diagnostic::Document) (a file's text, within limits) → `toml` (TOML with spans) →
+//! In: its text. Out: a checked [`Model`](crate::model::Model), or every error with its range. The stages: [`Document`](crate::diagnostic::Document) (a file's text, within limits) → `toml` (TOML with spans) →
 //! `draft` (as written, with names unresolved) → `check` (names resolved, expressions parsed) → [`Model`](crate::model::Model). There is
 //! also the [`Catalog`] of shipped and user presets. Never here: equations of motion, and whether what a file claims
 //! is true.
@@ -27,5 +27,5 @@ pub use new_surface::{NewSurface, NewZero, SurfaceView};
 pub use read::{Checked, UNTITLED, read, read_with};
 pub use rewrite::{InitialValue, NewObservable, NewRamp, Rewrite};
 pub use schema::reference;
-pub use settings::{Plain, Setting};
+pub use settings::{PlainValue, Setting};
 pub use template::template;

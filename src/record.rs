@@ -34,6 +34,7 @@ mod shown_keys;
 
 pub use cast_reader::{CastError, CastEvent, RecordedCast};
 pub use cast_theme::CastTheme;
+pub use clock::Micros;
 pub use lesson::Lesson;
 pub use lesson_check::{LessonReport, check_lesson};
 pub use lesson_keys::Pressed;

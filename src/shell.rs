@@ -62,7 +62,7 @@ pub use diagnosis::{DoctorFinding, diagnosis};
 pub use frame_loop::{Ending, FramePace, Screen, ScreenRequest, run_screen};
 pub use governor::Governor;
 pub use guided::Guided;
-pub use lab::{perform_demo, run, show, show_ahead, take_lesson};
+pub use lab::{play_demo, run, show, show_ahead, take_lesson};
 pub use lab_error::LabError;
 pub use log::{LogError, LogFile};
 pub use options::{MOST_FRAMES, Options};

@@ -142,7 +142,7 @@ pub use lane_series::LaneSeries;
 pub use logarithms::Logarithms;
 pub use observe::Observer;
 pub use program::{Program, Singular};
-pub use projector::{ConstraintProjector, Directions};
+pub use projector::{ConstraintDirections, ConstraintProjector};
 pub use rates::Rates;
 pub use saltation::Saltation;
 pub use series::Series;

@@ -116,9 +116,9 @@ impl Editor {
 
     /// Handles a typing or movement key; `page` is the number of visible rows. Returns whether the text changed.
     pub fn press(&mut self, key: KeyEvent, page: usize) -> bool {
-        let held = |modifier| key.modifiers.contains(modifier);
-        match (key.code, held(KeyModifiers::CONTROL)) {
-            (KeyCode::Char(c), false) if !held(KeyModifiers::ALT) && !c.is_control() => {
+        let pressed = |modifier| key.modifiers.contains(modifier);
+        match (key.code, pressed(KeyModifiers::CONTROL)) {
+            (KeyCode::Char(c), false) if !pressed(KeyModifiers::ALT) && !c.is_control() => {
                 self.type_in(&c.to_string(), self.typing && self.selection().is_none())
             }
             (KeyCode::Enter, _) => {

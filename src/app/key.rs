@@ -62,7 +62,7 @@ pub fn name(key: &KeyEvent) -> String {
         modifiers.remove(KeyModifiers::SHIFT);
     }
     let mut name = String::new();
-    for (written, _) in MODIFIERS.iter().filter(|(_, held)| modifiers.contains(*held)) {
+    for (written, _) in MODIFIERS.iter().filter(|(_, pressed)| modifiers.contains(*pressed)) {
         name += &format!("{written}-");
     }
     name + &match code {

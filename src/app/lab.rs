@@ -311,7 +311,7 @@ impl Lab {
 fn returned(snapshot: &Snapshot) -> Option<Returned> {
     let seen = snapshot.returned.as_ref()?;
     Some(Returned {
-        gone: [(snapshot.time - seen.turned).abs(), (seen.start - seen.turned).abs()],
+        elapsed: [(snapshot.time - seen.turned).abs(), (seen.start - seen.turned).abs()],
         step_error: (seen.step_error, seen.mean_step, seen.step.is_none()),
         distance: seen.distance,
         error: seen.error,

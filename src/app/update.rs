@@ -333,6 +333,6 @@ fn notifications<'a>(before: &[String], now: &'a [String]) -> &'a [String] {
 
 /// Whether a key starts a search; in the list of systems, any letter without a binding does.
 fn begins_search(key: KeyEvent) -> bool {
-    let held = key.modifiers.intersects(KeyModifiers::CONTROL | KeyModifiers::ALT);
-    matches!(key.code, KeyCode::Char(c) if c.is_alphanumeric()) && !held
+    let pressed = key.modifiers.intersects(KeyModifiers::CONTROL | KeyModifiers::ALT);
+    matches!(key.code, KeyCode::Char(c) if c.is_alphanumeric()) && !pressed
 }

@@ -50,9 +50,9 @@ enum CheckFormat {
 
 /// The claim that a motion is followed for, and the time to which it has come.
 #[derive(Clone, Default)]
-struct Followed(Arc<Mutex<Option<(String, f64)>>>);
+struct FollowedClaim(Arc<Mutex<Option<(String, f64)>>>);
 
-impl Followed {
+impl FollowedClaim {
     fn note(&self, claim: &str, time: f64) {
         let mut followed = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         *followed = Some((claim.to_owned(), time));
@@ -74,7 +74,7 @@ impl Followed {
 }
 
 pub(super) fn execute(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
-    let followed = Followed::default();
+    let followed = FollowedClaim::default();
     let mut files = Vec::new();
     let mut errors = 0;
     for path in &arguments.files {
@@ -116,7 +116,7 @@ pub(super) fn execute(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
 /// All errors of a file: those of its text, otherwise of its equations, otherwise of its claims; and what it describes.
 fn findings(
     document: &Document,
-    followed: &Followed,
+    followed: &FollowedClaim,
     interrupt: &Interrupt,
 ) -> (Vec<Diagnostic>, Option<String>) {
     let checked = match document.read() {

@@ -68,7 +68,7 @@ pub(super) fn execute(
     }
     let start = arguments.start.checkpoint(arguments.system())?;
     if arguments.demo {
-        return perform_demo(arguments, words, read);
+        return play_demo(arguments, words, read);
     }
     if arguments.options.watch {
         watchable(arguments.name.as_deref())?;
@@ -91,7 +91,7 @@ pub(super) fn execute(
 
 /// Performs a demo on the terminal. Its last picture stays, and errors in its script are reported after the
 /// terminal is restored.
-fn perform_demo(
+fn play_demo(
     arguments: &Arguments,
     words: &[OsString],
     read: ReadOptions,
@@ -100,8 +100,8 @@ fn perform_demo(
     let source = demo_source::source(arguments.name.as_deref())?;
     let (script, system, name) = demo_source::scripted(&source)?;
     let wrong = |diagnostic| record::located(&source, &[diagnostic]);
-    let performance = ScriptRunner::watched(script, &system, &name).map_err(wrong)?;
-    let (ending, outcome) = match shell::perform_demo(performance, &request) {
+    let script = ScriptRunner::watched(script, &system, &name).map_err(wrong)?;
+    let (ending, outcome) = match shell::play_demo(script, &request) {
         Ok(done) => done,
         Err(error) => return how_it_ended(Err(error)),
     };

@@ -188,14 +188,14 @@ impl NumberTable {
             Some(_) if of_crossing => 2,
             Some(first) => {
                 let is_same = finite().all(|x| (x - first).abs() <= rounding);
-                u8::from(is_same || of_section && self.is_held(k))
+                u8::from(is_same || of_section && self.is_on_surface(k))
             }
         }
     }
 
     /// Whether the surface of a section leaves a column its zeros alone, as it is a function of nothing else: these may be zero
     /// but for rounding, which nothing in the column itself can be compared with.
-    fn is_held(&self, k: usize) -> bool {
+    fn is_on_surface(&self, k: usize) -> bool {
         let Some(surface) = &self.surface else { return false };
         let of_name = |c: char| c.is_alphanumeric() || c == '_' || c == '\'';
         let names: BTreeSet<&str> = surface.split(|c| !of_name(c)).collect();

@@ -75,7 +75,7 @@ fn expected(laid: &Laid, returned: &Return) -> Option<f64> {
     let turned = space.state(&returned.state).ok()?;
     let growth = return_growth(&space, (laid.method, laid.settings), &turned, returned.start)?;
     let growth =
-        growth.last().filter(|last| last.gone == (returned.turned - returned.start).abs())?;
+        growth.last().filter(|last| last.elapsed == (returned.turned - returned.start).abs())?;
     let expected =
         growth.expected(returned.step_error, returned.mean_step, returned.step.is_none());
     Some(expected).filter(|expected| expected.is_finite())

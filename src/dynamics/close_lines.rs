@@ -94,7 +94,7 @@ mod tests {
     }
 
     #[test]
-    fn the_distance_of_two_lines_is_known_long_before_they_are_told_apart() {
+    fn the_distance_of_two_lines_is_known_long_before_they_are_distinguished() {
         for amplitude in [1.0, 0.9, 0.1] {
             for turns in [0.1, 0.5, 1.0, 1.4] {
                 let apart = found(turns, amplitude).expect("two lines");

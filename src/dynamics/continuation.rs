@@ -120,7 +120,7 @@ impl Continuation<'_> {
     }
 
     /// What is held fixed beside what changes.
-    fn held(&self) -> Fixed {
+    fn fixed(&self) -> Fixed {
         match self.along {
             Along::Parameter(_) => self.fixed,
             Along::Energy | Along::Period => Fixed::Nothing,
@@ -166,7 +166,7 @@ impl Continuation<'_> {
     fn newton<'s>(&self, space: &'s PhaseSpace) -> Newton<'s> {
         let units = OrbitUnits::of_file(space.dimension());
         let casimirs = self.casimirs.to_vec();
-        Newton { space, method: self.method, fixed: self.held(), units, casimirs, budget: None }
+        Newton { space, method: self.method, fixed: self.fixed(), units, casimirs, budget: None }
     }
 
     /// The equations of an orbit at (z, T, μ), with their derivatives by the displacements of z that are allowed, T and μ.

@@ -18,7 +18,7 @@ use super::lyapunov_course::{CarriedMotion, LyapunovCourse};
 use super::megno::Megno;
 use super::phase_space::PhaseSpace;
 use super::transverse::Removed;
-use super::vector_fidelity::Followed;
+use super::vector_fidelity::VectorFidelity;
 use crate::integrate::{Method, Settings};
 use crate::num::short;
 use crate::system::{MotionErrorKind, State};
@@ -275,7 +275,7 @@ fn result(
     };
     let mean = megno.mean();
     let pairing = space.is_hamiltonian().then_some(pairing);
-    let followed = Followed {
+    let followed = VectorFidelity {
         motion,
         growth,
         single_steps: course.single_steps(),
@@ -332,7 +332,7 @@ fn result(
 
 /// The verdict and its reason.
 fn judged(
-    followed: &Followed<'_>,
+    followed: &VectorFidelity<'_>,
     (exponents, uncertainty): (&[f64], &[f64]),
     megno: &Megno,
 ) -> (Chaos, String) {

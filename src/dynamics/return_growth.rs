@@ -21,8 +21,8 @@ const PARTS: u32 = 64;
 /// The growth of errors on the way back, after some time.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct ReturnGrowth {
-    /// The time gone back.
-    pub gone: f64,
+    /// The time elapsed back.
+    pub elapsed: f64,
     /// ∫ ‖∂φ(t)/∂φ(s)‖ ds over the way.
     pub sum: f64,
     /// ∫ ‖∂φ(t)/∂φ(s)‖² ds.
@@ -76,25 +76,25 @@ pub fn return_growth(
         if !squares.is_finite() {
             break;
         }
-        all.push(ReturnGrowth { gone: (end - turned.time).abs(), sum, squares });
+        all.push(ReturnGrowth { elapsed: (end - turned.time).abs(), sum, squares });
     }
     (!all.is_empty()).then_some(all)
 }
 
 /// The growth after a time, between those that are known.
-pub fn growth_after(known: &[ReturnGrowth], gone: f64) -> Option<ReturnGrowth> {
-    let after = known.partition_point(|growth| growth.gone < gone);
-    let next = known.get(after).or_else(|| known.last().filter(|last| gone <= last.gone))?;
+pub fn growth_after(known: &[ReturnGrowth], elapsed: f64) -> Option<ReturnGrowth> {
+    let after = known.partition_point(|growth| growth.elapsed < elapsed);
+    let next = known.get(after).or_else(|| known.last().filter(|last| elapsed <= last.elapsed))?;
     let before = after.checked_sub(1).and_then(|before| known.get(before));
-    let Some(before) = before.filter(|before| before.gone < next.gone) else {
+    let Some(before) = before.filter(|before| before.elapsed < next.elapsed) else {
         // on the first part of the way little has grown
-        let part = gone / next.gone;
-        return Some(ReturnGrowth { gone, sum: part * next.sum, squares: part * next.squares });
+        let part = elapsed / next.elapsed;
+        return Some(ReturnGrowth { elapsed, sum: part * next.sum, squares: part * next.squares });
     };
-    let part = (gone - before.gone) / (next.gone - before.gone);
+    let part = (elapsed - before.elapsed) / (next.elapsed - before.elapsed);
     let between = |a: f64, b: f64| math::exp((1.0 - part) * math::ln(a) + part * math::ln(b));
     Some(ReturnGrowth {
-        gone,
+        elapsed,
         sum: between(before.sum, next.sum),
         squares: between(before.squares, next.squares),
     })

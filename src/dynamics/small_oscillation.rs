@@ -132,8 +132,8 @@ pub(super) fn modes(
     modes
 }
 
-/// Real displacements that span the same as these, if there are as many: those along single coordinates as far as that goes, the
-/// others orthogonal to them by `mass`.
+/// Real displacements that span the same as these, if there are as many: the projections of single coordinates onto what they span,
+/// each made orthogonal by `mass` to those before it.
 fn real_basis(
     moved: &[DVector<Complex<f64>>],
     mass: Option<&DMatrix<f64>>,
@@ -151,33 +151,11 @@ fn real_basis(
     if !is_real {
         return None;
     }
-    let mut rows = DMatrix::from_fn(count, n, |i, j| left[(j, order[i])]);
-    // reduced to one coordinate each
-    let mut done = 0;
-    for column in 0..n {
-        let Some(pivot) = (done..count)
-            .max_by(|&a, &b| rows[(a, column)].abs().total_cmp(&rows[(b, column)].abs()))
-            .filter(|&row| rows[(row, column)].abs() > REAL)
-        else {
-            continue;
-        };
-        rows.swap_rows(done, pivot);
-        let row = rows.row(done) / rows[(done, column)];
-        rows.row_mut(done).copy_from(&row);
-        for other in (0..count).filter(|&other| other != done) {
-            let part = rows[(other, column)];
-            let less = rows.row(other) - &row * part;
-            rows.row_mut(other).copy_from(&less);
-        }
-        done += 1;
-        if done == count {
-            break;
-        }
-    }
+    let space = left.select_columns(&order[..count]);
     let weighted = |v: &DVector<f64>| mass.map_or_else(|| v.clone(), |mass| mass * v);
     let mut basis: Vec<DVector<f64>> = Vec::new();
-    for row in rows.row_iter() {
-        let mut v = row.transpose();
+    for column in (&space * space.transpose()).column_iter() {
+        let mut v = column.into_owned();
         for _ in 0..2 {
             for one in &basis {
                 let along = weighted(one);
@@ -185,7 +163,9 @@ fn real_basis(
             }
         }
         let size = v.amax();
-        basis.push(v.map(|x| if x.abs() <= REAL * size { 0.0 } else { x }));
+        if size > REAL && basis.len() < count {
+            basis.push(v.map(|x| if x.abs() <= REAL * size { 0.0 } else { x }));
+        }
     }
     Some(basis.into_iter().map(|v| v.map(|x| Complex::new(x, 0.0))).collect())
 }

@@ -11,7 +11,7 @@ use crate::num::short;
 /// A pair of exponents whose sum is this part of the largest one is none.
 const UNPAIRED: f64 = 0.1;
 
-pub(super) struct Followed<'a> {
+pub(super) struct VectorFidelity<'a> {
     pub(super) motion: &'a CarriedMotion,
     pub(super) growth: &'a TangentGrowth,
     pub(super) single_steps: &'a StepGrowth,
@@ -24,7 +24,7 @@ pub(super) struct Followed<'a> {
     pub(super) jumps: bool,
 }
 
-impl Followed<'_> {
+impl VectorFidelity<'_> {
     /// Why the growth of the vectors shows nothing of the motion.
     pub(super) fn doubt(&self) -> Option<String> {
         let lasted = self.growth.end() - self.growth.begin();
@@ -75,7 +75,7 @@ impl Followed<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::{CarriedMotion, Followed, StepGrowth, TangentGrowth};
+    use super::{CarriedMotion, StepGrowth, TangentGrowth, VectorFidelity};
     use crate::integrate::Settings;
 
     /// Whether there is a doubt after so long.
@@ -93,8 +93,15 @@ mod tests {
             TangentGrowth { times: vec![3.0, 3.0 + lasted], logarithms: vec![vec![0.0; 4]; 2] };
         let single_steps = &StepGrowth::default();
         let (motion, growth) = (&motion, &growth);
-        let followed =
-            Followed { motion, growth, single_steps, largest, pairing, volumes, jumps: false };
+        let followed = VectorFidelity {
+            motion,
+            growth,
+            single_steps,
+            largest,
+            pairing,
+            volumes,
+            jumps: false,
+        };
         followed.doubt().is_some()
     }
 

@@ -70,7 +70,7 @@ impl SectionPlane {
             free.remove(place);
         }
         let symbols = model.pool.symbols_of(event.when);
-        let held: Vec<usize> =
+        let fixed: Vec<usize> =
             (0..degrees).filter(|&i| symbols.contains(&model.coordinates[i].position)).collect();
         let known = |coordinate: Option<(usize, f64)>, time: f64| {
             let value = |symbol| {
@@ -88,7 +88,7 @@ impl SectionPlane {
             model.pool.evaluate(event.when, &value)
         };
         let driven = symbols.contains(&model.symbols.time);
-        let surface = match (held[..].first(), driven) {
+        let surface = match (fixed[..].first(), driven) {
             (None, true) if free.is_empty() => {
                 let at = known(None, time);
                 let width = 1e-6 * time.abs().max(1.0);
@@ -100,7 +100,7 @@ impl SectionPlane {
                 };
                 SurfaceCondition::Stroboscope { begins: at.abs() <= ON && wanted }
             }
-            (Some(&coordinate), false) if held.len() == 1 => {
+            (Some(&coordinate), false) if fixed.len() == 1 => {
                 let place = free.iter().position(|slot| *slot == (coordinate, false))?;
                 free.remove(place);
                 let [(rate, true)] = free[..] else { return None };

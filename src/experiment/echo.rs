@@ -136,8 +136,8 @@ impl Echo {
         if time == self.start {
             self.error = Some(distance);
         }
-        let gone = (time - self.turned).abs();
-        Arc::make_mut(&mut self.separation).add(gone, &then, &now, periods);
+        let elapsed = (time - self.turned).abs();
+        Arc::make_mut(&mut self.separation).add(elapsed, &then, &now, periods);
     }
 
     pub(super) fn returned(&self) -> Return {
@@ -153,7 +153,7 @@ impl Echo {
         }
     }
 
-    /// The distance over the time gone back.
+    /// The distance over the time elapsed back.
     pub(super) fn separation(&self) -> Arc<DistanceHistory> {
         Arc::clone(&self.separation)
     }

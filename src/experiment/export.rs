@@ -118,7 +118,7 @@ fn with_what_holds(
 /// The errors of a text, without its motion.
 fn wrong_as_written(document: &Document) -> ExportErrors {
     match Prepared::of(document) {
-        Err(unready) => (unready.diagnostics, Some(unready.report)),
+        Err(error) => (error.diagnostics, Some(error.report)),
         Ok(_) => (Vec::new(), None),
     }
 }
@@ -126,7 +126,7 @@ fn wrong_as_written(document: &Document) -> ExportErrors {
 /// The errors of a text, including the expectations that its motion does not fulfil.
 fn wrong_in_motion(document: &Document) -> ExportErrors {
     match Prepared::of(document) {
-        Err(unready) => (unready.diagnostics, Some(unready.report)),
+        Err(error) => (error.diagnostics, Some(error.report)),
         Ok(Prepared { model, equations, .. }) => {
             let diagnostics = false_claims(&model, &equations).into_iter();
             (diagnostics.filter(|m| m.severity == Severity::Error).collect(), None)

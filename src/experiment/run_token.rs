@@ -21,7 +21,7 @@ impl RunToken {
 
 impl ReleasedToken {
     /// Returns the token, if somebody still holds it.
-    pub(super) fn held(&self) -> Option<RunToken> {
+    pub(super) fn upgrade(&self) -> Option<RunToken> {
         self.0.upgrade().map(RunToken)
     }
 }

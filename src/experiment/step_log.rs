@@ -58,7 +58,7 @@ impl StepLog {
         if !known.is_empty() {
             self.earlier.push_back((run, known));
         }
-        self.earlier.retain(|(run, _)| run.held().is_some());
+        self.earlier.retain(|(run, _)| run.upgrade().is_some());
         let mut numbers = 0;
         let sizes =
             self.earlier.iter().rev().map(|(_, known)| known.iter().map(size).sum::<usize>());
@@ -76,7 +76,7 @@ impl StepLog {
 
     /// Resumes an earlier run. Returns whether it is still known.
     pub(super) fn resume(&mut self, run: &RunToken) -> bool {
-        let is_wanted = |released: &ReleasedToken| released.held().as_ref() == Some(run);
+        let is_wanted = |released: &ReleasedToken| released.upgrade().as_ref() == Some(run);
         let Some(at) = self.earlier.iter().position(|(released, _)| is_wanted(released)) else {
             return false;
         };

@@ -26,7 +26,7 @@ mod tanh;
 use super::node::{Expr, FunctionId, Node};
 use super::pool::Pool;
 use crate::num::{Analytic, Number};
-pub use recurrence::{BilinearEquation, Convolution, Divisor, Operand, Recurrence};
+pub use recurrence::{BilinearEquation, Convolution, Divisor, Recurrence, SeriesOperand};
 
 /// The functions, in the order of [`FunctionId`].
 pub const FUNCTIONS: [Function; 18] = [

@@ -16,16 +16,14 @@ use self::along_motion::{ActionAlongMotion, Actions, beside};
 use self::ends::by_its_ends;
 use self::in_phase_space::{beside_by, nature};
 pub(super) use self::principle::Principle;
-use super::conditions::PlotConditions;
+use super::path_so_far::{PathSoFar, nothing_yet};
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
     Need, Offer, Physics, Picture, Plot, PlotContext, Present, Upwards,
 };
 use crate::dynamics::{PhaseSpace, VARIATIONS, VariedAction};
-use crate::integrate::method_named;
 use crate::job::{Job, Progress};
 use crate::num::significant;
-use crate::system::ChannelKind;
 
 const AXIS: Level = 0;
 const CURVES: Level = 1;
@@ -34,18 +32,11 @@ const MOTION: Level = 2;
 /// An action below this part of what those of paths beside it differ by is a rounding error.
 const ROUNDING: f64 = 1e-14;
 
-/// The end of the path moves on by so many seconds of the wall clock at the file's own speed, at most so often.
-const GRID: f64 = 0.25;
-const MOST: f64 = 240.0;
-
 pub(super) struct ActionPlot(pub(super) Principle);
 
 struct ComputedAction {
     principle: Principle,
-    conditions: PlotConditions,
-    coordinate: usize,
-    begin: f64,
-    duration: f64,
+    path: PathSoFar,
     outcome: Result<ActionAlongMotion, String>,
 }
 
@@ -160,41 +151,28 @@ impl Instrument for ActionPlot {
 
     fn job(&self, PlotContext { plot, present, answer }: PlotContext<'_>) -> Need {
         let Physics { model, equations, system } = present.physics;
-        let (Some(channel), Some(method)) = (plot.column(0), method_named(present.method)) else {
-            return Need::Nothing;
-        };
-        let ChannelKind::Position(coordinate) = system.channels()[channel].kind else {
-            return Need::Nothing;
-        };
-        let conditions = PlotConditions::of_recorded(present, &plot.seeds);
-        let (principle, Some(duration)) = (self.0, duration(present)) else {
-            return Need::Nothing;
-        };
-        let holds = |known: &ComputedAction| {
-            (known.principle, known.coordinate, known.duration) == (principle, coordinate, duration)
-                && known.conditions == conditions
-        };
-        if computed(answer).is_some_and(holds) {
+        let Some((path, method)) = PathSoFar::of(plot, present) else { return Need::Nothing };
+        let principle = self.0;
+        if computed(answer)
+            .is_some_and(|known| (known.principle, &known.path) == (principle, &path))
+        {
             return Need::Valid;
         }
         let (model, equations, system) = (model.clone(), equations.clone(), system.clone());
         Need::Job(Job::new("action", move |progress: &Progress| {
             let system = system.with_cancel(progress.token().clone());
-            let parameters = &conditions.parameters;
-            let begin = conditions.begin(model.run.start);
+            let parameters = &path.conditions.parameters;
             let outcome = PhaseSpace::without_end(&model, &equations, &system, parameters)
                 .map_err(|why| why.to_string())
                 .and_then(|space| {
                     let mut own = (*equations).clone();
-                    let of = (principle, begin);
+                    let of = (principle, path.begin);
                     let actions = Actions::of((&model, &mut own), parameters, of)?;
-                    let start = (begin, model.run.start);
-                    beside(&space, actions, (method, &conditions, start), coordinate, duration)
+                    let start = (path.begin, model.run.start);
+                    let of = (method, &path.conditions, start);
+                    beside(&space, actions, of, path.coordinate, path.duration)
                 });
-            let conditions = conditions.clone();
-            let found =
-                ComputedAction { principle, conditions, coordinate, begin, duration, outcome };
-            Answer::new(found)
+            Answer::new(ComputedAction { principle, path: path.clone(), outcome })
         }))
     }
 
@@ -229,29 +207,6 @@ impl Instrument for ActionPlot {
     }
 }
 
-/// How long the path is: up to now, while the motion runs on a grid; `None` where it is paused before there is any.
-pub(super) fn duration(present: &Present<'_>) -> Option<f64> {
-    let run = &present.physics.model.run;
-    let passed = present.time - present.began();
-    let grid = if run.speed.is_normal() { GRID * run.speed.abs() } else { GRID };
-    if !present.running {
-        return (passed > 0.0).then(|| passed.min(MOST * grid));
-    }
-    Some(grid * (passed / grid).floor().clamp(1.0, MOST))
-}
-
-/// What is said where the motion is paused before there is a path.
-pub(super) fn nothing_yet(present: &Present<'_>) -> Option<String> {
-    if duration(present).is_some() {
-        return None;
-    }
-    let began = significant(present.began(), 4, 1e-3..1e5).replace('-', "−");
-    Some(match present.changed {
-        Some((what, _)) => format!("no motion yet since t = {began}, where {what} was changed"),
-        None => format!("no motion yet since t = {began}"),
-    })
-}
-
 fn computed(answer: Option<&Answer>) -> Option<&ComputedAction> {
     answer?.of::<ComputedAction>()
 }
@@ -278,7 +233,7 @@ fn sentences(answer: Option<&Answer>, coordinate: Option<&str>) -> Vec<String> {
         Ok(found) => found,
     };
     let short = |x: f64| significant(x, 5, 1e-3..1e5).replace('-', "−");
-    let at = |focus: &f64| format!("t = {}", short(computed.begin + focus));
+    let at = |focus: &f64| format!("t = {}", short(computed.path.begin + focus));
     // as many negative directions as foci that were passed (M. Morse)
     let not_least = |foci: usize| match computed.principle {
         Principle::Maupertuis => "not a minimum at this energy".to_owned(),
@@ -310,12 +265,12 @@ fn sentences(answer: Option<&Answer>, coordinate: Option<&str>) -> Vec<String> {
     };
     let (letter, value) = (computed.principle.letter(), short(value(&found.varied)));
     // the heading has the integral
-    let action = format!("{letter} = {value} up to {}", at(&computed.duration));
+    let action = format!("{letter} = {value} up to {}", at(&computed.path.duration));
     // of a motion that does not make the action stationary these slopes say nothing
     let ends = found.varied.ends.filter(|_| found.foci.is_some());
     let ends = ends.map_or_else(Vec::new, |ends| {
         by_its_ends(&ends, found.method_errors, coordinate.unwrap_or("q"))
     });
-    let since = computed.conditions.since().into_iter().collect();
+    let since = computed.path.conditions.since().into_iter().collect();
     [vec![action], rest, ends, since].concat()
 }

@@ -129,10 +129,10 @@ impl Instrument for Ensemble {
         let seen = [0, 1].map(|axis| viewport.part(axis, window[axis]));
         // once more while all of the box is seen: over the energy shell in its place
         let conserved = present.physics.equations.energy_rate == Expr::ZERO;
-        let contains = |held: &[f64; 2], by: &[f64; 2]| by[0] <= held[0] && held[1] <= by[1];
+        let contains = |extent: &[f64; 2], by: &[f64; 2]| by[0] <= extent[0] && extent[1] <= by[1];
         Some(match plot.seeds.last() {
             Some(Seed::Spread(last))
-                if conserved && last.iter().zip(&seen).all(|(held, by)| contains(held, by)) =>
+                if conserved && last.iter().zip(&seen).all(|(extent, by)| contains(extent, by)) =>
             {
                 Seed::Shell
             }

@@ -5,15 +5,15 @@
 //! the action stationary. Never here: how such a path is found (`dynamics`), nor that there are no others.
 //! Source: *The Principles of Dynamics*, §§ 1.4.1, 3.5.
 
-use super::action::{duration, nothing_yet};
 use super::conditions::PlotConditions;
+use super::path_so_far::{PathSoFar, duration, nothing_yet};
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
     Need, Offer, Physics, Picture, Plot, PlotContext, Present, Upwards,
 };
 use crate::dynamics::{Lagrangian, PathKind, PhaseSpace, StationaryPath, stationary_path};
 use crate::ensemble::SystemFlow;
-use crate::integrate::{Method, method_named};
+use crate::integrate::Method;
 use crate::job::{Job, Progress};
 use crate::num::{math, significant};
 use crate::system::{ChannelKind, System};
@@ -42,10 +42,7 @@ const NAMED: usize = 5;
 pub(super) struct PathsPlot;
 
 struct ComputedPaths {
-    conditions: PlotConditions,
-    coordinate: usize,
-    begin: f64,
-    duration: f64,
+    path: PathSoFar,
     outcome: Result<Vec<TruePath>, String>,
 }
 
@@ -91,7 +88,8 @@ impl Instrument for PathsPlot {
 
     fn across(&self, PlotContext { present, answer, .. }: PlotContext<'_>) -> Across {
         let begin = present.began();
-        let span = |known: &ComputedPaths| [known.begin, known.begin + known.duration];
+        let span =
+            |known: &ComputedPaths| [known.path.begin, known.path.begin + known.path.duration];
         let none = || [begin, begin + duration(present).unwrap_or(1.0)];
         let range = computed(answer).map_or_else(none, span);
         Across::Named("t".to_owned(), range)
@@ -136,19 +134,11 @@ impl Instrument for PathsPlot {
 
     fn job(&self, PlotContext { plot, present, answer }: PlotContext<'_>) -> Need {
         let Physics { model, equations, system } = present.physics;
-        let (Some(channel), Some(method)) = (plot.column(0), method_named(present.method)) else {
+        let (Some(channel), Some((path, method))) = (plot.column(0), PathSoFar::of(plot, present))
+        else {
             return Need::Nothing;
         };
-        let ChannelKind::Position(coordinate) = system.channels()[channel].kind else {
-            return Need::Nothing;
-        };
-        let conditions = PlotConditions::of_recorded(present, &plot.seeds);
-        let Some(duration) = duration(present) else { return Need::Nothing };
-        let known = computed(answer);
-        if known.is_some_and(|known| {
-            (known.coordinate, known.duration) == (coordinate, duration)
-                && known.conditions == conditions
-        }) {
+        if computed(answer).is_some_and(|known| known.path == path) {
             return Need::Valid;
         }
         let reach = reach(present, channel);
@@ -156,7 +146,7 @@ impl Instrument for PathsPlot {
         Need::Job(Job::new("paths", move |progress: &Progress| {
             let system = system.with_cancel(progress.token().clone());
             let mut own = (*equations).clone();
-            let begin = conditions.begin(model.run.start);
+            let PathSoFar { conditions, coordinate, begin, duration } = path.clone();
             let parameters = &conditions.parameters;
             let space = PhaseSpace::without_end(&model, &equations, &system, parameters);
             let outcome = space.map_err(|why| why.to_string()).and_then(|space| {
@@ -173,8 +163,7 @@ impl Instrument for PathsPlot {
                 let way = Way { motion, method_error, coordinate, reach, begin, duration };
                 Ok(way.paths(&mut lagrangian))
             });
-            let conditions = conditions.clone();
-            Answer::new(ComputedPaths { conditions, coordinate, begin, duration, outcome })
+            Answer::new(ComputedPaths { path: path.clone(), outcome })
         }))
     }
 
@@ -344,10 +333,11 @@ fn lines(answer: Option<&Answer>) -> Vec<String> {
         Some(Ok(all)) => all,
     };
     let until = computed(answer).map(|known| {
-        let end = significant(known.begin + known.duration, 5, 1e-3..1e5).replace('-', "−");
+        let end =
+            significant(known.path.begin + known.path.duration, 5, 1e-3..1e5).replace('-', "−");
         format!("up to t = {end}")
     });
-    let since = computed(answer).and_then(|known| known.conditions.since());
+    let since = computed(answer).and_then(|known| known.path.conditions.since());
     let mut lines: Vec<(String, usize)> = Vec::new();
     for path in all {
         let action = significant(path.action, 5, 1e-3..1e5).replace('-', "−");

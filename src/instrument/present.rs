@@ -65,8 +65,8 @@ pub struct Present<'a> {
 /// A motion whose time was reversed, held against the run before.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Returned {
-    /// The time gone back, and back to the start of the run before.
-    pub gone: [f64; 2],
+    /// The time elapsed back, and back to the start of the run before.
+    pub elapsed: [f64; 2],
     /// ε, the error of a step, the mean size of a step, and whether the errors of steps are independent of each other.
     pub step_error: (f64, f64, bool),
     /// The distance from the run before at the same time.

@@ -71,7 +71,7 @@ impl Instrument for SeparationPlot {
     }
 
     fn across(&self, PlotContext { present, .. }: PlotContext<'_>) -> Across {
-        if let Some(Returned { gone: [_, all], .. }) = present.returned {
+        if let Some(Returned { elapsed: [_, all], .. }) = present.returned {
             return Across::Named(
                 "time run backwards".to_owned(),
                 [0.0, all.max(f64::MIN_POSITIVE)],
@@ -147,7 +147,7 @@ impl Instrument for SeparationPlot {
                 about: "the same as it is expected: the errors of all steps so far, each grown on the way back since",
                 value: |PlotContext { present, answer, .. }| {
                     let returned = present.returned?;
-                    way_back::expected(returned, answer, returned.gone[0])
+                    way_back::expected(returned, answer, returned.elapsed[0])
                 },
             },
             Measure {

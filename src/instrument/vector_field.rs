@@ -6,7 +6,7 @@
 use std::sync::Arc;
 
 use super::{Physics, Present};
-use crate::analysis::Grid;
+use crate::analysis::{Curve, Grid};
 use crate::system::{ChannelKind, Form, Rates, State, System};
 
 /// The grid points, horizontal and vertical, on which signs of the rates are looked at: of a field that stays, and of one that
@@ -17,9 +17,6 @@ const MOVING_GRID: [usize; 2] = [49, 37];
 /// A zero between two grid points is located by so many halvings; there a rate is at most this part of what it is at them.
 const HALVINGS: usize = 12;
 const VANISHING: f64 = 0.1;
-
-/// A curve through points of the plane.
-type Curve = Vec<[f64; 2]>;
 
 /// The rates of change (ẋ, ẏ) over a plane of a coordinate and its own momentum or velocity. What is not in the plane – other
 /// coordinates and their rates, the time – is that of the present.

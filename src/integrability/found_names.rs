@@ -44,7 +44,7 @@ mod tests {
     use super::is_numbered;
 
     #[test]
-    fn a_letter_with_a_number_is_told_from_other_names() {
+    fn a_letter_with_a_number_is_no_other_name() {
         for (name, numbered) in [
             ("I1", true),
             ("I_12", true),

@@ -92,7 +92,7 @@ struct DormandPrince {
     /// The effect of rounding on each rate in the attempted step, and what is kept of it from the steps before. That of an attempt
     /// that failed is not: it may have led far from the motion.
     noise: Vec<f64>,
-    kept_noise: Vec<f64>,
+    remembered_noise: Vec<f64>,
     fresh: Vec<f64>,
     /// The size of each number within the current step.
     sizes: Vec<f64>,
@@ -134,7 +134,7 @@ impl DormandPrince {
             has_interpolant: false,
             numbers: zeros.clone(),
             noise: zeros.clone(),
-            kept_noise: zeros.clone(),
+            remembered_noise: zeros.clone(),
             fresh: zeros.clone(),
             sizes: zeros,
             stale: false,

@@ -38,7 +38,7 @@ pub(super) struct Implicit {
     rates: Rates,
     tableau: Tableau,
     /// The numbers that stay as they are at the stages of a partitioned method.
-    held: Vec<bool>,
+    stays: Vec<bool>,
     /// The slopes at the stages, one stage after the other; before a step those of the step before, if `contiguous`.
     slopes: Vec<f64>,
     contiguous: bool,
@@ -61,19 +61,19 @@ pub(super) struct Implicit {
 
 impl Implicit {
     pub(super) fn new(system: &System, tableau: Tableau) -> Implicit {
-        Implicit::with_held(system, tableau, vec![false; system.state_len()])
+        Implicit::with_staying(system, tableau, vec![false; system.state_len()])
     }
 
-    fn with_held(system: &System, tableau: Tableau, held: Vec<bool>) -> Implicit {
+    fn with_staying(system: &System, tableau: Tableau, stays: Vec<bool>) -> Implicit {
         let (s, n) = (tableau.nodes.len(), system.state_len());
         let zeros = vec![0.0; s * n];
         let rates = system.canonical_rates();
         Implicit {
-            lanes: StageLanes::new(&rates, &tableau, &held).map(Box::new),
+            lanes: StageLanes::new(&rates, &tableau, &stays).map(Box::new),
             in_lanes: false,
             rates,
             tableau,
-            held,
+            stays,
             slopes: zeros.clone(),
             contiguous: false,
             stages: zeros.clone(),
@@ -89,13 +89,13 @@ impl Implicit {
 
     /// The same, partitioned: the momenta, and those of tangent vectors, alone move to the stages.
     pub(super) fn partitioned(system: &System, tableau: Tableau) -> Implicit {
-        let mut held = vec![true; system.state_len()];
+        let mut stays = vec![true; system.state_len()];
         let (degrees, moving) = (system.degrees(), system.moving());
         let vectors = (0..system.tangents()).map(|vector| system.tangent_place(vector));
         for first in std::iter::once(0).chain(vectors) {
-            held[first + degrees..first + moving].fill(false);
+            stays[first + degrees..first + moving].fill(false);
         }
-        Implicit::with_held(system, tableau, held)
+        Implicit::with_staying(system, tableau, stays)
     }
 
     /// The initial slopes: the extrapolated polynomial of the last step, or else the slope at the
@@ -121,7 +121,7 @@ impl Implicit {
         for (weights, stage) in self.tableau.matrix.iter().zip(self.stages.chunks_exact_mut(n)) {
             combine(weights.iter().map(|a| a.high), &self.slopes, stage);
             for (i, x) in stage.iter_mut().enumerate() {
-                *x = if self.held[i] {
+                *x = if self.stays[i] {
                     state.exact(i).high
                 } else {
                     state.values[i] + (state.carry[i] + step * *x)
@@ -291,7 +291,7 @@ impl Scheme for Implicit {
         let n = state.values.len();
         for (weights, stage) in self.tableau.matrix.iter().zip(self.stages.chunks_exact_mut(n)) {
             for (i, x) in stage.iter_mut().enumerate() {
-                if !self.held[i] {
+                if !self.stays[i] {
                     let change = change(weights, &self.slopes, (i, n), step);
                     *x = (state.exact(i) + change).high;
                 }

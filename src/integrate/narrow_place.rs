@@ -70,14 +70,14 @@ fn part_of(begin: End, end: End) -> f64 {
 /// The arguments and the divisors along one motion.
 #[derive(Clone, Debug)]
 pub(super) struct NarrowPlaces {
-    arguments: Option<Followed>,
-    divisors: Option<Followed>,
+    arguments: Option<FollowedArguments>,
+    divisors: Option<FollowedArguments>,
 }
 
 impl NarrowPlaces {
     /// Those in the law of a system; `None` if there are none.
     pub(super) fn of(system: &System, parameters: &[f64], blank: &State) -> Option<NarrowPlaces> {
-        let followed = |found: SteepArguments| Followed::new(found, blank);
+        let followed = |found: SteepArguments| FollowedArguments::new(found, blank);
         let arguments = system.steep_arguments(parameters).map(followed);
         let divisors = system.divisors(parameters).map(followed);
         let is_any = arguments.is_some() || divisors.is_some();
@@ -105,7 +105,7 @@ impl NarrowPlaces {
 
 /// Functions of the state along one motion.
 #[derive(Clone, Debug)]
-struct Followed {
+struct FollowedArguments {
     arguments: SteepArguments,
     there: State,
     here: Vec<f64>,
@@ -114,10 +114,10 @@ struct Followed {
     end: Vec<End>,
 }
 
-impl Followed {
-    fn new(arguments: SteepArguments, blank: &State) -> Followed {
+impl FollowedArguments {
+    fn new(arguments: SteepArguments, blank: &State) -> FollowedArguments {
         let count = arguments.count();
-        Followed {
+        FollowedArguments {
             arguments,
             there: blank.clone(),
             here: vec![0.0; count],

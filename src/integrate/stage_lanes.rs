@@ -28,7 +28,7 @@ pub(super) struct StageLanes {
     /// The columns of the extrapolation to the next step.
     onward: Vec<Stages>,
     /// Of the numbers that move, those that stay as they are at the stages of a partitioned method.
-    held: Vec<bool>,
+    stays: Vec<bool>,
     iteration: Vec<Iteration>,
     /// The slopes of the step before.
     before: Vec<Stages>,
@@ -51,7 +51,7 @@ const AT_FIRST: Iteration =
 
 impl StageLanes {
     /// `None` where there are too many stages, and where the rates cannot be written as a list.
-    pub(super) fn new(rates: &Rates, tableau: &Tableau, held: &[bool]) -> Option<StageLanes> {
+    pub(super) fn new(rates: &Rates, tableau: &Tableau, stays: &[bool]) -> Option<StageLanes> {
         let stages = tableau.nodes.len();
         let rates = rates.of_stages(stages)?;
         let stage = |lane: usize| if lane < stages { lane } else { 0 };
@@ -60,12 +60,12 @@ impl StageLanes {
         let places = rates.places().to_vec();
         Some(StageLanes {
             suits: false,
-            others: (0..held.len()).filter(|i| !places.contains(i)).collect(),
+            others: (0..stays.len()).filter(|i| !places.contains(i)).collect(),
             nodes: Batch(std::array::from_fn(|lane| tableau.nodes[stage(lane)].high)),
             matrix: (0..stages).map(column).collect(),
             weights: tableau.weights.iter().map(|&b| BatchDouble::splat(b)).collect(),
             onward: (0..stages).map(onward).collect(),
-            held: places.iter().map(|&i| held[i]).collect(),
+            stays: places.iter().map(|&i| stays[i]).collect(),
             iteration: vec![AT_FIRST; places.len()],
             before: vec![Stages::ZERO; places.len()],
             places,
@@ -176,7 +176,7 @@ impl Kernel for BeginStep<'_> {
     #[inline(always)]
     fn run<const FUSED: bool>(self) {
         let BeginStep { lanes, step, state, contiguous } = self;
-        let StageLanes { rates, places, others, matrix, onward, held, before, .. } = lanes;
+        let StageLanes { rates, places, others, matrix, onward, stays, before, .. } = lanes;
         if !contiguous {
             rates.set_times(Stages::splat(state.time));
             for &i in places.iter().chain(others.iter()) {
@@ -190,7 +190,7 @@ impl Kernel for BeginStep<'_> {
         }
         let (numbers, slopes) = rates.moving();
         for (k, &i) in places.iter().enumerate() {
-            numbers[k] = if held[k] {
+            numbers[k] = if stays[k] {
                 Stages::splat(state.values[i])
             } else {
                 let slope = if contiguous {
@@ -221,7 +221,7 @@ impl Kernel for Passes<'_> {
     #[inline(always)]
     fn run<const FUSED: bool>(self) -> bool {
         let Passes { lanes, first, step, state, noise } = self;
-        let StageLanes { rates, places, matrix, held, iteration, .. } = lanes;
+        let StageLanes { rates, places, matrix, stays, iteration, .. } = lanes;
         let least = Stages::splat(size_of(0.0));
         for count in first..first + PATIENCE {
             rates.evaluate();
@@ -230,7 +230,7 @@ impl Kernel for Passes<'_> {
             for k in 0..places.len() {
                 let (i, number) = (places[k], &mut numbers[k]);
                 let old = *number;
-                if !held[k] {
+                if !stays[k] {
                     *number = stages_of(combine(matrix, leading, slopes[k]), step, state, i);
                 }
                 let moved = (*number - old).abs();
@@ -279,11 +279,11 @@ impl Kernel for EndStep<'_> {
     #[inline(always)]
     fn run<const FUSED: bool>(self) -> bool {
         let EndStep { lanes, step, state } = self;
-        let StageLanes { rates, places, matrix, weights, held, .. } = lanes;
+        let StageLanes { rates, places, matrix, weights, stays, .. } = lanes;
         rates.evaluate();
         let (numbers, slopes) = rates.moving();
         for k in 0..places.len() {
-            if held[k] {
+            if stays[k] {
                 continue;
             }
             let mut change = BatchDouble::ZERO;

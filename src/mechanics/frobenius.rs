@@ -74,7 +74,7 @@ impl Equations {
         let mut variables: Vec<Symbol> = self.coordinates.iter().map(|c| c.position).collect();
         variables.push(self.symbols.time);
         let places = self.fixed_positions();
-        let held = rows.iter().filter(|row| row.position.is_some()).count();
+        let holonomic = rows.iter().filter(|row| row.position.is_some()).count();
         let on: Vec<(Symbol, Expr)> = places
             .iter()
             .filter_map(|place| match place {
@@ -83,7 +83,7 @@ impl Equations {
             })
             .collect();
         // with other relations between the coordinates a value elsewhere refutes nothing
-        let refutable = on.len() == held;
+        let refutable = on.len() == holonomic;
         let forms: Vec<Vec<Expr>> =
             rows.iter().map(|row| row.row.iter().copied().chain([row.rate]).collect()).collect();
         let mut system =

@@ -236,8 +236,8 @@ fn written_inverse(
         map.implicit.holds(pool, &point.clone().with(image.collect::<Vec<_>>()))
     };
     let (mut right, mut wrong) = (0, 0);
-    for held in points.iter().filter_map(holds) {
-        if held { right += 1 } else { wrong += 1 }
+    for is_right in points.iter().filter_map(holds) {
+        if is_right { right += 1 } else { wrong += 1 }
     }
     (right > 0 && wrong == 0).then_some(found)
 }

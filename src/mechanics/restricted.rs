@@ -58,12 +58,14 @@ impl Equations {
                 }
                 _ => Vec::new(),
             };
-            below.into_iter().any(|e| self.may_vanish_there(&restriction, e) && !self.is_kept(e))
+            below
+                .into_iter()
+                .any(|e| self.may_vanish_there(&restriction, e) && !self.is_proved_constant(e))
         })
     }
 
     /// Whether the rate of a function is proved to vanish.
-    fn is_kept(&mut self, e: Expr) -> bool {
+    fn is_proved_constant(&mut self, e: Expr) -> bool {
         self.rate_of(e).is_some_and(|rate| {
             self.pool.is_zero(rate) == Zero::Proved || self.vanishes_on_constraints(rate)
         })

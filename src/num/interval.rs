@@ -237,24 +237,24 @@ mod tests {
             (0..=8).map(move |k| DoubleDouble::from(low + (high - low) * f64::from(k) / 8.0))
         };
         let pairs = bounds.iter().flat_map(|&a| bounds.map(|b| (a, b)));
-        let mut held = Vec::new();
+        let mut checks = Vec::new();
         for (a, b) in pairs {
             let one = Interval { low: a.0, high: a.1 };
             let other = Interval { low: b.0, high: b.1 };
             for (p, q) in numbers(a).flat_map(|p| numbers(b).map(move |q| (p, q))) {
-                held.push(holds(one + other, p + q) && holds(one * other, p * q));
-                held.push(q.high == 0.0 || holds(one * other.recip(), p / q));
+                checks.push(holds(one + other, p + q) && holds(one * other, p * q));
+                checks.push(q.high == 0.0 || holds(one * other.recip(), p / q));
             }
             for p in numbers(a) {
-                held.push(holds(one.square(), p * p) && holds(one.power(2.0), p * p));
-                held.push(holds(one.power(3.0), p * p * p));
+                checks.push(holds(one.square(), p * p) && holds(one.power(2.0), p * p));
+                checks.push(holds(one.power(3.0), p * p * p));
                 let root =
                     p.high < 0.0 || holds(one.root(), p.sqrt()) && holds(one.power(0.5), p.sqrt());
-                held.push(root);
+                checks.push(root);
             }
         }
-        let missed = held.iter().position(|held| !held);
-        assert!(held.len() > 5000 && missed.is_none(), "{missed:?} of {}", held.len());
+        let missed = checks.iter().position(|holds| !holds);
+        assert!(checks.len() > 5000 && missed.is_none(), "{missed:?} of {}", checks.len());
     }
 
     #[test]

@@ -20,12 +20,12 @@ pub struct Setting {
     /// The byte range of its value in the file.
     pub place: SourceRange,
     /// What stands behind the `=`.
-    pub value: Plain,
+    pub value: PlainValue,
 }
 
 /// A plain value.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub enum Plain {
+pub enum PlainValue {
     /// A text in quotes.
     Text(String),
     /// A number as written.
@@ -66,12 +66,12 @@ impl Document {
     }
 }
 
-fn plain(value: &DeValue<'_>) -> Plain {
+fn plain(value: &DeValue<'_>) -> PlainValue {
     match value {
-        DeValue::String(text) => Plain::Text(text.to_string()),
-        DeValue::Integer(number) => Plain::Number(number.as_str().to_owned()),
-        DeValue::Float(number) => Plain::Number(number.as_str().to_owned()),
-        DeValue::Boolean(flag) => Plain::Flag(*flag),
-        other => Plain::Other(super::draft::kind(other)),
+        DeValue::String(text) => PlainValue::Text(text.to_string()),
+        DeValue::Integer(number) => PlainValue::Number(number.as_str().to_owned()),
+        DeValue::Float(number) => PlainValue::Number(number.as_str().to_owned()),
+        DeValue::Boolean(flag) => PlainValue::Flag(*flag),
+        other => PlainValue::Other(super::draft::kind(other)),
     }
 }

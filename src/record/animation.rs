@@ -16,7 +16,7 @@ use std::io::{self, Write};
 use gif::{DisposalMethod, Encoder, EncodingError, Frame, Repeat};
 
 use self::glyph::GlyphSheet;
-use self::inks::{Inks, TRANSPARENT, Tally};
+use self::inks::{InkCounts, Inks, TRANSPARENT};
 use self::pictures::{CastPictures, changed};
 use self::screen::ScreenCell;
 use super::cast_reader::RecordedCast;
@@ -50,7 +50,7 @@ pub fn write<W: Write>(cast: &RecordedCast, cell_width: u16, mut out: W) -> io::
         return Err(io::Error::new(io::ErrorKind::InvalidInput, what));
     };
     let mut glyphs = GlyphSheet::new(usize::from(cell_width));
-    let inks = Inks::of(tally(cast, &mut glyphs));
+    let inks = Inks::of(count_inks(cast, &mut glyphs));
     // the encoder keeps what it is given until its end
     let mut encoder = Encoder::new(&mut out, width, height, &inks.palette()).map_err(failed)?;
     encoder.set_repeat(Repeat::Infinite).map_err(failed)?;
@@ -77,18 +77,18 @@ pub fn write<W: Write>(cast: &RecordedCast, cell_width: u16, mut out: W) -> io::
 }
 
 /// Counts the colours of the pixels that are drawn.
-fn tally(cast: &RecordedCast, glyphs: &mut GlyphSheet) -> Tally {
-    let mut tally = Tally::default();
+fn count_inks(cast: &RecordedCast, glyphs: &mut GlyphSheet) -> InkCounts {
+    let mut counts = InkCounts::default();
     let mut shown: Vec<ScreenCell> = Vec::new();
     let mut pictures = CastPictures::new(cast);
     while let Some(picture) = pictures.next() {
         for index in changed(&shown, &picture.cells) {
             let cell = &picture.cells[index];
-            tally.add(cell.ink, cell.ground, glyphs.of(cell).histogram());
+            counts.add(cell.ink, cell.ground, glyphs.of(cell).histogram());
         }
         shown = picture.cells;
     }
-    tally
+    counts
 }
 
 /// Writes a picture that lasts a number of centiseconds.

@@ -4,7 +4,8 @@
 
 use std::time::Duration;
 
-pub(super) type Micros = u64;
+/// A time in microseconds.
+pub type Micros = u64;
 
 pub(super) const SECOND: Micros = 1_000_000;
 

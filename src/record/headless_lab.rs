@@ -1,4 +1,4 @@
-//! The laboratory on virtual time: the application and its experiment, without threads.
+//! The lab on virtual time: the application and its experiment, without threads.
 //!
 //! In: events and the passing of frames. Out: an application whose effects are performed at once; effects on a
 //! terminal or a file are ignored. Never here: scripts, or how anything looks.
@@ -57,12 +57,12 @@ pub(super) struct HeadlessLab {
 }
 
 impl HeadlessLab {
-    /// Opens the laboratory with a system.
+    /// Opens the lab with a system.
     pub(super) fn open(document: &Document, called: &str, fps: u32, budget: Budget) -> HeadlessLab {
         // the user's own presets are excluded, so that a demo is the same everywhere
         let catalog = Catalog::with_folder(None);
         let (app, effects) = App::new(&catalog, Some(called));
-        let mut laboratory = HeadlessLab {
+        let mut lab = HeadlessLab {
             app,
             clock: Clock::new(fps),
             called: called.to_owned(),
@@ -76,11 +76,11 @@ impl HeadlessLab {
             behind: 0,
             repaint: false,
         };
-        laboratory.run_effects(effects);
-        laboratory
+        lab.run_effects(effects);
+        lab
     }
 
-    /// Opens the same system in a new laboratory, as its file says.
+    /// Opens the same system in a new lab, as its file says.
     pub(super) fn anew(&self, fps: u32) -> HeadlessLab {
         HeadlessLab::open(&self.document, &self.called, fps, self.budget)
     }
@@ -215,7 +215,7 @@ impl HeadlessLab {
         };
         let outcome = match Prepared::of(&Document::new(title, text)) {
             Ok(ready) => Ok(self.begin(name, ready)),
-            Err(unready) => Err(unready.diagnostics),
+            Err(error) => Err(error.diagnostics),
         };
         self.update(AppEvent::Checked(Box::new(CheckedText { ticket, outcome, took: None })));
         self.observe_motion();

@@ -22,13 +22,13 @@ pub enum Pressed {
 impl Lesson {
     /// Handles a key.
     pub fn press(&mut self, key: KeyEvent) -> Pressed {
-        let held = key.modifiers.contains(KeyModifiers::CONTROL);
+        let pressed = key.modifiers.contains(KeyModifiers::CONTROL);
         self.share_keys();
         let notice = self.notice.take();
         match key.code {
-            KeyCode::Char('c') if held => return Pressed::Leave,
+            KeyCode::Char('c') if pressed => return Pressed::Leave,
             // in the lab they close what lies on top first
-            KeyCode::Char('q') if !held && !self.has_lab() => return Pressed::Leave,
+            KeyCode::Char('q') if !pressed && !self.has_lab() => return Pressed::Leave,
             KeyCode::Esc if !self.has_lab() => {
                 if notice.as_deref() == Some(ESC_AGAIN) {
                     return Pressed::Leave;
@@ -75,7 +75,7 @@ impl Lesson {
                     text.clear();
                     *wrong = None;
                 }
-                KeyCode::Char(c) if !held && text.chars().count() < LONGEST_NUMBER => {
+                KeyCode::Char(c) if !pressed && text.chars().count() < LONGEST_NUMBER => {
                     text.push(c);
                     *wrong = None;
                 }

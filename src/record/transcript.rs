@@ -8,26 +8,26 @@ use super::recording::{Recording, TranscriptEntry, rows, seconds};
 /// Writes the transcript.
 pub fn write(recording: &Recording) -> String {
     let Recording { title, size: (columns, height), fps, end, .. } = recording;
-    let mut account = vec![
+    let mut lines = vec![
         title.clone(),
         format!("{columns}x{height} characters, {fps} frames a second, {} s", seconds(*end)),
         String::new(),
     ];
     for (time, entry) in &recording.log {
         match entry {
-            TranscriptEntry::Done(what, text) => account.push(line(*time, what, text)),
-            TranscriptEntry::Claimed(true, text) => account.push(line(*time, "found", text)),
-            TranscriptEntry::Claimed(false, text) => account.push(line(*time, "FALSE", text)),
+            TranscriptEntry::Done(what, text) => lines.push(line(*time, what, text)),
+            TranscriptEntry::Claimed(true, text) => lines.push(line(*time, "found", text)),
+            TranscriptEntry::Claimed(false, text) => lines.push(line(*time, "FALSE", text)),
             TranscriptEntry::Marker(index) => {
                 let marker = &recording.markers[*index];
-                account.push(line(*time, "chapter", &marker.name));
-                account.extend(rows(&marker.screen).iter().map(|row| framed(row)));
+                lines.push(line(*time, "chapter", &marker.name));
+                lines.extend(rows(&marker.screen).iter().map(|row| framed(row)));
             }
         }
     }
-    account.push(line(*end, "end", ""));
-    account.extend(rows(&recording.last).iter().map(|row| framed(row)));
-    account.join("\n") + "\n"
+    lines.push(line(*end, "end", ""));
+    lines.extend(rows(&recording.last).iter().map(|row| framed(row)));
+    lines.join("\n") + "\n"
 }
 
 fn line(time: Micros, what: &str, text: &str) -> String {

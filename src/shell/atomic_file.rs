@@ -61,7 +61,13 @@ fn unfinished() -> MutexGuard<'static, BTreeSet<PathBuf>> {
 
 /// An unfinished file, registered with the process until it is dropped.
 #[derive(Debug)]
-pub(super) struct Registered(pub(super) PathBuf);
+pub(super) struct UnfinishedFile {
+    file: NamedTempFile,
+    registered: Registered,
+}
+
+#[derive(Debug)]
+struct Registered(PathBuf);
 
 impl Drop for Registered {
     fn drop(&mut self) {
@@ -69,18 +75,48 @@ impl Drop for Registered {
     }
 }
 
-/// Opens an unfinished file beside `place`, under an unpredictable and unused name.
-pub(super) fn begin(place: &Path, mode: u32) -> io::Result<(NamedTempFile, Registered)> {
-    let prefix = format!("{}.{}-", lead(place), std::process::id());
-    let open = |path: &Path| OpenOptions::new().write(true).create_new(true).mode(mode).open(path);
-    let temporary = Builder::new()
-        .prefix(&prefix)
-        .suffix(PARTIAL)
-        .rand_bytes(16)
-        .make_in(folder(place), open)?;
-    let path = temporary.path().to_owned();
-    unfinished().insert(path.clone());
-    Ok((temporary, Registered(path)))
+impl UnfinishedFile {
+    /// Opens one beside `place`, under an unpredictable and unused name.
+    pub(super) fn begin(place: &Path, mode: u32) -> io::Result<Self> {
+        let prefix = format!("{}.{}-", lead(place), std::process::id());
+        let open =
+            |path: &Path| OpenOptions::new().write(true).create_new(true).mode(mode).open(path);
+        let file = Builder::new()
+            .prefix(&prefix)
+            .suffix(PARTIAL)
+            .rand_bytes(16)
+            .make_in(folder(place), open)?;
+        let path = file.path().to_owned();
+        unfinished().insert(path.clone());
+        Ok(Self { file, registered: Registered(path) })
+    }
+
+    pub(super) fn file(&mut self) -> &mut File {
+        self.file.as_file_mut()
+    }
+
+    /// Gives it a name that no file has, or returns it with the reason why not.
+    pub(super) fn persist_new(self, place: &Path) -> Result<(), (Self, io::Error)> {
+        let Self { file, registered } = self;
+        let persisted = match file.persist_noclobber(place) {
+            // Some file systems cannot rename without replacing, so that the check has to come first.
+            Err(failed) if fs::symlink_metadata(place).is_err() => failed.file.persist(place),
+            persisted => persisted,
+        };
+        match persisted {
+            Ok(_) => {
+                // The file is on the disk; syncing its name as well is optional.
+                let _ = sync_folder(place);
+                Ok(())
+            }
+            Err(failed) => Err((Self { file: failed.file, registered }, failed.error)),
+        }
+    }
+
+    /// Keeps it under its temporary name, which is returned.
+    pub(super) fn keep(self) -> PathBuf {
+        self.file.keep().map_or(self.registered.0.clone(), |(_, path)| path)
+    }
 }
 
 /// Returns the start of the names of unfinished files for a place.
@@ -104,9 +140,8 @@ pub(super) fn write(place: &Path, bytes: &[u8], durability: Durability) -> io::R
 /// A file that replaces an existing one. If it is dropped before it is finished, nothing is left behind.
 #[derive(Debug)]
 pub(crate) struct AtomicFile {
-    temporary: NamedTempFile,
+    temporary: UnfinishedFile,
     place: PathBuf,
-    _registered: Registered,
 }
 
 impl AtomicFile {
@@ -123,13 +158,12 @@ impl AtomicFile {
         }
         sweep(&place);
         let mode = if old.is_some() { PRIVATE } else { USUAL };
-        let (temporary, registered) = self::begin(&place, mode)?;
-        Ok(Self { temporary, place, _registered: registered })
+        Ok(Self { temporary: UnfinishedFile::begin(&place, mode)?, place })
     }
 
     /// Renames it to its final name.
     pub(crate) fn finish(self, durability: Durability) -> io::Result<()> {
-        let file = self.temporary.as_file();
+        let file = self.temporary.file.as_file();
         if durability == Durability::OnDisk {
             file.sync_all()?;
         }
@@ -140,7 +174,7 @@ impl AtomicFile {
             }
             file.set_permissions(old.permissions())?;
         }
-        self.temporary.persist(&self.place)?;
+        self.temporary.file.persist(&self.place)?;
         match durability {
             Durability::OnDisk => sync_folder(&self.place),
             Durability::Cached => Ok(()),
@@ -150,7 +184,7 @@ impl AtomicFile {
 
 impl Write for AtomicFile {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.temporary.as_file_mut().write(bytes)
+        self.temporary.file().write(bytes)
     }
 
     fn flush(&mut self) -> io::Result<()> {
@@ -271,7 +305,7 @@ pub(super) mod tests {
         permit(0o640).expect("it is ours");
         let file = AtomicFile::begin(&place).expect("begun");
         let mode = |path: &Path| fs::metadata(path).expect("it is there").mode() & 0o777;
-        assert_eq!(mode(file.temporary.path()), PRIVATE, "private until it is complete");
+        assert_eq!(mode(file.temporary.file.path()), PRIVATE, "private until it is complete");
         file.finish(Durability::Cached).expect("finished");
         assert_eq!(mode(&place), 0o640);
         // The permissions of a new file are those the umask allows.
@@ -298,9 +332,9 @@ pub(super) mod tests {
     fn names_of_unfinished_files_are_short_and_differ() {
         let folder = tempfile::tempdir().expect("a folder");
         let place = folder.path().join("é".repeat(120));
-        let made = [(); 2].map(|()| begin(&place, USUAL).expect("made"));
-        assert_ne!(made[0].0.path(), made[1].0.path());
-        assert!(made.iter().all(|(_, registered)| unfinished().contains(&registered.0)));
+        let made = [(); 2].map(|()| UnfinishedFile::begin(&place, USUAL).expect("made"));
+        assert_ne!(made[0].file.path(), made[1].file.path());
+        assert!(made.iter().all(|one| unfinished().contains(&one.registered.0)));
         drop(made);
         assert!(names(folder.path()).is_empty());
     }

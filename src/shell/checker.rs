@@ -41,7 +41,7 @@ impl Checker {
         // The token passes to the system once that exists.
         let check = Job::new("checking", move |progress| {
             let ready = Prepared::with(&document, progress.token());
-            ready.map(Box::new).map_err(|unready| unready.diagnostics)
+            ready.map(Box::new).map_err(|error| error.diagnostics)
         });
         self.side.begin(ticket, check);
     }

@@ -12,7 +12,7 @@ use etcetera::base_strategy::Xdg;
 
 use super::options::{OptionRow, Words, rows};
 use crate::diagnostic::{Diagnostic, Document};
-use crate::preset::{Plain, Setting};
+use crate::preset::{PlainValue, Setting};
 
 /// Returns the path of the configuration, whether or not the file exists. Returns `None` if there is no home
 /// folder.
@@ -59,9 +59,9 @@ fn word(row: &OptionRow, entry: &Setting) -> Result<String, Diagnostic> {
     let at = |message: String| Diagnostic::error(entry.place.clone(), message);
     // `color = 256` and `color = true` are accepted too.
     let word = match &entry.value {
-        Plain::Flag(flag) => flag.to_string(),
-        Plain::Number(number) => number.clone(),
-        Plain::Text(text) if row.is_switch => {
+        PlainValue::Flag(flag) => flag.to_string(),
+        PlainValue::Number(number) => number.clone(),
+        PlainValue::Text(text) if row.is_switch => {
             let diagnostic = at(format!("`{}` must be true or false, not a text", row.name));
             let quoted = ["true", "false"].contains(&text.as_str());
             return Err(if quoted {
@@ -70,8 +70,8 @@ fn word(row: &OptionRow, entry: &Setting) -> Result<String, Diagnostic> {
                 diagnostic
             });
         }
-        Plain::Text(text) => text.clone(),
-        Plain::Other(kind) => {
+        PlainValue::Text(text) => text.clone(),
+        PlainValue::Other(kind) => {
             let wanted = if row.is_switch { "true or false" } else { "a word" };
             return Err(at(format!("`{}` must be {wanted}, not {kind}", row.name)));
         }

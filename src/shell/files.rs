@@ -96,7 +96,7 @@ pub(super) enum FileChange {
 
 /// The number of consecutive misses after which a file counts as gone; some editors remove a file briefly when they
 /// write it.
-const GONE: u32 = 2;
+const MISSES: u32 = 2;
 
 type FileMetadata = (u64, Option<SystemTime>, u64);
 
@@ -123,9 +123,9 @@ impl Watch {
         self.since = INTERVAL;
         let Some(stamp) = stamp(place) else {
             self.missed = self.missed.saturating_add(1);
-            return (self.missed == GONE).then_some(FileChange::Gone);
+            return (self.missed == MISSES).then_some(FileChange::Gone);
         };
-        let back = self.missed >= GONE;
+        let back = self.missed >= MISSES;
         if self.stamp == Some(stamp) && !back {
             self.missed = 0;
             return None;

@@ -23,7 +23,7 @@ use super::panic;
 use super::question::{Questions, TerminalReply};
 use super::queue::Queue;
 use super::signals::Signals;
-use super::terminal::{HEADLESS, Ready, Terminal, TerminalError, TerminalMode};
+use super::terminal::{HEADLESS, Readiness, Terminal, TerminalError, TerminalMode};
 use crate::view::Detail;
 use crate::view::colour::Rgb;
 use crate::view::frame::Frames;
@@ -147,7 +147,7 @@ pub fn run_screen(page: &mut impl Screen, pace: FramePace) -> Result<Ending, Lab
     let ended = begun.and_then(|()| frame_loop.run(page));
     page.on_exit(!matches!(ended, Ok(Ending::Quit)));
     if let Ok(Ending::Quit) = ended {
-        // a terminal that is gone by now has nothing more to say
+        // a terminal that has hung up by now has nothing more to say
         let _ = frame_loop.hear_out();
     }
     Ok(ended?)
@@ -243,7 +243,7 @@ impl<E: EventSource> FrameLoop<'_, E> {
             }
 
             let ready = self.wait(due)?;
-            if ready.gone || ready.input && !self.events.read(self.terminal)? {
+            if ready.hung_up || ready.input && !self.events.read(self.terminal)? {
                 return Ok(Ending::Gone);
             }
         }
@@ -274,7 +274,7 @@ impl<E: EventSource> FrameLoop<'_, E> {
         while self.events.awaits_answer() && self.signals.take().fatal.is_none() {
             let left = end.saturating_duration_since(Instant::now());
             let ready = self.terminal.wait(self.signals.wake(), self.queue.is_busy(), left)?;
-            if left.is_zero() || ready.gone || ready.input && !self.events.read(self.terminal)? {
+            if left.is_zero() || ready.hung_up || ready.input && !self.events.read(self.terminal)? {
                 break;
             }
             self.send()?;
@@ -362,7 +362,7 @@ impl<E: EventSource> FrameLoop<'_, E> {
     }
 
     /// Waits for input, a signal, room for output or the next frame.
-    fn wait(&self, due: Instant) -> io::Result<Ready> {
+    fn wait(&self, due: Instant) -> io::Result<Readiness> {
         let busy = self.queue.is_busy();
         let now = Instant::now();
         let frame = Some(due).filter(|_| !busy);

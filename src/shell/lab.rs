@@ -127,15 +127,15 @@ pub fn show_ahead(
 ///
 /// # Errors
 /// Returns an error, before the screen is touched, if there is no terminal.
-pub fn perform_demo(
-    performance: ScriptRunner,
+pub fn play_demo(
+    script: ScriptRunner,
     request: &Request,
 ) -> Result<(Ending, Result<Option<String>, Diagnostic>), LabError> {
     TerminalError::check(RECORDED)?;
     let variable = |name: &str| std::env::var(name).ok();
     let style = request.render_style(&variable);
     let palette = style.theme.palette();
-    let mut demo = Demo::new(performance, style);
+    let mut demo = Demo::new(script, style);
     let pace = FramePace { mouse: false, ..request.pace(&variable) };
     let ending = run_screen(&mut demo, pace)?;
     let text = |picture| screenshot::write(&picture, palette, screenshot::ImageFormat::Ansi, "");

@@ -63,5 +63,5 @@ impl Loader {
 
 fn prepare(catalog: &Catalog, name: &str, cancel: &Cancel) -> Result<Box<Prepared>, String> {
     let document = regular::find(catalog, name).map_err(|why| why.to_string())?;
-    Prepared::with(&document, cancel).map(Box::new).map_err(|unready| unready.report)
+    Prepared::with(&document, cancel).map(Box::new).map_err(|error| error.report)
 }

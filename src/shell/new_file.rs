@@ -3,14 +3,11 @@
 //! In: a folder, a stem and bytes. Out: the file under the first free name; where not everything can be written, the
 //! whole lines that were. Never here: what the bytes mean, or files that replace others.
 
-use std::fs;
 use std::io::{self, Seek, Write};
 use std::mem;
 use std::path::{Path, PathBuf};
 
-use tempfile::NamedTempFile;
-
-use super::atomic_file::{self, Registered, USUAL, named, sync_folder};
+use super::atomic_file::{USUAL, UnfinishedFile, named};
 use crate::printable;
 
 const NAMES: u32 = 10_000;
@@ -24,8 +21,7 @@ pub(super) const NOTHING: &str = "nothing";
 /// A file that never replaces another, written line by line.
 #[derive(Debug)]
 pub(super) struct NewFile {
-    temporary: NamedTempFile,
-    registered: Registered,
+    temporary: UnfinishedFile,
     /// The bytes not written yet.
     pending: Vec<u8>,
     /// The number of bytes that stay in the file: whole lines, except at the end.
@@ -57,16 +53,15 @@ impl NewFile {
     pub(super) fn begin(folder: &Path, stem: &str, ending: &'static str) -> io::Result<Self> {
         let stem = plain(stem);
         let place = folder.join(format!("{stem}.{ending}"));
-        let begun = atomic_file::begin(&place, USUAL);
-        let (temporary, registered) = begun.map_err(|why| named(&place, &why))?;
+        let temporary = UnfinishedFile::begin(&place, USUAL).map_err(|why| named(&place, &why))?;
         let folder = folder.to_owned();
-        Ok(Self { temporary, registered, pending: Vec::new(), whole: 0, folder, stem, ending })
+        Ok(Self { temporary, pending: Vec::new(), whole: 0, folder, stem, ending })
     }
 
     /// Waits until all written bytes are on the disk.
     pub(super) fn sync(&mut self) -> io::Result<()> {
         self.flush()?;
-        self.temporary.as_file().sync_all().map_err(|why| named(&self.place(1), &why))
+        self.temporary.file().sync_all().map_err(|why| named(&self.place(1), &why))
     }
 
     /// Gives it its name, which is returned. If not everything can be written, the file keeps the whole lines that
@@ -89,26 +84,16 @@ impl NewFile {
         let mut why = io::Error::other(format!("there are already {NAMES} files of that name"));
         for number in 1..=NAMES {
             place = self.folder.join(numbered(&self.stem, number, self.ending));
-            let persisted = match temporary.persist_noclobber(&place) {
-                // Some file systems cannot rename without replacing, so that the check has to come first.
-                Err(failed) if fs::symlink_metadata(&place).is_err() => failed.file.persist(&place),
-                persisted => persisted,
-            };
-            match persisted {
-                Ok(_) => {
-                    // The file is on the disk; syncing its name as well is optional.
-                    let _ = sync_folder(&place);
-                    return Ok(numbered(&self.stem, number, self.ending));
-                }
-                Err(failed) => (temporary, why) = (failed.file, failed.error),
+            match temporary.persist_new(&place) {
+                Ok(()) => return Ok(numbered(&self.stem, number, self.ending)),
+                Err(failed) => (temporary, why) = failed,
             }
             if why.kind() != io::ErrorKind::AlreadyExists {
                 break;
             }
         }
         let why = named(&place, &why);
-        let path = temporary.keep().map_or(self.registered.0.clone(), |(_, path)| path);
-        let message = format!("{why}; it is in {}", printable::path(&path));
+        let message = format!("{why}; it is in {}", printable::path(&temporary.keep()));
         Err(io::Error::new(why.kind(), message))
     }
 
@@ -129,7 +114,7 @@ impl Write for NewFile {
     /// Writes what is pending. If that fails, the partial last line is removed, and nothing more is to be written.
     fn flush(&mut self) -> io::Result<()> {
         let bytes = mem::take(&mut self.pending);
-        let file = self.temporary.as_file_mut();
+        let file = self.temporary.file();
         let Err(why) = file.write_all(&bytes) else {
             self.whole += bytes.len() as u64;
             return Ok(());
@@ -159,6 +144,8 @@ fn plain(name: &str) -> String {
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
     use crate::shell::atomic_file::tests::names;
 

@@ -42,7 +42,7 @@ pub(super) fn guard(terminal: &Arc<Terminal>) {
         tracing::error!("{info}");
         if thread::current().id() == holder {
             terminal.leave();
-        } else if terminal.is_held() {
+        } else if terminal.is_changed() {
             return;
         }
         report(info);

@@ -8,10 +8,8 @@ use std::sync::mpsc::{Receiver, channel};
 
 use crate::diagnostic::{Diagnostic, Document};
 use crate::job::{Job, Outcome};
-use crate::record::{CastEvent, Recording, RecordingSoFar, Script, called, play_while};
+use crate::record::{CastEvent, Micros, Recording, RecordingSoFar, Script, called, play_while};
 use crate::worker::SideJob;
-
-type Micros = u64;
 
 #[derive(Debug)]
 pub(super) struct NewEvents {

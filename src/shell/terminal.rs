@@ -121,10 +121,10 @@ impl Command for ReportMouse {
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Ready {
+pub(super) struct Readiness {
     pub(super) input: bool,
     /// Whether the terminal has hung up.
-    pub(super) gone: bool,
+    pub(super) hung_up: bool,
 }
 
 /// The terminal on standard input and output.
@@ -203,7 +203,7 @@ impl Terminal {
     }
 
     /// Whether there is something to undo.
-    pub(super) fn is_held(&self) -> bool {
+    pub(super) fn is_changed(&self) -> bool {
         self.lock_soon().is_some_and(|active| active.is_some())
     }
 
@@ -245,7 +245,7 @@ impl Terminal {
         wake: impl AsFd,
         for_output: bool,
         time: Duration,
-    ) -> io::Result<Ready> {
+    ) -> io::Result<Readiness> {
         let output = if for_output { PollFlags::OUT } else { PollFlags::empty() };
         let mut fds = [
             PollFd::new(&self.input, PollFlags::IN),
@@ -258,9 +258,9 @@ impl Terminal {
         }
         let lost = PollFlags::HUP | PollFlags::ERR | PollFlags::NVAL;
         let events = |fd: usize| fds[fd].revents();
-        Ok(Ready {
+        Ok(Readiness {
             input: events(0).contains(PollFlags::IN),
-            gone: events(0).union(events(2)).intersects(lost),
+            hung_up: events(0).union(events(2)).intersects(lost),
         })
     }
 
@@ -280,7 +280,7 @@ impl Terminal {
                     }
                 }
                 Err(rustix::io::Errno::INTR) => {}
-                // The terminal is gone, so there is nothing left to write to.
+                // The terminal has hung up, so there is nothing left to write to.
                 Err(_) => return true,
             }
         }

@@ -60,7 +60,7 @@ impl Constrained {
         let released = model.events.iter().any(|e| matches!(e.action, EventAction::Release(_)));
         let switched = redundant || released;
         let kkt = ConstraintSystem::of(&mut builder.pool, builder.equations, switched, redundant);
-        builder.parameters.extend(kkt.switches.iter().flat_map(|s| [s.held, s.active]));
+        builder.parameters.extend(kkt.switches.iter().flat_map(|s| [s.enforced, s.active]));
         builder.kkt = kkt;
         let constrained = Constrained {
             programs,

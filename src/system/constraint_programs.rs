@@ -113,12 +113,12 @@ fn turn(builder: &mut ProgramBuilder<'_>, f: Expr) -> (Expr, Vec<Expr>) {
         function = pool.replace(function, angle, variable);
         symbols.push(symbol);
     }
-    let held = [&moving[..], &symbols].concat();
+    let changing = [&moving[..], &symbols].concat();
     let mut jumps: Vec<Expr> = Vec::new();
     for (&symbol, &(_, half_turns)) in symbols.iter().zip(&angles) {
         let slope = pool.derivative(function, symbol);
         // an angle within another one has no slope
-        if slope == Expr::ZERO || pool.depends_on_any(slope, &held) {
+        if slope == Expr::ZERO || pool.depends_on_any(slope, &changing) {
             return (Expr::ZERO, Vec::new());
         }
         jumps.push(pool.monomial(Number::integer(half_turns), &[(slope, Number::ONE)]));

@@ -5,7 +5,7 @@
 
 use super::jet::{Coefficient, Jet, Side};
 #[cfg(target_arch = "x86_64")]
-use super::parts::Parts;
+use super::parts::PartwiseEvaluation;
 use super::program::Singular;
 use super::solve::Factored;
 use super::state_sum::SeriesList;
@@ -96,7 +96,7 @@ impl<R: Coefficient> SeriesBuilder<R> {
     #[cfg(target_arch = "x86_64")]
     pub(super) fn evaluate(
         &mut self,
-        parts: &mut impl Parts,
+        parts: &mut impl PartwiseEvaluation,
         clock: SeriesClock<R>,
     ) -> Result<(), Singular> {
         self.jet.take_in(&self.state, self.inputs, 0);

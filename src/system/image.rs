@@ -108,17 +108,17 @@ struct Known {
 impl Known {
     /// The image at a time if it continues at the same rate.
     fn extrapolated(&self, time: DoubleDouble) -> Vec<DoubleDouble> {
-        let gone = time - self.time;
-        self.image.iter().zip(&self.rate).map(|(&x, &rate)| x + rate * gone).collect()
+        let elapsed = time - self.time;
+        self.image.iter().zip(&self.rate).map(|(&x, &rate)| x + rate * elapsed).collect()
     }
 
     /// The rate from here to an image at another time; empty if that is the same.
     fn rate_to(&self, time: DoubleDouble, image: &[DoubleDouble]) -> Vec<DoubleDouble> {
-        let gone = time - self.time;
-        if gone == DoubleDouble::ZERO {
+        let elapsed = time - self.time;
+        if elapsed == DoubleDouble::ZERO {
             return Vec::new();
         }
-        image.iter().zip(&self.image).map(|(&x, &before)| (x - before) / gone).collect()
+        image.iter().zip(&self.image).map(|(&x, &before)| (x - before) / elapsed).collect()
     }
 }
 

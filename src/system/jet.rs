@@ -19,7 +19,7 @@ mod tables;
 use std::ops::{Range, RangeInclusive};
 use std::sync::Arc;
 
-use super::parts::{Interpreted, Parts};
+use super::parts::{Interpreted, PartwiseEvaluation};
 use super::program::{Op, Program, Register, Singular};
 use super::schedule::Schedule;
 use crate::expr::FunctionId;
@@ -161,7 +161,11 @@ impl<R: Coefficient> Jet<R> {
     }
 
     #[inline(always)]
-    pub(super) fn begin_by(&mut self, parts: &mut impl Parts, time: R) -> Result<(), Singular> {
+    pub(super) fn begin_by(
+        &mut self,
+        parts: &mut impl PartwiseEvaluation,
+        time: R,
+    ) -> Result<(), Singular> {
         let Jet { program, tables, .. } = self;
         parts.evaluate(
             program,

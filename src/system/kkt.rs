@@ -16,7 +16,7 @@ use crate::num::Number;
 #[derive(Clone, Debug, Default)]
 pub(super) struct ConstraintSystem {
     /// The switches of the constraints; empty if all constraints are always enforced.
-    pub(super) switches: Vec<Switch>,
+    pub(super) switches: Vec<ConstraintSwitch>,
     /// The matrix of the whole system.
     matrix: Vec<Vec<Expr>>,
     /// γ, zero if a constraint is not enforced.
@@ -28,9 +28,9 @@ pub(super) struct ConstraintSystem {
 
 /// Two numbers for each constraint, 1 or 0.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Switch {
+pub(super) struct ConstraintSwitch {
     /// Whether it is one of the independent, enforced constraints.
-    pub(super) held: Symbol,
+    pub(super) enforced: Symbol,
     /// Whether it has not been released.
     pub(super) active: Symbol,
 }
@@ -55,18 +55,18 @@ impl ConstraintSystem {
         redundant: bool,
     ) -> ConstraintSystem {
         let rows = &equations.constraints;
-        let switches: Vec<Switch> =
+        let switches: Vec<ConstraintSwitch> =
             if switched { rows.iter().map(|row| switch(pool, row)).collect() } else { Vec::new() };
-        let state = |pool: &mut Pool, symbol: fn(&Switch) -> Symbol, i: usize| {
+        let state = |pool: &mut Pool, symbol: fn(&ConstraintSwitch) -> Symbol, i: usize| {
             switches.get(i).map_or(Expr::ONE, |s| pool.variable(symbol(s)))
         };
-        let held: Vec<Expr> = (0..rows.len()).map(|i| state(pool, |s| s.held, i)).collect();
+        let enforced: Vec<Expr> = (0..rows.len()).map(|i| state(pool, |s| s.enforced, i)).collect();
         let active: Vec<Expr> = (0..rows.len()).map(|i| state(pool, |s| s.active, i)).collect();
         let scaled = |pool: &mut Pool, factors: &[Expr]| -> Vec<Vec<Expr>> {
             let rows = rows.iter().zip(factors);
             rows.map(|(row, &h)| row.row.iter().map(|&a| pool.mul(h, a)).collect()).collect()
         };
-        let a = scaled(pool, &held);
+        let a = scaled(pool, &enforced);
         let mut matrix = match &equations.flow {
             Flow::Lagrange { mass, .. } => mass.clone(),
             Flow::Hamilton { .. } | Flow::Poisson { .. } => Vec::new(),
@@ -74,12 +74,12 @@ impl ConstraintSystem {
         for (i, row) in matrix.iter_mut().enumerate() {
             row.extend(a.iter().map(|a| pool.neg(a[i])));
         }
-        let free: Vec<Expr> = held.iter().map(|&h| pool.sub(Expr::ONE, h)).collect();
+        let free: Vec<Expr> = enforced.iter().map(|&h| pool.sub(Expr::ONE, h)).collect();
         for (k, a) in a.iter().enumerate() {
             let rest = (0..rows.len()).map(|j| if j == k { free[k] } else { Expr::ZERO });
             matrix.push(a.iter().copied().chain(rest).collect());
         }
-        let bias = rows.iter().zip(&held).map(|(row, &h)| pool.mul(h, row.bias)).collect();
+        let bias = rows.iter().zip(&enforced).map(|(row, &h)| pool.mul(h, row.bias)).collect();
         let least = redundant.then(|| {
             let active = scaled(pool, &active);
             let b = products(pool, &active, &a);
@@ -141,11 +141,12 @@ impl ConstraintSystem {
     }
 }
 
-fn switch(pool: &mut Pool, row: &ConstraintRow) -> Switch {
+fn switch(pool: &mut Pool, row: &ConstraintRow) -> ConstraintSwitch {
     let name = pool.symbol_info(row.multiplier).name.clone();
     // a name in a file cannot contain a space
-    let [held, active] = ["held", "active"].map(|word| pool.symbol(&format!("{word} {name}")));
-    Switch { held, active }
+    let [enforced, active] =
+        ["enforced", "active"].map(|word| pool.symbol(&format!("{word} {name}")));
+    ConstraintSwitch { enforced, active }
 }
 
 /// The inner products of the rows of two matrices.

@@ -8,7 +8,7 @@ use std::ops::Range;
 use super::program::Program;
 
 /// A way to evaluate a body.
-pub(super) trait Parts {
+pub(super) trait PartwiseEvaluation {
     /// Evaluates it: `interpret` evaluates a range of its operations; what is not interpreted works on `registers`, where these
     /// are `f64`.
     ///
@@ -26,7 +26,7 @@ pub(super) trait Parts {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Interpreted;
 
-impl Parts for Interpreted {
+impl PartwiseEvaluation for Interpreted {
     #[inline(always)]
     fn evaluate<M, E>(
         &mut self,

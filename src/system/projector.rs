@@ -20,12 +20,12 @@ const NEARLY_SINGULAR: f64 = 1e-3;
 
 /// The space of the constraints' directions at a state, with its orientation.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Directions(ConstraintSpan);
+pub struct ConstraintDirections(ConstraintSpan);
 
-impl Directions {
+impl ConstraintDirections {
     /// The cosine of the angle between two spaces of directions. It changes smoothly along a
     /// motion, and jumps from 1 to −1 where the motion passes a singular configuration.
-    pub fn cosine(&self, other: &Directions) -> f64 {
+    pub fn cosine(&self, other: &ConstraintDirections) -> f64 {
         self.0.cosine(&other.0)
     }
 }
@@ -97,7 +97,8 @@ impl ConstraintProjector {
     pub fn is_nearly_singular(&mut self, state: &State, beside: Option<&State>) -> bool {
         let beside = beside.and_then(|beside| self.directions(beside, None));
         let Some(here) = self.directions(state, beside.as_ref()) else { return true };
-        let shrunk = |beside: Directions| here.0.volume() < NEARLY_SINGULAR * beside.0.volume();
+        let shrunk =
+            |beside: ConstraintDirections| here.0.volume() < NEARLY_SINGULAR * beside.0.volume();
         let enforced = self.system.active_set().enforced.clone();
         self.projection.conditions().independence(&enforced) < NEARLY_SINGULAR
             || beside.is_some_and(shrunk)
@@ -105,7 +106,11 @@ impl ConstraintProjector {
 
     /// The directions of the constraints at a state, in the units of `like` if it is given. Returns
     /// `None` at a singular configuration.
-    pub fn directions(&mut self, state: &State, like: Option<&Directions>) -> Option<Directions> {
+    pub fn directions(
+        &mut self,
+        state: &State,
+        like: Option<&ConstraintDirections>,
+    ) -> Option<ConstraintDirections> {
         self.directions_at(state, 0, like)
     }
 
@@ -115,8 +120,8 @@ impl ConstraintProjector {
         &mut self,
         state: &State,
         first: usize,
-        like: Option<&Directions>,
-    ) -> Option<Directions> {
+        like: Option<&ConstraintDirections>,
+    ) -> Option<ConstraintDirections> {
         for (i, x) in self.numbers.iter_mut().enumerate() {
             *x = state.exact(first + i);
         }
@@ -124,7 +129,7 @@ impl ConstraintProjector {
         let conditions = self.projection.conditions();
         conditions.observe(state.exact_time(), &self.numbers);
         let units = like.map(|like| like.0.units());
-        conditions.span(&enforced, units).map(Directions)
+        conditions.span(&enforced, units).map(ConstraintDirections)
     }
 
     /// The residuals of each constraint at a state (q, q̇), relative to the size of its terms: of

@@ -20,7 +20,7 @@ use super::finishing_pass::{
     TermSign,
 };
 use super::program::{Block, Op, Program, Register};
-use crate::expr::{BilinearEquation, Divisor, Operand, Rule};
+use crate::expr::{BilinearEquation, Divisor, Rule, SeriesOperand};
 use crate::num::DoubleDouble;
 
 /// An inner product of the first phase.
@@ -246,11 +246,11 @@ impl ScheduleWriter<'_> {
         arguments: [Register; 2],
         equation: &BilinearEquation,
     ) -> Step {
-        let of = |operand: Operand| match operand {
-            Operand::First => arguments[0],
-            Operand::Second => arguments[1],
-            Operand::Value => value,
-            Operand::Companion => value + 1,
+        let of = |operand: SeriesOperand| match operand {
+            SeriesOperand::First => arguments[0],
+            SeriesOperand::Second => arguments[1],
+            SeriesOperand::Value => value,
+            SeriesOperand::Companion => value + 1,
         };
         let factor =
             |sign: f64| if sign < 0.0 { ConvolutionFactor::Minus } else { ConvolutionFactor::Plus };

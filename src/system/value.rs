@@ -10,7 +10,7 @@ use std::sync::Arc;
 use super::kink_sides::KinkSides;
 use super::machine_code::CompiledValues;
 use super::operation::value_of;
-use super::parts::Parts;
+use super::parts::PartwiseEvaluation;
 use super::program::{Block, Op, Program, Register, Singular};
 use super::solve::Factored;
 use super::underflow;

@@ -44,7 +44,7 @@ pub(super) struct Canvas<'a> {
 }
 
 /// A styled piece of a row.
-pub(super) type Span = (String, Style);
+pub(super) type StyledText = (String, Style);
 
 impl<'a> Canvas<'a> {
     /// Creates a canvas that draws on `buffer`.
@@ -74,7 +74,7 @@ impl Canvas<'_> {
         self.style.shown(text).into_owned()
     }
 
-    pub(super) fn span(&self, role: Role, text: impl AsRef<str>) -> Span {
+    pub(super) fn span(&self, role: Role, text: impl AsRef<str>) -> StyledText {
         (self.text(text.as_ref()), self.style(role))
     }
 
@@ -148,7 +148,7 @@ impl Canvas<'_> {
     }
 
     /// Writes spans one after the other; an ellipsis replaces those that do not fit.
-    pub(super) fn spans(&mut self, row: Rect, spans: &[Span]) -> u16 {
+    pub(super) fn spans(&mut self, row: Rect, spans: &[StyledText]) -> u16 {
         let screen = self.style;
         let texts = spans.iter().map(|(text, style)| (screen.shown(text), *style));
         let texts: Vec<(Cow<'_, str>, Style)> = texts.collect();
@@ -181,7 +181,7 @@ impl Canvas<'_> {
     }
 
     /// Draws a frame with title spans in its upper border, and returns the area inside.
-    pub(super) fn pane(&mut self, area: Rect, title: &[Span], focused: bool) -> Rect {
+    pub(super) fn pane(&mut self, area: Rect, title: &[StyledText], focused: bool) -> Rect {
         let focused = focused && !self.beside;
         let role = if focused { Role::Focus } else { Role::Border };
         // Without colour, a heavier line marks the focus.
@@ -263,7 +263,7 @@ impl Canvas<'_> {
         &mut self,
         area: Rect,
         (width, height): (u16, u16),
-        title: Span,
+        title: StyledText,
     ) -> (Rect, Rect) {
         let place = Rect {
             x: area.x + (area.width - width) / 2,
@@ -306,8 +306,8 @@ fn copy_symbol(from: &ScreenCell, to: &mut ScreenCell, style: Style) {
 }
 
 /// Returns as many groups of spans as fit, each whole or not at all; the first is always included.
-pub(super) fn groups(groups: Vec<Vec<Span>>, room: usize) -> Vec<Span> {
-    let mut spans: Vec<Span> = Vec::new();
+pub(super) fn groups(groups: Vec<Vec<StyledText>>, room: usize) -> Vec<StyledText> {
+    let mut spans: Vec<StyledText> = Vec::new();
     for group in groups {
         let before = spans.len();
         spans.extend(group);
@@ -320,7 +320,7 @@ pub(super) fn groups(groups: Vec<Vec<Span>>, room: usize) -> Vec<Span> {
 }
 
 /// The width of spans in columns, without trailing blanks.
-pub(super) fn wide(spans: &[Span]) -> usize {
+pub(super) fn wide(spans: &[StyledText]) -> usize {
     let mut from_end = spans.iter().rev().map(|(text, _)| text.as_str());
     let last = from_end.find(|text| !text.trim_end().is_empty());
     last.map_or(0, |last| last.trim_end().width() + from_end.map(TextWidth::width).sum::<usize>())

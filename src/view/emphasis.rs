@@ -5,7 +5,7 @@
 
 use ratatui::style::Style;
 
-use super::canvas::Span;
+use super::canvas::StyledText;
 
 /// Marks of no width: emphasis begins or ends, and what is typed begins or ends.
 const EMPHASIS: char = '\u{2061}';
@@ -56,10 +56,10 @@ pub(super) struct Styles {
 }
 
 /// The lines of a marked paragraph as spans, without the marks.
-pub(super) fn spans(lines: Vec<String>, styles: Styles) -> Vec<Vec<Span>> {
+pub(super) fn spans(lines: Vec<String>, styles: Styles) -> Vec<Vec<StyledText>> {
     let (mut emphasis, mut typed) = (false, false);
     let line = |line: String| {
-        let mut spans: Vec<Span> = Vec::new();
+        let mut spans: Vec<StyledText> = Vec::new();
         let mut rest = line.as_str();
         while !rest.is_empty() {
             let end = rest.find([EMPHASIS, TYPED]).unwrap_or(rest.len());

@@ -6,7 +6,7 @@
 use ratatui::layout::Position;
 use ratatui::style::Style;
 
-use super::canvas::{Canvas, Span};
+use super::canvas::{Canvas, StyledText};
 use super::number::brief;
 use super::plot::PlotFrame;
 use super::theme::Role;
@@ -23,7 +23,7 @@ fn step(share: f64, steps: usize) -> usize {
 }
 
 /// The faintest shade, that in the middle and the strongest, each as it is drawn here, with its number.
-pub(super) fn keys(canvas: &Canvas<'_>, field: &Field) -> Vec<Span> {
+pub(super) fn keys(canvas: &Canvas<'_>, field: &Field) -> Vec<StyledText> {
     let (theme, glyphs) = (&canvas.style.theme, canvas.style.glyphs);
     let ramp = theme.density();
     let few = matches!(theme.depth(), ColourDepth::None | ColourDepth::Ansi16);

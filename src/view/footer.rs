@@ -5,7 +5,7 @@
 use ratatui::layout::Rect;
 use ratatui::symbols::border;
 
-use super::canvas::{Canvas, Span, columns, row};
+use super::canvas::{Canvas, StyledText, columns, row};
 use super::gauges::finding;
 use super::glyphs::TextWidth;
 use super::help::keys;
@@ -229,7 +229,7 @@ fn meaning(canvas: &Canvas<'_>, lab: &Lab) -> Vec<String> {
 
 /// A key and a word for its action.
 struct Hint {
-    spans: Vec<Span>,
+    spans: Vec<StyledText>,
     action: Action,
 }
 

@@ -4,7 +4,7 @@
 
 use ratatui::layout::Rect;
 
-use super::canvas::{Canvas, Span, columns};
+use super::canvas::{Canvas, StyledText, columns};
 use super::gauges::departed;
 use super::glyphs::{Glyphs, TextWidth};
 use super::number::{brief, fitted};
@@ -40,8 +40,9 @@ pub(super) fn header(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
         let none = app.page == Page::Picker || app.lab.is_none();
         if none { Vec::new() } else { tabs(canvas, app, gap, pages) }
     };
-    let width = |tabs: &[Span]| tabs.iter().map(|(text, _)| text.width()).sum::<usize>();
-    let fits = |tabs: &[Span], others: usize| others + 2 + width(tabs) <= usize::from(area.width);
+    let width = |tabs: &[StyledText]| tabs.iter().map(|(text, _)| text.width()).sum::<usize>();
+    let fits =
+        |tabs: &[StyledText], others: usize| others + 2 + width(tabs) <= usize::from(area.width);
     // The title has priority over the gaps between the pages, over the program's name and over the last page, which the help
     // names too.
     let both = NAME.len() + 2 + title.width();
@@ -75,7 +76,7 @@ pub(super) fn header(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
     }
 }
 
-fn tabs(canvas: &Canvas<'_>, app: &App, gap: &str, pages: &[Tab]) -> Vec<Span> {
+fn tabs(canvas: &Canvas<'_>, app: &App, gap: &str, pages: &[Tab]) -> Vec<StyledText> {
     let mut spans = Vec::new();
     for (index, (key, name, page)) in pages.iter().enumerate() {
         let here = *page == app.page;
@@ -105,7 +106,7 @@ pub(super) fn status(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
     let rate = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), short);
     let (method, step) = method(snapshot, canvas);
     // The pieces are in order of importance; those that do not fit are dropped from the end.
-    let mut pieces: Vec<Vec<Span>> =
+    let mut pieces: Vec<Vec<StyledText>> =
         vec![
             vec![canvas.span(
                 role,

@@ -4,7 +4,7 @@
 
 use unicode_width::UnicodeWidthChar;
 
-use super::canvas::{Canvas, Span};
+use super::canvas::{Canvas, StyledText};
 use super::theme::Role;
 use crate::app::FuzzyMatch;
 
@@ -13,8 +13,8 @@ pub(super) fn found_in(
     canvas: &Canvas<'_>,
     text: &str,
     (fit, role): (&FuzzyMatch, Role),
-) -> Vec<Span> {
-    let mut spans: Vec<Span> = Vec::new();
+) -> Vec<StyledText> {
+    let mut spans: Vec<StyledText> = Vec::new();
     let mut last = None;
     for (place, letter) in text.chars().enumerate() {
         let found = fit.letters.binary_search(&place).is_ok();

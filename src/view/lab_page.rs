@@ -5,7 +5,7 @@
 use ratatui::layout::Rect;
 use unicode_width::UnicodeWidthStr;
 
-use super::canvas::{Canvas, Span, columns, row, wide};
+use super::canvas::{Canvas, StyledText, columns, row, wide};
 use super::layout::{Slot, is_single, panes, view_of_motion};
 use super::list_tabs::{ListTabs, add_key, add_targets, name};
 use super::number::brief;
@@ -106,7 +106,7 @@ fn line_of_law(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab) {
 }
 
 /// Draws the law of motion, and returns how much of it is in view.
-fn law(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, title: &[Span]) -> LawInView {
+fn law(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, title: &[StyledText]) -> LawInView {
     let inner = canvas.pane(area, title, lab.focus.pane == Pane::Law);
     canvas.target(area, HitTarget::Pane(Pane::Law));
     let mut cache = std::mem::take(&mut canvas.cache);
@@ -121,7 +121,7 @@ fn law(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, title: &[Span]) -> LawInV
 }
 
 /// The time from which the gauges measure, if it is not the beginning.
-fn since(canvas: &Canvas<'_>, lab: &Lab) -> Option<Span> {
+fn since(canvas: &Canvas<'_>, lab: &Lab) -> Option<StyledText> {
     let time = lab.snapshot.as_ref()?.gauges.first()?.reference_time;
     let begun = lab.loaded.model.run.start;
     let text = || format!("  since t = {}", brief(time, 6, canvas.style.glyphs));
@@ -132,7 +132,7 @@ fn list(
     canvas: &mut Canvas<'_>,
     area: Rect,
     (lab, pane): (&Lab, Pane),
-    title: &[Span],
+    title: &[StyledText],
     field: Option<&InputField>,
 ) {
     let focused = lab.focus.pane == pane;
@@ -193,11 +193,11 @@ fn plot(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, (index, sharing): (usize
             let named = picture_title::title(canvas, &q, plot, left + label.width());
             let is_named = named.first().is_some_and(|(text, _)| text.trim() == label);
             let own = if is_named { named } else { picture_title::title(canvas, &q, plot, left) };
-            let rest: Vec<Span> =
+            let rest: Vec<StyledText> =
                 own.into_iter().filter(|(text, _)| text.trim() != label).collect();
             let gap = canvas.span(Role::Dim, "  ");
             let is_alone = rest.is_empty();
-            let whole: Vec<Span> = tabs.iter().cloned().chain([gap]).chain(rest).collect();
+            let whole: Vec<StyledText> = tabs.iter().cloned().chain([gap]).chain(rest).collect();
             // Values are shown beside tabs where all of them fit.
             let mut shown = if wide(&whole) <= room && !is_alone { whole } else { tabs };
             add_key(canvas, &mut shown, room);

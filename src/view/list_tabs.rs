@@ -6,7 +6,7 @@
 use ratatui::layout::Rect;
 use unicode_width::UnicodeWidthStr;
 
-use super::canvas::{Canvas, Span, columns, row, wide};
+use super::canvas::{Canvas, StyledText, columns, row, wide};
 use super::theme::Role;
 use crate::app::{HitTarget, Pane};
 
@@ -32,7 +32,7 @@ fn among_others(pane: Pane, short: bool) -> &'static str {
 
 /// A row of titles. The shown one is highlighted and always there.
 pub(super) struct ListTabs {
-    pub(super) title: Vec<Span>,
+    pub(super) title: Vec<StyledText>,
     /// The pane of every second span, if all titles are there.
     panes: Vec<Pane>,
 }
@@ -72,7 +72,7 @@ impl ListTabs {
 }
 
 /// Writes the key that shows the next tab after the tabs, where there is room for it.
-pub(super) fn add_key(canvas: &Canvas<'_>, title: &mut Vec<Span>, room: usize) {
+pub(super) fn add_key(canvas: &Canvas<'_>, title: &mut Vec<StyledText>, room: usize) {
     if wide(title) + KEY.len() <= room {
         title.push(canvas.span(Role::Accent, KEY));
     }
@@ -81,7 +81,12 @@ pub(super) fn add_key(canvas: &Canvas<'_>, title: &mut Vec<Span>, room: usize) {
 const KEY: &str = "  \\";
 
 /// Makes the titles of panes in a frame clickable; a line separates neighbouring titles.
-pub(super) fn add_targets(canvas: &mut Canvas<'_>, frame: Rect, title: &[Span], panes: &[Pane]) {
+pub(super) fn add_targets(
+    canvas: &mut Canvas<'_>,
+    frame: Rect,
+    title: &[StyledText],
+    panes: &[Pane],
+) {
     let mut from = 3;
     for (index, (text, _)) in title.iter().enumerate() {
         let long = text.width() as u16;

@@ -4,7 +4,7 @@
 
 use ratatui::layout::Position;
 
-use super::canvas::{Canvas, Span};
+use super::canvas::{Canvas, StyledText};
 use super::plot::{Marker, Pen, PlotFrame, Raster};
 use super::quantity::Quantities;
 use super::theme::Role;
@@ -86,7 +86,7 @@ impl<'a> Marks<'a> {
 }
 
 /// The names of the most recent occurrences, for a plot's heading.
-pub(super) fn legend(canvas: &Canvas<'_>, q: &Quantities<'_>) -> Vec<Span> {
+pub(super) fn legend(canvas: &Canvas<'_>, q: &Quantities<'_>) -> Vec<StyledText> {
     let mut names: Vec<&str> = Vec::new();
     for occurrence in q.snapshot.occurrences.iter().rev().take(MOST) {
         if names.len() < NAMES && !names.contains(&occurrence.name.as_str()) {

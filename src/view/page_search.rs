@@ -7,7 +7,7 @@ use std::ops::Range;
 use ratatui::layout::Rect;
 use unicode_width::UnicodeWidthStr;
 
-use super::canvas::{Canvas, Span, columns, row};
+use super::canvas::{Canvas, StyledText, columns, row};
 use super::theme::Role;
 use crate::app::{PageSearch, smart_case};
 use crate::expr::{spelt, spelt_derivatives};
@@ -32,7 +32,7 @@ fn prefix(text: &[Vec<char>], mut letters: &[char]) -> Option<usize> {
 }
 
 /// Where some words stand in a row, counted in characters.
-fn places(line: &[Span], words: &str) -> Vec<Range<usize>> {
+fn places(line: &[StyledText], words: &str) -> Vec<Range<usize>> {
     let row: String = line.iter().map(|(text, _)| text.as_str()).collect();
     let (text, sought) = (folded(&row, words), folded(words, words).concat());
     if sought.is_empty() {
@@ -48,13 +48,13 @@ fn places(line: &[Span], words: &str) -> Vec<Range<usize>> {
 }
 
 /// The rows in which some words stand.
-pub(super) fn matches(lines: &[Vec<Span>], words: &str) -> Vec<usize> {
-    let has = |(_, line): &(usize, &Vec<Span>)| !places(line, words).is_empty();
+pub(super) fn matches(lines: &[Vec<StyledText>], words: &str) -> Vec<usize> {
+    let has = |(_, line): &(usize, &Vec<StyledText>)| !places(line, words).is_empty();
     lines.iter().enumerate().filter(has).map(|(index, _)| index).collect()
 }
 
 /// Marks some words in a row that was drawn at this place.
-pub(super) fn mark(canvas: &mut Canvas<'_>, at: Rect, line: &[Span], words: &str) {
+pub(super) fn mark(canvas: &mut Canvas<'_>, at: Rect, line: &[StyledText], words: &str) {
     let text: String = line.iter().map(|(text, _)| text.as_str()).collect();
     let wide = |count: usize| text.chars().take(count).collect::<String>().width() as u16;
     for place in places(line, words) {

@@ -6,7 +6,7 @@
 use ratatui::layout::Rect;
 
 use super::cache::{self, Track, TrailKey};
-use super::canvas::{Canvas, Span, row, wide};
+use super::canvas::{Canvas, StyledText, row, wide};
 use super::ink::{colourless_mark, marker, pen};
 use super::marks::Marks;
 use super::names;
@@ -28,7 +28,7 @@ const KEY_ROWS: usize = 3;
 /// Writes the keys of curves, pairs of a mark and a name, above the axes: as far to the right as there is room for all of them, where
 /// a curve may be in the way, else in the widest room. Those that a row has no room for stand in the next one, and over the picture
 /// rather than nowhere.
-fn keys_above(canvas: &mut Canvas<'_>, area: Rect, keys: &[Span]) {
+fn keys_above(canvas: &mut Canvas<'_>, area: Rect, keys: &[StyledText]) {
     let mark = canvas.style.glyphs.pick("…", "~");
     let rows = KEY_ROWS.min(area.height.into());
     let mut rest = keys;
@@ -77,7 +77,7 @@ pub(super) fn draw(
     canvas: &mut Canvas<'_>,
     area: Rect,
     (q, plot): (&Quantities<'_>, &Plot),
-    keys: &[Span],
+    keys: &[StyledText],
 ) -> Option<PlotFrame> {
     let present = q.present();
     let context = q.lab.context(plot, &present);
@@ -169,7 +169,7 @@ pub(super) fn draw(
         Layer::Field(found) => field::keys(canvas, found),
         _ => Vec::new(),
     });
-    let keys: Vec<Span> = keys.iter().cloned().chain(shades).collect();
+    let keys: Vec<StyledText> = keys.iter().cloned().chain(shades).collect();
     keys_above(canvas, area, &keys);
     let reading = cursor::draw(canvas, area, &frame, (viewport, &marks));
     if q.lab.focused_plot().is_some_and(|(_, focused)| std::ptr::eq(focused, plot)) {

@@ -2,7 +2,7 @@
 //!
 //! In: a plot, the room in its frame. Out: spans. Never here: the picture below it, or the tabs beside it.
 
-use super::canvas::{Canvas, Span, groups, wide};
+use super::canvas::{Canvas, StyledText, groups, wide};
 use super::colour::ColourDepth;
 use super::ink::pen;
 use super::ink::{colourless_mark, is_colourless, marker};
@@ -18,7 +18,7 @@ pub(super) fn title(
     q: &Quantities<'_>,
     plot: &Plot,
     room: usize,
-) -> Vec<Span> {
+) -> Vec<StyledText> {
     let present = q.present();
     let Some(mut heading) = plot.kind.heading(plot, &present) else { return Vec::new() };
     if let Some(counted) = plot.kind.counted(q.lab.context(plot, &present)) {
@@ -43,7 +43,7 @@ pub(super) fn title(
 }
 
 /// An entry of a heading other than a curve.
-fn piece(canvas: &Canvas<'_>, q: &Quantities<'_>, entry: &Entry) -> Vec<Span> {
+fn piece(canvas: &Canvas<'_>, q: &Quantities<'_>, entry: &Entry) -> Vec<StyledText> {
     let valued = |name: &str, value: f64| {
         let value = readable(value, 4, canvas.style.glyphs);
         vec![
@@ -98,7 +98,7 @@ fn with_all_keys<'a>(
 ) -> impl Iterator<Item = &'a Entry> {
     let until_last = heading.entries.iter().rposition(is_key).map_or(0, |last| last + 1);
     let pieces = heading.entries[..until_last].iter().flat_map(|entry| piece(canvas, q, entry));
-    let all: Vec<Span> =
+    let all: Vec<StyledText> =
         [canvas.span(Role::Title, &heading.title)].into_iter().chain(pieces).collect();
     let several = heading.entries.iter().filter(|entry| is_key(entry)).count() > 1;
     let beyond = several && wide(&all) > room;
@@ -113,7 +113,7 @@ fn keys(
     heading: &Heading,
     curves: &[(usize, usize)],
     room: usize,
-) -> Vec<Vec<Span>> {
+) -> Vec<Vec<StyledText>> {
     let head = vec![canvas.span(Role::Title, &heading.title)];
     let named = || curves.iter().map(|(index, channel)| key(canvas, q, *index, *channel));
     let valued = named().zip(curves).map(|(mut key, (_, channel))| {
@@ -140,12 +140,12 @@ fn keys(
 }
 
 /// A sample of a channel's curve, and its name.
-fn key(canvas: &Canvas<'_>, q: &Quantities<'_>, index: usize, channel: usize) -> Vec<Span> {
+fn key(canvas: &Canvas<'_>, q: &Quantities<'_>, index: usize, channel: usize) -> Vec<StyledText> {
     sampled(canvas, index, &q.name(channel))
 }
 
 /// A sample of a curve's line, and words.
-fn sampled(canvas: &Canvas<'_>, index: usize, words: &str) -> Vec<Span> {
+fn sampled(canvas: &Canvas<'_>, index: usize, words: &str) -> Vec<StyledText> {
     let theme = &canvas.style.theme;
     let dash = theme.series(index).dash;
     let [unicode, ascii] = dash.sample();
@@ -158,14 +158,14 @@ fn sampled(canvas: &Canvas<'_>, index: usize, words: &str) -> Vec<Span> {
 
 /// Keys, pairs of a mark and a name, in a width: where they are too long, words that all names begin with are left out of
 /// the names after the first, or of all of them.
-pub(super) fn keys_in(keys: &[Span], width: usize, mark: &str) -> Vec<Span> {
+pub(super) fn keys_in(keys: &[StyledText], width: usize, mark: &str) -> Vec<StyledText> {
     let names: Vec<&str> = keys.iter().skip(1).step_by(2).map(|(name, _)| name.as_str()).collect();
     let same = common_words(&names);
     if wide(keys) <= width || same == 0 || !keys.len().is_multiple_of(2) {
         return keys.to_vec();
     }
-    let without = |from: usize| -> Vec<Span> {
-        let shown = |(index, (text, style)): (usize, &Span)| match text.get(same..) {
+    let without = |from: usize| -> Vec<StyledText> {
+        let shown = |(index, (text, style)): (usize, &StyledText)| match text.get(same..) {
             Some(rest) if index % 2 == 1 && index > from => (format!("{mark}{rest}"), *style),
             _ => (text.clone(), *style),
         };
@@ -188,12 +188,12 @@ pub(super) fn keys_beyond(
     canvas: &Canvas<'_>,
     q: &Quantities<'_>,
     plot: &Plot,
-    title: &[Span],
-) -> Vec<Span> {
+    title: &[StyledText],
+) -> Vec<StyledText> {
     let Some(heading) = plot.kind.heading(plot, &q.present()) else { return Vec::new() };
     let keys = heading.entries.iter().filter(|entry| is_key(entry));
-    let keys: Vec<Vec<Span>> = keys.map(|entry| piece(canvas, q, entry)).collect();
-    let in_title = |key: &Vec<Span>| title.windows(2).any(|pair| pair[1] == key[1]);
+    let keys: Vec<Vec<StyledText>> = keys.map(|entry| piece(canvas, q, entry)).collect();
+    let in_title = |key: &Vec<StyledText>| title.windows(2).any(|pair| pair[1] == key[1]);
     if keys.len() < 2 {
         return Vec::new();
     }

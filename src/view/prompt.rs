@@ -5,7 +5,7 @@
 use ratatui::layout::Rect;
 use unicode_width::UnicodeWidthStr;
 
-use super::canvas::{Canvas, Span, columns, row};
+use super::canvas::{Canvas, StyledText, columns, row};
 use super::number::readable;
 use super::theme::Role;
 use super::wrap::{formula, words};
@@ -55,7 +55,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, prompt: &Prom
     }
 }
 
-fn lines(canvas: &Canvas<'_>, lab: &Lab, prompt: &Prompt, width: usize) -> Vec<Vec<Span>> {
+fn lines(canvas: &Canvas<'_>, lab: &Lab, prompt: &Prompt, width: usize) -> Vec<Vec<StyledText>> {
     let mut page = PromptRows { canvas, width, lines: Vec::new() };
     if let Some(status) = prompt.under_way.as_ref().and_then(|(_, job)| job.status()) {
         page.words(Role::Dim, &status);
@@ -163,7 +163,7 @@ fn rate_head(lab: &Lab) -> &'static str {
 struct PromptRows<'a, 'b> {
     canvas: &'a Canvas<'b>,
     width: usize,
-    lines: Vec<Vec<Span>>,
+    lines: Vec<Vec<StyledText>>,
 }
 
 impl PromptRows<'_, '_> {

@@ -4,7 +4,7 @@
 
 use unicode_width::UnicodeWidthStr;
 
-use super::canvas::{Canvas, Span};
+use super::canvas::{Canvas, StyledText};
 use super::quantity::Quantities;
 use super::theme::Role;
 use crate::instrument::Plot;
@@ -47,7 +47,7 @@ fn distinct(q: &Quantities<'_>, plots: &[(usize, &Plot)]) -> Vec<String> {
 
 pub(super) struct Tabs {
     /// The names, with a line between neighbours.
-    pub(super) spans: Vec<Span>,
+    pub(super) spans: Vec<StyledText>,
     /// The picture to which each name leads.
     pub(super) pictures: Vec<usize>,
 }

@@ -6,7 +6,7 @@ mod layout;
 
 use ratatui::layout::{Position, Rect};
 
-use super::canvas::{Canvas, Span, columns, row};
+use super::canvas::{Canvas, StyledText, columns, row};
 use super::page_search::{mark, matches};
 use super::theme::Role;
 use crate::app::Drawn;
@@ -113,7 +113,7 @@ impl TextPage {
     }
 
     /// The row at which the section to be in view begins, or a few above the match to be in view.
-    fn section(&self, canvas: &Canvas<'_>, lines: &[Vec<Span>]) -> Option<u16> {
+    fn section(&self, canvas: &Canvas<'_>, lines: &[Vec<StyledText>]) -> Option<u16> {
         let (words, place) = &self.sought;
         if let Some(place) = place {
             let found = matches(lines, words);
@@ -184,7 +184,7 @@ impl TextPage {
     }
 
     /// The rows of the page in an area of this width.
-    pub(super) fn laid_out(&self, canvas: &Canvas<'_>, width: u16) -> Vec<Vec<Span>> {
+    pub(super) fn laid_out(&self, canvas: &Canvas<'_>, width: u16) -> Vec<Vec<StyledText>> {
         self.lines(canvas, measure(width).into())
     }
 
@@ -211,7 +211,7 @@ pub(super) fn draw_rows(
     canvas: &mut Canvas<'_>,
     area: Rect,
     scroll: u16,
-    lines: &[Vec<Span>],
+    lines: &[Vec<StyledText>],
 ) -> Drawn {
     let rows = usize::from(area.height);
     let beyond = lines.len().saturating_sub(rows);

@@ -5,7 +5,7 @@
 use ratatui::layout::Rect;
 use unicode_width::UnicodeWidthStr;
 
-use super::canvas::{Canvas, Span, columns};
+use super::canvas::{Canvas, StyledText, columns};
 use super::number::brief;
 use super::region::ScreenRegion;
 use super::theme::Role;
@@ -46,7 +46,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, snapshot: &Sn
     let (here, now) = (cell(snapshot.time), cell(to));
     let marked: Vec<usize> =
         lab.marks.iter().filter(|mark| **mark >= low && **mark <= high).map(|m| cell(*m)).collect();
-    let mut spans: Vec<Span> = vec![canvas.span(Role::Dim, format!("{} ", ends[0]))];
+    let mut spans: Vec<StyledText> = vec![canvas.span(Role::Dim, format!("{} ", ends[0]))];
     for place in 0..usize::from(wide) {
         let (role, sign) = if place == here {
             (Role::Accent, glyphs.pick("●", "O"))

@@ -14,7 +14,7 @@ use phaselab::model::{Allowed, Direction, Scope};
 use phaselab::num::BATCH;
 use phaselab::system::{InitialOverride, State, System};
 
-use crate::hand::catalog;
+use crate::fixtures::catalog;
 use crate::nonempty;
 
 const TOLERANCES: [f64; 2] = [1e-15, 1e-9];

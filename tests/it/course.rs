@@ -7,7 +7,7 @@ use phaselab::diagnostic::Document;
 use phaselab::experiment::{Command, Experiment, Prepared};
 use phaselab::instrument::{Ink, Layer, Picture, Plot};
 
-use crate::hand::{begun, press};
+use crate::fixtures::{begun, press};
 
 pub(crate) struct Course {
     pub(crate) app: App,

@@ -26,7 +26,7 @@ use phaselab::mechanics::Equations;
 use phaselab::model::Model;
 use phaselab::system::{InitialOverride, State, System};
 
-use crate::hand::{loaded, lowered};
+use crate::fixtures::{loaded, lowered};
 
 /// A phase space and a state in its variables.
 struct Case {

@@ -13,7 +13,7 @@ use phaselab::integrate::{Settings, method_named};
 use phaselab::job::Progress;
 use phaselab::system::{ChannelKind, InitialOverride, State};
 
-use crate::hand::{catalog, press};
+use crate::fixtures::{catalog, press};
 use crate::laboratory::{first, layers, measured, open, prepared, see, typed};
 use crate::screen::{rich, rows};
 

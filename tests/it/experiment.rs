@@ -22,7 +22,7 @@ use phaselab::mechanics;
 use phaselab::preset;
 use phaselab::system::System;
 
-use crate::hand::loaded;
+use crate::fixtures::loaded;
 
 /// More steps than any test needs.
 pub(crate) const PLENTY: u64 = 10_000_000;

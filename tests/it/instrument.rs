@@ -11,7 +11,7 @@ use phaselab::job::{Outcome, Progress, Share};
 use phaselab::mechanics::derive_for_motion;
 use phaselab::preset;
 
-use crate::hand::{begun, catalog, in_lab, loaded, pendulum, press, snapshot};
+use crate::fixtures::{begun, catalog, in_lab, loaded, pendulum, press, snapshot};
 use crate::nonempty;
 use crate::screen::{rich, rows};
 

@@ -8,7 +8,7 @@ use phaselab::experiment::{Experiment, Prepared};
 use phaselab::instrument::{Layer, Picture, Plot};
 use phaselab::job::Progress;
 
-use crate::hand::{catalog, press};
+use crate::fixtures::{catalog, press};
 
 pub(crate) fn prepared(text: &str) -> Prepared {
     Prepared::of(&Document::new("test", text)).unwrap_or_else(|error| panic!("{error}"))

@@ -5,6 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use crate::nonempty;
+
 /// The rooms that each room may use.
 type Table = BTreeMap<String, BTreeSet<String>>;
 
@@ -395,4 +397,17 @@ fn clippy_refuses_the_same_functions_by_type() {
     assert_eq!(listed, ELEMENTARY.map(|name| format!("f64::{name}")));
     let library = fs::read_to_string(root.join("src/lib.rs")).expect("src/lib.rs");
     assert!(library.contains("#![warn(clippy::disallowed_methods)]"));
+}
+
+#[test]
+fn heads_say_what_a_file_is_and_those_of_rooms_what_goes_in_and_out() {
+    for file in nonempty(files()) {
+        let text = fs::read_to_string(&file.path).expect("a source file");
+        let head = text.lines().map_while(|line| line.strip_prefix("//!"));
+        let head = head.collect::<Vec<_>>().join("");
+        let is_facade = file.depth == 1 && !["lib", "main"].contains(&file.room.as_str());
+        let passes = head.contains("In and out:") || head.contains("In:") && head.contains("Out:");
+        let says_all = passes && head.contains("Never here");
+        assert!(!head.is_empty() && (says_all || !is_facade), "{}", file.path.display());
+    }
 }

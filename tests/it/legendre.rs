@@ -3,7 +3,7 @@
 use phaselab::app::App;
 use phaselab::instrument::{Layer, Picture, Plot, Upwards, named, offers};
 
-use crate::hand::begun;
+use crate::fixtures::begun;
 use crate::laboratory::measure;
 
 /// A law with the view of its transform, v = 0.6 at the start.
@@ -100,7 +100,7 @@ fn variables_of_brackets_have_no_transform() {
     let kind = named("legendre").unwrap();
     let text = "title = 'a test'\n[variables]\nx = { initial = 1.0 }\ny = { initial = 0.0 }\n\
                 [poisson]\nH = \"x^2 + y^2\"\nbrackets = [[\"x\", \"y\", \"1\"]]\n";
-    let lowered = crate::hand::lowered(text);
+    let lowered = crate::fixtures::lowered(text);
     assert!(lowered.model.is_poisson());
     assert!(offers(lowered.physics()).iter().all(|(of, _)| *of != kind));
 }

@@ -8,7 +8,7 @@ use phaselab::instrument::{Field, Layer, Plot, SavedVariations};
 use phaselab::model::Variation;
 use phaselab::system::InitialOverride;
 
-use crate::hand::{begun, press};
+use crate::fixtures::{begun, press};
 use crate::laboratory::{layers, measure};
 
 /// A ball above the floor, g = 2.

@@ -12,7 +12,7 @@ use phaselab::view::colour::ColourDepth;
 use phaselab::view::glyphs::Glyphs;
 use phaselab::view::theme::Theme;
 
-use crate::hand::press;
+use crate::fixtures::press;
 use crate::laboratory::{self, open, prepared, see, typed};
 use crate::screen::{rich, rows, screen};
 

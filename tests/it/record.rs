@@ -19,7 +19,7 @@ use phaselab::diagnostic::Document;
 use phaselab::preset::demo;
 use phaselab::record::{Recording, Script, play};
 
-use crate::hand::catalog;
+use crate::fixtures::catalog;
 
 /// Parses a script.
 pub(crate) fn script(text: &str) -> Script {

@@ -13,7 +13,7 @@ use phaselab::view::RenderStyle;
 use phaselab::view::colour::ColourDepth;
 use phaselab::view::theme::Theme;
 
-use crate::hand::{catalog, lab, press};
+use crate::fixtures::{catalog, lab, press};
 use crate::laboratory::{layers, measure, open, prepared, see, typed};
 use crate::screen::{rich, rows, screen};
 

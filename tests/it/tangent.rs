@@ -8,7 +8,7 @@ use phaselab::num::DoubleDouble;
 use phaselab::system::{Evaluator, Form, Jet, Program, State, System};
 
 use crate::build::{names, read};
-use crate::hand::{loaded, lowered};
+use crate::fixtures::{loaded, lowered};
 
 /// Expressions in x, y, v and the parameters a, b that use every operation of a program.
 const EXPRESSIONS: &[&str] = &[

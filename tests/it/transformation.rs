@@ -11,7 +11,7 @@ use phaselab::instrument::{Ink, Layer, MarkerShape, Picture, Plot};
 use phaselab::num::math;
 use phaselab::preset;
 
-use crate::hand::{begun, in_lab, lab, press};
+use crate::fixtures::{begun, in_lab, lab, press};
 
 /// The plots of this kind in the lab of a preset, on which motion has been seen up to a time.
 fn plots(app: &App) -> Vec<Plot> {
@@ -93,7 +93,7 @@ fn new_coordinates_are_drawn_one_to_one_where_the_old_ones_are() {
     };
     assert_eq!(equal(&lab("moving-axes", 0.1)), [true, false]);
     assert_eq!(equal(&lab("angle-of-the-oscillator", 0.1)), [false, false]);
-    let text = crate::hand::catalog().find("moving-axes").expect("a preset").text.clone();
+    let text = crate::fixtures::catalog().find("moving-axes").expect("a preset").text.clone();
     let polar = text.replace(
         "P_X*(x*cos(Omega*t) + y*sin(Omega*t)) + P_Y*(y*cos(Omega*t) - x*sin(Omega*t))",
         "P_X*sqrt(x^2 + y^2) + P_Y*atan2(y, x)",
@@ -361,7 +361,7 @@ fn the_trail_in_new_variables_is_that_of_the_present_map() {
 /// Q = q cos a + p sin a, P = p cos a − q sin a: F2 and F3 divide by cos a, F1 and F4 by sin a, which is never both zero.
 #[test]
 fn generating_functions_that_do_not_exist_are_named_with_the_determinant() {
-    let text = crate::hand::catalog().find("four-generators").unwrap().text.clone();
+    let text = crate::fixtures::catalog().find("four-generators").unwrap().text.clone();
     for (angle, said) in [
         ("0.7", None),
         ("1.57", None),
@@ -601,8 +601,8 @@ fn a_trail_is_parted_at_a_caustic() {
 #[test]
 fn the_page_of_equations_has_transformations() {
     let page = |name: &str| {
-        let mut app = crate::hand::begun(&crate::hand::catalog().find(name).unwrap().text);
-        crate::hand::press(&mut app, "2");
+        let mut app = crate::fixtures::begun(&crate::fixtures::catalog().find(name).unwrap().text);
+        crate::fixtures::press(&mut app, "2");
         let area = ratatui::layout::Rect::new(0, 0, 120, 120);
         let mut buffer = ratatui::buffer::Buffer::empty(area);
         phaselab::view::draw(&app, &crate::screen::rich(), area, &mut buffer);

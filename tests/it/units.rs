@@ -2,7 +2,7 @@
 
 use phaselab::system::ChannelKind;
 
-use crate::hand::{catalog, lowered};
+use crate::fixtures::{catalog, lowered};
 use crate::nonempty;
 
 fn units<const N: usize>(text: &str, names: [&str; N]) -> [String; N] {

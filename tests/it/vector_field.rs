@@ -8,7 +8,7 @@ use phaselab::system::ChannelKind::{self, Momentum, Position, Velocity};
 use phaselab::view::RenderStyle;
 use phaselab::view::glyphs::Glyphs;
 
-use crate::hand::{begun, in_lab, lab, press};
+use crate::fixtures::{begun, in_lab, lab, press};
 use crate::screen::{rich, rows, screen};
 
 /// A phase portrait of two channels.

@@ -1,32 +1,50 @@
 //! Names in the field's words: none of the private words that `CONTRIBUTING.md` replaces is part of a name in the source.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use crate::honest::{plain, sources};
+use crate::nonempty;
 
 /// Words of which no name is made: each has a standard one.
-const PRIVATE: [&str; 23] = [
+const PRIVATE: [&str; 40] = [
+    "beat",
     "blow",
     "calendar",
     "chronicle",
     "desk",
+    "edition",
     "fault",
     "flaw",
+    "foretold",
+    "grip",
     "happening",
     "haste",
+    "held",
     "keeper",
+    "kin",
+    "laboratory",
+    "listen",
     "mistake",
     "needle",
     "news",
+    "obey",
     "occasion",
     "occasions",
+    "refusal",
     "seat",
+    "shelf",
     "spot",
     "spots",
     "strike",
     "struck",
+    "tally",
     "tape",
+    "tell",
+    "told",
+    "twin",
+    "unready",
+    "walk",
     "whereabouts",
     "wish",
     "wishes",
@@ -78,4 +96,40 @@ fn private_words_are_found_in_names_of_every_form() {
     let code = "struct ImpulseKeeper; fn is_struck(spot: f64) -> BlowUp { let blow_up = 1; SPOTS }";
     let found: Vec<String> = private(code).into_iter().collect();
     assert_eq!(found, ["ImpulseKeeper", "SPOTS", "is_struck", "spot"]);
+}
+
+/// Types of which there are several of one name: the arguments of each command, and what stands for machine code where there is
+/// none.
+const SEVERAL: [&str; 3] = ["Arguments", "CodeCache", "CompiledGrowth"];
+
+/// The names of the types that a source declares outside of functions and tests.
+fn types(code: &str) -> impl Iterator<Item = &str> {
+    let words = |line: &'_ str| line.split(|c: char| !(c.is_alphanumeric() || c == '_'));
+    let is_kind = |word: &&str| ["struct", "enum", "trait", "type"].contains(word);
+    let lines = code.lines().filter(|line| line.starts_with(|c: char| c.is_alphabetic()));
+    lines.filter_map(move |line| {
+        let is_item = words(line).take_while(|word| *word != "fn" && *word != "impl");
+        is_item.skip_while(move |word| !is_kind(word)).nth(1)
+    })
+}
+
+#[test]
+fn types_have_names_of_their_own() {
+    let mut texts = Vec::new();
+    sources(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src"), &mut texts);
+    let mut declared: BTreeMap<String, usize> = BTreeMap::new();
+    for (_, text) in nonempty(texts) {
+        for name in types(&plain(&text)) {
+            *declared.entry(name.to_owned()).or_default() += 1;
+        }
+    }
+    let twice = declared.into_iter().filter(|(_, count)| *count > 1).map(|(name, _)| name);
+    assert_eq!(twice.collect::<Vec<_>>(), SEVERAL);
+}
+
+#[test]
+fn types_are_found_by_their_declarations() {
+    let code = "pub struct A;\npub(super) enum B {\n    C,\n}\nfn struct_of(type_: u8) {}\n\
+                pub trait D<E> {\n    type F;\n}\ntype G = A;\nimpl D<u8> for A {}\n";
+    assert_eq!(types(code).collect::<Vec<_>>(), ["A", "B", "D", "G"]);
 }

@@ -109,14 +109,14 @@ impl EffectivePotential<'_> {
         let mut lobes = Vec::new();
         let nodes = self.profile.nodes.clone();
         let beside = nodes.iter().position(|node| node[0] >= place).unwrap_or(0);
-        let walks: [Vec<[f64; 2]>; 2] = [
+        let sides: [Vec<[f64; 2]>; 2] = [
             nodes[..beside].iter().rev().copied().collect(),
             nodes[beside..].iter().filter(|node| node[0] > place).copied().collect(),
         ];
-        for (side, walk) in walks.iter().enumerate() {
+        for (side, places) in sides.iter().enumerate() {
             let mut last = place;
             let (mut inside, mut end) = (false, None);
-            for &[q, value] in walk {
+            for &[q, value] in places {
                 if value < energy - noise {
                     inside = true;
                 } else if inside {

@@ -44,11 +44,11 @@ const ACROSS: f64 = 0.7;
 const SAME: f64 = 1e-6;
 
 /// The number of steps between two members, and how near to the nearest member they lead, in the size of the place.
-const WALK: usize = 80;
+const STEPS_TO_MEMBER: usize = 80;
 const NEAREST: f64 = 1e-10;
 
 /// The members that are kept of each family.
-const KEPT: usize = 300;
+const MOST_MEMBERS: usize = 300;
 
 /// Orthonormal directions.
 pub(super) type Directions = Vec<DVector<f64>>;
@@ -277,7 +277,7 @@ impl EquilibriumSearch<'_> {
             }
             let reached = self.nearest(family.members[k].clone(), &place, &everything);
             if is_same(self.way(&reached.place, &place).norm(), size) {
-                if family.members.len() < KEPT {
+                if family.members.len() < MOST_MEMBERS {
                     family.members.push(reached);
                 }
                 return true;
@@ -297,7 +297,7 @@ impl EquilibriumSearch<'_> {
         let size = size_of(to).max(size_of(&member.place));
         let mut longest = LONGEST * size;
         let mut before: Option<(DVector<f64>, DVector<f64>)> = None;
-        for _ in 0..WALK {
+        for _ in 0..STEPS_TO_MEMBER {
             let way = self.way(&member.place, to).component_mul(weights);
             let Some(along) = shortest(&member.along, &way, weights) else { break };
             if along.norm() <= NEAREST * size {

@@ -159,14 +159,14 @@ impl<'a> EquilibriumSearch<'a> {
         f.iter().chain(df.iter()).all(|x| x.is_finite()).then_some((f, df))
     }
 
-    /// ∂f/∂z of the variables that rest, and its changes over what is uncertain of a place, which may be moved along the `held`
+    /// ∂f/∂z of the variables that rest, and its changes over what is uncertain of a place, which may be moved along the `excluded`
     /// directions; 0 where it is smaller than these: it vanishes at the equilibrium, but not at the nearest number.
     pub(super) fn slopes(
         &mut self,
         variables: &[f64],
-        held: &[DVector<f64>],
+        excluded: &[DVector<f64>],
     ) -> Option<(DMatrix<f64>, DMatrix<f64>)> {
-        let mut uncertain = self.uncertainty(&self.in_units(variables), held)?;
+        let mut uncertain = self.uncertainty(&self.in_units(variables), excluded)?;
         for (k, &i) in self.unknowns.iter().enumerate() {
             let rounding = ROUNDED * (variables[i].abs() + self.units[i]);
             uncertain[k] = uncertain[k] * self.units[i] + rounding;

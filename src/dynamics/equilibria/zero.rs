@@ -44,16 +44,16 @@ const NOISE_DISTANCE: f64 = 1e-11;
 const ABOVE_NOISE: f64 = 64.0;
 
 impl EquilibriumSearch<'_> {
-    /// The place at which the rates vanish that is reached from one near it, without a step along the `held` directions, which are
+    /// The place at which the rates vanish that is reached from one near it, without a step along the `excluded` directions, which are
     /// orthonormal. `None` where the rates do not vanish, or keep shrinking without a zero, as in the tail of V = exp(−x²).
     pub(super) fn approached(
         &mut self,
         from: &DVector<f64>,
-        held: &[DVector<f64>],
+        excluded: &[DVector<f64>],
     ) -> Option<DVector<f64>> {
         let mut place = from.clone();
         let (mut f, df) = self.evaluate(&place)?;
-        let mut correction = Correction::new(&df, &f, held, size_of(&place))?;
+        let mut correction = Correction::new(&df, &f, excluded, size_of(&place))?;
         let mut best = (place.clone(), f.clone(), correction.clone());
         let (mut before, mut vain): (Option<DVector<f64>>, usize) = (None, 0);
         for _ in 0..STEPS {
@@ -66,7 +66,7 @@ impl EquilibriumSearch<'_> {
             for multiple in jump.into_iter().chain([1.0]).filter(|_| !least) {
                 let there = &place + step * multiple;
                 let Some((g, dg)) = self.evaluate(&there) else { continue };
-                let Some(after) = Correction::new(&dg, &g, held, size) else { continue };
+                let Some(after) = Correction::new(&dg, &g, excluded, size) else { continue };
                 let (_, f, one) = &best;
                 let steps = [after.step.norm(), one.step.norm()];
                 let shrinks = leads_on(steps, [one.left(&g), one.left(f)]);
@@ -79,7 +79,7 @@ impl EquilibriumSearch<'_> {
             vain = if is_better { 0 } else { vain + 1 };
             let Some((there, g, after, multiple, _)) = next.filter(|_| vain < IN_VAIN) else {
                 let (place, _, last) = best;
-                return self.vanishes(&place, held, &last.step).then_some(place);
+                return self.vanishes(&place, excluded, &last.step).then_some(place);
             };
             let last = std::mem::replace(&mut correction, after).step;
             before = (multiple == 1.0).then_some(last);
@@ -91,26 +91,26 @@ impl EquilibriumSearch<'_> {
         None
     }
 
-    /// How far from a place at which the rates vanish their zero may be, across the `held` directions: by what is left of them, and by
+    /// How far from a place at which the rates vanish their zero may be, across the `excluded` directions: by what is left of them, and by
     /// their rounding error.
     pub(super) fn uncertainty(
         &mut self,
         place: &DVector<f64>,
-        held: &[DVector<f64>],
+        excluded: &[DVector<f64>],
     ) -> Option<DVector<f64>> {
         let (f, df) = self.evaluate(place)?;
         let noise = self.noise(place, &f, &df)?;
         let size = size_of(place);
-        let [left, lost] = [f, noise].map(|f| Correction::new(&df, &f, held, size));
+        let [left, lost] = [f, noise].map(|f| Correction::new(&df, &f, excluded, size));
         Some((left?.step.abs() + lost?.step.abs()) * ABOVE_STEP)
     }
 
-    /// Whether rates that no step across the `held` directions makes smaller vanish, the last of which was this one: there is a zero, and
+    /// Whether rates that no step across the `excluded` directions makes smaller vanish, the last of which was this one: there is a zero, and
     /// it is no farther along these directions either, or what is left is rounding.
     fn vanishes(
         &mut self,
         place: &DVector<f64>,
-        held: &[DVector<f64>],
+        excluded: &[DVector<f64>],
         step: &DVector<f64>,
     ) -> bool {
         let size = size_of(place);
@@ -118,7 +118,7 @@ impl EquilibriumSearch<'_> {
             return false;
         }
         let Some((f, df)) = self.evaluate(place) else { return false };
-        let whole = if held.is_empty() {
+        let whole = if excluded.is_empty() {
             Some(step.clone())
         } else {
             Correction::new(&df, &f, &[], size).map(|one| one.step)
@@ -186,16 +186,16 @@ struct Correction {
 }
 
 impl Correction {
-    /// The damped step in which f + J s vanishes, across the `held` directions. Rates count by their own slopes, so that something soft
+    /// The damped step in which f + J s vanishes, across the `excluded` directions. Rates count by their own slopes, so that something soft
     /// is seen beside what is stiff.
     fn new(
         df: &DMatrix<f64>,
         f: &DVector<f64>,
-        held: &[DVector<f64>],
+        excluded: &[DVector<f64>],
         size: f64,
     ) -> Option<Correction> {
         let across = |vector: &mut DVector<f64>| {
-            for one in held {
+            for one in excluded {
                 let along = one.dot(vector);
                 vector.axpy(-along, one, 1.0);
             }

@@ -3,6 +3,7 @@
 //! In: values, and the size of the moving terms. Out: a [`Gauge`](crate::experiment::Gauge). Never here: where the values come from.
 
 mod drift_measure;
+mod gauge;
 
 use super::drift_record::{Distance, DriftRecord, Early};
 use super::mean::Mean;

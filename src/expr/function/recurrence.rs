@@ -14,7 +14,7 @@
 
 /// A series in a recurrence.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Operand {
+pub enum SeriesOperand {
     /// The first argument.
     First,
     /// The second argument.
@@ -25,10 +25,10 @@ pub enum Operand {
     Companion,
 }
 
-pub(super) const FIRST: Operand = Operand::First;
-pub(super) const SECOND: Operand = Operand::Second;
-pub(super) const VALUE: Operand = Operand::Value;
-pub(super) const COMPANION: Operand = Operand::Companion;
+pub(super) const FIRST: SeriesOperand = SeriesOperand::First;
+pub(super) const SECOND: SeriesOperand = SeriesOperand::Second;
+pub(super) const VALUE: SeriesOperand = SeriesOperand::Value;
+pub(super) const COMPANION: SeriesOperand = SeriesOperand::Companion;
 
 /// `Σ_j left_j right_{k−j}`, or with the slope of the left one `Σ_j j left_j right_{k−j}`.
 #[derive(Clone, Copy, Debug)]
@@ -38,17 +38,21 @@ pub struct Convolution {
     /// Whether it is the slope of the left series that enters.
     pub of_slope: bool,
     /// The left series.
-    pub left: Operand,
+    pub left: SeriesOperand,
     /// The right series.
-    pub right: Operand,
+    pub right: SeriesOperand,
 }
 
 impl Convolution {
-    pub(super) const fn of(sign: f64, left: Operand, right: Operand) -> Convolution {
+    pub(super) const fn of(sign: f64, left: SeriesOperand, right: SeriesOperand) -> Convolution {
         Convolution { sign, of_slope: false, left, right }
     }
 
-    pub(super) const fn of_slope(sign: f64, left: Operand, right: Operand) -> Convolution {
+    pub(super) const fn of_slope(
+        sign: f64,
+        left: SeriesOperand,
+        right: SeriesOperand,
+    ) -> Convolution {
         Convolution { sign, of_slope: true, left, right }
     }
 }
@@ -61,16 +65,16 @@ pub enum Divisor {
     /// k.
     Order,
     /// k times the value of a series.
-    OrderTimes(Operand),
+    OrderTimes(SeriesOperand),
     /// Twice the value of a series.
-    Twice(Operand),
+    Twice(SeriesOperand),
 }
 
 /// The recurrence of one series f.
 #[derive(Clone, Copy, Debug)]
 pub struct BilinearEquation {
     /// `± k u_k` of a series.
-    pub slope: Option<(f64, Operand)>,
+    pub slope: Option<(f64, SeriesOperand)>,
     /// The convolutions; what they contain of f_k is left out.
     pub sums: &'static [Convolution],
     /// What the k-th coefficient is divided by at last.
@@ -94,9 +98,9 @@ impl BilinearEquation {
     /// f′ g = ± u′.
     pub(super) const fn slope(
         sign: f64,
-        of: Operand,
+        of: SeriesOperand,
         sums: &'static [Convolution],
-        divisor: Operand,
+        divisor: SeriesOperand,
     ) -> BilinearEquation {
         BilinearEquation { slope: Some((sign, of)), sums, divisor: Divisor::OrderTimes(divisor) }
     }

@@ -69,10 +69,10 @@ fn computed(answer: Option<&Answer>) -> Option<&ComputedGrowth> {
     answer?.of::<ComputedGrowth>()
 }
 
-/// The error that is expected after a time gone back, once its growth is known.
-pub(super) fn expected(returned: Returned, answer: Option<&Answer>, gone: f64) -> Option<f64> {
+/// The error that is expected after a time elapsed back, once its growth is known.
+pub(super) fn expected(returned: Returned, answer: Option<&Answer>, elapsed: f64) -> Option<f64> {
     let known = computed(answer)?.growth.as_ref()?;
-    let growth = growth_after(known, gone)?;
+    let growth = growth_after(known, elapsed)?;
     let (error, step, independent) = returned.step_error;
     Some(growth.expected(error, step, independent))
 }
@@ -97,21 +97,21 @@ pub(super) fn heading(returned: Returned) -> Heading {
     Heading { title: "Return error ln d".to_owned(), given: false, entries }
 }
 
-/// The distance from the run before over the time gone back, with what is expected of it.
+/// The distance from the run before over the time elapsed back, with what is expected of it.
 pub(super) fn picture(
     (returned, answer): (Returned, Option<&Answer>),
     mut layers: Vec<(Level, Layer)>,
     mut range: Option<[f64; 2]>,
 ) -> Picture {
-    let all = returned.gone[1];
+    let all = returned.elapsed[1];
     let name = match returned.distance {
         Some(0.0) => "ln d   identical, to the last bit".to_owned(),
         _ => "ln d from the run before".to_owned(),
     };
     let at = |k: u32| {
-        let gone = all * f64::from(k) / f64::from(PARTS);
-        let value = expected(returned, answer, gone).filter(|value| *value > 0.0)?;
-        Some([gone, crate::num::math::ln(value)])
+        let elapsed = all * f64::from(k) / f64::from(PARTS);
+        let value = expected(returned, answer, elapsed).filter(|value| *value > 0.0)?;
+        Some([elapsed, crate::num::math::ln(value)])
     };
     let line: Vec<[f64; 2]> = (1..=PARTS).filter_map(at).collect();
     if let (Some(first), Some(last)) = (line.first(), line.last()) {
@@ -120,7 +120,7 @@ pub(super) fn picture(
         range = Some([seen[0].min(ends[0]).min(ends[1]), seen[1].max(ends[0]).max(ends[1])]);
         let stroke = Stroke { ink: Ink::Accent, covering: Some(0.5) };
         layers.push((LINE, Layer::Line(line, stroke)));
-        let now = expected(returned, answer, returned.gone[0]);
+        let now = expected(returned, answer, returned.elapsed[0]);
         let now = now.map(|value| format!(" = {}", significant(value, 2, 1e-4..1e4)));
         let words = format!("dotted: expected {}{}", law(returned), now.unwrap_or_default());
         layers.push((LINE, Layer::Legend(vec![words])));

@@ -15,12 +15,12 @@ impl DormandPrince {
             self.rates.evaluate(time.high, &self.state.values, &mut self.slopes[0])?;
             self.stale = false;
         }
-        for (kept, noise) in self.kept_noise.iter_mut().zip(&self.noise) {
-            *kept = FORGETTING * noise;
+        for (remembered, noise) in self.remembered_noise.iter_mut().zip(&self.noise) {
+            *remembered = FORGETTING * noise;
         }
         let mut rejected = 0;
         loop {
-            self.noise.copy_from_slice(&self.kept_noise);
+            self.noise.copy_from_slice(&self.remembered_noise);
             // take a last step that is a little longer rather than another tiny one
             let last = 1.01 * self.size >= left.high.abs();
             let step = if last { left.high } else { self.size.copysign(left.high) };

@@ -11,7 +11,7 @@ use super::singularity_record::SingularityRecord;
 use crate::integrate::{Stepper, Stepping, StoppedMotion};
 use crate::num::math;
 use crate::system::{
-    ConstraintProjector, Directions, Form, MotionError, MotionErrorKind, State, System,
+    ConstraintDirections, ConstraintProjector, Form, MotionError, MotionErrorKind, State, System,
 };
 
 /// Between two samples whose directions have at least this cosine nothing has been passed.
@@ -341,8 +341,8 @@ impl DirectionSampler<'_> {
     /// halfway, then wherever the directions are far apart.
     fn passages(
         &mut self,
-        (begin, before): (f64, &Directions),
-        (end, after): (f64, &Directions),
+        (begin, before): (f64, &ConstraintDirections),
+        (end, after): (f64, &ConstraintDirections),
         halvings: u32,
         found: &mut Vec<f64>,
     ) {

@@ -97,11 +97,11 @@ impl Propagator {
     ) -> Result<Option<Occurrence>, MotionError> {
         self.move_to_exactly(found.exact)?;
         self.check_accumulation(found)?;
-        let trigger = self.system.discontinuities().events[found.event].clone();
-        let Some(action) = trigger.action.written() else {
+        let event = self.system.discontinuities().events[found.event].clone();
+        let Some(action) = event.action.written() else {
             let is_one = self.cross_step_in_time(found)?;
             let kind = OccurrenceKind::StepInTime;
-            let (name, event, time) = (trigger.name, Some(found.event), found.exact.high);
+            let (name, event, time) = (event.name, Some(found.event), found.exact.high);
             return Ok(is_one.then_some(Occurrence { name, event, time, kind }));
         };
         let kind = match action {
@@ -121,7 +121,7 @@ impl Propagator {
                 return self.impulse_at(impulse, Some(found.event)).map(Some);
             }
         };
-        let (name, event, time) = (trigger.name, Some(found.event), found.exact.high);
+        let (name, event, time) = (event.name, Some(found.event), found.exact.high);
         Ok(Some(Occurrence { name, event, time, kind }))
     }
 

@@ -2,13 +2,13 @@
 //!
 //! In: samples and states. Out: what the detection compares. Never here: the detection.
 
-use crate::system::{Directions, MotionError, State};
+use crate::system::{ConstraintDirections, MotionError, State};
 
 /// The data recorded to detect singular configurations of one motion.
 #[derive(Clone, Debug, Default)]
 pub(super) struct SingularityRecord {
     /// The time of the last sample, and its directions.
-    pub(super) seen: Option<(f64, Directions)>,
+    pub(super) seen: Option<(f64, ConstraintDirections)>,
     /// Passages before the end of the last step that the current state has not reached.
     pub(super) ahead: Vec<f64>,
     pub(super) passed: u64,
@@ -31,7 +31,7 @@ pub(super) struct SingularityRecord {
 #[derive(Clone, Debug, Default)]
 pub(super) struct ComparisonRecord {
     /// The time of the last sample, and the directions where the comparison motion was.
-    pub(super) seen: Option<(f64, Directions)>,
+    pub(super) seen: Option<(f64, ConstraintDirections)>,
     /// The first passage, with the coordinates there.
     pub(super) first: Option<(f64, Vec<f64>)>,
 }

@@ -53,7 +53,7 @@ const POLE: f64 = 1e3;
 const HALVINGS: u32 = 60;
 
 /// A part of a step, in the unit of time of its series.
-type Part = (DoubleDouble, DoubleDouble);
+type StepPart = (DoubleDouble, DoubleDouble);
 
 impl Taylor {
     /// Whether a step of this size may pass what its series does not show.
@@ -103,7 +103,7 @@ impl Taylor {
         &mut self,
         end: DoubleDouble,
         enclosures: &mut u32,
-    ) -> Result<Option<Part>, MotionError> {
+    ) -> Result<Option<StepPart>, MotionError> {
         let from = self.state.clone();
         let found = self.search_contradiction(end, enclosures);
         self.state = from;
@@ -114,7 +114,7 @@ impl Taylor {
         &mut self,
         end: DoubleDouble,
         enclosures: &mut u32,
-    ) -> Result<Option<Part>, MotionError> {
+    ) -> Result<Option<StepPart>, MotionError> {
         let sizes = self.sizes_within(end.high);
         let mut open = self.whole(end, &sizes);
         while let Some((begin, stop)) = open.pop() {
@@ -135,7 +135,7 @@ impl Taylor {
 
     /// All of a step, as the only part that is still to be looked at. What is not even resolved at its beginning is asked for
     /// nowhere in it.
-    fn whole(&mut self, end: DoubleDouble, sizes: &[f64]) -> Vec<Part> {
+    fn whole(&mut self, end: DoubleDouble, sizes: &[f64]) -> Vec<StepPart> {
         self.enclosure.ask_all();
         if !self.resolves((DoubleDouble::ZERO, end), sizes) {
             self.resolves((DoubleDouble::ZERO, DoubleDouble::ZERO), sizes);
@@ -147,7 +147,7 @@ impl Taylor {
     /// Whether a part of a step is to be divided.
     fn divides(
         &mut self,
-        (begin, stop): Part,
+        (begin, stop): StepPart,
         end: DoubleDouble,
         sizes: &[f64],
         enclosures: &mut u32,
@@ -204,7 +204,7 @@ impl Taylor {
     }
 
     /// Whether everything narrow in the law is resolved in a part of the step.
-    fn resolves(&mut self, (begin, stop): Part, sizes: &[f64]) -> bool {
+    fn resolves(&mut self, (begin, stop): StepPart, sizes: &[f64]) -> bool {
         let (scale, middle) = (self.series.scale(), (begin + stop) * 0.5);
         let half = 0.5 * (stop - begin).high;
         self.series.state_after(middle * scale, &mut self.state);

@@ -10,7 +10,7 @@ const SAMPLES: usize = 8;
 const PIECES: usize = 8;
 
 /// A place in pixels.
-pub(super) type Point = (f64, f64);
+pub(super) type PixelPoint = (f64, f64);
 
 /// The coverage of a grid of pixels.
 #[derive(Clone, Debug)]
@@ -40,7 +40,7 @@ impl Coverage {
     }
 
     /// Covers the places for which something holds, as sampled in each pixel.
-    pub(super) fn sampled(&mut self, inside: impl Fn(Point) -> bool) {
+    pub(super) fn sampled(&mut self, inside: impl Fn(PixelPoint) -> bool) {
         let place =
             |pixel: usize, sample: usize| pixel as f64 + (sample as f64 + 0.5) / SAMPLES as f64;
         for index in 0..self.pixels.len() {
@@ -72,7 +72,7 @@ impl Coverage {
     }
 
     /// Adds the changes that an edge makes to the signed area on its right, from pixel to pixel.
-    fn edge(&self, sums: &mut [f64], from: Point, to: Point) {
+    fn edge(&self, sums: &mut [f64], from: PixelPoint, to: PixelPoint) {
         let (sign, (x0, y0), (x1, y1)) =
             if from.1 < to.1 { (1.0, from, to) } else { (-1.0, to, from) };
         if y0 == y1 {
@@ -112,24 +112,24 @@ impl Coverage {
 /// Closed contours of straight edges.
 #[derive(Debug, Default)]
 pub(super) struct Contours {
-    edges: Vec<[Point; 2]>,
-    start: Point,
-    at: Point,
+    edges: Vec<[PixelPoint; 2]>,
+    start: PixelPoint,
+    at: PixelPoint,
 }
 
 impl Contours {
-    pub(super) fn begin(&mut self, at: Point) {
+    pub(super) fn begin(&mut self, at: PixelPoint) {
         self.close();
         (self.start, self.at) = (at, at);
     }
 
-    pub(super) fn line(&mut self, to: Point) {
+    pub(super) fn line(&mut self, to: PixelPoint) {
         self.edges.push([self.at, to]);
         self.at = to;
     }
 
     /// A quadratic Bézier curve.
-    pub(super) fn curve(&mut self, by: Point, to: Point) {
+    pub(super) fn curve(&mut self, by: PixelPoint, to: PixelPoint) {
         for point in curve(self.at, by, to) {
             self.line(point);
         }
@@ -143,7 +143,11 @@ impl Contours {
 }
 
 /// The ends of the straight pieces of a quadratic Bézier curve.
-pub(super) fn curve(from: Point, by: Point, to: Point) -> impl Iterator<Item = Point> {
+pub(super) fn curve(
+    from: PixelPoint,
+    by: PixelPoint,
+    to: PixelPoint,
+) -> impl Iterator<Item = PixelPoint> {
     (1..=PIECES).map(move |piece| {
         let s = piece as f64 / PIECES as f64;
         let r = 1.0 - s;
@@ -153,7 +157,7 @@ pub(super) fn curve(from: Point, by: Point, to: Point) -> impl Iterator<Item = P
 }
 
 /// The square of the distance from a place to a segment.
-pub(super) fn distance_squared((x, y): Point, [from, to]: [Point; 2]) -> f64 {
+pub(super) fn distance_squared((x, y): PixelPoint, [from, to]: [PixelPoint; 2]) -> f64 {
     let (dx, dy) = (to.0 - from.0, to.1 - from.1);
     let length = dx * dx + dy * dy;
     let along = if length > 0.0 { ((x - from.0) * dx + (y - from.1) * dy) / length } else { 0.0 };
@@ -166,7 +170,7 @@ pub(super) fn distance_squared((x, y): Point, [from, to]: [Point; 2]) -> f64 {
 mod tests {
     use super::*;
 
-    fn area(points: &[Point], size: usize) -> f64 {
+    fn area(points: &[PixelPoint], size: usize) -> f64 {
         let mut contours = Contours::default();
         contours.begin(points[0]);
         points[1..].iter().for_each(|point| contours.line(*point));
@@ -179,7 +183,7 @@ mod tests {
     /// Against the shoelace formula.
     #[test]
     fn what_is_covered_is_the_area() {
-        let check = |points: &[Point]| {
+        let check = |points: &[PixelPoint]| {
             let next = points.iter().cycle().skip(1);
             let twice: f64 = points.iter().zip(next).map(|(a, b)| a.0 * b.1 - b.0 * a.1).sum();
             let covered = area(points, 12);
@@ -202,7 +206,7 @@ mod tests {
 
     #[test]
     fn a_curve_ends_where_it_should() {
-        let points: Vec<Point> = curve((0.0, 0.0), (4.0, 8.0), (8.0, 0.0)).collect();
+        let points: Vec<PixelPoint> = curve((0.0, 0.0), (4.0, 8.0), (8.0, 0.0)).collect();
         assert_eq!((points[PIECES / 2 - 1], points[PIECES - 1]), ((4.0, 4.0), (8.0, 0.0)));
     }
 }

@@ -4,7 +4,7 @@
 
 use ttf_parser::{Face, GlyphId, OutlineBuilder};
 
-use super::coverage::{Contours, Point};
+use super::coverage::{Contours, PixelPoint};
 
 /// What stands for a character that no letter replaces.
 const UNKNOWN: char = '?';
@@ -69,7 +69,7 @@ struct OutlinePen {
 }
 
 impl OutlinePen {
-    fn place(&self, x: f32, y: f32) -> Point {
+    fn place(&self, x: f32, y: f32) -> PixelPoint {
         let (x, y) = (f64::from(x), f64::from(y));
         // what is slanted keeps its middle
         let leaning = self.slant * (y * self.up - 0.4 * self.baseline);

@@ -4,7 +4,7 @@
 
 use std::collections::HashMap;
 
-use super::coverage::{Coverage, Point, curve, distance_squared};
+use super::coverage::{Coverage, PixelPoint, curve, distance_squared};
 use super::font::Font;
 use super::screen::ScreenCell;
 use crate::record::screenshot::shape::{CELL, DOT, GlyphShape, PathPart, path_parts};
@@ -100,7 +100,7 @@ fn cover(coverage: &mut Coverage, size: (usize, usize), shape: &GlyphShape) {
     match shape {
         GlyphShape::Dots(dots) => {
             let radius = DOT * scale.0;
-            let near = |(x, y): Point, dot: &Point| {
+            let near = |(x, y): PixelPoint, dot: &PixelPoint| {
                 distance_squared((x, y), [(dot.0 * scale.0, dot.1 * scale.1); 2]) < radius * radius
             };
             coverage.sampled(|place| dots.iter().any(|dot| near(place, dot)));
@@ -130,7 +130,7 @@ fn thickness(size: (usize, usize), heavy: bool) -> f64 {
 }
 
 /// The segments of a stroke. Its middle is moved to where a line of whole pixels can be, and its ends stay at the edges.
-fn segments(data: &str, size: (usize, usize), thick: f64) -> Vec<[Point; 2]> {
+fn segments(data: &str, size: (usize, usize), thick: f64) -> Vec<[PixelPoint; 2]> {
     let along = |place: f64, unit: f64, length: usize| {
         let (middle, length) = (0.5 * unit, length as f64);
         let centre = (0.5 * (length - thick)).floor() + 0.5 * thick;
@@ -140,7 +140,7 @@ fn segments(data: &str, size: (usize, usize), thick: f64) -> Vec<[Point; 2]> {
             centre + (place - middle) / middle * (length - centre)
         }
     };
-    let place = |(x, y): Point| (along(x, CELL.0, size.0), along(y, CELL.1, size.1));
+    let place = |(x, y): PixelPoint| (along(x, CELL.0, size.0), along(y, CELL.1, size.1));
     let mut segments = Vec::new();
     let mut at = (0.0, 0.0);
     for part in path_parts(data) {
@@ -163,7 +163,7 @@ fn segments(data: &str, size: (usize, usize), thick: f64) -> Vec<[Point; 2]> {
     segments
 }
 
-fn ring(coverage: &mut Coverage, middle: Point, radius: f64, half: f64) {
+fn ring(coverage: &mut Coverage, middle: PixelPoint, radius: f64, half: f64) {
     coverage.sampled(|at| {
         let far = distance_squared(at, [middle; 2]);
         let (inner, outer) = (radius - half, radius + half);

@@ -22,11 +22,11 @@ pub(super) type InkRamp = [u8; LEVELS + 1];
 
 /// How many pixels are drawn in which ink on which ground, with which coverage.
 #[derive(Default)]
-pub(super) struct Tally {
+pub(super) struct InkCounts {
     pairs: HashMap<(Rgb, Rgb), [u64; LEVELS + 1]>,
 }
 
-impl Tally {
+impl InkCounts {
     pub(super) fn add(&mut self, ink: Rgb, ground: Rgb, histogram: &[u32; LEVELS + 1]) {
         let counts = self.pairs.entry((ink, ground)).or_default();
         for (count, more) in counts.iter_mut().zip(histogram) {
@@ -43,10 +43,10 @@ pub(super) struct Inks {
 
 impl Inks {
     /// Chooses the colours.
-    pub(super) fn of(tally: Tally) -> Inks {
+    pub(super) fn of(drawn: InkCounts) -> Inks {
         // whether it is flat, and how often it is drawn
         let mut counts: BTreeMap<[u8; 3], (bool, u64)> = BTreeMap::new();
-        for ((ink, ground), levels) in tally.pairs {
+        for ((ink, ground), levels) in drawn.pairs {
             for (level, count) in levels.into_iter().enumerate().filter(|(_, count)| *count > 0) {
                 let Rgb(r, g, b) = blend(ink, ground, level);
                 let known = counts.entry([r, g, b]).or_default();

@@ -35,14 +35,14 @@ impl ExtendedKey {
     pub(super) fn of(params: &Params, last: char) -> Option<Self> {
         let parts: Vec<&[u16]> = params.iter().collect();
         let number = |part: &[u16], at: usize| part.get(at).copied().unwrap_or(0);
-        let (key, held) = match (last, &*parts) {
+        let (key, pressed) = match (last, &*parts) {
             ('u', [key]) => (*key, &[1][..]),
-            ('u', [key, held, ..]) => (*key, *held),
-            ('~', [[27], held, key]) => (*key, *held),
+            ('u', [key, pressed, ..]) => (*key, *pressed),
+            ('~', [[27], pressed, key]) => (*key, *pressed),
             _ => return None,
         };
-        let bits = number(held, 0).saturating_sub(1);
-        if bits & FOREIGN != 0 || number(held, 1) == RELEASED {
+        let bits = number(pressed, 0).saturating_sub(1);
+        if bits & FOREIGN != 0 || number(pressed, 1) == RELEASED {
             return None;
         }
         let bits = bits & (SHIFT | ALT | CONTROL);

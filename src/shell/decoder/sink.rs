@@ -64,18 +64,19 @@ impl Sink {
     /// Emits a key with modifiers in xterm's encoding: one more than the sum of shift 1, alt 2, ctrl 4.
     fn press_with(&mut self, code: KeyCode, modifiers: u16) {
         let bits = modifiers.saturating_sub(1);
-        let held = [
+        let pressed = [
             (bits & 1 != 0, KeyModifiers::SHIFT),
             (bits & 2 != 0 || mem::take(&mut self.alt), KeyModifiers::ALT),
             (bits & 4 != 0, KeyModifiers::CONTROL),
         ];
-        let held = held.into_iter().filter(|(held, _)| *held).map(|(_, modifier)| modifier);
+        let pressed =
+            pressed.into_iter().filter(|(pressed, _)| *pressed).map(|(_, modifier)| modifier);
         let typed = match code {
             KeyCode::Char(c) => key::character(c),
             code => code.into(),
         };
         if self.paste.is_none() {
-            let modifiers = held.fold(typed.modifiers, |all, modifier| all | modifier);
+            let modifiers = pressed.fold(typed.modifiers, |all, modifier| all | modifier);
             self.events.push_back(Event::Key(KeyEvent::new(code, modifiers)));
         }
     }
@@ -126,9 +127,10 @@ impl Sink {
             (65, false) => MouseEventKind::ScrollDown,
             _ => return,
         };
-        let held = [(4, KeyModifiers::SHIFT), (8, KeyModifiers::ALT), (16, KeyModifiers::CONTROL)];
-        let held = held.into_iter().filter(|(bit, _)| button & bit != 0);
-        let modifiers = held.fold(KeyModifiers::NONE, |all, (_, modifier)| all | modifier);
+        let pressed =
+            [(4, KeyModifiers::SHIFT), (8, KeyModifiers::ALT), (16, KeyModifiers::CONTROL)];
+        let pressed = pressed.into_iter().filter(|(bit, _)| button & bit != 0);
+        let modifiers = pressed.fold(KeyModifiers::NONE, |all, (_, modifier)| all | modifier);
         if let (Some(column), Some(row)) = (column.checked_sub(1), row.checked_sub(1))
             && self.paste.is_none()
         {
@@ -286,8 +288,8 @@ mod tests {
         check("\x1b[<64;5;6M\x1b[<65;5;6M", &[(4, 5, up), (4, 5, down)]);
         check("\x1b[<0;99999;99999M", &[(65534, 65534, press)]);
         let modifiers = KeyModifiers::SHIFT | KeyModifiers::ALT | KeyModifiers::CONTROL;
-        let held = Event::Mouse(MouseEvent { kind: press, column: 1, row: 2, modifiers });
-        assert_eq!(decode_with(TerminalMode::Mouse, b"\x1b[<28;2;3M"), [held]);
+        let pressed = Event::Mouse(MouseEvent { kind: press, column: 1, row: 2, modifiers });
+        assert_eq!(decode_with(TerminalMode::Mouse, b"\x1b[<28;2;3M"), [pressed]);
         for nothing in [
             "\x1b[<0;1M",
             "\x1b[<0;1;1;1M",

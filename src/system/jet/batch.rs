@@ -3,7 +3,7 @@
 //! In: matrices and right-hand sides of several orbits. Out: the solution of each. Never here: operations that
 //! depend on the size of a number, which programs of several orbits do not have.
 
-use super::orders::{Coefficient, Elimination, Orders};
+use super::orders::{Coefficient, FactoredMatrix, Orders};
 use crate::num::{BATCH, Batch};
 use crate::system::program::Program;
 use crate::system::solve::Factored;
@@ -17,7 +17,7 @@ pub struct FactoredBatch {
     right: Vec<f64>,
 }
 
-impl Elimination<Batch> for FactoredBatch {
+impl FactoredMatrix<Batch> for FactoredBatch {
     fn new(size: usize) -> FactoredBatch {
         FactoredBatch {
             lanes: std::array::from_fn(|_| Factored::new(size)),

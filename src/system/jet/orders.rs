@@ -18,14 +18,14 @@ use crate::system::solve::Factored;
 /// A coefficient of a power series.
 pub trait Coefficient: Analytic {
     /// A matrix of linear equations.
-    type Factored: Elimination<Self>;
+    type Factored: FactoredMatrix<Self>;
 
     /// The coefficient of order `k` of an operation that is evaluated by itself.
     fn alone(orders: &mut Orders<'_, Self>, program: &Program, register: u32, k: usize) -> Self;
 }
 
 /// A matrix that is factored, to solve linear equations with.
-pub trait Elimination<R>: Clone + Send + Sync + std::fmt::Debug {
+pub trait FactoredMatrix<R>: Clone + Send + Sync + std::fmt::Debug {
     /// Room for a matrix of this size.
     fn new(size: usize) -> Self;
     /// Factors the matrix whose entries `entry` gives by row and column. Returns false if it is
@@ -39,7 +39,7 @@ pub trait Elimination<R>: Clone + Send + Sync + std::fmt::Debug {
     fn solve_again<const FUSED: bool>(&mut self, right: &mut [R]);
 }
 
-impl<R: Real> Elimination<R> for Factored<R> {
+impl<R: Real> FactoredMatrix<R> for Factored<R> {
     fn new(size: usize) -> Factored<R> {
         Factored::new(size)
     }

@@ -6,7 +6,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use super::operands::Operands;
-use super::orders::{Coefficient, Elimination, Orders};
+use super::orders::{Coefficient, FactoredMatrix, Orders};
 use super::series_index::SeriesIndex;
 use super::side::Side;
 use crate::num::{Kernel, vectorized};

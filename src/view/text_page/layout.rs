@@ -6,7 +6,7 @@ use ratatui::style::Style;
 use unicode_width::UnicodeWidthStr;
 
 use super::{TextBlock, TextPage};
-use crate::view::canvas::{Canvas, Span};
+use crate::view::canvas::{Canvas, StyledText};
 use crate::view::clauses::clauses;
 use crate::view::emphasis::{Styles, marked, spans};
 use crate::view::primes::with_primes;
@@ -47,7 +47,7 @@ impl TextPage {
         widest.min(width.saturating_sub(2 + NUMBER + 2 * MARGIN).min(WIDEST_NAME)).max(NAME)
     }
 
-    pub(super) fn lines(&self, canvas: &Canvas<'_>, width: usize) -> Vec<Vec<Span>> {
+    pub(super) fn lines(&self, canvas: &Canvas<'_>, width: usize) -> Vec<Vec<StyledText>> {
         let mut widest = 0;
         let name_width = self.widest_name(canvas, width);
         let mut lines = Vec::new();
@@ -126,7 +126,8 @@ impl TextPage {
                 }
                 TextBlock::Item { label, text } => lines.extend(item(canvas, width, label, text)),
                 TextBlock::Value { name, value, unit, rest } => {
-                    let rest: Vec<Span> = rest.iter().map(|(r, t)| canvas.span(*r, t)).collect();
+                    let rest: Vec<StyledText> =
+                        rest.iter().map(|(r, t)| canvas.span(*r, t)).collect();
                     let widths = [width, name_width];
                     lines.extend(self::value(canvas, widths, [name, value, unit], rest));
                 }
@@ -140,7 +141,7 @@ impl TextPage {
 }
 
 /// The rows of a label and its text.
-fn item(canvas: &Canvas<'_>, width: usize, label: &str, text: &str) -> Vec<Vec<Span>> {
+fn item(canvas: &Canvas<'_>, width: usize, label: &str, text: &str) -> Vec<Vec<StyledText>> {
     let label = format!("  {}", canvas.text(label));
     let column = LABEL.min(width / 3);
     let wrapped = words(&canvas.text(text), width.saturating_sub(column));
@@ -163,8 +164,8 @@ fn value(
     canvas: &Canvas<'_>,
     [width, name_width]: [usize; 2],
     [name, value, unit]: [&str; 3],
-    rest: Vec<Span>,
-) -> Vec<Vec<Span>> {
+    rest: Vec<StyledText>,
+) -> Vec<Vec<StyledText>> {
     let (name, unit) = (format!("  {}", canvas.text(name)), canvas.text(unit));
     let before = |value: &str| " ".repeat(NUMBER.saturating_sub(value.width()));
     let number = canvas.span(Role::Accent, format!("{}{value}", before(value)));

@@ -3,7 +3,7 @@
 use phaselab::analysis::{Landscape, Plane};
 use phaselab::system::Form;
 
-use crate::hand::loaded;
+use crate::fixtures::loaded;
 
 /// The landscape of a preset with some parameters set, around a given range of the motion.
 fn survey(name: &str, set: &[(&str, f64)], form: Form, motion: [[f64; 2]; 2]) -> Landscape {

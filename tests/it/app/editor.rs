@@ -3,7 +3,7 @@
 use phaselab::app::{Caret, Editor};
 use proptest::prelude::*;
 
-use crate::hand::key;
+use crate::fixtures::key;
 
 const LIMIT: usize = 1 << 20;
 

@@ -6,7 +6,7 @@ use phaselab::job::{Progress, Share};
 use phaselab::model::Model;
 
 use super::real::Real;
-use crate::hand::{key, lowered};
+use crate::fixtures::{key, lowered};
 use crate::record::played;
 
 /// The equilibria of a file, with the names that it gives.

@@ -3,7 +3,7 @@
 use phaselab::app::{Item, Overlay};
 
 use super::real::Real;
-use crate::hand::lowered;
+use crate::fixtures::lowered;
 
 fn planet() -> Real {
     Real::with(lowered(

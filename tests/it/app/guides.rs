@@ -2,7 +2,7 @@
 
 use phaselab::app::{Above, App, AppEvent, Choice, Effect, Guide, GuideKind, LessonTaken, Overlay};
 
-use crate::hand::{catalog, in_lab, press};
+use crate::fixtures::{catalog, in_lab, press};
 
 fn guides(first: LessonTaken) -> Vec<Guide> {
     let guide = |kind, name: &str, title: &str| Guide {

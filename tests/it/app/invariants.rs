@@ -8,7 +8,7 @@ use phaselab::experiment::{Command, Gauge};
 use phaselab::job::Progress;
 
 use super::real::Real;
-use crate::hand::{lab, lowered, press};
+use crate::fixtures::{lab, lowered, press};
 use crate::screen;
 
 fn kepler(parameters: &str, exponent: &str) -> String {

@@ -14,7 +14,7 @@ use phaselab::experiment::{Command, Status};
 use phaselab::instrument::Sight;
 
 use super::scripts::with_impulses;
-use crate::hand::{at_picker, in_lab, loaded, pendulum, press, snapshot};
+use crate::fixtures::{at_picker, in_lab, loaded, pendulum, press, snapshot};
 
 #[test]
 fn no_key_means_two_things_at_once() {
@@ -130,7 +130,7 @@ fn states_made(context: KeyContext) -> Vec<App> {
 
 /// The list of systems, with the errors of a file over it.
 fn wrong_file() -> App {
-    let (mut app, _) = App::new(crate::hand::catalog(), Some("./wrong.toml"));
+    let (mut app, _) = App::new(crate::fixtures::catalog(), Some("./wrong.toml"));
     let (name, message) = ("./wrong.toml".to_owned(), "error: a wrong line".to_owned());
     app.update(AppEvent::Loaded(Err(LoadError { name, message })));
     app
@@ -330,7 +330,7 @@ fn the_palette_lists_every_row_and_does_what_its_key_does() {
                 let mut taken = app.clone();
                 let taken = outcome(&mut taken, |app| {
                     *app = open;
-                    app.update(AppEvent::Key(crate::hand::key("Enter")))
+                    app.update(AppEvent::Key(crate::fixtures::key("Enter")))
                 });
                 let mut pressed = app.clone();
                 let pressed = outcome(&mut pressed, |app| app.update(AppEvent::Key(row.keys[0])));

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use phaselab::app::{AppEvent, Effect};
 use phaselab::experiment::{Command, Recorded};
 
-use crate::hand::{in_lab, pendulum, press, snapshot};
+use crate::fixtures::{in_lab, pendulum, press, snapshot};
 
 /// The time that a key looks at, in a motion known from 0 to 2 s with three marks, seen at a time.
 fn looked_at(seen: f64, key: &str) -> Option<f64> {

@@ -9,7 +9,7 @@ use phaselab::app::{
 use phaselab::diagnostic::Document;
 use phaselab::preset::template;
 
-use crate::hand::{catalog, in_lab, lowered, press};
+use crate::fixtures::{catalog, in_lab, lowered, press};
 use crate::screen::{rich, rows};
 
 /// The text of a wrong file: `sni` for `sin`, on the fourth line from the end of the template's beginning.
@@ -124,7 +124,7 @@ fn an_unsaved_text_of_a_wrong_file_is_listed_among_the_systems() {
     assert_eq!(again.picker.unsaved(), Some(name));
     assert_eq!(again.picker.selected_above(), Some(Above::Unsaved), "as a session would be");
     for mut app in [Box::new(app), Box::new(again)] {
-        app.update(AppEvent::Loaded(Ok(crate::hand::pendulum())));
+        app.update(AppEvent::Loaded(Ok(crate::fixtures::pendulum())));
         app.picker.step(-9);
         while app.picker.selected_above() != Some(Above::Unsaved) {
             app.picker.step(1);

@@ -6,7 +6,7 @@ use phaselab::experiment::{Command, Experiment, Setup};
 use phaselab::num::significant;
 
 use super::real::Real;
-use crate::hand::{key, lowered};
+use crate::fixtures::{key, lowered};
 use crate::screen::{rich, rows, screen};
 
 const OSCILLATOR: &str = "title = \"t\"\n[coordinates]\nq = { initial = 1.0, momentum = 0.0 }\n[parameters]\n\

@@ -11,7 +11,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
 use crate::cases;
-use crate::hand::{catalog, key, loaded};
+use crate::fixtures::{catalog, key, loaded};
 
 /// The length of a frame in seconds.
 const FRAME: f64 = 1.0 / 60.0;

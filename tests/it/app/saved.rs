@@ -5,7 +5,7 @@ use std::sync::Arc;
 use phaselab::app::{Above, App, AppEvent, Effect, LeastRange, Page, Pane, Saved};
 use phaselab::experiment::Command;
 
-use crate::hand::{catalog, in_lab, lowered, pendulum, press, rebuild, snapshot};
+use crate::fixtures::{catalog, in_lab, lowered, pendulum, press, rebuild, snapshot};
 
 /// A session after writing and reading.
 fn kept(app: &App) -> Saved {

@@ -6,7 +6,7 @@ use std::time::Duration;
 use phaselab::app::{App, AppEvent, Effect, LoadError, Overlay, Page, Pane};
 use phaselab::experiment::{Checkpoint, Command};
 
-use crate::hand::{at_picker, catalog, in_lab, loaded, lowered, pendulum, press, snapshot};
+use crate::fixtures::{at_picker, catalog, in_lab, loaded, lowered, pendulum, press, snapshot};
 
 /// A short description of the focus.
 fn place(app: &App) -> String {

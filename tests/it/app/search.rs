@@ -3,7 +3,7 @@
 use phaselab::app::keymap::{Binding, KEYS};
 use phaselab::app::{Action, App, AppEvent, Overlay};
 
-use crate::hand::{at_picker, in_lab, press};
+use crate::fixtures::{at_picker, in_lab, press};
 
 /// The names of the systems that match a search.
 fn systems(query: &str) -> Vec<String> {

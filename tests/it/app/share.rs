@@ -8,7 +8,7 @@ use phaselab::integrate::Stepping;
 
 use super::mend::rest;
 use super::real::Real;
-use crate::hand::{catalog, in_lab, key, loaded, press};
+use crate::fixtures::{catalog, in_lab, key, loaded, press};
 
 /// What the key copies.
 fn copied(real: &mut Real) -> String {

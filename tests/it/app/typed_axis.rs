@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use phaselab::app::{App, AppEvent, Effect, Overlay};
 
-use crate::hand::{catalog, checked, judged, lab, loaded, press, write};
+use crate::fixtures::{catalog, checked, judged, lab, loaded, press, write};
 use crate::screen::{rich, rows, screen};
 
 /// Focuses the first phase plane.

@@ -4,7 +4,7 @@ use phaselab::experiment::{Command, Experiment, Setup, Status};
 use phaselab::num::short;
 
 use super::real::Real;
-use crate::hand::loaded;
+use crate::fixtures::loaded;
 
 /// The same system, never changed, advanced as [`Real::run`] does.
 fn undisturbed(name: &str, frames: &[u32]) -> Experiment {
@@ -146,7 +146,7 @@ fn changes_undone_at_once_lead_back_one_by_one() {
     let keys = "Right Down Right u u".split_whitespace();
     let effects: Vec<_> = keys
         .flat_map(|word| {
-            let key = crate::hand::key(word);
+            let key = crate::fixtures::key(word);
             real.app.update(phaselab::app::AppEvent::Key(key))
         })
         .collect();

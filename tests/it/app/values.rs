@@ -3,7 +3,7 @@
 use phaselab::app::{AppEvent, Effect, Overlay, ValueId};
 use phaselab::experiment::Command;
 
-use crate::hand::{in_lab, press};
+use crate::fixtures::{in_lab, press};
 
 /// Types a text into the field of the first parameter and accepts it; returns the effects and the error.
 fn typed(text: &str) -> (Vec<Effect>, Option<String>, String) {

@@ -13,7 +13,7 @@ use phaselab::diagnostic::Document;
 use phaselab::experiment::{Command, Prepared, Snapshot, Status};
 use phaselab::instrument::Plot;
 
-use crate::hand::{catalog, in_lab, loaded, pendulum, press, snapshot};
+use crate::fixtures::{catalog, in_lab, loaded, pendulum, press, snapshot};
 
 fn sheet(app: &App) -> &SourceBuffer {
     app.open_buffer().expect("the editor is open")

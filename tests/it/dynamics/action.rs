@@ -11,7 +11,7 @@ use phaselab::dynamics::{
 };
 use phaselab::instrument::{Plot, named};
 
-use crate::hand::{catalog, lowered, snapshot};
+use crate::fixtures::{catalog, lowered, snapshot};
 use crate::screen::{rich, rows};
 
 const OSCILLATOR: &str = "title = 'a test'\n[coordinates]\nx = { initial = 1.0 }\n\

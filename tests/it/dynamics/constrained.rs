@@ -7,7 +7,7 @@ use phaselab::dynamics::{
 };
 
 use super::{Case, case_in, file, method, taylor};
-use crate::hand::lowered;
+use crate::fixtures::lowered;
 
 fn held(text: &str) -> Case {
     case_in(&lowered(text), &[], &[], PhaseSpace::on_constraints)

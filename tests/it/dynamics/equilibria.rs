@@ -5,7 +5,7 @@ use phaselab::dynamics::{
 };
 
 use super::{Case, case_in, file, preset};
-use crate::hand::{loaded, lowered};
+use crate::fixtures::{loaded, lowered};
 
 fn of(case: &Case) -> Vec<Equilibrium> {
     equilibria(&case.space, &case.start).unwrap().found
@@ -226,7 +226,7 @@ fn what_is_cyclic_goes_on() {
     let cos = one.variables[0].cos();
     let whole = spin + precession * cos;
     let parameter = |name: &str| {
-        let loaded = crate::hand::loaded("heavy-top", 1);
+        let loaded = crate::fixtures::loaded("heavy-top", 1);
         case.space.parameters()[loaded.model.parameter(name).unwrap()]
     };
     let (a, c, mgl) = (parameter("I1"), parameter("I3"), parameter("Mgl"));

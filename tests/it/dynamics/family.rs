@@ -6,7 +6,7 @@ use phaselab::dynamics::{
 };
 
 use super::{Case, file, taylor};
-use crate::hand::lowered;
+use crate::fixtures::lowered;
 
 fn of(case: &Case, period: Option<f64>, (along, fixed): (Along, Fixed), values: &[f64]) -> Family {
     let orbit = periodic_orbit(&case.space, taylor(), &case.start, period, fixed).unwrap();

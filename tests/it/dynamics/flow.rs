@@ -3,7 +3,7 @@
 use phaselab::dynamics::{DynamicsError, FlowMap, PhaseSpace, flow_course, flow_map};
 
 use super::{Case, file, method, preset, taylor};
-use crate::hand::loaded;
+use crate::fixtures::loaded;
 
 const OSCILLATOR: &str = "title = \"t\"\n[coordinates]\nx = { initial = 0.3, momentum = 0.7 }\n\
                           [parameters]\nk = 4.0\nm = 0.25\n\

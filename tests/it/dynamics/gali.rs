@@ -6,7 +6,7 @@ use phaselab::system::InitialOverride::{Momentum, Position};
 use phaselab::system::{InitialOverride, State};
 
 use super::file;
-use crate::hand::loaded;
+use crate::fixtures::loaded;
 
 fn henon_heiles(given: &[InitialOverride]) -> (PhaseSpace, State) {
     let loaded = loaded("henon-heiles", 1);

@@ -10,7 +10,7 @@ use phaselab::integrate::{Propagator, Reached, Settings, method_named};
 use phaselab::system::MotionErrorKind;
 
 use super::{Case, method, taylor};
-use crate::hand::{loaded, lowered};
+use crate::fixtures::{loaded, lowered};
 
 /// A system with its phase space over impulses, at its initial state with other variables.
 pub(super) fn case(loaded: &Loaded, start: &[f64]) -> Case {

@@ -7,7 +7,7 @@ use phaselab::integrate::{BatchPropagator, Method, Settings, method_named};
 use phaselab::num::BATCH;
 
 use super::{Case, case, case_in, method, taylor};
-use crate::hand::{loaded, lowered};
+use crate::fixtures::{loaded, lowered};
 
 /// Everything that was found of a motion, with its bits, or why nothing was.
 fn reported(found: &Result<Lyapunov, DynamicsError>) -> String {

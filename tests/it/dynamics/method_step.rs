@@ -6,7 +6,7 @@ use phaselab::dynamics::MethodStep;
 use phaselab::integrate::{Settings, method_named};
 
 use super::preset;
-use crate::hand::{begun, loaded, lowered, press};
+use crate::fixtures::{begun, loaded, lowered, press};
 
 /// Two entangled degrees of freedom, where H does not separate and the map is solved numerically, as the step is.
 const ENTANGLED: &str = "title = \"T\"\n\
@@ -120,7 +120,7 @@ fn what_a_file_says_of_a_step_is_checked() {
 /// The corner of the plane of the new variables has it, at the parameters of now.
 #[test]
 fn the_plane_shows_the_step_beside_the_map() {
-    let text = &crate::hand::catalog().find("symplectic-euler").expect("a preset").text;
+    let text = &crate::fixtures::catalog().find("symplectic-euler").expect("a preset").text;
     let mut app = begun(text);
     press(&mut app, "Wait Wait");
     let lab = app.lab.as_ref().expect("a lab");

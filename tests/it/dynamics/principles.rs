@@ -11,7 +11,7 @@ use phaselab::dynamics::{
 use phaselab::instrument::{Layer, Plot, named};
 use phaselab::integrate::{METHODS, Settings};
 
-use crate::hand::{catalog, lab, lowered, press, snapshot};
+use crate::fixtures::{catalog, lab, lowered, press, snapshot};
 use crate::laboratory::{layers, measure};
 use crate::screen::{rich, rows};
 

@@ -6,7 +6,7 @@ use phaselab::experiment::{
 use phaselab::system::InitialOverride::{Momentum, Position};
 
 use super::{PLENTY, build, run, shipped};
-use crate::hand::loaded;
+use crate::fixtures::loaded;
 
 /// An experiment of a preset that begins elsewhere, with other parameters.
 fn begun(name: &str, change: impl FnOnce(&mut Setup)) -> Experiment {

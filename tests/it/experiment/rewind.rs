@@ -229,7 +229,7 @@ fn beside_the_pendulum() -> (Experiment, Experiment, usize) {
     let g = main.model().parameters.iter().position(|p| p.name == "g").expect("it has a weight");
     main.execute(Command::AddStart(vec![Position(0, 0.5)]));
     main.execute(Command::AddNeighbour);
-    let loaded = crate::hand::loaded("pendulum", 1);
+    let loaded = crate::fixtures::loaded("pendulum", 1);
     let setup = Setup { overrides: vec![Position(0, 0.5)], ..Setup::of(&loaded.model) };
     let alone = Experiment::new(&loaded.model, &loaded.equations, &loaded.system, setup);
     (main, alone.expect("its method fits"), g)

@@ -8,7 +8,7 @@ use phaselab::view::draw;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
-use crate::hand::{catalog, in_lab, pendulum, press};
+use crate::fixtures::{catalog, in_lab, pendulum, press};
 use crate::screen::rich;
 
 pub(crate) const WORDS: &[&str] = &[

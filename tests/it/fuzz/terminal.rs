@@ -9,7 +9,7 @@ use phaselab::view::{draw, hit_targets};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
-use crate::hand::in_lab;
+use crate::fixtures::in_lab;
 use crate::screen::rich;
 
 pub(crate) const WORDS: &[&str] = &[

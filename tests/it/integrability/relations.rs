@@ -4,7 +4,7 @@ use phaselab::expr::Expr;
 use phaselab::integrability::{is_hamiltonian, relations, summary};
 
 use super::{hamiltonian, search};
-use crate::hand::loaded;
+use crate::fixtures::loaded;
 
 fn line(h: &str, degree: u32) -> String {
     let model = hamiltonian(&["x", "y"], &[], h);

@@ -7,7 +7,7 @@ use phaselab::model::Model;
 use phaselab::preset;
 use phaselab::system::{State, System};
 
-use crate::hand::catalog;
+use crate::fixtures::catalog;
 
 const HUGE: &str = "[parameters]\nhuge_and_unused = 1e200\n";
 

@@ -182,7 +182,7 @@ fn a_state_of_either_form_is_a_start() {
 /// Two double pendulums whose only difference is a column that shows the action.
 #[test]
 fn the_motion_is_the_same_whether_the_action_is_carried_or_not() {
-    let text = crate::hand::catalog().find("double-pendulum").unwrap().text.clone();
+    let text = crate::fixtures::catalog().find("double-pendulum").unwrap().text.clone();
     let shown = format!("{text}\n[[observables]]\nname = 'carried'\nexpression = 'action'\n");
     let end = |text: &str, method: &str| {
         let mut motion = crate::experiment::build(text, |setup| {

@@ -8,7 +8,7 @@ use phaselab::integrate::Settings;
 use phaselab::orbits::RunPlan;
 use phaselab::system::{InitialOverride, System};
 
-use crate::hand::catalog;
+use crate::fixtures::catalog;
 use crate::nonempty;
 
 #[test]

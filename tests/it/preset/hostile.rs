@@ -10,7 +10,7 @@ use proptest::prelude::*;
 use proptest::sample::Index;
 
 use super::GOOD;
-use crate::hand::catalog;
+use crate::fixtures::catalog;
 
 /// Reads bytes and renders all errors in them; all positions lie in the text.
 fn survive(bytes: &[u8]) {

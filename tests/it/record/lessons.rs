@@ -13,7 +13,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
 use super::on_all_cores;
-use crate::hand::{catalog, key};
+use crate::fixtures::{catalog, key};
 use crate::nonempty;
 
 fn system(name: &str) -> Document {

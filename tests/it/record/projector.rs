@@ -17,7 +17,7 @@ use ratatui::layout::Rect;
 use ratatui::style::Color;
 
 use super::{played, script};
-use crate::hand::catalog;
+use crate::fixtures::catalog;
 
 fn look() -> RenderStyle {
     RenderStyle { theme: Theme::dark(ColourDepth::Ansi256), glyphs: Glyphs::Braille }

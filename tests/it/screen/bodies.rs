@@ -6,7 +6,7 @@ use phaselab::view::glyphs::Glyphs;
 use phaselab::view::theme::Theme;
 
 use super::{rows, screen};
-use crate::hand::{begun, lab};
+use crate::fixtures::{begun, lab};
 
 /// A wheel about the vertical with four spokes or none, seen from a height in degrees.
 fn wheel(elevation: f64, spokes: bool) -> String {

@@ -7,7 +7,7 @@ use phaselab::view::theme::Theme;
 use unicode_width::UnicodeWidthStr;
 
 use super::screen;
-use crate::hand::{catalog, lab, press};
+use crate::fixtures::{catalog, lab, press};
 
 /// Pages and pop-ups, as the keys that open them in a new lab.
 const PAGES: [&str; 8] = ["", "2", "3", "4", "9", "?", ":", "Enter"];

@@ -10,7 +10,7 @@ use phaselab::num::rounded;
 use super::{find, rich, rows, screen};
 use crate::app::real::Real;
 use crate::experiment::shipped;
-use crate::hand::{catalog, gauge, lab, loaded, press, snapshot};
+use crate::fixtures::{catalog, gauge, lab, loaded, press, snapshot};
 use crate::nonempty;
 
 /// A preset in the lab, with a snapshot of its first second.

@@ -10,7 +10,7 @@ use ratatui::layout::Rect;
 
 use super::{drawn, rich, rows};
 use crate::app::real::Real;
-use crate::hand::{at_picker, in_lab, press};
+use crate::fixtures::{at_picker, in_lab, press};
 
 /// The frames on a screen that look focused, by their upper left corners.
 fn focused(buffer: &Buffer, style: &RenderStyle) -> Vec<(u16, u16)> {

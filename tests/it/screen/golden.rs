@@ -18,7 +18,7 @@ use ratatui::layout::Rect;
 use ratatui::style::{Color, Modifier};
 
 use super::{rich, rows, screen};
-use crate::hand::{at_picker, catalog, in_lab, lab, press};
+use crate::fixtures::{at_picker, catalog, in_lab, lab, press};
 
 /// The letter of each role; a dot is plain text, a hash any other style (of a curve or a trail).
 const LETTERS: [(Role, char); 10] = [

@@ -16,7 +16,7 @@ use ratatui::layout::Rect;
 
 use super::{drawn, find, rich, rows, screen};
 use crate::app::real::Real;
-use crate::hand::{at_picker, catalog, gauge, in_lab, lowered, pendulum, press, snapshot};
+use crate::fixtures::{at_picker, catalog, gauge, in_lab, lowered, pendulum, press, snapshot};
 
 const SIZES: [(u16, u16); 5] = [(40, 18), (66, 16), (80, 24), (120, 40), (200, 60)];
 

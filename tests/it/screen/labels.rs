@@ -14,7 +14,7 @@ use ratatui::style::Color;
 
 use super::{rich, rows, screen};
 use crate::app::real::Real;
-use crate::hand::{begun, catalog, gauge, in_lab, lab, loaded, lowered, press, snapshot};
+use crate::fixtures::{begun, catalog, gauge, in_lab, lab, loaded, lowered, press, snapshot};
 use crate::nonempty;
 
 /// The arrows of a picture in space, as their labels.

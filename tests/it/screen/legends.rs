@@ -8,7 +8,7 @@ use phaselab::view::theme::Theme;
 
 use super::{rich, rows, screen};
 use crate::app::real::Real;
-use crate::hand::{begun, lab, lowered};
+use crate::fixtures::{begun, lab, lowered};
 
 /// Three curves are named in the frame or above the axes, and never some here and some there.
 #[test]

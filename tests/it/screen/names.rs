@@ -11,7 +11,7 @@ use phaselab::view::theme::Theme;
 
 use super::{find, rich, rows, screen};
 use crate::app::real::Real;
-use crate::hand::{at_picker, gauge, in_lab, lab, press, snapshot};
+use crate::fixtures::{at_picker, gauge, in_lab, lab, press, snapshot};
 
 /// Keys of curves whose names begin with the same words end with those that differ.
 #[test]

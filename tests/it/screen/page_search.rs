@@ -5,7 +5,7 @@ use ratatui::style::Modifier;
 
 use super::{find, rich, rows};
 use crate::app::real::Real;
-use crate::hand::press;
+use crate::fixtures::press;
 
 /// Draws, and lets the application know what was drawn.
 fn look(real: &mut Real, size: (u16, u16)) -> ratatui::buffer::Buffer {

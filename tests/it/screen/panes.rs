@@ -17,7 +17,7 @@ use ratatui::style::{Color, Modifier};
 
 use super::{find, rich, rows, screen};
 use crate::app::real::Real;
-use crate::hand::{
+use crate::fixtures::{
     at_picker, catalog, gauge, in_lab, lab, loaded, lowered, pendulum, press, snapshot,
 };
 
@@ -559,7 +559,7 @@ fn the_prompt_answers_in_mathematics_and_places_errors() {
 #[test]
 fn a_picture_may_be_seen_from_a_frame() {
     let seen = loaded("merry-go-round", 1);
-    let (mut app, _) = phaselab::app::App::new(crate::hand::catalog(), Some("merry-go-round"));
+    let (mut app, _) = phaselab::app::App::new(crate::fixtures::catalog(), Some("merry-go-round"));
     let now = snapshot(&seen, 2.0);
     app.update(AppEvent::Loaded(Ok(seen)));
     app.update(AppEvent::Snapshot(Arc::new(now)));
@@ -591,7 +591,7 @@ fn t_handle(matrix: [f64; 9], keys: &str) -> Vec<String> {
         }
     }
     now.values = values.into();
-    let (mut app, _) = phaselab::app::App::new(crate::hand::catalog(), Some("t-handle"));
+    let (mut app, _) = phaselab::app::App::new(crate::fixtures::catalog(), Some("t-handle"));
     app.update(AppEvent::Loaded(Ok(handle.clone())));
     app.update(AppEvent::Snapshot(Arc::new(now)));
     let lab = app.lab.as_ref().unwrap();
@@ -645,7 +645,7 @@ fn a_body_seen_from_itself_keeps_its_size() {
 #[test]
 fn a_potential_is_drawn_with_the_energy_and_where_the_motion_is_allowed() {
     let planet = loaded("planet", 1);
-    let (mut app, _) = phaselab::app::App::new(crate::hand::catalog(), Some("planet"));
+    let (mut app, _) = phaselab::app::App::new(crate::fixtures::catalog(), Some("planet"));
     let mut now = snapshot(&planet, 2.0);
     // a circle-like motion between r = 0.8 and 1.4, as bounds and now
     let place = |kind| planet.system.channels().iter().position(|c| c.kind == kind).unwrap();
@@ -784,7 +784,7 @@ fn news_are_reported_one_after_the_other_and_leave_the_hints_room() {
 #[test]
 fn a_frame_is_chosen_from_any_pane() {
     let seen = loaded("merry-go-round", 1);
-    let (mut app, _) = App::new(crate::hand::catalog(), Some("merry-go-round"));
+    let (mut app, _) = App::new(crate::fixtures::catalog(), Some("merry-go-round"));
     let now = snapshot(&seen, 2.0);
     app.update(AppEvent::Loaded(Ok(seen)));
     app.update(AppEvent::Snapshot(Arc::new(now)));
@@ -1055,7 +1055,7 @@ fn two_mechanics_side_by_side_are_called_right_and_wrong() {
     let shown = |name: &str| {
         let loaded = loaded(name, 1);
         let seen = snapshot(&loaded, 1.0);
-        let (mut app, _) = App::new(crate::hand::catalog(), Some(name));
+        let (mut app, _) = App::new(crate::fixtures::catalog(), Some(name));
         app.update(AppEvent::Loaded(Ok(loaded)));
         app.update(AppEvent::Snapshot(Arc::new(seen)));
         screen(&app, &rich(), (120, 40))
@@ -1122,7 +1122,7 @@ fn observed_quantities_have_their_units_on_axes() {
 fn where_a_heading_has_no_room_for_values_all_curves_are_named() {
     let loaded = loaded("rolling-race", 1);
     let seen = snapshot(&loaded, 1.0);
-    let (mut app, _) = App::new(crate::hand::catalog(), Some("rolling-race"));
+    let (mut app, _) = App::new(crate::fixtures::catalog(), Some("rolling-race"));
     app.update(AppEvent::Loaded(Ok(loaded)));
     app.update(AppEvent::Snapshot(Arc::new(seen)));
     let plain = RenderStyle { theme: Theme::dark(ColourDepth::None), glyphs: Glyphs::Ascii };
@@ -1143,7 +1143,7 @@ fn names_are_whole_or_not_there_and_cuts_are_marked() {
     // The longest meaning of a parameter, in fewer rows than it needs.
     let loaded = loaded("heavy-top", 1);
     let seen = snapshot(&loaded, 1.0);
-    let (mut app, _) = App::new(crate::hand::catalog(), Some("heavy-top"));
+    let (mut app, _) = App::new(crate::fixtures::catalog(), Some("heavy-top"));
     app.update(AppEvent::Loaded(Ok(loaded)));
     app.update(AppEvent::Snapshot(Arc::new(seen)));
     for size in [(60, 20), (80, 24), (120, 40)] {

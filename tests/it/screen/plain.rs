@@ -12,7 +12,7 @@ use phaselab::view::glyphs::Glyphs;
 use phaselab::view::theme::Theme;
 
 use super::{drawn, find, rich, rows};
-use crate::hand::{at_picker, catalog, gauge, in_lab, loaded, pendulum, press, snapshot};
+use crate::fixtures::{at_picker, catalog, gauge, in_lab, loaded, pendulum, press, snapshot};
 use crate::nonempty;
 
 /// The page on a screen long enough for all of it, as one text without line breaks.

@@ -13,7 +13,7 @@ use ratatui::style::Color;
 
 use super::screen;
 use crate::cases;
-use crate::hand::{at_picker, catalog, gauge, in_lab, lab, pendulum, press, snapshot};
+use crate::fixtures::{at_picker, catalog, gauge, in_lab, lab, pendulum, press, snapshot};
 use crate::nonempty;
 
 /// Keys that lead from the lab to every page, pop-up and pane.

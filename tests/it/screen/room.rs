@@ -8,7 +8,7 @@ use phaselab::system::InitialOverride::Position;
 
 use super::{find, rich, rows, screen};
 use crate::app::real::Real;
-use crate::hand::{begun, catalog, gauge, lab, press, snapshot};
+use crate::fixtures::{begun, catalog, gauge, lab, press, snapshot};
 
 /// In 80 columns a long title takes the room of the last page, which help names, and of the gaps between the others.
 #[test]

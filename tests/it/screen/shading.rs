@@ -10,7 +10,7 @@ use ratatui::style::{Color, Style};
 
 use super::{rich, screen};
 use crate::app::real::Real;
-use crate::hand::{begun, lab};
+use crate::fixtures::{begun, lab};
 use crate::nonempty;
 
 /// The pane of the momentum sphere at 120 × 40: its columns, its rows.
@@ -335,7 +335,7 @@ fn two_columns_are_thick() {
 #[test]
 fn what_moves_with_neither_mechanics_has_none_of_their_colours() {
     let theme = Theme::dark(ColourDepth::True);
-    let text = &crate::hand::catalog().find("rolling-disc").expect("a preset").text;
+    let text = &crate::fixtures::catalog().find("rolling-disc").expect("a preset").text;
     let painted = |text: &str| {
         let buffer = screen(&begun(text), &rich(), (200, 60));
         [theme[Role::Level], theme.curve(0), theme.curve(1)].map(|style| {

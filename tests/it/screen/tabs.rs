@@ -11,7 +11,7 @@ use ratatui::layout::Rect;
 
 use super::{find, rich, rows, screen};
 use crate::app::real::Real;
-use crate::hand::{gauge, in_lab, pendulum, snapshot};
+use crate::fixtures::{gauge, in_lab, pendulum, snapshot};
 
 /// Each list, and a word that its frame begins with.
 const LISTS: [(Pane, &str, &str); 4] = [

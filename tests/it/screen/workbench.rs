@@ -12,7 +12,7 @@ use ratatui::buffer::Buffer;
 use ratatui::style::Modifier;
 
 use super::{drawn, find, rich, rows, screen};
-use crate::hand::{in_lab, press, snapshot};
+use crate::fixtures::{in_lab, press, snapshot};
 
 fn edited() -> App {
     let mut app = in_lab();

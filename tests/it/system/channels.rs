@@ -226,7 +226,9 @@ fn momenta_and_energies_have_the_units_that_follow_from_the_file() {
         ("pendulum-rod", "tension", "N"),
         ("smooth-sphere", "reaction", "N"),
     ] {
-        let Ok(document) = crate::hand::catalog().find(name) else { panic!("no preset {name}") };
+        let Ok(document) = crate::fixtures::catalog().find(name) else {
+            panic!("no preset {name}")
+        };
         let model = document.read().unwrap().model;
         let equations = phaselab::mechanics::derive(&model).unwrap();
         let system = phaselab::system::System::compile(&model, &equations, &[]).unwrap();

@@ -7,7 +7,7 @@ use phaselab::mechanics::Flow;
 use phaselab::num::{Batch, DoubleDouble};
 use phaselab::system::{STAGES, State};
 
-use crate::hand::catalog;
+use crate::fixtures::catalog;
 use crate::laboratory::prepared;
 use crate::nonempty;
 

@@ -15,7 +15,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::{Rect, Size};
 use ratatui::style::{Color, Style};
 
-use crate::hand::{catalog, loaded};
+use crate::fixtures::{catalog, loaded};
 
 const BUDGET: u32 = 16 * 1024;
 

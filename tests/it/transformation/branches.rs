@@ -4,7 +4,7 @@ use phaselab::app::App;
 use phaselab::instrument::{Layer, MarkerShape, Picture, PlotContext, Upwards};
 
 use super::{Course, plots, shown};
-use crate::hand::{lab, press};
+use crate::fixtures::{lab, press};
 
 /// P of p = P − h q P²/(1 + q²)² + h q has two roots; the second passes through infinity at q = 0, where its branch ends.
 #[test]
@@ -58,7 +58,7 @@ fn an_image_to_which_no_grid_leads_is_found() {
 /// found, before and after the caustics.
 #[test]
 fn no_image_that_exists_is_denied() {
-    let mut course = Course::with(&crate::hand::catalog().find("two-roots").unwrap().text);
+    let mut course = Course::with(&crate::fixtures::catalog().find("two-roots").unwrap().text);
     let h = 1.5;
     for step in 1..=40 {
         course.go(0.25 * f64::from(step));
@@ -93,7 +93,7 @@ fn no_image_that_exists_is_denied() {
 #[test]
 fn a_caustic_is_reported_and_stepped_over() {
     let said = "no image: beyond a caustic";
-    let mut course = Course::with(&crate::hand::catalog().find("two-roots").unwrap().text);
+    let mut course = Course::with(&crate::fixtures::catalog().find("two-roots").unwrap().text);
     for (time, beyond) in [(3.0, false), (3.3, true), (3.5, false), (7.3, true)] {
         course.go(time);
         let mut plot = plots(&course.app)[0].clone();

@@ -5,7 +5,7 @@ use phaselab::instrument::Plot;
 use phaselab::view::hit_test;
 use ratatui::layout::Rect;
 
-use crate::hand::catalog;
+use crate::fixtures::catalog;
 use crate::laboratory::{open, prepared, see};
 use crate::screen::{rich, screen};
 

@@ -8,7 +8,7 @@ use super::{Course, shown};
 /// written down, as the inverse of a turn by 0.7, and one that is solved numerically, P + 0.1 P³ + 0.01 P⁵ = p.
 #[test]
 fn every_transformation_of_the_file_can_be_shown() {
-    let text = crate::hand::catalog().find("four-generators").unwrap().text.clone();
+    let text = crate::fixtures::catalog().find("four-generators").unwrap().text.clone();
     let more = "\n[[transformations]]\nname = \"solved\"\nkind = \"F2\"\nF = \"q*(P8 + 0.1*P8^3 + 0.01*P8^5)\"\n\
                 new = [\"Q8\", \"P8\"]\n";
     let text = text + more;

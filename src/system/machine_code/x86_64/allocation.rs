@@ -6,8 +6,8 @@
 //! Where all registers are taken, the number gives way that is read again last (L. A. Belady, IBM Syst. J. 5 (1966) 78).
 //! Every number is made once, so that it is spilled at most once.
 
-use super::basic_block::{BasicBlock, MachineInstruction, Operand, Value, Width};
-use super::encoding::{Bytes, Source, Vector};
+use super::basic_block::{BasicBlock, MachineInstruction, Operand, VirtualRegister, Width};
+use super::encoding::{Bytes, Source, VectorRegister};
 use super::layout::{Address, Area};
 use super::product_loops::{self, ProductLoops};
 
@@ -19,7 +19,7 @@ const NEVER: u32 = u32::MAX;
 
 #[derive(Clone, Copy, Debug, Default)]
 struct Location {
-    register: Option<Vector>,
+    register: Option<VectorRegister>,
     memory: Option<Address>,
     width: Option<Width>,
     /// The instruction that reads it next.
@@ -30,7 +30,7 @@ struct Allocator {
     bytes: Bytes,
     loops: ProductLoops,
     places: Vec<Location>,
-    registers: [Option<Value>; REGISTERS],
+    registers: [Option<VirtualRegister>; REGISTERS],
     /// The registers that the current instruction reads.
     pinned: u16,
     room: usize,
@@ -123,7 +123,7 @@ impl Allocator {
             MachineInstruction::InnerProducts { products, made } => {
                 for register in 0..product_loops::REGISTERS {
                     if let Some(value) = self.registers[register].take() {
-                        self.spill(value, Vector(register as u8));
+                        self.spill(value, VectorRegister(register as u8));
                     }
                 }
                 let to = self.loops.call(&mut self.bytes, products);
@@ -136,7 +136,7 @@ impl Allocator {
     }
 
     /// The register of a number, loaded again if it gave way.
-    fn read(&mut self, value: Value) -> Vector {
+    fn read(&mut self, value: VirtualRegister) -> VectorRegister {
         let place = self.places[value.0 as usize];
         let register = place.register.unwrap_or_else(|| {
             let register = self.free();
@@ -151,7 +151,7 @@ impl Allocator {
     }
 
     /// The same where it may be read from memory, if it is not read again.
-    fn source(&mut self, value: Value, next: u32) -> Source {
+    fn source(&mut self, value: VirtualRegister, next: u32) -> Source {
         let place = self.places[value.0 as usize];
         match (place.register, place.memory) {
             (None, Some(memory)) if next == NEVER => Source::Memory(memory.into()),
@@ -160,7 +160,7 @@ impl Allocator {
     }
 
     /// Takes note of when the operands of an instruction are read next. The registers of those that are not are free.
-    fn advance(&mut self, reads: &[Option<Value>; 3], next: &[u32; 3]) {
+    fn advance(&mut self, reads: &[Option<VirtualRegister>; 3], next: &[u32; 3]) {
         for (value, &next) in reads.iter().zip(next) {
             let Some(value) = value else { continue };
             let place = &mut self.places[value.0 as usize];
@@ -175,7 +175,7 @@ impl Allocator {
     }
 
     /// A register for a number that is made.
-    fn make(&mut self, value: Value, width: Width) -> Vector {
+    fn make(&mut self, value: VirtualRegister, width: Width) -> VectorRegister {
         let register = self.free();
         self.places[value.0 as usize].width = Some(width);
         if self.places[value.0 as usize].next != NEVER {
@@ -184,28 +184,28 @@ impl Allocator {
         register
     }
 
-    fn take(&mut self, register: Vector, value: Value) {
+    fn take(&mut self, register: VectorRegister, value: VirtualRegister) {
         self.registers[register.0 as usize] = Some(value);
         self.places[value.0 as usize].register = Some(register);
     }
 
     /// A register that holds nothing, or nothing any more.
-    fn free(&mut self) -> Vector {
+    fn free(&mut self) -> VectorRegister {
         if let Some(free) = self.registers.iter().position(Option::is_none) {
-            return Vector(free as u8);
+            return VectorRegister(free as u8);
         }
         let last = (0..REGISTERS).filter(|&r| self.pinned & 1 << r == 0).max_by_key(|&r| {
             self.registers[r].map_or(NEVER, |value| self.places[value.0 as usize].next)
         });
         let last = last.unwrap_or(0);
         if let Some(value) = self.registers[last].take() {
-            self.spill(value, Vector(last as u8));
+            self.spill(value, VectorRegister(last as u8));
         }
-        Vector(last as u8)
+        VectorRegister(last as u8)
     }
 
     /// Writes a number to memory, unless it is there.
-    fn spill(&mut self, value: Value, register: Vector) {
+    fn spill(&mut self, value: VirtualRegister, register: VectorRegister) {
         let place = &mut self.places[value.0 as usize];
         place.register = None;
         if place.memory.is_none() {

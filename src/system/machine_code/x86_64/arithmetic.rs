@@ -3,7 +3,9 @@
 //! In: numbers of a precision. Out: instructions whose results have the bits of [`Analytic`](crate::num::Analytic) in that
 //! precision. Never here: which numbers.
 
-use super::basic_block::{BasicBlock, InnerProducts, Operand, Operation, Value, Width};
+use super::basic_block::{
+    BasicBlock, InnerProductOperands, Operand, Operation, VirtualRegister, Width,
+};
 use super::layout::{Address, MemoryLayout};
 use super::reciprocal::Reciprocal;
 use crate::num::DoubleDouble;
@@ -111,7 +113,7 @@ impl Code {
         self.block.store(Width::Four, four, to, true);
     }
 
-    pub(super) fn four(&mut self, at: Address) -> Value {
+    pub(super) fn four(&mut self, at: Address) -> VirtualRegister {
         self.block.load(Width::Four, at)
     }
 
@@ -124,7 +126,7 @@ impl Code {
         terms: usize,
     ) -> Operand {
         if terms >= LOOPED {
-            let products = InnerProducts { width, left, right, distance, terms };
+            let products = InnerProductOperands { width, left, right, distance, terms };
             return self.block.inner_products(products).into();
         }
         let product = |code: &mut Code, j: usize| {
@@ -219,7 +221,7 @@ pub(super) trait Arithmetic {
     fn over(code: &mut Code, a: Self::Number, n: usize) -> Self::Number;
     fn opposite(code: &mut Code, a: Self::Number) -> Self::Number;
     /// Keeps a number at hand that is read more than once.
-    fn held(code: &mut Code, a: Self::Number) -> Self::Number;
+    fn in_register(code: &mut Code, a: Self::Number) -> Self::Number;
     /// Stores a number where nothing else is written.
     fn store(code: &mut Code, a: Self::Number, to: Address);
     /// The same where it is overwritten later.

@@ -9,17 +9,17 @@ use super::layout::Address;
 
 /// A number that an instruction makes, or several side by side.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) struct Value(pub(super) u32);
+pub(super) struct VirtualRegister(pub(super) u32);
 
 /// What an instruction reads.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Operand {
-    Made(Value),
+    Made(VirtualRegister),
     At(Address),
 }
 
-impl From<Value> for Operand {
-    fn from(value: Value) -> Operand {
+impl From<VirtualRegister> for Operand {
+    fn from(value: VirtualRegister) -> Operand {
         Operand::Made(value)
     }
 }
@@ -69,50 +69,50 @@ pub(super) enum Operation {
 pub(super) enum MachineInstruction {
     Zero {
         width: Width,
-        made: Value,
+        made: VirtualRegister,
     },
     Load {
         width: Width,
         from: Address,
-        made: Value,
+        made: VirtualRegister,
     },
     /// Loads the number at `from` and as many bytes on as the integer at `offset` says.
     LoadBehind {
         from: Address,
         offset: Address,
-        made: Value,
+        made: VirtualRegister,
     },
     Binary {
         operation: Operation,
         width: Width,
-        left: Value,
+        left: VirtualRegister,
         right: Operand,
-        made: Value,
+        made: VirtualRegister,
     },
     /// `left · right − product` with one rounding.
     ProductError {
         width: Width,
-        left: Value,
-        right: Value,
-        product: Value,
-        made: Value,
+        left: VirtualRegister,
+        right: VirtualRegister,
+        product: VirtualRegister,
+        made: VirtualRegister,
     },
     /// `stays` says that nothing else is written there.
     Store {
         width: Width,
-        value: Value,
+        value: VirtualRegister,
         to: Address,
         stays: bool,
     },
     InnerProducts {
-        products: InnerProducts,
-        made: Value,
+        products: InnerProductOperands,
+        made: VirtualRegister,
     },
 }
 
 /// Inner products `Σ a_j b_j` of several lanes. Four sums are kept apart.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct InnerProducts {
+pub(super) struct InnerProductOperands {
     pub(super) width: Width,
     /// The first operands.
     pub(super) left: Address,
@@ -124,7 +124,7 @@ pub(super) struct InnerProducts {
 
 impl MachineInstruction {
     /// The made numbers that it reads.
-    pub(super) fn reads(&self) -> [Option<Value>; 3] {
+    pub(super) fn reads(&self) -> [Option<VirtualRegister>; 3] {
         match *self {
             MachineInstruction::Zero { .. }
             | MachineInstruction::Load { .. }
@@ -151,32 +151,35 @@ pub(super) struct BasicBlock {
 }
 
 impl BasicBlock {
-    fn next(&mut self) -> Value {
+    fn next(&mut self) -> VirtualRegister {
         self.values += 1;
-        Value(self.values - 1)
+        VirtualRegister(self.values - 1)
     }
 
-    fn push(&mut self, instruction: impl FnOnce(Value) -> MachineInstruction) -> Value {
+    fn push(
+        &mut self,
+        instruction: impl FnOnce(VirtualRegister) -> MachineInstruction,
+    ) -> VirtualRegister {
         let made = self.next();
         self.instructions.push(instruction(made));
         made
     }
 
-    pub(super) fn zero(&mut self, width: Width) -> Value {
+    pub(super) fn zero(&mut self, width: Width) -> VirtualRegister {
         self.push(|made| MachineInstruction::Zero { width, made })
     }
 
-    pub(super) fn load(&mut self, width: Width, from: Address) -> Value {
+    pub(super) fn load(&mut self, width: Width, from: Address) -> VirtualRegister {
         self.push(|made| MachineInstruction::Load { width, from, made })
     }
 
     /// The number so many bytes behind an address.
-    pub(super) fn load_behind(&mut self, from: Address, offset: Address) -> Value {
+    pub(super) fn load_behind(&mut self, from: Address, offset: Address) -> VirtualRegister {
         self.push(|made| MachineInstruction::LoadBehind { from, offset, made })
     }
 
     /// An operand, loaded where it lies in memory.
-    pub(super) fn made(&mut self, width: Width, operand: Operand) -> Value {
+    pub(super) fn made(&mut self, width: Width, operand: Operand) -> VirtualRegister {
         match operand {
             Operand::Made(value) => value,
             Operand::At(from) => self.load(width, from),
@@ -189,7 +192,7 @@ impl BasicBlock {
         width: Width,
         left: Operand,
         right: Operand,
-    ) -> Value {
+    ) -> VirtualRegister {
         let commutes = matches!(operation, Operation::Add | Operation::Multiply);
         let (left, right) = match (left, right) {
             (Operand::At(_), Operand::Made(_)) if commutes => (right, left),
@@ -202,9 +205,9 @@ impl BasicBlock {
     pub(super) fn product_error(
         &mut self,
         width: Width,
-        (left, right): (Value, Value),
-        product: Value,
-    ) -> Value {
+        (left, right): (VirtualRegister, VirtualRegister),
+        product: VirtualRegister,
+    ) -> VirtualRegister {
         self.push(|made| MachineInstruction::ProductError { width, left, right, product, made })
     }
 
@@ -216,7 +219,7 @@ impl BasicBlock {
 }
 
 impl BasicBlock {
-    pub(super) fn inner_products(&mut self, products: InnerProducts) -> Value {
+    pub(super) fn inner_products(&mut self, products: InnerProductOperands) -> VirtualRegister {
         self.push(|made| MachineInstruction::InnerProducts { products, made })
     }
 }
@@ -236,7 +239,7 @@ impl MachineInstruction {
             }
             MachineInstruction::Store { width, to, .. } => [Some((to, width.numbers())), None],
             MachineInstruction::InnerProducts { products, .. } => {
-                let InnerProducts { width, left, right, distance, terms } = products;
+                let InnerProductOperands { width, left, right, distance, terms } = products;
                 let count = terms.saturating_sub(1) * distance + width.numbers();
                 [Some((left, count)), Some((right, count))]
             }

@@ -4,7 +4,7 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use super::compile::{Compiled, Extent, compile};
+use super::compile::{Compiled, SeriesExtent, compile};
 use crate::system::jet::JetPlan;
 
 /// A function is compiled when it is wanted for so many orbits: short motions end before it pays.
@@ -30,7 +30,7 @@ pub(super) enum Availability {
 struct CacheEntry {
     /// The numbers of orders, exact ones second.
     orders: [usize; 2],
-    extent: Extent,
+    extent: SeriesExtent,
     wanted: usize,
     code: Availability,
 }
@@ -46,7 +46,7 @@ impl CodeCache {
         &self,
         plan: &JetPlan<'_>,
         exact: Option<&JetPlan<'_>>,
-        extent: Extent,
+        extent: SeriesExtent,
     ) -> Availability {
         let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
         let orders = [plan.stride, exact.map_or(0, |exact| exact.stride)];

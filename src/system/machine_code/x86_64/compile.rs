@@ -8,7 +8,7 @@ use super::arithmetic::{Arithmetic, Code};
 use super::basic_block::{MachineInstruction, Width};
 use super::double::Double;
 use super::emitter::Emitter;
-use super::function::{CompiledFunction, NotCompiled, Work};
+use super::function::{CompiledFunction, NotCompiled, WorkMemory};
 use super::layout::{Address, Area, FactoredPlace, Precision, SeriesPlaces};
 use super::plain::{Lanes, Plain};
 use crate::num::BATCH;
@@ -21,7 +21,7 @@ const LARGEST: usize = 60_000;
 
 /// How many numbers of how many orbits are computed.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) struct Extent {
+pub(super) struct SeriesExtent {
     /// The orbits that one call serves.
     pub(super) orbits: Width,
     /// The numbers of the state, and those of them that the rates depend on.
@@ -34,7 +34,7 @@ pub(super) struct Extent {
 pub(super) struct Compiled {
     pub(super) function: CompiledFunction,
     /// The stretch of work as it is at first.
-    pub(super) work: Work,
+    pub(super) work: WorkMemory,
     pub(super) scale: Address,
     /// Where order 0 of all registers in `f64` begins.
     pub(super) values: Address,
@@ -52,7 +52,7 @@ pub(super) struct Compiled {
 pub(super) fn compile(
     plan: &JetPlan<'_>,
     exact: Option<&JetPlan<'_>>,
-    extent: Extent,
+    extent: SeriesExtent,
 ) -> Result<Compiled, NotCompiled> {
     let program = plan.program;
     let alone = |op: &Op| matches!(op, Op::Select { .. } | Op::ParametricPower(..));
@@ -99,7 +99,7 @@ pub(super) fn compile(
     };
     Ok(Compiled {
         function: CompiledFunction::of(&bytes, code.lanes, length)?,
-        work: Work::of(&first_work),
+        work: WorkMemory::of(&first_work),
         scale: code.layout.scale,
         values: places.values,
         factored: places.factored,
@@ -114,7 +114,7 @@ fn write_one(
     plan: &JetPlan<'_>,
     exact: Option<&JetPlan<'_>>,
     code: &mut Code,
-    extent: Extent,
+    extent: SeriesExtent,
 ) -> Result<(SeriesPlaces, Vec<FactoredPlace>), NotCompiled> {
     let numbers = (extent.numbers, extent.inputs);
     let exact_places = exact.map(|exact| {
@@ -137,7 +137,7 @@ fn write_one(
 fn write_lanes(
     plan: &JetPlan<'_>,
     code: &mut Code,
-    extent: Extent,
+    extent: SeriesExtent,
 ) -> Result<SeriesPlaces, NotCompiled> {
     let precision = precision_of::<Lanes>(plan.stride, (Area::Series, Area::State));
     let places = code.layout.series(plan, precision);

@@ -14,11 +14,11 @@ use crate::num::{Analytic, DoubleDouble};
 pub(super) struct Double;
 
 /// The two parts of a number, or of four side by side.
-type Parts = (Operand, Operand);
+type DoubleOperand = (Operand, Operand);
 
 impl Code {
     /// [`DoubleDouble::sum`].
-    fn exact_sum(&mut self, width: Width, a: Operand, b: Operand) -> Parts {
+    fn exact_sum(&mut self, width: Width, a: Operand, b: Operand) -> DoubleOperand {
         let high = self.binary(Operation::Add, width, a, b);
         let part = self.binary(Operation::Subtract, width, high, a);
         let a_part = self.binary(Operation::Subtract, width, high, part);
@@ -27,7 +27,7 @@ impl Code {
         (high, self.binary(Operation::Add, width, a_error, b_error))
     }
 
-    fn exact_difference(&mut self, a: Operand, b: Operand) -> Parts {
+    fn exact_difference(&mut self, a: Operand, b: Operand) -> DoubleOperand {
         let width = Width::One;
         let high = self.binary(Operation::Subtract, width, a, b);
         let part = self.binary(Operation::Subtract, width, high, a);
@@ -38,14 +38,14 @@ impl Code {
     }
 
     /// The same where the first is not smaller.
-    fn ordered_sum(&mut self, a: Operand, b: Operand) -> Parts {
+    fn ordered_sum(&mut self, a: Operand, b: Operand) -> DoubleOperand {
         let high = self.binary(Operation::Add, Width::One, a, b);
         let part = self.binary(Operation::Subtract, Width::One, high, a);
         (high, self.binary(Operation::Subtract, Width::One, b, part))
     }
 
     /// The product and its rounding error.
-    fn exact_product(&mut self, width: Width, a: Operand, b: Operand) -> Parts {
+    fn exact_product(&mut self, width: Width, a: Operand, b: Operand) -> DoubleOperand {
         let (a, b) = (self.block.made(width, a), self.block.made(width, b));
         let high = self.block.binary(Operation::Multiply, width, a.into(), b.into());
         let low = self.block.product_error(width, (a, b), high);
@@ -53,15 +53,15 @@ impl Code {
     }
 
     /// The product with an `f64`.
-    fn exact_multiple(&mut self, a: Parts, factor: Operand) -> Parts {
+    fn exact_multiple(&mut self, a: DoubleOperand, factor: Operand) -> DoubleOperand {
         let (high, low) = self.exact_product(Width::One, a.0, factor);
         let mixed = Plain::product(self, a.1, factor);
         let low = Plain::sum(self, low, mixed);
         self.ordered_sum(high, low)
     }
 
-    fn exact_quotient(&mut self, a: Parts, b: Parts) -> Parts {
-        let (a, b) = (Double::held(self, a), Double::held(self, b));
+    fn exact_quotient(&mut self, a: DoubleOperand, b: DoubleOperand) -> DoubleOperand {
+        let (a, b) = (Double::in_register(self, a), Double::in_register(self, b));
         let first = Plain::over_shared(self, a.0, b.0);
         let part = self.exact_multiple(b, first);
         let rest = Double::difference(self, a, part);
@@ -75,7 +75,7 @@ impl Code {
     }
 
     /// The product with a power of two, which is exact. The high part of a product is never −0.
-    fn by_power_of_two(&mut self, a: Parts, factor: f64) -> Parts {
+    fn by_power_of_two(&mut self, a: DoubleOperand, factor: f64) -> DoubleOperand {
         let factor = self.constant(factor);
         let (high, low) = Double::scaled(self, a, factor);
         let zero = self.constant(0.0);
@@ -83,7 +83,7 @@ impl Code {
     }
 
     /// The sum of two numbers from the sums of their parts.
-    fn renormalized(&mut self, highs: Parts, lows: Parts) -> Parts {
+    fn renormalized(&mut self, highs: DoubleOperand, lows: DoubleOperand) -> DoubleOperand {
         let low = Plain::sum(self, highs.1, lows.0);
         let (high, low) = self.ordered_sum(highs.0, low);
         let low = Plain::sum(self, lows.1, low);
@@ -97,34 +97,34 @@ fn is_power_of_two(factor: DoubleDouble) -> bool {
 }
 
 impl Arithmetic for Double {
-    type Number = Parts;
+    type Number = DoubleOperand;
     const SIZE: usize = 2;
     const SIDE: usize = SIDE;
 
-    fn at(address: Address) -> Parts {
+    fn at(address: Address) -> DoubleOperand {
         (Operand::At(address), Operand::At(address.plus(1)))
     }
 
-    fn constant(code: &mut Code, number: DoubleDouble) -> Parts {
+    fn constant(code: &mut Code, number: DoubleDouble) -> DoubleOperand {
         Double::at(code.layout.constant(&[number.high, number.low]))
     }
 
-    fn sum(code: &mut Code, a: Parts, b: Parts) -> Parts {
-        let (a, b) = (Double::held(code, a), Double::held(code, b));
+    fn sum(code: &mut Code, a: DoubleOperand, b: DoubleOperand) -> DoubleOperand {
+        let (a, b) = (Double::in_register(code, a), Double::in_register(code, b));
         let highs = code.exact_sum(Width::One, a.0, b.0);
         let lows = code.exact_sum(Width::One, a.1, b.1);
         code.renormalized(highs, lows)
     }
 
-    fn difference(code: &mut Code, a: Parts, b: Parts) -> Parts {
-        let (a, b) = (Double::held(code, a), Double::held(code, b));
+    fn difference(code: &mut Code, a: DoubleOperand, b: DoubleOperand) -> DoubleOperand {
+        let (a, b) = (Double::in_register(code, a), Double::in_register(code, b));
         let highs = code.exact_difference(a.0, b.0);
         let lows = code.exact_difference(a.1, b.1);
         code.renormalized(highs, lows)
     }
 
-    fn product(code: &mut Code, a: Parts, b: Parts) -> Parts {
-        let (a, b) = (Double::held(code, a), Double::held(code, b));
+    fn product(code: &mut Code, a: DoubleOperand, b: DoubleOperand) -> DoubleOperand {
+        let (a, b) = (Double::in_register(code, a), Double::in_register(code, b));
         let (high, low) = code.exact_product(Width::One, a.0, b.0);
         let (first, second) = (Plain::product(code, a.0, b.1), Plain::product(code, a.1, b.0));
         let mixed = Plain::sum(code, first, second);
@@ -132,7 +132,7 @@ impl Arithmetic for Double {
         code.ordered_sum(high, low)
     }
 
-    fn multiple(code: &mut Code, a: Parts, n: usize) -> Parts {
+    fn multiple(code: &mut Code, a: DoubleOperand, n: usize) -> DoubleOperand {
         if n.is_power_of_two() {
             return code.by_power_of_two(a, n as f64);
         }
@@ -140,21 +140,21 @@ impl Arithmetic for Double {
         code.exact_multiple(a, factor)
     }
 
-    fn scaled(code: &mut Code, a: Parts, power_of_two: Operand) -> Parts {
+    fn scaled(code: &mut Code, a: DoubleOperand, power_of_two: Operand) -> DoubleOperand {
         (Plain::product(code, a.0, power_of_two), Plain::product(code, a.1, power_of_two))
     }
 
-    fn shared(code: &mut Code, divisor: Parts) -> Parts {
+    fn shared(code: &mut Code, divisor: DoubleOperand) -> DoubleOperand {
         let one = Double::constant(code, DoubleDouble::ONE);
         let reciprocal = code.exact_quotient(one, divisor);
-        Double::held(code, reciprocal)
+        Double::in_register(code, reciprocal)
     }
 
-    fn over_shared(code: &mut Code, a: Parts, reciprocal: Parts) -> Parts {
+    fn over_shared(code: &mut Code, a: DoubleOperand, reciprocal: DoubleOperand) -> DoubleOperand {
         Double::product(code, a, reciprocal)
     }
 
-    fn times(code: &mut Code, a: Parts, factor: DoubleDouble) -> Parts {
+    fn times(code: &mut Code, a: DoubleOperand, factor: DoubleDouble) -> DoubleOperand {
         if is_power_of_two(factor) {
             return code.by_power_of_two(a, factor.high);
         }
@@ -162,43 +162,47 @@ impl Arithmetic for Double {
         Double::product(code, a, factor)
     }
 
-    fn twice(code: &mut Code, a: Parts) -> Parts {
+    fn twice(code: &mut Code, a: DoubleOperand) -> DoubleOperand {
         code.by_power_of_two(a, 2.0)
     }
 
-    fn over(code: &mut Code, a: Parts, n: usize) -> Parts {
+    fn over(code: &mut Code, a: DoubleOperand, n: usize) -> DoubleOperand {
         Double::times(code, a, DoubleDouble::ONE.over::<false>(n))
     }
 
-    fn opposite(code: &mut Code, a: Parts) -> Parts {
+    fn opposite(code: &mut Code, a: DoubleOperand) -> DoubleOperand {
         (Plain::opposite(code, a.0), Plain::opposite(code, a.1))
     }
 
-    fn held(code: &mut Code, a: Parts) -> Parts {
-        (Plain::held(code, a.0), Plain::held(code, a.1))
+    fn in_register(code: &mut Code, a: DoubleOperand) -> DoubleOperand {
+        (Plain::in_register(code, a.0), Plain::in_register(code, a.1))
     }
 
-    fn store(code: &mut Code, a: Parts, to: Address) {
+    fn store(code: &mut Code, a: DoubleOperand, to: Address) {
         Plain::store(code, a.0, to);
         Plain::store(code, a.1, to.plus(1));
     }
 
-    fn store_for_now(code: &mut Code, a: Parts, to: Address) {
+    fn store_for_now(code: &mut Code, a: DoubleOperand, to: Address) {
         Plain::store_for_now(code, a.0, to);
         Plain::store_for_now(code, a.1, to.plus(1));
     }
 
-    fn side_by_side(code: &mut Code, numbers: &[Parts], to: Address) {
+    fn side_by_side(code: &mut Code, numbers: &[DoubleOperand], to: Address) {
         let numbers = four_of(numbers);
         code.side_by_side(numbers.map(|parts| parts.0), to);
         code.side_by_side(numbers.map(|parts| parts.1), to.plus(SIDE));
     }
 
-    fn nearest(a: Parts) -> Operand {
+    fn nearest(a: DoubleOperand) -> Operand {
         a.0
     }
 
-    fn inner_products(code: &mut Code, (left, right): (Address, Address), terms: usize) -> Parts {
+    fn inner_products(
+        code: &mut Code,
+        (left, right): (Address, Address),
+        terms: usize,
+    ) -> DoubleOperand {
         let four = Width::Four;
         let mut sum: Operand = code.block.zero(four).into();
         let mut errors = sum;
@@ -218,20 +222,20 @@ impl Arithmetic for Double {
         code.exact_sum(four, sum, errors)
     }
 
-    fn store_inner_products(code: &mut Code, (high, low): Parts, to: Address) {
+    fn store_inner_products(code: &mut Code, (high, low): DoubleOperand, to: Address) {
         code.block.store(Width::Four, high, to, false);
         code.block.store(Width::Four, low, to.plus(SIDE), false);
     }
 
-    fn inner_product(stored: Address, lane: usize) -> Parts {
+    fn inner_product(stored: Address, lane: usize) -> DoubleOperand {
         (Operand::At(stored.plus(lane)), Operand::At(stored.plus(SIDE + lane)))
     }
 
-    fn lane(code: &mut Code, products: Parts, lane: usize) -> Parts {
+    fn lane(code: &mut Code, products: DoubleOperand, lane: usize) -> DoubleOperand {
         (code.lane(products.0, lane), code.lane(products.1, lane))
     }
 
-    fn behind(code: &mut Code, from: Address, offset: Address) -> Parts {
+    fn behind(code: &mut Code, from: Address, offset: Address) -> DoubleOperand {
         let mut part = |from| code.block.load_behind(from, offset).into();
         (part(from), part(from.plus(1)))
     }

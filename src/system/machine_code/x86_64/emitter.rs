@@ -31,7 +31,7 @@ pub(super) struct Emitter<'a, A: Arithmetic> {
     pub(super) k: usize,
     now: Vec<Option<A::Number>>,
     /// The inner products at it, where they are not stored.
-    kept: Vec<KeptProducts<A::Number>>,
+    cached: Vec<CachedProducts<A::Number>>,
     divisors: Vec<(SharedDivisor, A::Number)>,
     /// The matrices whose entries right of the pivots were divided by these.
     pub(super) scaled: Vec<bool>,
@@ -39,11 +39,11 @@ pub(super) struct Emitter<'a, A: Arithmetic> {
 
 /// Up to so many groups of inner products are kept in registers until they are read: a number that was just stored is read later
 /// than one in a register.
-const KEPT: usize = 3;
+const CACHED: usize = 3;
 
 /// A group of inner products side by side, and those that were taken from it.
 #[derive(Clone, Copy)]
-struct KeptProducts<T> {
+struct CachedProducts<T> {
     products: T,
     lanes: [Option<T>; SIDE],
 }
@@ -76,7 +76,7 @@ impl<'a, A: Arithmetic> Emitter<'a, A> {
             numbers,
             inputs,
             k: 0,
-            kept: Vec::new(),
+            cached: Vec::new(),
             divisors: Vec::new(),
         }
     }
@@ -88,7 +88,7 @@ impl<'a, A: Arithmetic> Emitter<'a, A> {
             self.give_out()?;
         } else {
             for (i, &input) in program.inputs.iter().take(self.inputs).enumerate() {
-                let coefficient = A::held(self.code, A::at(self.places.of_state(i, first)));
+                let coefficient = A::in_register(self.code, A::at(self.places.of_state(i, first)));
                 self.now[input as usize] = Some(coefficient);
             }
         }
@@ -107,13 +107,13 @@ impl<'a, A: Arithmetic> Emitter<'a, A> {
     fn multiply(&mut self) {
         let places = self.places;
         let groups = self.plan.schedule.pairs.len().div_ceil(A::SIDE);
-        self.kept.clear();
+        self.cached.clear();
         for group in 0..groups {
             // b_{k−1} is met by a_1
             let operands = (places.left(group, 1), places.right(group, self.k - 1));
             let products = A::inner_products(self.code, operands, self.k - 1);
-            if groups <= KEPT {
-                self.kept.push(KeptProducts { products, lanes: [None; SIDE] });
+            if groups <= CACHED {
+                self.cached.push(CachedProducts { products, lanes: [None; SIDE] });
             } else {
                 A::store_inner_products(self.code, products, places.products(group));
             }
@@ -244,7 +244,7 @@ impl<'a, A: Arithmetic> Emitter<'a, A> {
         for (i, &output) in program.outputs.iter().take(self.numbers).enumerate() {
             let rate = if self.k == 0 { self.value(output) } else { self.now(output)? };
             let made = A::integrated(self.code, rate, next);
-            let made = A::held(self.code, made);
+            let made = A::in_register(self.code, made);
             A::store(self.code, made, self.places.of_state(i, next));
             if let Some(copies) = self.copies {
                 Plain::store(self.code, A::nearest(made), copies.of_state(i, next));
@@ -360,7 +360,7 @@ impl<'a, A: Arithmetic> Emitter<'a, A> {
     /// An inner product of this order.
     pub(super) fn product(&mut self, inner: u32) -> A::Number {
         let (group, lane) = (inner as usize / A::SIDE, inner as usize % A::SIDE);
-        let Some(KeptProducts { products, lanes }) = self.kept.get_mut(group) else {
+        let Some(CachedProducts { products, lanes }) = self.cached.get_mut(group) else {
             return A::inner_product(self.places.products(group), lane);
         };
         *lanes[lane].get_or_insert_with(|| A::lane(self.code, *products, lane))

@@ -9,12 +9,12 @@ use super::basic_block::{Operation, Width};
 use super::layout::{Address, Area};
 
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) struct Vector(pub(super) u8);
+pub(super) struct VectorRegister(pub(super) u8);
 
 /// What an instruction reads last.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Source {
-    Register(Vector),
+    Register(VectorRegister),
     Memory(Place),
 }
 
@@ -59,7 +59,7 @@ const PACKED: u8 = 1;
 const SCALAR: u8 = 3;
 
 /// The operand of an instruction with one source.
-const NONE: Vector = Vector(0);
+const NONE: VectorRegister = VectorRegister(0);
 
 /// What comes before the bytes of the operands.
 #[derive(Clone, Copy)]
@@ -81,8 +81,8 @@ impl Bytes {
         &mut self,
         operation: Operation,
         width: Width,
-        to: Vector,
-        left: Vector,
+        to: VectorRegister,
+        left: VectorRegister,
         right: Source,
     ) {
         let arithmetic = |code| match width {
@@ -122,9 +122,9 @@ impl Bytes {
     pub(super) fn product_error(
         &mut self,
         width: Width,
-        to: Vector,
-        right: Vector,
-        product: Vector,
+        to: VectorRegister,
+        right: VectorRegister,
+        product: VectorRegister,
     ) {
         // vfmsub213sd, vfmsub213pd
         let code = if width == Width::One { 0xAB } else { 0xAA };
@@ -132,30 +132,30 @@ impl Bytes {
         self.vex(opcode, to, right, Source::Register(product));
     }
 
-    pub(super) fn copy(&mut self, width: Width, to: Vector, from: Vector) {
+    pub(super) fn copy(&mut self, width: Width, to: VectorRegister, from: VectorRegister) {
         // vmovapd
         let width = if width == Width::Eight { width } else { Width::Four };
         let opcode = Opcode { map: MAP_0F, prefix: PACKED, wide: false, width, code: 0x28 };
         self.vex(opcode, to, NONE, Source::Register(from));
     }
 
-    pub(super) fn zero(&mut self, to: Vector) {
+    pub(super) fn zero(&mut self, to: VectorRegister) {
         // vxorps, which clears what lies beyond as well
         let (prefix, width) = (PACKED_SINGLE, Width::Two);
         let opcode = Opcode { map: MAP_0F, prefix, wide: false, width, code: 0x57 };
         self.vex(opcode, to, to, Source::Register(to));
     }
 
-    pub(super) fn load(&mut self, width: Width, to: Vector, from: impl Into<Place>) {
+    pub(super) fn load(&mut self, width: Width, to: VectorRegister, from: impl Into<Place>) {
         self.vex(moves(width, 0x10), to, NONE, Source::Memory(from.into()));
     }
 
-    pub(super) fn store(&mut self, width: Width, from: Vector, to: Address) {
+    pub(super) fn store(&mut self, width: Width, from: VectorRegister, to: Address) {
         self.vex(moves(width, 0x11), from, NONE, Source::Memory(to.into()));
     }
 
     /// Loads the number so many bytes behind an address, both in the stretch of work.
-    pub(super) fn load_behind(&mut self, to: Vector, from: Address, offset: Address) {
+    pub(super) fn load_behind(&mut self, to: VectorRegister, from: Address, offset: Address) {
         // mov rax, [offset]
         self.0.extend([0x48, 0x8B]);
         self.memory(General::RAX.0, offset.into(), true);
@@ -238,7 +238,13 @@ impl Bytes {
         self.0.extend(distance.to_le_bytes());
     }
 
-    fn vex(&mut self, opcode: Opcode, register: Vector, left: Vector, last: Source) {
+    fn vex(
+        &mut self,
+        opcode: Opcode,
+        register: VectorRegister,
+        left: VectorRegister,
+        last: Source,
+    ) {
         match last {
             Source::Register(last) => {
                 self.prefixes(opcode, register, left, last.0 >= 8);
@@ -253,7 +259,13 @@ impl Bytes {
     }
 
     /// The VEX prefix, or the EVEX prefix, and the opcode; `extended` says whether the last operand is one of the upper eight registers.
-    fn prefixes(&mut self, opcode: Opcode, register: Vector, left: Vector, extended: bool) {
+    fn prefixes(
+        &mut self,
+        opcode: Opcode,
+        register: VectorRegister,
+        left: VectorRegister,
+        extended: bool,
+    ) {
         let Opcode { map, prefix, wide, width, code } = opcode;
         let inverted_extension = if register.0 < 8 { 0x80 } else { 0 };
         if width == Width::Eight {

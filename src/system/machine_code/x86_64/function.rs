@@ -86,7 +86,7 @@ pub(super) enum Values<'a> {
 
 pub(super) struct Stretches<'a> {
     pub(super) values: Values<'a>,
-    pub(super) work: &'a mut Work,
+    pub(super) work: &'a mut WorkMemory,
     pub(super) series: &'a mut [f64],
     pub(super) state: &'a mut [f64],
     pub(super) exact_series: &'a mut [DoubleDouble],
@@ -100,14 +100,14 @@ struct Line([f64; LINE]);
 
 /// A stretch of memory that begins with a cache line.
 #[derive(Clone, Debug)]
-pub(super) struct Work {
+pub(super) struct WorkMemory {
     lines: Vec<Line>,
     length: usize,
 }
 
-impl Work {
-    pub(super) fn of(numbers: &[f64]) -> Work {
-        let mut work = Work {
+impl WorkMemory {
+    pub(super) fn of(numbers: &[f64]) -> WorkMemory {
+        let mut work = WorkMemory {
             lines: vec![Line([0.0; LINE]); numbers.len().div_ceil(LINE)],
             length: numbers.len(),
         };
@@ -136,7 +136,7 @@ impl Work {
 /// The memory of one call for several orbits.
 pub(super) struct BatchStretches<'a> {
     pub(super) values: &'a [Batch],
-    pub(super) work: &'a mut Work,
+    pub(super) work: &'a mut WorkMemory,
     pub(super) series: &'a mut [Batch],
     pub(super) state: &'a mut [Batch],
 }

@@ -7,8 +7,8 @@ use std::sync::Arc;
 
 use super::basic_block::Width;
 use super::cache::{Availability, CodeCache};
-use super::compile::{Compiled, Extent};
-use super::function::{BatchStretches, Stretches, Values, Work, widest};
+use super::compile::{Compiled, SeriesExtent};
+use super::function::{BatchStretches, Stretches, Values, WorkMemory, widest};
 use super::layout::FactoredPlace;
 use super::values::CompiledValues;
 use crate::num::{Batch, DoubleDouble, Real};
@@ -21,16 +21,16 @@ use crate::system::solve::Factored;
 pub(in crate::system) struct CompiledGrowth {
     /// The functions, until it is decided whether there is one.
     cache: Option<CodeCache>,
-    code: Option<Code>,
+    code: Option<CodeInUse>,
     /// Whether the last one was computed.
     has_grown: bool,
 }
 
 /// A function and the numbers that it works with.
 #[derive(Clone, Debug)]
-struct Code {
+struct CodeInUse {
     compiled: Arc<Compiled>,
-    work: Work,
+    work: WorkMemory,
     /// What computes order 0.
     values: CompiledValues,
 }
@@ -55,7 +55,7 @@ impl CompiledGrowth {
         (time, scale): (DoubleDouble, f64),
     ) -> Result<bool, Singular> {
         self.has_grown = false;
-        let extent = Extent { orbits: Width::One, numbers: high.len(), inputs: high.inputs };
+        let extent = SeriesExtent { orbits: Width::One, numbers: high.len(), inputs: high.inputs };
         let exact = low.as_ref().map(|low| low.jet.plan());
         self.ask(|cache| cache.function(&high.jet.plan(), exact.as_ref(), extent));
         if let Some(code) = &mut self.code {
@@ -74,7 +74,8 @@ impl CompiledGrowth {
         builder: &mut SeriesBuilder<Batch>,
         clock: SeriesClock<Batch>,
     ) -> Result<bool, Singular> {
-        let extent = Extent { orbits: widest(), numbers: builder.len(), inputs: builder.inputs };
+        let extent =
+            SeriesExtent { orbits: widest(), numbers: builder.len(), inputs: builder.inputs };
         self.ask(|cache| cache.function(&builder.jet.plan(), None, extent));
         self.has_grown = false;
         if let Some(code) = &mut self.code {
@@ -89,15 +90,15 @@ impl CompiledGrowth {
         self.code = match answer {
             Availability::NotYet => return,
             Availability::Never => None,
-            Availability::Compiled(compiled) => Some(Code::of(compiled)),
+            Availability::Compiled(compiled) => Some(CodeInUse::of(compiled)),
         };
         self.cache = None;
     }
 }
 
-impl Code {
-    fn of(compiled: Arc<Compiled>) -> Code {
-        Code { work: compiled.work.clone(), compiled, values: CompiledValues::default() }
+impl CodeInUse {
+    fn of(compiled: Arc<Compiled>) -> CodeInUse {
+        CodeInUse { work: compiled.work.clone(), compiled, values: CompiledValues::default() }
     }
 
     fn grow(
@@ -181,7 +182,7 @@ impl Code {
 fn take_matrices<R: Real>(
     matrices: &[Factored<R>],
     places: &[FactoredPlace],
-    work: &mut Work,
+    work: &mut WorkMemory,
 ) -> bool {
     let mut regular = true;
     // the number of `f64` of a number
@@ -262,9 +263,9 @@ mod tests {
         let widths = [Width::Four, Width::Eight].into_iter();
         for width in widths.filter(|width| width.numbers() <= widest().numbers()) {
             let (mut builder, clock) = orbits();
-            let extent = Extent { orbits: width, numbers: 2, inputs: 2 };
+            let extent = SeriesExtent { orbits: width, numbers: 2, inputs: 2 };
             let compiled = compile(&builder.jet.plan(), None, extent);
-            let mut code = Code::of(Arc::new(compiled.expect("a processor with AVX2")));
+            let mut code = CodeInUse::of(Arc::new(compiled.expect("a processor with AVX2")));
             assert!(code.grow_all(&mut builder, clock).expect("regular"));
             assert_eq!(bits(&builder), bits(&plain), "{width:?}");
         }

@@ -77,7 +77,7 @@ impl<const ORBITS: usize> Arithmetic for Floats<ORBITS> {
     }
 
     fn opposite(code: &mut Code, a: Operand) -> Operand {
-        let a = Self::held(code, a);
+        let a = Self::in_register(code, a);
         // there is no exclusive or of one number
         let (width, sign) = if ORBITS == 1 {
             (Width::Two, code.layout.constant(&[-0.0; 2]))
@@ -87,7 +87,7 @@ impl<const ORBITS: usize> Arithmetic for Floats<ORBITS> {
         code.binary(Operation::Xor, width, a, Operand::At(sign))
     }
 
-    fn held(code: &mut Code, a: Operand) -> Operand {
+    fn in_register(code: &mut Code, a: Operand) -> Operand {
         code.block.made(code.lanes, a).into()
     }
 

@@ -10,14 +10,14 @@
 //! ```
 
 use super::arithmetic::APART;
-use super::basic_block::{InnerProducts, Operation, Width};
-use super::encoding::{Bytes, Call, General, Place, Source, Vector};
+use super::basic_block::{InnerProductOperands, Operation, Width};
+use super::encoding::{Bytes, Call, General, Place, Source, VectorRegister};
 
 /// A loop computes with the first registers: the sums apart, that of what is left over, a product.
 pub(super) const REGISTERS: usize = APART + 2;
 
-const REST: Vector = Vector(APART as u8);
-const PRODUCT: Vector = Vector(APART as u8 + 1);
+const REST: VectorRegister = VectorRegister(APART as u8);
+const PRODUCT: VectorRegister = VectorRegister(APART as u8 + 1);
 
 /// Where a loop finds its operands, and how often it goes on.
 const LEFT: General = General::RAX;
@@ -39,13 +39,17 @@ pub(super) struct ProductLoops {
 
 impl ProductLoops {
     /// Writes a call, and returns the register that the sums are in.
-    pub(super) fn call(&mut self, bytes: &mut Bytes, products: InnerProducts) -> Vector {
-        let InnerProducts { width, left, right, distance, terms } = products;
+    pub(super) fn call(
+        &mut self,
+        bytes: &mut Bytes,
+        products: InnerProductOperands,
+    ) -> VectorRegister {
+        let InnerProductOperands { width, left, right, distance, terms } = products;
         bytes.point(LEFT, left);
         bytes.point(RIGHT, right);
         bytes.count(COUNT, (terms / APART) as u32);
         self.calls.push((Kind { width, distance, rest: terms % APART }, bytes.call()));
-        Vector(0)
+        VectorRegister(0)
     }
 
     /// Writes the loops behind the code.
@@ -67,7 +71,7 @@ impl ProductLoops {
 impl Kind {
     /// Writes the loop, which has at least four terms.
     fn write(self, bytes: &mut Bytes) {
-        let sum = |i: usize| Vector(i as u8);
+        let sum = |i: usize| VectorRegister(i as u8);
         (0..=APART).for_each(|i| bytes.zero(sum(i)));
         let from = bytes.0.len();
         (0..APART).for_each(|i| self.add(bytes, i, sum(i)));
@@ -83,7 +87,7 @@ impl Kind {
     }
 
     /// Adds the product of the operands at a place from where the registers point.
-    fn add(self, bytes: &mut Bytes, place: usize, to: Vector) {
+    fn add(self, bytes: &mut Bytes, place: usize, to: VectorRegister) {
         let at = |base| Place::behind(base, place * self.distance);
         bytes.load(self.width, PRODUCT, at(LEFT));
         let right = Source::Memory(at(RIGHT));
@@ -91,7 +95,7 @@ impl Kind {
         self.plus(bytes, to, PRODUCT);
     }
 
-    fn plus(self, bytes: &mut Bytes, to: Vector, other: Vector) {
+    fn plus(self, bytes: &mut Bytes, to: VectorRegister, other: VectorRegister) {
         bytes.binary(Operation::Add, self.width, to, to, Source::Register(other));
     }
 }

@@ -9,11 +9,11 @@ use std::sync::Arc;
 use super::allocation::assemble;
 use super::arithmetic::{Arithmetic, Code};
 use super::basic_block::{MachineInstruction, Operand, Operation, Width};
-use super::function::{CompiledFunction, NotCompiled, Stretches, Values, Work};
+use super::function::{CompiledFunction, NotCompiled, Stretches, Values, WorkMemory};
 use super::layout::{Address, Area};
 use super::plain::Plain;
 use crate::num::DoubleDouble;
-use crate::system::parts::Parts;
+use crate::system::parts::PartwiseEvaluation;
 use crate::system::program::{Op, Program, Register};
 
 /// A program is compiled when its values are wanted so often: short motions end before it pays.
@@ -33,7 +33,7 @@ const GREATEST_EXPONENT: f64 = 64.0;
 enum Part {
     Compiled {
         function: CompiledFunction,
-        work: Work,
+        work: WorkMemory,
     },
     /// Operations of the body by their places.
     Interpreted(Range<usize>),
@@ -43,10 +43,10 @@ enum Part {
 #[derive(Clone, Debug, Default)]
 pub(in crate::system) struct CompiledValues {
     parts: Option<Arc<Vec<Part>>>,
-    work: Vec<Work>,
+    work: Vec<WorkMemory>,
 }
 
-impl Parts for CompiledValues {
+impl PartwiseEvaluation for CompiledValues {
     #[inline]
     fn evaluate<S, E>(
         &mut self,
@@ -147,7 +147,7 @@ fn compile(program: &Program, range: Range<usize>) -> Result<Part, NotCompiled> 
     let mut writer = ValueWriter { program, code, now: vec![None; program.ops.len()] };
     for &register in &program.body[range] {
         if let Some(value) = writer.value(program.ops[register as usize])? {
-            let value = Plain::held(&mut writer.code, value);
+            let value = Plain::in_register(&mut writer.code, value);
             Plain::store(&mut writer.code, value, place(register));
             writer.now[register as usize] = Some(value);
         }
@@ -166,7 +166,7 @@ fn compile(program: &Program, range: Range<usize>) -> Result<Part, NotCompiled> 
         return Err(NotCompiled);
     }
     let function = CompiledFunction::of(&bytes, Width::One, length)?;
-    Ok(Part::Compiled { function, work: Work::of(&first_work) })
+    Ok(Part::Compiled { function, work: WorkMemory::of(&first_work) })
 }
 
 fn place(register: Register) -> Address {
@@ -213,7 +213,7 @@ impl ValueWriter<'_> {
                 Plain::product(&mut self.code, a, b)
             }
             Op::Square(a) => {
-                let a = self.held(a);
+                let a = self.in_register(a);
                 Plain::product(&mut self.code, a, a)
             }
             Op::Divide(a, b) => {
@@ -221,12 +221,12 @@ impl ValueWriter<'_> {
                 Plain::over_shared(&mut self.code, a, b)
             }
             Op::Root(a) => {
-                let a = self.held(a);
+                let a = self.in_register(a);
                 self.root(a)
             }
             Op::Power(a, exponent) => {
                 let exponent = HalfInteger::of(program.constants[exponent as usize]);
-                let a = self.held(a);
+                let a = self.in_register(a);
                 self.power(a, exponent.ok_or(NotCompiled)?)
             }
             Op::Input(_) | Op::Written => return Ok(None),
@@ -234,9 +234,9 @@ impl ValueWriter<'_> {
         }))
     }
 
-    fn held(&mut self, register: Register) -> Operand {
+    fn in_register(&mut self, register: Register) -> Operand {
         let number = self.get(register);
-        Plain::held(&mut self.code, number)
+        Plain::in_register(&mut self.code, number)
     }
 
     fn root(&mut self, a: Operand) -> Operand {

@@ -200,8 +200,8 @@ mod tests {
     use crate::view::plot::Scale;
     use crate::view::theme::Theme;
 
-    /// A walk that leaves the frame, wraps, jumps and has gaps.
-    fn walk(count: usize) -> Vec<[f64; 2]> {
+    /// A line that leaves the frame, wraps, jumps and has gaps.
+    fn line(count: usize) -> Vec<[f64; 2]> {
         let mut seed = 7_u64;
         let mut random = || {
             seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963);
@@ -250,7 +250,7 @@ mod tests {
             PlotFrame::new(whole, whole, area),
             PlotFrame::new(Scale::linear(-1.0, 1.0).wrapped(2.0), whole, area),
         ];
-        let points = walk(900);
+        let points = line(900);
         assert_eq!(points.len(), 900);
         for (frame, depth) in
             frames.iter().flat_map(|f| [ColourDepth::True, ColourDepth::None].map(|d| (f, d)))
