@@ -40,7 +40,6 @@ pub struct Lab {
     pub law_scroll: u16,
     pub(super) drawn: DrawnPanes,
     shapes: ShapeTraits,
-    /// The mass that is dragged.
     pub(super) dragged: Option<Box<DraggedMass>>,
     /// The results computed in the background for the pictures, and the jobs under way.
     pub(super) answers: Answers,

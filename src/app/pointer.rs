@@ -12,7 +12,7 @@ use crossterm::event::{MouseButton, MouseEventKind};
 use super::hit_target::{Grab, HitTarget};
 use super::{Action, App, Effect, InputField, Lab, Notification, Overlay, Page, Pane, ValueId};
 use crate::experiment::{Command, Status};
-use crate::instrument::{NoStart, Plot, PlotContext, Sight, StartValues};
+use crate::instrument::{Answer, NoStart, Plot, PlotContext, Present, Sight, StartValues};
 use crate::model::Model;
 
 /// The number of lines of text or of a list per notch of the wheel.
@@ -319,12 +319,19 @@ impl App {
         {
             return self.fail(why);
         }
+        self.seed(|plot, present, answer| plot.add_orbits(present, answer, through))
+    }
+
+    /// Adds orbits to the focused plot; `add` returns whether there are any.
+    fn seed(
+        &mut self,
+        add: impl FnOnce(&mut Plot, &Present<'_>, Option<&Answer>) -> bool,
+    ) -> Vec<Effect> {
+        let Some(lab) = &mut self.lab else { return Vec::new() };
+        let Some((index, plot)) = lab.focused_plot() else { return Vec::new() };
         let mut changed = plot.clone();
-        let added = match lab.present() {
-            Some(present) => changed.add_orbits(&present, lab.answer(plot), through),
-            None => false,
-        };
-        if !added {
+        let present = lab.present();
+        if !present.is_some_and(|present| add(&mut changed, &present, lab.answer(plot))) {
             let why = if plot.seeds.is_empty() { NO_STARTS } else { NO_MORE };
             return self.fail(why);
         }
@@ -333,22 +340,12 @@ impl App {
     }
 
     pub(super) fn fill_section(&mut self) -> Vec<Effect> {
-        let Some(lab) = &mut self.lab else { return Vec::new() };
-        let Some((index, plot)) = lab.focused_plot() else { return Vec::new() };
+        let Some(lab) = &self.lab else { return Vec::new() };
+        let Some((_, plot)) = lab.focused_plot() else { return Vec::new() };
         if !(plot.kind.is_section() && plot.kind.takes_seeds()) {
             return self.notify("G fills a section with orbits; v chooses one.");
         }
-        let mut changed = plot.clone();
-        let filled = match lab.present() {
-            Some(present) => changed.fill(&present, lab.answer(plot)),
-            None => false,
-        };
-        if !filled {
-            let why = if plot.seeds.is_empty() { NO_STARTS } else { NO_MORE };
-            return self.fail(why);
-        }
-        lab.redraw(index, |plot, _| *plot = changed);
-        Vec::new()
+        self.seed(Plot::fill)
     }
 
     /// Removes the orbits that were added to the focused section, and the past crossings of the motion.

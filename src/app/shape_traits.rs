@@ -15,7 +15,6 @@ pub(super) struct ShapeTraits {
     views: Vec<Vec<ShapeTrait>>,
 }
 
-/// What one shape is.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ShapeTrait {
     /// Whether it is a line of constant length that turns.

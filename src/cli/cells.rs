@@ -125,7 +125,8 @@ pub(super) fn object_in_pieces(
     std::iter::once(head).chain(pieces)
 }
 
-fn lines_of(members: &Map<String, Value>) -> String {
+/// The members of an object, one per line, and one line for each item of a list of lists or objects.
+pub(super) fn lines_of(members: &Map<String, Value>) -> String {
     let compound = |value: &Value| value.is_array() || value.is_object();
     let member = |(key, value): (&String, &Value)| {
         let key = Value::String(key.clone());

@@ -4,11 +4,12 @@
 
 use std::io::{self, Write};
 
+use serde::Serialize;
 use serde_json::{Value, json};
 
+use super::cells;
 use super::report::{Closing, Header, RunStatus, one_line};
 use crate::num::push_shortest;
-use crate::printable;
 
 /// How rows are written.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, clap::ValueEnum)]
@@ -37,11 +38,7 @@ impl<W: Write> Rows<W> {
     pub(super) fn begin(format: RowFormat, mut out: W, header: &Header) -> io::Result<Rows<W>> {
         match format {
             RowFormat::Csv => csv_header(&mut out, header)?,
-            RowFormat::Json => {
-                out.write_all(b"{\n")?;
-                members(&mut out, &serde_json::to_value(header)?)?;
-                out.write_all(b"  \"rows\": [")?;
-            }
+            RowFormat::Json => write!(out, "{{\n{},\n  \"rows\": [", members(header)?)?,
             RowFormat::Jsonl => {
                 serde_json::to_writer(&mut out, header)?;
                 out.write_all(b"\n")?;
@@ -90,8 +87,8 @@ impl<W: Write> Rows<W> {
                 let end = if self.written == 0 { "],\n" } else { "\n  ],\n" };
                 self.out.write_all(end.as_bytes())?;
                 let Closing { invariants, events, status, message } = closing;
-                members(&mut self.out, &json!({ "invariants": invariants }))?;
-                self.out.write_all(b"  \"events\": [")?;
+                let invariants = members(&json!({ "invariants": invariants }))?;
+                write!(self.out, "{invariants},\n  \"events\": [")?;
                 let mut lead = "\n    ";
                 for event in events.iter() {
                     write!(self.out, "{lead}{event}")?;
@@ -111,27 +108,16 @@ impl<W: Write> Rows<W> {
     }
 }
 
-/// The members of an object, one per line, each followed by a comma.
-fn members(out: &mut impl Write, object: &Value) -> io::Result<()> {
-    let Some(object) = object.as_object() else { return Ok(()) };
-    for (key, value) in object {
-        write!(out, "  {}: ", Value::String(key.clone()))?;
-        match value.as_array() {
-            Some(items) if items.iter().any(Value::is_object) => {
-                let lines: Vec<String> = items.iter().map(|item| format!("    {item}")).collect();
-                writeln!(out, "[\n{}\n  ],", lines.join(",\n"))?;
-            }
-            _ => writeln!(out, "{value},")?,
-        }
+/// The members of an object, one per line.
+fn members(object: &impl Serialize) -> io::Result<String> {
+    match serde_json::to_value(object)? {
+        Value::Object(members) => Ok(cells::lines_of(&members)),
+        _ => Err(io::Error::other("what is written is no object")),
     }
-    Ok(())
 }
 
 /// The version, parameters and method in `#` lines, then the names of the columns.
 fn csv_header(out: &mut impl Write, header: &Header) -> io::Result<()> {
-    out.write_all(header.lines().as_bytes())?;
-    let mut names = csv::WriterBuilder::new().from_writer(Vec::new());
-    names.write_record(header.columns.iter().map(|name| printable::line(name).into_owned()))?;
-    let names = names.into_inner().map_err(csv::IntoInnerError::into_error)?;
-    out.write_all(&names)
+    let names = cells::record(header.columns.iter().cloned());
+    out.write_all((header.lines() + &names).as_bytes())
 }

@@ -42,7 +42,6 @@ fn is_elliptic(trace: f64, error: f64) -> Option<bool> {
 }
 
 impl Orbit {
-    /// Its multipliers and how far they are known.
     pub(super) fn known(&self) -> KnownMultipliers<'_> {
         KnownMultipliers {
             multipliers: &self.multipliers,

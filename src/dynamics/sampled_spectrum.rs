@@ -75,7 +75,6 @@ pub struct SampledSpectrum {
     pub between: f64,
     /// The lines that were left out as images of faster ones, as a motion that jumps has them without end; the strongest first.
     pub images: Vec<SpectralLine>,
-    /// What may be rounding.
     rounding: f64,
 }
 

@@ -16,7 +16,6 @@ const TIMES: f64 = 100.0;
 /// A multiplier off the circle has a partner 1/μ̄ if one is this near, as a part of its own distance from that.
 const PARTNER: f64 = 0.5;
 
-/// Multipliers and how far they are known.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct KnownMultipliers<'a> {
     pub(super) multipliers: &'a [[f64; 2]],

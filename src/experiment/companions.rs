@@ -67,7 +67,6 @@ impl Companions {
         self.all.iter().map(|one| one.shown(now)).collect()
     }
 
-    /// The number and the distance of each.
     pub(super) fn separations(&self) -> Arc<[(usize, Arc<DistanceHistory>)]> {
         self.all.iter().map(|one| (one.number, one.separation())).collect()
     }

@@ -16,7 +16,6 @@ pub(super) struct ObservedAt {
     /// −t if the motion runs backwards.
     pub(super) clock: f64,
     pub(super) time: f64,
-    /// The number of steps up to it.
     pub(super) steps: u64,
     /// Whether there are rows within the step that it ends.
     pub(super) dense: bool,

@@ -26,7 +26,6 @@ impl Steps {
         before
     }
 
-    /// Allows what was allowed before.
     pub(super) fn allow_again(&mut self, allowed: u64) {
         self.allowed = allowed;
     }

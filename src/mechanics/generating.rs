@@ -101,6 +101,26 @@ fn choices(given: &Transformation) -> Vec<Vec<GeneratingType>> {
     all
 }
 
+/// A generating function with q p and Q P, by their signs, of each pair whose q or Q it does not have.
+fn with_products(
+    pool: &mut Pool,
+    (function, types): (Expr, &[GeneratingType]),
+    [of_old, of_new]: [Number; 2],
+    [old, new]: [&[Expr]; 2],
+) -> Expr {
+    let n = types.len();
+    let mut terms = vec![(Number::ONE, function)];
+    for (i, of) in types.iter().enumerate() {
+        if !of.has_position() {
+            terms.push((of_old, pool.mul(old[i], old[n + i])));
+        }
+        if !of.has_new_position() {
+            terms.push((of_new, pool.mul(new[i], new[n + i])));
+        }
+    }
+    pool.linear(Number::ZERO, &terms)
+}
+
 /// The letters of the variables of a function of some types: `q and Q`, or `q, p and P, Q` of two pairs.
 fn variables_of(types: &[GeneratingType]) -> String {
     let alike = types.iter().all(|of| *of == types[0]);
@@ -167,16 +187,8 @@ impl PhaseMap {
         if let TransformationLaw::Generating { types, function } = &given.law {
             let map: HashMap<Symbol, Expr> = forwards.iter().copied().collect();
             let function = pool.substitute(*function, &map);
-            let mut terms = vec![(Number::ONE, function)];
-            for (i, of) in types.iter().enumerate() {
-                if !of.has_position() {
-                    terms.push((Number::ONE, pool.mul(old[i], old[n + i])));
-                }
-                if !of.has_new_position() {
-                    terms.push((Number::MINUS_ONE, pool.mul(images[i], images[n + i])));
-                }
-            }
-            let value = pool.linear(Number::ZERO, &terms);
+            let signs = [Number::ONE, Number::MINUS_ONE];
+            let value = with_products(pool, (function, types), signs, [&old, &images]);
             return Some(pool.simplify(value));
         }
         let mut form = Vec::new();
@@ -234,16 +246,8 @@ impl PhaseMap {
         }
         let pool = &mut equations.pool;
         let old: Vec<Expr> = self.old.iter().map(|&s| pool.variable(s)).collect();
-        let mut terms = vec![(Number::ONE, first)];
-        for (i, of) in types.iter().enumerate() {
-            if !of.has_position() {
-                terms.push((Number::MINUS_ONE, pool.mul(old[i], old[n + i])));
-            }
-            if !of.has_new_position() {
-                terms.push((Number::ONE, pool.mul(images[i], images[n + i])));
-            }
-        }
-        let value = pool.linear(Number::ZERO, &terms);
+        let signs = [Number::MINUS_ONE, Number::ONE];
+        let value = with_products(pool, (first, types), signs, [&old, &images]);
         let mut ways = vec![(relations, missing.clone(), value)];
         ways.splice(0..0, self.of_given(pool, given, types));
         let direct = self.of_linear_map(pool, &images, types);

@@ -10,7 +10,6 @@ use crate::app::key;
 /// How long a key is shown beside the caption.
 const KEY_SHOWN: Micros = 1_200_000;
 
-/// The most keys shown there.
 const KEYS_SHOWN: usize = 6;
 
 /// The keys pressed last.

@@ -88,7 +88,6 @@ struct Clipboard {
     text: Option<String>,
 }
 
-/// The end of the program.
 #[derive(Default)]
 struct ProgramEnd {
     /// The result of saving, once it was done.

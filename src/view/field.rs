@@ -17,7 +17,6 @@ use crate::view::colour::ColourDepth;
 const SHADES: [char; 5] = ['·', '░', '▒', '▓', '█'];
 const ASCII: [char; 8] = ['.', ':', '-', '=', '+', '*', '#', '@'];
 
-/// The step of a share from 0 to 1.
 fn step(share: f64, steps: usize) -> usize {
     ((share * steps as f64) as usize).min(steps - 1)
 }

@@ -138,7 +138,6 @@ fn name(q: &Quantities<'_>, facts: &ValueInfo) -> String {
     q.style.glyphs.pick(&facts.shown, &facts.name).clone()
 }
 
-/// A unit after its number.
 fn after(unit: &str) -> String {
     if unit.is_empty() { String::new() } else { format!(" {unit}") }
 }

@@ -188,7 +188,6 @@ struct ScenePainter<'a> {
     depth: DepthBuffer,
     /// The surfaces as they are lit.
     shading: Shading,
-    /// The surfaces, until they are filled.
     surfaces: Vec<Filling>,
     /// The characters of lines in ASCII, where these are not what their layer gives them.
     letters: Option<Letters>,

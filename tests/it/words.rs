@@ -104,12 +104,11 @@ const SEVERAL: [&str; 3] = ["Arguments", "CodeCache", "CompiledGrowth"];
 
 /// The names of the types that a source declares outside of functions and tests.
 fn types(code: &str) -> impl Iterator<Item = &str> {
-    let words = |line: &'_ str| line.split(|c: char| !(c.is_alphanumeric() || c == '_'));
-    let is_kind = |word: &&str| ["struct", "enum", "trait", "type"].contains(word);
     let lines = code.lines().filter(|line| line.starts_with(|c: char| c.is_alphabetic()));
-    lines.filter_map(move |line| {
-        let is_item = words(line).take_while(|word| *word != "fn" && *word != "impl");
-        is_item.skip_while(move |word| !is_kind(word)).nth(1)
+    lines.filter_map(|line| {
+        let words = line.split(|c: char| !(c.is_alphanumeric() || c == '_'));
+        let words = words.take_while(|word| *word != "fn" && *word != "impl");
+        words.skip_while(|word| !["struct", "enum", "trait", "type"].contains(word)).nth(1)
     })
 }
 

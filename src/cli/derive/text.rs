@@ -34,7 +34,6 @@ pub(super) fn write(report: &Report<'_>, further: &Further, script: MathScript) 
     page.text
 }
 
-/// The text so far.
 struct TextReport<'a> {
     report: &'a Report<'a>,
     script: MathScript,

@@ -126,7 +126,6 @@ impl EquilibriumSearch<'_> {
     }
 }
 
-/// A place without what is small in it.
 fn without_small(place: &DVector<f64>) -> DVector<f64> {
     let within = NO_DIGITS * size_of(place);
     place.map(|x| if x.abs() <= within { 0.0 } else { x })

@@ -89,71 +89,53 @@ pub(super) fn moving(top: &mut Table<'_>) -> DraftMoving {
     });
     let [coordinates, variables] = tables;
     if let Some(table) = coordinates {
-        moving.all.extend(table.entries().map(|(name, v)| coordinate(name, v, top.diagnostics)));
+        moving.all.extend(table.entries().map(|one| coordinate(one, false, top.diagnostics)));
         moving.coordinates = Some(table.place);
     }
     if let Some(table) = variables {
-        moving.all.extend(table.entries().map(|(name, v)| variable(name, v, top.diagnostics)));
+        moving.all.extend(table.entries().map(|one| coordinate(one, true, top.diagnostics)));
         moving.variables = Some(table.place);
     }
     moving
 }
 
-/// A coordinate: its initial value alone, or a table.
+/// A coordinate, or a variable of brackets: its initial value alone, or a table. A variable has no rate of its own.
 fn coordinate<'d>(
-    name: Spanned<String>,
-    entry: &'d Value<'d>,
+    (name, entry): (Spanned<String>, &'d Value<'d>),
+    is_variable: bool,
     diagnostics: &Diagnostics,
 ) -> DraftCoordinate {
-    let called = format!("the coordinate `{}`", name.get_ref());
+    let (what, section) =
+        if is_variable { ("variable", &VARIABLE) } else { ("coordinate", &COORDINATE) };
+    let called = format!("the {what} `{}`", name.get_ref());
     let mut coordinate = DraftCoordinate::unread(name);
     let DeValue::Table(entries) = entry.get_ref() else {
         coordinate.initial = value::formula(entry, &called, diagnostics);
         return coordinate;
     };
-    let mut table =
-        Table::new(called, coordinate.name.span(), entries, diagnostics).with(&COORDINATE);
+    let mut table = Table::new(called, coordinate.name.span(), entries, diagnostics).with(section);
     coordinate.initial = table.formula("initial");
-    let mut rate = |key| {
-        let (place, found) = table.take(key)?;
-        value::formula(found, &format!("`{key}`"), diagnostics).map(|f| (place, f))
-    };
-    (coordinate.velocity, coordinate.momentum) = (rate("velocity"), rate("momentum"));
+    if is_variable {
+        for (key, _) in table.entries() {
+            if let rate @ ("velocity" | "momentum") = key.get_ref().as_str() {
+                let message = format!("a variable has no `{rate}`");
+                let help = "its rate of change follows from H and the brackets";
+                diagnostics.push(Diagnostic::error(key.span(), message).with_help(help));
+            }
+        }
+        table.pass_over(&["velocity", "momentum"]);
+    } else {
+        let mut rate = |key| {
+            let (place, found) = table.take(key)?;
+            value::formula(found, &format!("`{key}`"), diagnostics).map(|f| (place, f))
+        };
+        (coordinate.velocity, coordinate.momentum) = (rate("velocity"), rate("momentum"));
+    }
     coordinate.symbol = symbol(&mut table);
     coordinate.unit = table.line("unit");
     coordinate.period = table.formula("period");
     table.finish();
     coordinate
-}
-
-/// A variable of brackets: a number, an expression, or a table like that of a coordinate.
-fn variable<'d>(
-    name: Spanned<String>,
-    entry: &'d Value<'d>,
-    diagnostics: &Diagnostics,
-) -> DraftCoordinate {
-    let called = format!("the variable `{}`", name.get_ref());
-    let mut variable = DraftCoordinate::unread(name);
-    let DeValue::Table(entries) = entry.get_ref() else {
-        variable.initial = value::formula(entry, &called, diagnostics);
-        return variable;
-    };
-    let mut table = Table::new(called, variable.name.span(), entries, diagnostics).with(&VARIABLE);
-    variable.initial = table.formula("initial");
-    variable.symbol = symbol(&mut table);
-    variable.unit = table.line("unit");
-    variable.period = table.formula("period");
-    for (key, _) in table.entries() {
-        if let rate @ ("velocity" | "momentum") = key.get_ref().as_str() {
-            let message = format!("a variable has no `{rate}`");
-            let diagnostic = Diagnostic::error(key.span(), message);
-            diagnostics
-                .push(diagnostic.with_help("its rate of change follows from H and the brackets"));
-        }
-    }
-    table.pass_over(&["velocity", "momentum"]);
-    table.finish();
-    variable
 }
 
 /// The display symbol of a name; empty if the file gives none.

@@ -22,9 +22,18 @@ pub(in crate::preset) fn kind(value: &DeValue<'_>) -> &'static str {
     }
 }
 
-fn wrong(value: &Value<'_>, called: &str, wanted: &str, diagnostics: &Diagnostics) {
-    let message = format!("{called} must be {wanted}, not {}", kind(value.get_ref()));
-    diagnostics.push(Diagnostic::error(value.span(), message));
+/// What was read, or nothing and a diagnostic that a value is of the wrong kind.
+fn of_kind<T>(
+    read: Option<T>,
+    value: &Value<'_>,
+    (called, wanted): (&str, &str),
+    diagnostics: &Diagnostics,
+) -> Option<T> {
+    if read.is_none() {
+        let message = format!("{called} must be {wanted}, not {}", kind(value.get_ref()));
+        diagnostics.push(Diagnostic::error(value.span(), message));
+    }
+    read
 }
 
 pub(super) fn text(
@@ -32,13 +41,8 @@ pub(super) fn text(
     called: &str,
     diagnostics: &Diagnostics,
 ) -> Option<Spanned<String>> {
-    match value.get_ref() {
-        DeValue::String(text) => Some(Spanned::new(value.span(), text.to_string())),
-        _ => {
-            wrong(value, called, "a text in quotes", diagnostics);
-            None
-        }
-    }
+    let text = value.get_ref().as_str().map(|text| Spanned::new(value.span(), text.to_owned()));
+    of_kind(text, value, (called, "a text in quotes"), diagnostics)
 }
 
 /// `true` or `false`.
@@ -47,13 +51,8 @@ pub(super) fn flag(
     called: &str,
     diagnostics: &Diagnostics,
 ) -> Option<Spanned<bool>> {
-    match value.get_ref() {
-        DeValue::Boolean(flag) => Some(Spanned::new(value.span(), *flag)),
-        _ => {
-            wrong(value, called, "true or false", diagnostics);
-            None
-        }
-    }
+    let flag = value.get_ref().as_bool().map(|flag| Spanned::new(value.span(), flag));
+    of_kind(flag, value, (called, "true or false"), diagnostics)
 }
 
 pub(super) fn list<'d>(
@@ -61,13 +60,7 @@ pub(super) fn list<'d>(
     called: &str,
     diagnostics: &Diagnostics,
 ) -> Option<&'d DeArray<'d>> {
-    match value.get_ref() {
-        DeValue::Array(items) => Some(items),
-        _ => {
-            wrong(value, called, "a list in [ ]", diagnostics);
-            None
-        }
-    }
+    of_kind(value.get_ref().as_array(), value, (called, "a list in [ ]"), diagnostics)
 }
 
 /// A finite number.
@@ -84,10 +77,7 @@ pub(super) fn number(
                 .push(Diagnostic::error(value.span(), message).with_help("remove the quotes"));
             return None;
         }
-        _ => {
-            wrong(value, called, "a number", diagnostics);
-            return None;
-        }
+        _ => of_kind(None, value, (called, "a number"), diagnostics)?,
     };
     digits.parse().ok().map(|number| Spanned::new(value.span(), number))
 }
@@ -127,10 +117,7 @@ pub(super) fn formula(
     let written = match value.get_ref() {
         DeValue::String(text) => text.to_string(),
         DeValue::Integer(_) | DeValue::Float(_) => digits(value, called, diagnostics)?,
-        _ => {
-            wrong(value, called, "a number or an expression in quotes", diagnostics);
-            return None;
-        }
+        _ => of_kind(None, value, (called, "a number or an expression in quotes"), diagnostics)?,
     };
     Some(Formula::new(value.span(), written))
 }

@@ -22,7 +22,6 @@ pub(super) struct CastPicture {
     pub(super) lasts: u64,
 }
 
-/// The pictures of a cast, one after the other.
 pub(super) struct CastPictures<'a> {
     cast: &'a RecordedCast,
     terminal: CastTerminal,
