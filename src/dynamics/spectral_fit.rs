@@ -13,7 +13,7 @@ use rustfft::FftPlanner;
 
 use super::linear::least_squares;
 use super::module_basis::halved;
-use super::spectral_line::{SpectralLine, combination, is_told_apart};
+use super::spectral_line::{SpectralLine, combination, is_distinguishable};
 use crate::num::{golden_section, math};
 
 /// Golden sections for the frequency of the largest amplitude between two points of the transform.
@@ -260,7 +260,7 @@ impl<'a> SpectralFit<'a> {
         let mut names = Vec::new();
         for &line in &frequencies {
             let mut name = combination(&known, line, FITS * turn);
-            if name.is_none() && known.len() < most && is_told_apart(&known, line.1) {
+            if name.is_none() && known.len() < most && is_distinguishable(&known, line.1) {
                 known.push(line);
                 let mut own = vec![0; known.len()];
                 own[known.len() - 1] = 1;

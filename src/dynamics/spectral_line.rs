@@ -58,7 +58,7 @@ fn named(k: &[i32], drive: i32) -> String {
 
 /// Whether a line is known so well that it can be given to one of these frequencies, each with its error: to less than half
 /// of the least of them, and of the least difference of two.
-pub(super) fn is_told_apart(known: &[(f64, f64)], error: f64) -> bool {
+pub(super) fn is_distinguishable(known: &[(f64, f64)], error: f64) -> bool {
     let apart = |(i, one): (usize, &(f64, f64))| {
         let others = known[..i].iter().map(move |other| {
             let apart = (one.0 - other.0).abs();
@@ -77,7 +77,7 @@ pub(super) fn combination(
     (frequency, error): (f64, f64),
     least: f64,
 ) -> Option<Vec<i32>> {
-    if !is_told_apart(known, error) {
+    if !is_distinguishable(known, error) {
         return None;
     }
     let mut search = CombinationSearch { error, k: Vec::new(), best: None };
@@ -140,12 +140,14 @@ mod tests {
     fn a_line_that_is_not_known_well_enough_has_no_name() {
         let known = [(1.05, 1e-4), (0.97, 2e-3)];
         for (error, named) in [(0.039, true), (0.041, false), (8.0, false)] {
-            assert_eq!(is_told_apart(&known, error), named, "{error}");
+            assert_eq!(is_distinguishable(&known, error), named, "{error}");
             assert_eq!(combination(&known, (1.0, error), 0.0).is_some(), named, "{error}");
         }
-        assert!(is_told_apart(&[], 8.0));
-        assert!(is_told_apart(&[(2.0, 0.0)], 0.99) && !is_told_apart(&[(2.0, 0.0)], 1.01));
+        assert!(is_distinguishable(&[], 8.0));
+        assert!(
+            is_distinguishable(&[(2.0, 0.0)], 0.99) && !is_distinguishable(&[(2.0, 0.0)], 1.01)
+        );
         // two that their own errors do not tell apart are one
-        assert!(is_told_apart(&[(2.0, 1e-3), (2.001, 1e-3)], 0.5));
+        assert!(is_distinguishable(&[(2.0, 1e-3), (2.001, 1e-3)], 0.5));
     }
 }

@@ -205,7 +205,7 @@ fn holonomic_and_separable_are_said() {
 
 /// What separates for one value of a parameter only is said to do so.
 #[test]
-fn a_special_value_of_a_parameter_is_told_apart() {
+fn a_special_value_of_a_parameter_is_distinguishable() {
     let file = "title = \"T\"\n[coordinates]\nx = { initial = 1, momentum = 0 }\n\
                 y = { initial = 1, momentum = 0 }\n[parameters]\nc = 0\n\
                 [hamiltonian]\nH = \"p_x^2/2 + p_y^2/2 + x^4 + y^4 + c*x*y\"\n";

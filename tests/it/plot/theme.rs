@@ -212,7 +212,7 @@ fn seen_by(matrix: &[[f64; 3]; 3], colour: Rgb) -> Rgb {
 }
 
 #[test]
-fn the_theme_for_the_colour_blind_is_told_apart_by_them() {
+fn the_theme_for_the_colour_blind_is_distinguishable_by_them() {
     for depth in [ColourDepth::Ansi256, ColourDepth::True] {
         let theme = Theme::named("colour-blind", depth).unwrap();
         let verdicts = [Role::Good, Role::Warn, Role::Bad].map(|role| theme[role]).to_vec();
