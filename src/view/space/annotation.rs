@@ -21,7 +21,7 @@ pub(super) fn compass(canvas: &mut Canvas<'_>, area: Rect, camera: &Camera) {
         _ if area.width < 30 => return,
         0..9 => return,
         // a low picture leaves the room at its sides
-        9..14 => (9, 4),
+        9..14 => (10, 5),
         _ => (12, 6),
     };
     let corner = Rect { x: area.x + 1, y: area.bottom() - height, width, height };
