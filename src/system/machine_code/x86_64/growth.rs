@@ -11,7 +11,7 @@ use super::compile::{Compiled, SeriesExtent};
 use super::function::{BatchStretches, Stretches, Values, WorkMemory, widest};
 use super::layout::FactoredPlace;
 use super::values::CompiledValues;
-use crate::num::{Batch, DoubleDouble, Real};
+use crate::num::{Batch, DoubleDouble, FloatPair, Real};
 use crate::system::growth::{SeriesBuilder, SeriesClock};
 use crate::system::program::Singular;
 use crate::system::solve::Factored;
@@ -51,7 +51,7 @@ impl CompiledGrowth {
     pub(in crate::system) fn grow(
         &mut self,
         high: &mut SeriesBuilder<f64>,
-        low: Option<&mut SeriesBuilder<DoubleDouble>>,
+        low: Option<&mut SeriesBuilder<FloatPair>>,
         (time, scale): (DoubleDouble, f64),
     ) -> Result<bool, Singular> {
         self.has_grown = false;
@@ -110,7 +110,8 @@ impl CodeInUse {
         if self.vanishes(high.jet.values()) {
             return Ok(false);
         }
-        take_matrices(high.jet.factored(), &self.compiled.factored, &mut self.work);
+        let parts = |x: f64| (x, 0.0);
+        take_matrices(high.jet.factored(), &self.compiled.factored, parts, &mut self.work);
         let (jet, state) = high.parts();
         let (values, series) = jet.values_and_series();
         let (values, work) = (Values::Plain(values), &mut self.work);
@@ -123,7 +124,7 @@ impl CodeInUse {
     fn grow_exactly(
         &mut self,
         high: &mut SeriesBuilder<f64>,
-        low: &mut SeriesBuilder<DoubleDouble>,
+        low: &mut SeriesBuilder<FloatPair>,
         (time, scale): (DoubleDouble, f64),
     ) -> Result<bool, Singular> {
         low.evaluate(&mut self.values, SeriesClock::new(time, scale))?;
@@ -133,9 +134,11 @@ impl CodeInUse {
         }
         high.take_origin(low)?;
         self.work.copy(self.compiled.values.offset, high.jet.values());
-        take_matrices(high.jet.factored(), &self.compiled.factored, &mut self.work);
+        let parts = |x: f64| (x, 0.0);
+        take_matrices(high.jet.factored(), &self.compiled.factored, parts, &mut self.work);
         let places = &self.compiled.exactly_factored;
-        if !take_matrices(low.jet.factored(), places, &mut self.work) {
+        let parts = |x: FloatPair| (x.high, x.low);
+        if !take_matrices(low.jet.factored(), places, parts, &mut self.work) {
             return Ok(false);
         }
         let (jet, exact_state) = low.parts();
@@ -173,7 +176,7 @@ impl CodeInUse {
     }
 
     /// Whether something is divided by what has no reciprocal of all digits.
-    fn divides_badly(&self, values: &[DoubleDouble]) -> bool {
+    fn divides_badly(&self, values: &[FloatPair]) -> bool {
         self.compiled.divisors.iter().any(|&r| !values[r as usize].has_reciprocal())
     }
 }
@@ -182,6 +185,7 @@ impl CodeInUse {
 fn take_matrices<R: Real>(
     matrices: &[Factored<R>],
     places: &[FactoredPlace],
+    parts: impl Fn(R) -> (f64, f64),
     work: &mut WorkMemory,
 ) -> bool {
     let mut regular = true;
@@ -200,9 +204,10 @@ fn take_matrices<R: Real>(
                 let at = place.entries + (i * n + j) * size;
                 let double = entry.double();
                 regular &= double.high.is_finite() && (i != j || double.has_reciprocal());
-                work.set(at, double.high);
+                let (high, low) = parts(*entry);
+                work.set(at, high);
                 if size > 1 {
-                    work.set(at + 1, double.low);
+                    work.set(at + 1, low);
                 }
             }
             // its offset in bytes
