@@ -27,6 +27,9 @@ pub(super) struct StepHistory {
     out_of: f64,
     /// How many steps in succession had to end before such a place.
     shortened: u32,
+    /// How many steps have been taken in it, and how long steps were before it.
+    inside: u32,
+    outside: f64,
     /// Whether no series continues from the current state.
     pub(super) landed: bool,
     /// The step before which the motion was last taken to touch rest, and did not.
@@ -46,6 +49,8 @@ impl Default for StepHistory {
             narrow: None,
             out_of: 0.0,
             shortened: 0,
+            inside: 0,
+            outside: 0.0,
             landed: false,
             touch_tried: f64::INFINITY,
             leaps: (0, f64::NAN),
@@ -62,6 +67,10 @@ const OUT_OF: f64 = 10.0;
 /// So many steps in succession end before a narrow place; the next one is taken as its series allows. From the foot of a wall on
 /// the series shows it, so that a few are enough.
 const SHORTENED: u32 = 64;
+
+/// No narrow place takes more steps than this. What does is a point that steps only come closer to, and they vanish beside those
+/// before it.
+const INSIDE: u32 = 500;
 
 impl StepHistory {
     /// Whether a step may end before a narrow place.
@@ -118,14 +127,23 @@ impl StepHistory {
         (self.last, self.landed) = (size, landed);
         self.stride = if turned { size } else { self.stride.max(size) };
         if let Some(width) = self.narrow.take() {
+            if !self.is_in_narrow_place() {
+                (self.inside, self.outside) = (0, self.stride);
+            }
             // what follows is as short as that place is narrow
             (self.stride, self.out_of) = (width, OUT_OF * width);
             self.shortened += 1;
             return;
         }
         self.shortened = 0;
+        if !self.is_in_narrow_place() {
+            return;
+        }
+        self.inside += 1;
         if size > self.out_of {
             self.out_of = 0.0;
+        } else if self.inside > INSIDE {
+            (self.out_of, self.stride) = (0.0, self.outside);
         } else {
             // nothing there is short beside the steps before
             self.stride = size;
