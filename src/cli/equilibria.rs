@@ -180,9 +180,7 @@ fn text(study: &Study, found: &Equilibria) -> String {
         ));
     }
     if found.is_complete {
-        text.push_str(
-            "found by searching around the start; that there are no others is not proved\n",
-        );
+        text.push_str("found by a search around the start: there may be others\n");
     }
     text.truncate(text.trim_end().len());
     text.push('\n');

@@ -222,7 +222,7 @@ fn text(found: &FoundSpectrum) -> String {
     }
     if let Some(close) = &spectrum.close {
         text.push_str(&format!(
-            "around ω = {} two lines lie {} apart, too close to be resolved in this time: a motion beyond t = {} would resolve \
+            "around ω = {} two lines lie {} apart, too close to be resolved in this time: a run until after t = {} would resolve \
              them\n",
             significant(close.frequency, 6, 1e-4..1e6),
             significant(close.apart, 2, 1e-4..1e6),
@@ -241,7 +241,7 @@ fn text(found: &FoundSpectrum) -> String {
     }
     if let Some(drift) = drift {
         text.push_str(&format!(
-            "the strongest ω changes by a part of {:.0e} ± {:.0e} from the first half of the time to the second\n",
+            "the strongest ω changes by a fraction of {:.0e} ± {:.0e} from the first half of the time to the second\n",
             drift.relative(),
             drift.relative_error()
         ));
