@@ -81,6 +81,7 @@ mod node;
 mod observables;
 mod observe;
 mod operation;
+mod overflow;
 mod parametric_power;
 mod parts;
 mod program;

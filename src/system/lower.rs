@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use rustc_hash::FxHashMap;
 
+use super::overflow;
 use super::program::{Block, Guard, LinearTerm, Op, Program, Register};
 use crate::expr::{Expr, FunctionId, Pool, Symbol};
 use crate::num::{DoubleDouble, Number};
@@ -201,6 +202,7 @@ impl<'a> Lowering<'a> {
         }
         let guards = self.program.body.iter().filter_map(|&r| guard(&self.program, r));
         self.program.guards = guards.collect();
+        self.program.hiding = overflow::hiding(&self.program);
         Ok(Arc::new(self.program))
     }
 

@@ -111,6 +111,8 @@ pub struct Program {
     pub(super) guards: Vec<Guard>,
     /// Whether there is a power so high that a series may end before its first term.
     pub(super) steep: bool,
+    /// The operations whose results may hide an overflow, where the numbers of a state are moderate.
+    pub(super) hiding: Vec<Register>,
     pub(super) inputs: Vec<Register>,
     pub(super) outputs: Vec<Register>,
     /// What its values are computed by, where that is not the list of operations.

@@ -13,7 +13,7 @@ use super::operation::value_of;
 use super::parts::PartwiseEvaluation;
 use super::program::{Block, Op, Program, Register, Singular};
 use super::solve::Factored;
-use super::underflow;
+use super::{overflow, underflow};
 use crate::num::{Analytic, DoubleDouble, ExtendedRange, Kernel, Real, vectorized};
 
 /// Factors beyond 2⁹⁹⁰ overflow where a product of two parts splits them, though their product may not.
@@ -93,9 +93,12 @@ impl<R: Real> Evaluator<R> {
         if again { self.evaluate_extended(time, inputs) } else { outcome }
     }
 
+    /// Whether all outputs are finite, and none hides that something else is not.
     fn is_finite(&self) -> bool {
         let mut outputs = self.program.outputs.iter();
+        let value = |r: Register| self.registers[r as usize].value();
         outputs.all(|&r| self.registers[r as usize].is_finite())
+            && !overflow::occurred(&self.program, &self.program.hiding, value)
     }
 
     /// Whether the first number that is not finite results from overflow, or from a division by
@@ -176,9 +179,9 @@ impl<R: Real> Evaluator<R> {
         &self.program
     }
 
-    /// Whether no underflow may count, so that numbers that are finite are right.
+    /// Whether no underflow may count, and no overflow is hidden, so that numbers that are finite are right.
     pub(super) fn is_ordinary(&self) -> bool {
-        !self.underflow_may_count
+        !self.underflow_may_count && self.program.hiding.is_empty()
     }
 
     /// Where the last evaluation lies relative to the kinks.
