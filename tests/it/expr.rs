@@ -119,6 +119,10 @@ fn simplification() {
     check("cos(q)*cos(u) + 2*sin(q)*sin(u)", "cos(q)*cos(u) + 2*sin(q)*sin(u)");
     check("(l*cos(q))^2 + (l*sin(q))^2 + k", "k + l^2");
     check("sqrt(q^2)", "sqrt(q^2)");
+    // a root of any order is located as well as a simple one
+    check("sign(q^3)", "sign(q)");
+    check("sign(-2*q^4)", "-sign(q)^2");
+    check("sign(max(0, q)^2)", "sign(max(0, q))^2");
 }
 
 #[test]
