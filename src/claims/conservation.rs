@@ -5,7 +5,7 @@
 
 use crate::diagnostic::{Diagnostic, SourceRange};
 use crate::expr::{Expr, Symbol};
-use crate::mechanics::{Class, Conserved, Equations, OneSided, Reason, class_of};
+use crate::mechanics::{Conserved, Equations, OneSided, Reason, class_of};
 use crate::model::Model;
 
 /// The tolerated drift of a conserved quantity, relative to the size of its terms.
@@ -27,7 +27,7 @@ pub(super) struct Claim {
     pub(super) name: String,
     pub(super) place: SourceRange,
     pub(super) expression: Expr,
-    /// Its rate of change, if it is known not to vanish.
+    /// Its rate of change, if it is not known to vanish.
     pub(super) rate: Option<Expr>,
     /// Whether that rate is nonzero somewhere along the motion.
     pub(super) refuted: bool,
@@ -53,7 +53,7 @@ pub(super) fn open_claims(model: &Model, equations: &mut Equations) -> Vec<Claim
     let all: Vec<(&String, Expr, &SourceRange)> = observed.chain(expected).collect();
     let claim = |(name, expression, place): (&String, Expr, &SourceRange)| {
         let classed = class_of(model, equations, name, expression);
-        let rate = classed.rate.ok().filter(|_| classed.class == Class::Changing);
+        let rate = classed.rate.ok().filter(|_| !classed.class.is_conserved());
         let one_sided = if classed.class.is_conserved() {
             None
         } else {
