@@ -294,3 +294,31 @@ pub(super) fn free_of(
     let e = tidy(pool, e, &map);
     (!pool.depends_on_any(e, symbols)).then_some(e)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::ALLOWANCE;
+    use crate::expr::Pool;
+
+    /// Whether so many squares can be asked for within an allowance.
+    fn suffices(allowance: u64, squares: u64) -> bool {
+        let mut pool = Pool::new();
+        let x = pool.named("x");
+        let asked = |pool: &mut Pool| {
+            (0..squares).for_each(|_| {
+                pool.powi(x, 2);
+            });
+            Some(())
+        };
+        pool.attempt(allowance, asked).is_some()
+    }
+
+    #[test]
+    fn a_transformation_is_searched_for_in_a_million_steps() {
+        let of_a_thousand =
+            (1..=1000).take_while(|&squares| suffices(1000, squares)).count() as u64;
+        assert!((1..1000).contains(&of_a_thousand));
+        assert!(suffices(ALLOWANCE, 990 * of_a_thousand));
+        assert!(!suffices(ALLOWANCE, 1010 * (of_a_thousand + 1)));
+    }
+}

@@ -339,7 +339,8 @@ fn judge(
         Err(outcome) => return outcome,
     };
     if let End::Error(message) = &reported.end {
-        let has_place = [" at t = ", " after t = "].iter().any(|place| message.contains(place));
+        let has_place =
+            [" at t = ", " after t = ", " from t = "].iter().any(|place| message.contains(place));
         if !has_place && reported.time > 0.0 || message.is_empty() {
             return failed(Kind::NoPlace, message);
         }
@@ -554,12 +555,8 @@ fn twin_failure(
     // nothing depend on them too, and whether their errors show a trend may lie on the border; errors at kinks that are
     // stepped over are as large as chance has it
     let on_the_border = |a: &Gauge, b: &Gauge| {
-        // and whether they have turned often enough to be called anything
-        let words: &[&str] = if reported.over_kinks {
-            &["bounded", "secular", "open"]
-        } else {
-            &["bounded", "secular"]
-        };
+        // and so does whether they have turned often enough to be called anything
+        let words = ["bounded", "secular", "open"];
         let alike = a.max_drift.max(b.max_drift) < 10.0 * a.max_drift.min(b.max_drift);
         (reported.over_kinks || case.tolerance.is_some() && alike)
             && words.contains(&a.word)
