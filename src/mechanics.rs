@@ -3,6 +3,7 @@
 //! In: a [`Model`](crate::model::Model). Out: [`Equations`]: accelerations (or q̇ and ṗ), momenta, the energy and its
 //! rate of change, conserved quantities and their reasons. Never here: numerical motion.
 
+mod at_values;
 mod attitude;
 mod bracket;
 mod canonical;
@@ -68,6 +69,7 @@ mod vakonomic;
 mod valuation;
 mod weighted_degree;
 
+pub use at_values::vanishing_at;
 pub use bracket::{ChainRule, Recognised, bracket, in_phase_space, recognise, unreduced_bracket};
 pub use canonical::PhaseMap;
 pub use canonical_verdict::{CanonicalVerdict, FailingBracket};

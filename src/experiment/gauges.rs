@@ -57,8 +57,9 @@ impl Gauges {
     /// Creates the gauges for what `equations` finds conserved in `model`. If the energy is not conserved, they
     /// include the energy with its law of change, and the energy balance, which is constant by that law.
     pub(super) fn new(model: &Model, equations: &Arc<Equations>, system: &System) -> Gauges {
-        let equations = &with_energy_opened(equations);
-        let monitors = monitors(model, equations, system);
+        let mut equations = with_energy_opened(equations);
+        let monitors = monitors(model, &mut equations, system);
+        let equations = &equations;
         let names: Vec<String> =
             monitors.iter().map(|monitor| monitor.invariant.name.clone()).collect();
         Gauges {
@@ -80,6 +81,9 @@ impl Gauges {
         self.reference_steps = now.steps;
         self.samples = 0;
         for monitor in &mut self.monitors {
+            let (equations, values) = (&*self.equations, now.constants);
+            let energy = || equations.energy_conserved_at(values);
+            monitor.take_parameters(&equations.pool, values, energy);
             monitor.refer(now.time, now.values, now.terms);
         }
         self.refer_found(now);

@@ -4,7 +4,7 @@
 
 use std::sync::Arc;
 
-use super::invariant_monitor::{InvariantMonitor, MonitoredInvariant};
+use super::invariant_monitor::{ChangeLaw, InvariantMonitor, MonitoredInvariant};
 use crate::analysis::Errors;
 use crate::experiment::{FoundConstant, Gauge, Reference};
 use crate::expr::{Expr, Pool, Symbol};
@@ -27,7 +27,7 @@ pub(super) struct MonitoredFormula {
     pub(super) reason: String,
     pub(super) proved: bool,
     /// Why it is not constant, if it is known not to be.
-    pub(super) broken: Option<String>,
+    pub(super) broken: Option<ChangeLaw>,
     pub(super) expression: Expr,
 }
 
@@ -123,6 +123,7 @@ impl FormulaMonitors {
         self.since = at.time;
         let known = self.values(at);
         for (monitor, (error, underflows)) in self.monitors.iter_mut().zip(known.errors) {
+            monitor.take_parameters(&self.pool, constants, || None);
             monitor.refer(at.time, &known.values, terms);
             monitor.measure(error, underflows);
         }

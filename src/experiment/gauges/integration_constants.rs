@@ -11,6 +11,7 @@
 use std::sync::Arc;
 
 use super::formula_monitors::{ChannelValues, FormulaMonitors, MonitoredFormula};
+use super::invariant_monitor::{ChangeLaw, ChangeRate};
 use crate::analysis::{Errors, Verdict};
 use crate::experiment::{Gauge, Reference};
 use crate::expr::{Expr, Pool, Symbol, Zero};
@@ -63,7 +64,11 @@ impl IntegrationConstants {
                 relations.push((relation, 0.0));
             }
         }
-        let broken = acting(model).map(|cause| format!("S leaves {cause} out"));
+        let broken = acting(model).map(|cause| {
+            let acting = model.mechanics.forces().iter().copied();
+            let rate = ChangeRate::All(acting.chain([model.mechanics.dissipation()]).collect());
+            ChangeLaw { shown: format!("S leaves {cause} out"), rate }
+        });
         own.pool = pool;
         let mut formula = |symbol: Symbol, expression: Expr, reason: String| {
             let jumps = is_changed_by_impulse(&mut own, model, expression);

@@ -10,7 +10,8 @@ use super::mean::Mean;
 use super::seen_distances::SeenDistances;
 use crate::analysis::{LEFT, LOST, RESOLVED, RoundedInput};
 use crate::experiment::Reference;
-use crate::expr::Expr;
+use crate::expr::{Expr, Pool, Symbol};
+use crate::mechanics::{Valuation, vanishing_at};
 use crate::system::{BatchTerms, TermSums, TermWatch};
 
 /// The name of the gauge that is constant by the law of the energy's change.
@@ -26,9 +27,14 @@ const LARGE: f64 = 1e3;
 /// error and no motion: a quantity each of whose terms is constant.
 const ERROR: f64 = 1e3;
 
+/// So many parameters at most are named where a quantity is constant at their values.
+const MOST_NAMED: usize = 3;
+
 #[derive(Clone, Debug)]
 pub(super) struct InvariantMonitor {
     pub(super) invariant: MonitoredInvariant,
+    /// Why it is constant at the values of the parameters, if only there.
+    constant_here: Option<String>,
     /// Whether its reference jumps with an impulse.
     jumps: bool,
     reference: ReferenceValue,
@@ -73,6 +79,23 @@ pub(in crate::experiment) struct MonitoredStep {
     pub(in crate::experiment) dense: bool,
 }
 
+/// The law by which a quantity changes.
+#[derive(Clone, Debug)]
+pub(super) struct ChangeLaw {
+    /// As it is shown.
+    pub(super) shown: String,
+    /// What has to vanish at the values of the parameters for the quantity to be constant at these.
+    pub(super) rate: ChangeRate,
+}
+
+#[derive(Clone, Debug)]
+pub(super) enum ChangeRate {
+    /// The rate of the energy, with the steps of the law.
+    Energy,
+    /// These expressions, all of them.
+    All(Vec<Expr>),
+}
+
 #[derive(Clone, Debug)]
 pub(super) struct MonitoredInvariant {
     pub(super) name: String,
@@ -81,7 +104,7 @@ pub(super) struct MonitoredInvariant {
     /// Whether it follows from the law of motion that the quantity is constant.
     pub(super) proved: bool,
     /// The reason why it is not constant, if it is not.
-    pub(super) broken: Option<String>,
+    pub(super) broken: Option<ChangeLaw>,
     pub(super) channel: usize,
     /// The index of its quantity in a [`TermWatch`]; the balance subtracts the work.
     pub(super) quantity: Option<usize>,
@@ -95,6 +118,7 @@ impl InvariantMonitor {
         InvariantMonitor {
             jumps: invariant.name != ENERGY_BALANCE,
             invariant,
+            constant_here: None,
             reference: ReferenceValue {
                 initial: unknown,
                 value: unknown,
@@ -106,6 +130,35 @@ impl InvariantMonitor {
             seen: SeenDistances::default(),
             drift: DriftRecord::beginning(Mean::default()),
         }
+    }
+
+    /// Takes into account which values the parameters have: a quantity that changes in general may be constant at these.
+    /// Of the energy that is known elsewhere.
+    pub(super) fn take_parameters(
+        &mut self,
+        pool: &Pool,
+        values: &Valuation,
+        energy: impl FnOnce() -> Option<Vec<Symbol>>,
+    ) {
+        let Some(law) = &self.invariant.broken else { return };
+        let special = match &law.rate {
+            ChangeRate::Energy => energy(),
+            ChangeRate::All(rates) => vanishing_at(pool, rates, values),
+        };
+        self.constant_here = special.map(|parameters| {
+            let value = |&s: &Symbol| format!("{} = {}", pool.symbol_info(s).unicode, values.at(s));
+            if parameters.len() > MOST_NAMED {
+                return "constant at these parameters".to_owned();
+            }
+            let given: Vec<String> = parameters.iter().map(value).collect();
+            format!("constant at {}", given.join(", "))
+        });
+    }
+
+    /// The law by which it changes at the values of the parameters, if it does.
+    fn change_law(&self) -> Option<&str> {
+        let law = self.invariant.broken.as_ref().filter(|_| self.constant_here.is_none());
+        law.map(|law| law.shown.as_str())
     }
 
     /// Takes the current value as the reference.
@@ -309,11 +362,7 @@ impl InvariantMonitor {
 
     /// What moves: the mean, or where physics changes the value and the motion may come to rest, the greatest so far.
     fn moving(&self) -> f64 {
-        if self.invariant.broken.is_some() {
-            self.drift.most_moving
-        } else {
-            self.drift.moving.value()
-        }
+        if self.change_law().is_some() { self.drift.most_moving } else { self.drift.moving.value() }
     }
 
     /// Whether a drift is seen that the digits of its terms do not explain in themselves, although it is within their rounding
@@ -324,7 +373,7 @@ impl InvariantMonitor {
         let is_energy = self.invariant.quantity == Some(ENERGY);
         let within_rounding = self.drift.farthest <= self.rounding.explained;
         let is_resolved = is_resolved(seen, moving);
-        self.invariant.broken.is_none() && is_energy && within_rounding && is_resolved
+        self.change_law().is_none() && is_energy && within_rounding && is_resolved
     }
 
     /// Records by how much rounding of the state changes the value, in units of ε.

@@ -5,7 +5,9 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use super::invariant_monitor::{ENERGY_BALANCE, InvariantMonitor, MonitoredInvariant};
+use super::invariant_monitor::{
+    ChangeLaw, ChangeRate, ENERGY_BALANCE, InvariantMonitor, MonitoredInvariant,
+};
 use crate::experiment::law::{EnergyLaw, LONGEST};
 use crate::expr::Expr;
 use crate::mechanics::{Conserved, Equations, casimir_rate};
@@ -15,9 +17,11 @@ use crate::system::{ChannelKind, System};
 /// The monitors of what is conserved, and of what would be but for something that acts on it; the energy comes first.
 pub(super) fn monitors(
     model: &Model,
-    equations: &Equations,
+    equations: &mut Arc<Equations>,
     system: &System,
 ) -> Vec<InvariantMonitor> {
+    let casimirs = changing_casimirs(model, equations);
+    let equations = &**equations;
     let find = |kind: ChannelKind| system.channels().iter().position(|c| c.kind == kind);
     let mut monitors = Vec::new();
     let mut add = |name: &str, reason: String, broken, kind, quantity, expression| {
@@ -41,14 +45,15 @@ pub(super) fn monitors(
     if !equations.conserved.iter().any(|c| c.name == "energy") {
         let law = EnergyLaw::of(model, equations);
         let kind = ChannelKind::Energy;
-        add("energy", law.cause, Some(law.rate), kind, energy, equations.energy);
+        let change = ChangeLaw { shown: law.rate, rate: ChangeRate::Energy };
+        add("energy", law.cause, Some(change), kind, energy, equations.energy);
         let reason = "E − work done on it".to_owned();
         add(ENERGY_BALANCE, reason, None, ChannelKind::EnergyBalance, energy, equations.energy);
     } else if !model.impulses.is_empty() {
         let reason = "E − impulse work".to_owned();
         add(ENERGY_BALANCE, reason, None, ChannelKind::EnergyBalance, energy, equations.energy);
     }
-    for (i, (name, casimir, law)) in changing_casimirs(model, equations) {
+    for (i, (name, casimir, law)) in casimirs {
         let reason = "Casimir; a force acts".to_owned();
         add(&name, reason, Some(law), ChannelKind::Casimir(i), None, casimir);
     }
@@ -90,17 +95,25 @@ pub(super) fn with_energy_opened(equations: &Arc<Equations>) -> Arc<Equations> {
     Arc::new(equations)
 }
 
-/// The Casimirs that forces change: the index, the name, the expression and its rate of change.
-fn changing_casimirs(model: &Model, equations: &Equations) -> Vec<(usize, (String, Expr, String))> {
+/// The Casimirs that forces change: the index, the name, the expression and the law of its change.
+fn changing_casimirs(
+    model: &Model,
+    equations: &mut Arc<Equations>,
+) -> Vec<(usize, (String, Expr, ChangeLaw))> {
     let Mechanics::Poisson { casimirs, forces, .. } = &model.mechanics else { return Vec::new() };
-    let mut equations = equations.clone();
+    if casimirs.is_empty() {
+        return Vec::new();
+    }
+    let equations = Arc::make_mut(equations);
     let mut changing = Vec::new();
     for (i, (name, casimir, _)) in casimirs.iter().enumerate() {
-        let rate = casimir_rate(&mut equations, *casimir, forces);
+        let rate = casimir_rate(equations, *casimir, forces);
         if rate != Expr::ZERO {
-            let rate = equations.pool.unicode(rate);
-            let rate = if rate.chars().count() > LONGEST { "∇C·f".to_owned() } else { rate };
-            changing.push((i, (name.clone(), *casimir, format!("dC/dt = {rate}"))));
+            let written = equations.pool.unicode(rate);
+            let short = written.chars().count() <= LONGEST;
+            let shown = format!("dC/dt = {}", if short { &written } else { "∇C·f" });
+            let law = ChangeLaw { shown, rate: ChangeRate::All(vec![rate]) };
+            changing.push((i, (name.clone(), *casimir, law)));
         }
     }
     changing

@@ -2,7 +2,7 @@
 
 use phaselab::experiment::{AdvanceOutcome, Command, Experiment, Gauge, Growth, Verdict};
 use phaselab::integrate::Settings;
-use phaselab::preset::Catalog;
+use phaselab::preset::{self, Catalog};
 
 use super::{PLENTY, build, gauge, run, shipped, value};
 use crate::nonempty;
@@ -424,6 +424,112 @@ fn a_ramp_of_some_digits_of_the_clock_leaves_no_gauge() {
             let snapshot = experiment.snapshot();
             let balance = gauge(&snapshot, "energy balance");
             assert!(balance.max_drift < 1e-6 && balance.left.is_none(), "{ramp}: {balance:?}");
+        }
+    }
+}
+
+/// Parameters are live: where a damper, a drive or a thruster has the value 0 nothing acts, and the gauge says so until it has
+/// another value.
+#[test]
+fn what_changes_in_general_is_conserved_where_nothing_acts() {
+    let law = |l: &str, rest: &str| {
+        format!(
+            "title = \"T\"\n[coordinates]\nx = {{ initial = 1, velocity = 0.3 }}\n[parameters]\na = 0.5\nb = 0.5\n\
+             [lagrangian]\nL = \"{l}\"\n{rest}"
+        )
+    };
+    let spring = "1/2*x'^2 - x^2 - x^4";
+    let [friction, dry, force, drive, step, balanced] = [
+        law(spring, "dissipation = \"1/2*a*x'^2\"\n"),
+        law(spring, "forces = { x = \"-a*sign(x')\" }\n"),
+        law(spring, "forces = { x = \"a*cos(2*t)\" }\n"),
+        law(&format!("{spring} + a*x*cos(2*t)"), ""),
+        law(&format!("{spring} + a*x*sign(sin(2*t))"), ""),
+        law(&format!("{spring} + (a - b)*x*cos(2*t)"), "dissipation = \"(a - b)*x'^2\"\n"),
+    ];
+    let ramp = law(spring, "dissipation = \"a*t*x'^2\"\n");
+    let spin = Catalog::with_folder(None).find("spin-up").expect("a preset").text.clone();
+    for (text, name, parameter, at, reason) in [
+        (&friction, "energy", "a", 0.0, "constant at a = 0"),
+        (&dry, "energy", "a", 0.0, "constant at a = 0"),
+        (&force, "energy", "a", 0.0, "constant at a = 0"),
+        (&drive, "energy", "a", 0.0, "constant at a = 0"),
+        (&step, "energy", "a", 0.0, "constant at a = 0"),
+        (&ramp, "energy", "a", 0.0, "constant at a = 0"),
+        (&balanced, "energy", "a", 0.5, "constant at a = 0.5, b = 0.5"),
+        (&spin, "|L|²", "N", 0.0, "constant at N = 0"),
+    ] {
+        let mut experiment = build(text, |_| ());
+        let model = preset::read(text).expect("a file").model;
+        let index = model.parameters.iter().position(|p| p.name == parameter).expect("it is there");
+        for (round, value) in [at, 0.125, at].into_iter().enumerate() {
+            experiment.execute(Command::Parameter { index, value });
+            let end = experiment.time() + 10.0;
+            run(&mut experiment, end);
+            let shown = gauge(&experiment.snapshot(), name);
+            if round == 1 {
+                assert!(matches!(shown.verdict, Verdict::Broken(_)), "{text}: {shown:?}");
+                assert!(shown.max_drift > 1e-6 && !shown.proved, "{text}: {shown:?}");
+            } else {
+                assert!(matches!(shown.verdict, Verdict::Exact(_)), "{text}: {shown:?}");
+                assert!(shown.max_drift < 1e-13 && shown.proved, "{text}: {shown:?}");
+                assert_eq!(shown.reason, reason, "{text}");
+            }
+        }
+    }
+}
+
+/// What acts on a motion only where it is not now, or at another time, still acts.
+#[test]
+fn where_something_may_act_nothing_is_called_conserved() {
+    for (l, rest) in [
+        ("1/2*x'^2 - x^2", "forces = { x = \"-max(0, x - 40 - a)*x'\" }"),
+        ("1/2*x'^2 - x^2 + x*exp(-(t - 60)^2 - a)", ""),
+        ("1/2*x'^2 - x^2 + x*sign(t - 60 - a)", ""),
+        ("1/2*x'^2 - x^2", "dissipation = \"1e-30*x'^2 + a*x'^2\""),
+    ] {
+        let text = format!(
+            "title = \"T\"\n[coordinates]\nx = 1\n[parameters]\na = 0\n[lagrangian]\nL = \"{l}\"\n{rest}\n"
+        );
+        let mut experiment = build(&text, |_| ());
+        run(&mut experiment, 5.0);
+        let energy = gauge(&experiment.snapshot(), "energy");
+        assert!(matches!(energy.verdict, Verdict::Broken(_)), "{l} {rest}: {energy:?}");
+    }
+}
+
+/// Beyond x = 370 the square of x⁶⁰ overflows, and the potential is 1 there all the same.
+#[test]
+fn a_quotient_of_what_overflows_has_its_value() {
+    let text = "title = \"A shelf\"\n[coordinates]\nx = { initial = -3, velocity = 2.5 }\n[lagrangian]\n\
+                L = \"1/2*x'^2 - x^60/sqrt(1 + x^120)\"\n";
+    let mut experiment = build(text, |_| ());
+    run(&mut experiment, 1000.0);
+    assert!(value(&experiment, "x") > 2000.0);
+    let energy = gauge(&experiment.snapshot(), "energy");
+    assert!(matches!(energy.verdict, Verdict::Exact(_)), "{energy:?}");
+    assert!(energy.max_drift < 1e-12 && energy.left.is_none(), "{energy:?}");
+}
+
+/// A force that is 1 there, in the plain numbers of every method.
+#[test]
+fn a_force_made_of_what_overflows_acts_by_every_method() {
+    for force in
+        ["x^60/sqrt(1 + x^120)", "x^60*(1 + x^180)^(-1/3)", "atan2(2*x^120, x^120 + 1)/atan(2)"]
+    {
+        let text = format!(
+            "title = \"A shelf\"\n[coordinates]\nx = {{ initial = 1000 }}\n[lagrangian]\nL = \"1/2*x'^2\"\n\
+             forces = {{ x = \"{force}\" }}\n"
+        );
+        for method in ["taylor", "dop853", "rk4", "gauss4"] {
+            let mut experiment = build(&text, |setup| {
+                method.clone_into(&mut setup.method);
+                let has_step = matches!(method, "rk4" | "gauss4");
+                setup.settings = Settings { step: has_step.then_some(0.125), tolerance: None };
+            });
+            run(&mut experiment, 8.0);
+            let x = value(&experiment, "x");
+            assert!((x - 1032.0).abs() < 1e-9, "{force} by {method}: {x}");
         }
     }
 }

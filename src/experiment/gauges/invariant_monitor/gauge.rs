@@ -24,6 +24,7 @@ impl InvariantMonitor {
         of_state: &dyn Fn(Expr) -> Option<(f64, RoundedInput)>,
     ) -> Gauge {
         let invariant = &self.invariant;
+        let reason = self.constant_here.as_ref().unwrap_or(&invariant.reason);
         let value = values[invariant.channel];
         let measure = if self.is_seen() {
             self.measured_by_value(floor, of_state(invariant.expression))
@@ -39,7 +40,7 @@ impl InvariantMonitor {
         let is_beyond = farthest > measure.rounding;
         let worst = measure.worst.filter(|_| is_beyond);
         let max_drift = worst.unwrap_or_else(|| measure.drift(farthest.max(distance)));
-        let is_broken = invariant.broken.is_some();
+        let is_broken = self.change_law().is_some();
         let is_known = measure.is_known();
         let left = is_beyond && max_drift > LEFT && is_known && !is_broken;
         let known = |drift: f64| if is_known { drift } else { f64::NAN };
@@ -47,12 +48,12 @@ impl InvariantMonitor {
             name: invariant.name.clone(),
             shown: invariant.shown.clone(),
             reason: match &measure.unseen {
-                Some(Unseen::Underflow) => format!("{}; {UNDERFLOW}", invariant.reason),
-                Some(Unseen::Unresolved(_)) => format!("{}; {UNRESOLVED}", invariant.reason),
+                Some(Unseen::Underflow) => format!("{reason}; {UNDERFLOW}"),
+                Some(Unseen::Unresolved(_)) => format!("{reason}; {UNRESOLVED}"),
                 Some(Unseen::Rounded(input)) => {
-                    format!("{}; rounding of {} explains its change", invariant.reason, input.name)
+                    format!("{reason}; rounding of {} explains its change", input.name)
                 }
-                None => invariant.reason.clone(),
+                None => reason.clone(),
             },
             proved: invariant.proved && !is_broken,
             value,
@@ -71,7 +72,7 @@ impl InvariantMonitor {
 
     /// The drift in the course of time.
     fn history(&self, measure: &DriftMeasure) -> Arc<[f32]> {
-        let is_broken = self.invariant.broken.is_some();
+        let is_broken = self.change_law().is_some();
         let stretches = self.drift.distances.stretches().iter();
         let drifts = stretches.map(|stretch| {
             // what changes by the physics is seen rising and falling
@@ -85,8 +86,8 @@ impl InvariantMonitor {
     }
 
     fn verdict(&self, measure: &DriftMeasure, max_drift: f64, errors: Errors) -> Verdict {
-        if let Some(law) = &self.invariant.broken {
-            return Verdict::Broken(law.clone());
+        if let Some(law) = self.change_law() {
+            return Verdict::Broken(law.to_owned());
         }
         if let Some(unseen) = &measure.unseen {
             return Verdict::Unknown(unseen.clone());

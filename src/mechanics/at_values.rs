@@ -1,0 +1,95 @@
+//! Whether a quantity that changes in general is constant at some values of the parameters, as an energy is where a
+//! drive has amplitude 0 or a damper the constant 0.
+//!
+//! In: the rates of which it is made, and values. Out: the parameters whose values make it constant. Never here: a motion.
+
+use std::collections::HashMap;
+
+use super::equations::Equations;
+use super::valuation::Valuation;
+use crate::expr::{Expr, Pool, Symbol, Zero};
+use crate::num::{Number, math};
+
+/// The number of points at which rates are evaluated before a proof is tried.
+const POINTS: u64 = 3;
+
+/// A rate up to this part of its terms may be zero.
+const ROUNDING: f64 = 1e-9;
+
+impl Equations {
+    /// The parameters at whose present values the energy is conserved, although it is not at all of their values, and L
+    /// (or H) has no step; `None` where that is not proved.
+    pub fn energy_conserved_at(&self, values: &Valuation) -> Option<Vec<Symbol>> {
+        let rate = self.energy_rate;
+        if !self.law_jumps() {
+            return vanishing_at(&self.pool, &[rate], values);
+        }
+        if !may_vanish(&self.pool, rate, values) {
+            return None;
+        }
+        first_of(&self.pool, &[rate, self.law], values, |given| {
+            let mut here = self.clone();
+            here.law = at(&mut here.pool, self.law, given);
+            let rate = at(&mut here.pool, rate, given);
+            !here.law_jumps() && here.pool.is_zero(rate) == Zero::Proved
+        })
+    }
+}
+
+/// The parameters at whose present values all of these rates vanish; `None` where that is not proved.
+pub fn vanishing_at(pool: &Pool, rates: &[Expr], values: &Valuation) -> Option<Vec<Symbol>> {
+    if !rates.iter().all(|&rate| may_vanish(pool, rate, values)) {
+        return None;
+    }
+    first_of(pool, rates, values, |given| {
+        let mut here = pool.clone();
+        rates.iter().all(|&rate| {
+            let rate = at(&mut here, rate, given);
+            here.is_zero(rate) == Zero::Proved
+        })
+    })
+}
+
+/// The first of two sets of parameters, those that are 0 and all, whose values suffice for something that depends on these
+/// expressions.
+fn first_of(
+    pool: &Pool,
+    expressions: &[Expr],
+    values: &Valuation,
+    suffices: impl Fn(&HashMap<Symbol, Number>) -> bool,
+) -> Option<Vec<Symbol>> {
+    let mut known: Vec<Symbol> = expressions.iter().flat_map(|&e| pool.symbols_of(e)).collect();
+    known.retain(|&s| values.at(s).is_finite());
+    known.sort_unstable();
+    known.dedup();
+    let zeros: Vec<Symbol> = known.iter().copied().filter(|&s| values.at(s) == 0.0).collect();
+    let value = |&s: &Symbol| (s, Number::Real(values.at(s)).canonical());
+    [zeros, known].into_iter().find(|given| suffices(&given.iter().map(value).collect()))
+}
+
+/// Whether a rate is 0 to rounding wherever it has a value, at points that are fixed: most rates are not, and then no proof is
+/// tried.
+fn may_vanish(pool: &Pool, rate: Expr, values: &Valuation) -> bool {
+    let mut seen = 0;
+    for n in 0..POINTS {
+        let at = |s: Symbol| match values.at(s) {
+            known if known.is_finite() => known,
+            _ => {
+                let turns = (s.index() as f64 + 1.0) * std::f64::consts::E + n as f64 * 0.7;
+                0.3 + math::sin(turns).abs()
+            }
+        };
+        let (value, size) = pool.evaluate_with_size(rate, &at);
+        if value.abs() > ROUNDING * size {
+            return false;
+        }
+        seen += u64::from(value.is_finite());
+    }
+    seen > 0
+}
+
+/// An expression at these values.
+fn at(pool: &mut Pool, e: Expr, values: &HashMap<Symbol, Number>) -> Expr {
+    let values = values.iter().map(|(&s, &n)| (s, pool.number(n))).collect();
+    pool.substitute(e, &values)
+}
