@@ -3,11 +3,9 @@
 //! Quoted files, names and arguments are already sanitized when they are quoted; all messages are sanitized again
 //! here.
 
-use std::borrow::Cow;
 use std::io::{IsTerminal, Write, stderr};
 
 use crate::printable;
-use crate::view::glyphs::Glyphs;
 
 /// The greatest length of a message, whatever it quotes.
 const LONGEST: usize = 8192;
@@ -18,15 +16,7 @@ pub(super) fn report(message: &str) {
         return;
     }
     let message = printable::shortened(message, LONGEST);
-    let message = primed(&message);
     let _ = writeln!(stderr(), "phaselab: {}", printable::lines(&message));
-}
-
-/// A message with primes for the dots of rates, as formulas have. One with other combining marks quotes a name, and stays.
-fn primed(message: &str) -> Cow<'_, str> {
-    let is_mark =
-        |c: char| ('\u{300}'..='\u{36f}').contains(&c) && !matches!(c, '\u{307}' | '\u{308}');
-    if message.chars().any(is_mark) { message.into() } else { Glyphs::Braille.text(message) }
 }
 
 /// Writes a report with our own colours.
@@ -40,16 +30,4 @@ pub(super) fn has_colour() -> bool {
     let set = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
     let dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
     stderr().is_terminal() && !dumb && !set("NO_COLOR")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::primed;
-
-    #[test]
-    fn rates_have_primes_and_quoted_names_their_marks() {
-        assert_eq!(primed("q\u{307}₁ and ẋ grow"), "q₁′ and x′ grow");
-        assert_eq!(primed("caf\u{65}\u{301}.toml: ẋ"), "caf\u{65}\u{301}.toml: ẋ");
-        assert_eq!(primed("Różycki"), "Różycki");
-    }
 }
