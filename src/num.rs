@@ -1,7 +1,7 @@
 //! Numbers: the arithmetic in which everything else is computed.
 //!
 //! In and out: numbers. A program is evaluated in [`Analytic`] numbers: `f64`, [`DoubleDouble`] for twice its
-//! digits, [`FloatPair`] for the same with less work, [`ExtendedRange`] for values outside the range of all, a [`Batch`] of the numbers of several
+//! digits, [`ExtendedRange`] for values outside the range of both, a [`Batch`] of the numbers of several
 //! orbits. A [`Number`] is a constant in an
 //! expression. A [`PrimeField`] has the residues in which ranks are computed. [`math`] has the
 //! elementary functions, with the same bits on every machine. [`eigenvalues`] are those of a small
@@ -19,7 +19,6 @@ mod eigenvalues;
 mod exponent;
 mod extended_range;
 mod finite;
-mod float_pair;
 mod format;
 mod four_lanes;
 mod horner;
@@ -43,7 +42,6 @@ pub use double_double::DoubleDouble;
 pub use eigenvalues::{eigenvalues, has_squares};
 pub use extended_range::ExtendedRange;
 pub use finite::all_finite;
-pub use float_pair::FloatPair;
 pub use format::{
     no_longer_than, push_shortest, rounded, short, shortest, significant, to_its_error,
 };

@@ -72,7 +72,6 @@ mod lane_series;
 mod legendre;
 mod logarithms;
 mod lower;
-mod lowest_orders;
 mod machine_code;
 mod made_once;
 mod mass_determinant;

@@ -12,7 +12,6 @@
 //! ```
 
 use super::double_double::DoubleDouble;
-use super::float_pair::FloatPair;
 use super::instruction_set::Kernel;
 
 /// The number of pairs computed side by side.
@@ -101,7 +100,7 @@ impl<const N: usize> Kernel for InnerProducts<'_, [f64; N]> {
     }
 }
 
-/// [`FloatPair`]s side by side.
+/// [`DoubleDouble`]s side by side.
 #[derive(Clone, Copy, Debug)]
 pub struct DoubleLanes<const N: usize> {
     high: [f64; N],
@@ -112,7 +111,7 @@ impl<const N: usize> DoubleLanes<N> {
     pub(super) const ZERO: DoubleLanes<N> = DoubleLanes { high: [0.0; N], low: [0.0; N] };
 
     #[inline(always)]
-    pub(super) fn of(x: [FloatPair; N]) -> DoubleLanes<N> {
+    pub(super) fn of(x: [DoubleDouble; N]) -> DoubleLanes<N> {
         let mut lanes = DoubleLanes::ZERO;
         for lane in 0..N {
             (lanes.high[lane], lanes.low[lane]) = (x[lane].high, x[lane].low);
@@ -125,10 +124,10 @@ impl<const N: usize> DoubleLanes<N> {
 /// J. Sci. Comput. 26 (2005) 1955, algorithm 5.3), which leaves an error of n² 2⁻¹⁰⁴ of the sum of
 /// the absolute terms.
 impl<const N: usize> Kernel for InnerProducts<'_, DoubleLanes<N>> {
-    type Output = [FloatPair; N];
+    type Output = [DoubleDouble; N];
 
     #[inline(always)]
-    fn run<const FUSED: bool>(self) -> [FloatPair; N] {
+    fn run<const FUSED: bool>(self) -> [DoubleDouble; N] {
         let (mut sum, mut errors) = (Vector::ZERO, Vector::ZERO);
         let length = self.left.len().min(self.right.len());
         let (left, right) = (&self.left[..length], &self.right[..length]);
@@ -144,9 +143,9 @@ impl<const N: usize> Kernel for InnerProducts<'_, DoubleLanes<N>> {
             errors = errors.plus(lost.plus(low));
             sum = next;
         }
-        let mut sums = [FloatPair::default(); N];
+        let mut sums = [DoubleDouble::ZERO; N];
         for lane in 0..N {
-            sums[lane] = FloatPair { high: sum.0[lane], low: errors.0[lane] };
+            sums[lane] = DoubleDouble::sum(sum.0[lane], errors.0[lane]);
         }
         sums
     }
@@ -155,7 +154,6 @@ impl<const N: usize> Kernel for InnerProducts<'_, DoubleLanes<N>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::Real;
     use crate::num::instruction_set::{run_plainly, vectorized};
 
     /// Numbers without a pattern.
@@ -193,18 +191,17 @@ mod tests {
         };
         for n in 0..40 {
             let (left, right) = (double(n, 3), double(n, 5));
-            let lanes = |x: &[[DoubleDouble; LANES]]| {
-                x.iter().map(|x| DoubleLanes::of(x.map(FloatPair::from))).collect()
-            };
+            let lanes =
+                |x: &[[DoubleDouble; LANES]]| x.iter().map(|&x| DoubleLanes::of(x)).collect();
             let (a, b): (Vec<_>, Vec<_>) = (lanes(&left), lanes(&right));
             let kernel = || InnerProducts { left: &a, right: &b };
             let (wide, plain) = (vectorized(kernel()), run_plainly(kernel()));
-            let bits = |x: FloatPair| (x.high.to_bits(), x.low.to_bits());
+            let bits = |x: DoubleDouble| (x.high.to_bits(), x.low.to_bits());
             assert_eq!(wide.map(bits), plain.map(bits), "{n} terms");
             for lane in 0..LANES {
                 let direct =
                     (0..n).fold(DoubleDouble::ZERO, |sum, j| sum + left[j][lane] * right[j][lane]);
-                let off = wide[lane].double() - direct;
+                let off = wide[lane] - direct;
                 assert!(off.high.abs() < 1e-29, "{:?} {direct:?}", wide[lane]);
             }
         }

@@ -7,25 +7,20 @@
 
 use super::batch::Batch;
 use super::double_double::DoubleDouble;
-use super::float_pair::FloatPair;
 use super::four_lanes::{FourLanes, LANES, ScalarLanes};
 use super::instruction_set::{Kernel, vectorized};
 use super::real::Analytic;
 
 /// `Σ_j low_j x^j + Σ_j high_j x^{j + n}`, where n is the number of `low`. The terms of `low` are as
 /// exact as double-double, those of `high` as `f64`.
-pub fn polynomial<C: Copy + Into<FloatPair>>(
-    low: &[C],
-    high: &[f64],
-    x: DoubleDouble,
-) -> DoubleDouble {
+pub fn polynomial(low: &[DoubleDouble], high: &[f64], x: DoubleDouble) -> DoubleDouble {
     vectorized(Polynomial { low, high, x })
 }
 
 /// The kernel of [`polynomial`].
-pub struct Polynomial<'a, C> {
-    /// The terms of low order, each the sum of two parts.
-    pub low: &'a [C],
+pub struct Polynomial<'a> {
+    /// The terms of low order.
+    pub low: &'a [DoubleDouble],
     /// Those after them.
     pub high: &'a [f64],
     /// The argument.
@@ -121,15 +116,14 @@ pub fn padded<T: Copy>(rest: &[T], zero: T) -> [T; APART] {
     }
 }
 
-impl<C: Copy + Into<FloatPair>> Polynomial<'_, C> {
+impl Polynomial<'_> {
     /// The polynomial, from the sum of the terms after those of low order over the power of the first of them. `high` is read
     /// only where the argument is no `f64`.
     #[inline(always)]
     pub fn with_tail<L: FourLanes, const FUSED: bool>(self, lanes: L, tail: f64) -> DoubleDouble {
         let x = self.x.high;
         let (mut sum, mut errors) = (tail, 0.0);
-        for &c in self.low.iter().rev() {
-            let c = c.into();
+        for c in self.low.iter().rev() {
             let product = DoubleDouble::product_by::<FUSED>(sum, x);
             let next = DoubleDouble::sum(product.high, c.high);
             sum = next.high;
@@ -138,14 +132,14 @@ impl<C: Copy + Into<FloatPair>> Polynomial<'_, C> {
         if self.x.low != 0.0 {
             let tail = slope_tail(lanes, self.high, self.low.len(), x);
             let low = self.low.iter().enumerate().skip(1).rev();
-            let slope = low.fold(tail, |sum, (j, &c)| sum * x + c.into().high * j as f64);
+            let slope = low.fold(tail, |sum, (j, c)| sum * x + c.high * j as f64);
             errors += self.x.low * slope;
         }
         DoubleDouble::sum(sum, errors)
     }
 }
 
-impl<C: Copy + Into<FloatPair>> Kernel for Polynomial<'_, C> {
+impl Kernel for Polynomial<'_> {
     type Output = DoubleDouble;
 
     #[inline(always)]
@@ -158,20 +152,20 @@ impl<C: Copy + Into<FloatPair>> Kernel for Polynomial<'_, C> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::{Real, math};
+    use crate::num::math;
 
     /// By Horner's scheme in double-double throughout.
-    fn direct(low: &[FloatPair], high: &[f64], x: DoubleDouble) -> DoubleDouble {
+    fn direct(low: &[DoubleDouble], high: &[f64], x: DoubleDouble) -> DoubleDouble {
         let high = high.iter().map(|&c| DoubleDouble::from(c));
-        let all: Vec<DoubleDouble> = low.iter().map(|c| c.double()).chain(high).collect();
+        let all: Vec<DoubleDouble> = low.iter().copied().chain(high).collect();
         all.iter().rev().fold(DoubleDouble::ZERO, |sum, &c| sum * x + c)
     }
 
     #[test]
     fn the_terms_of_low_order_have_twice_the_digits() {
         let third = DoubleDouble::ONE / 3.0;
-        let low: Vec<FloatPair> =
-            (0..8).map(|j| ((third - DoubleDouble::from(f64::from(j))) * third).into()).collect();
+        let low: Vec<DoubleDouble> =
+            (0..8).map(|j| (third - DoubleDouble::from(f64::from(j))) * third).collect();
         for x in [0.0, 0.3, -0.7, 1.0, 1.9] {
             for x in [DoubleDouble::from(x), DoubleDouble::from(x) + third * 1e-16] {
                 let off = polynomial(&low, &[], x) - direct(&low, &[], x);
@@ -226,6 +220,6 @@ mod tests {
 
     #[test]
     fn an_empty_polynomial_is_zero() {
-        assert_eq!(polynomial::<FloatPair>(&[], &[], DoubleDouble::ONE), DoubleDouble::ZERO);
+        assert_eq!(polynomial(&[], &[], DoubleDouble::ONE), DoubleDouble::ZERO);
     }
 }

@@ -1,8 +1,7 @@
 //! The arithmetic in which an expression is evaluated: `f64`, [`DoubleDouble`] for twice its
-//! digits, [`FloatPair`](super::FloatPair) for the same with less work,
-//! [`ExtendedRange`](super::ExtendedRange) for values outside the range of all, or a
+//! digits, [`ExtendedRange`](super::ExtendedRange) for values outside the range of both, or a
 //! [`Batch`](super::Batch) of the numbers of several orbits. Every rule that is written for an
-//! [`Analytic`] number serves all five; what decides by the size of a number needs a [`Real`].
+//! [`Analytic`] number serves all four; what decides by the size of a number needs a [`Real`].
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 

@@ -394,64 +394,7 @@ fn is_balanced(size: f64, terms: f64, rounding: f64) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
-    use crate::expr::{FunctionId, Pool};
-    use crate::num::FloatPair;
-    use crate::system::program::Program;
-    use std::sync::Arc;
-
-    /// ẋ = sin x/(2 + x y) + t, ẏ = (x² + y² + 1)^(−3/2) − y √(1 + x²).
-    fn program() -> Arc<Program> {
-        let mut pool = Pool::new();
-        let [x, y, t] = ["x", "y", "t"].map(|name| pool.symbol(name));
-        let [a, b, time] = [x, y, t].map(|symbol| pool.variable(symbol));
-        let (one, two) = (pool.integer(1), pool.integer(2));
-        let (sine, product) = (pool.call(FunctionId::Sin, &[a]), pool.mul(a, b));
-        let below = pool.add(two, product);
-        let quotient = pool.div(sine, below);
-        let first = pool.add(quotient, time);
-        let [a_square, b_square] = [a, b].map(|number| pool.powi(number, 2));
-        let above_one = pool.add(a_square, one);
-        let distance = pool.add(above_one, b_square);
-        let root = pool.sqrt(distance);
-        let cube = pool.powi(root, -3);
-        let slope = pool.sqrt(above_one);
-        let fading = pool.mul(b, slope);
-        let second = pool.sub(cube, fading);
-        Program::compile(&mut pool, &[], t, &[x, y], &[first, second]).expect("all are inputs")
-    }
-
-    /// The lowest orders of the series of [`program`].
-    fn orders<R: Real>(origin: [DoubleDouble; 2]) -> Vec<DoubleDouble> {
-        let mut builder = SeriesBuilder::new(Jet::<R>::new(program(), 8), 2, 2);
-        builder.jet.set_parameters(&[]);
-        builder.begin(&origin, &[]);
-        let clock = SeriesClock::new(DoubleDouble::from(0.3), 0.5);
-        assert!(builder.grow(0, clock, &Cancel::new()).is_ok());
-        builder.coefficients().iter().map(|c| c.double()).collect()
-    }
-
-    #[test]
-    fn pairs_have_all_digits_of_double_double() {
-        let third = DoubleDouble::ONE / 3.0;
-        let mut digits_of_floats = true;
-        for i in -9..=9 {
-            // some near the place where ẋ and ẏ vanish
-            for small in [1.0, 1e-6, 1e-15] {
-                let origin =
-                    [third * (f64::from(i) * small / 3.0), third * (f64::from(i * i) * 0.03)];
-                let (pairs, doubles) =
-                    (orders::<FloatPair>(origin), orders::<DoubleDouble>(origin));
-                let floats = orders::<f64>(origin);
-                for ((pair, double), float) in pairs.iter().zip(&doubles).zip(floats) {
-                    let off = (*pair - *double).high.abs();
-                    assert!(off <= 1e-28 * (1.0 + double.high.abs()), "{pair:?} {double:?}");
-                    digits_of_floats &= (float - *double).high.abs() <= 1e-17;
-                }
-            }
-        }
-        assert!(!digits_of_floats);
-    }
+    use super::is_balanced;
 
     #[test]
     fn a_coefficient_is_rounding_up_to_sixty_four_digits_of_what_is_balanced() {

@@ -1,6 +1,6 @@
 //! The Taylor series of a motion at a state.
 //!
-//! The lowest orders are built with twice the digits on request: they make up nearly all of a step, so
+//! The lowest orders are built in double-double on request: they make up nearly all of a step, so
 //! its rounding errors vanish, while the many higher orders cost only `f64`. Time is counted from
 //! the origin in units of a power of two near the step's size, so that no coefficient overflows or
 //! underflows on any time scale.
@@ -11,7 +11,6 @@ use super::compiled::System;
 use super::error::{MotionError, MotionErrorKind};
 use super::growth::{Halt, SeriesBuilder, SeriesClock};
 use super::jet::{Jet, Side};
-use super::lowest_orders::LowestOrders;
 use super::machine_code::CompiledGrowth;
 use super::program::{Program, Register};
 use super::state::State;
@@ -28,8 +27,8 @@ use crate::num::{
 #[derive(Clone, Debug)]
 pub struct Series {
     system: System,
-    /// The lowest orders, if they are built with twice the digits.
-    low: Option<LowestOrders>,
+    /// The lowest orders, if they are built in double-double.
+    low: Option<SeriesBuilder<DoubleDouble>>,
     high: SeriesBuilder<f64>,
     /// The machine code that computes its orders, if there is any.
     code: CompiledGrowth,
@@ -50,12 +49,12 @@ pub struct Series {
 }
 
 impl System {
-    /// Allocates series up to an order; orders up to `exact` have twice the digits of `f64` (none for zero).
+    /// Allocates series up to an order; orders up to `exact` are in double-double (none for zero).
     pub fn series(&self, order: usize, exact: usize) -> Series {
         let program = &self.motion().native;
         let (inputs, len) = (self.driven_len(), self.state_len());
         let high = Jet::without_outputs(Arc::clone(program), order);
-        let low = (exact > 0).then(|| LowestOrders::new(&high, exact, (inputs, len)));
+        let low = (exact > 0).then(|| SeriesBuilder::new(Jet::like(&high, exact), inputs, len));
         Series {
             system: self.clone(),
             low,
@@ -78,7 +77,7 @@ impl Series {
     /// Takes other values, in the order of the model, for all evaluations to come.
     pub fn set_parameters(&mut self, parameters: &[DoubleDouble]) {
         if let Some(low) = &mut self.low {
-            low.set_parameters(parameters);
+            low.jet.set_parameters(parameters);
         }
         self.high.jet.set_parameters(parameters);
         self.wide = None;
@@ -238,34 +237,27 @@ impl Series {
         let (time, scale) = (self.time, self.scale);
         let clock = SeriesClock::new(time, scale);
         let cancel = self.system.cancel();
-        let free = match &mut self.low {
+        let kept = match &mut self.low {
             Some(low) => {
                 low.begin(&self.origin, &self.sides);
-                low.is_free()
+                &low.kept
             }
             None => {
                 self.high.begin(&self.origin, &self.sides);
-                self.high.kept.is_empty()
+                &self.high.kept
             }
         };
         if cancel.is_cancelled() {
             return Err(Halt::Cancelled);
         }
-        let by_code = match &mut self.low {
-            _ if !free => false,
-            None => self.code.grow(&mut self.high, None, (time, scale))?,
-            Some(LowestOrders::Pairs(low)) => {
-                self.code.grow(&mut self.high, Some(low), (time, scale))?
-            }
-            // the code is that of pairs
-            Some(LowestOrders::Doubles(_)) => false,
-        };
-        if by_code {
+        if kept.is_empty() && self.code.grow(&mut self.high, self.low.as_mut(), (time, scale))? {
             return Ok(());
         }
         let mut first = 0;
         if let Some(low) = &mut self.low {
-            first = low.grow_into(&mut self.high, (time, scale), cancel)?;
+            low.grow(0, SeriesClock::new(time, scale), cancel)?;
+            first = if low.kept.is_empty() { low.order } else { low.order + 1 - low.depth };
+            self.high.take_over(low)?;
         }
         self.high.grow(first, clock, cancel)?;
         if !self.sides.is_empty() {
@@ -297,10 +289,8 @@ impl Series {
     /// The value of a switch at a time after the origin, in the unit of the series, as exact as the
     /// lowest orders are.
     pub fn switch_after(&self, i: usize, x: DoubleDouble) -> DoubleDouble {
-        match &self.low {
-            Some(low) => low.switch_after(i, self.switch(i), x),
-            None => polynomial::<DoubleDouble>(&[], self.switch(i), x),
-        }
+        let exact = self.low.as_ref().map_or(&[][..], |low| &low.jet.switch(i)[..low.order]);
+        polynomial(exact, &self.switch(i)[exact.len()..], x)
     }
 
     /// Whether the law has powers so high that the series may end before their first term.
@@ -340,10 +330,8 @@ impl Series {
     /// orders are.
     pub fn guard_after(&self, i: usize, x: DoubleDouble) -> DoubleDouble {
         let register = self.system.motion().native.guards[i].value;
-        match &self.low {
-            Some(low) => low.register_after(register, self.guard(i), x),
-            None => polynomial::<DoubleDouble>(&[], self.guard(i), x),
-        }
+        let exact = self.low.as_ref().map_or(&[][..], |low| &low.jet.series(register)[..low.order]);
+        polynomial(exact, &self.guard(i)[exact.len()..], x)
     }
 
     /// The number of the state that a switch is equal to, if any.
@@ -385,13 +373,12 @@ impl Series {
     /// Writes the state at a time `after` the origin into `out`, by the polynomials.
     pub fn state_after(&self, after: DoubleDouble, out: &mut State) {
         let x = after * self.scale.recip();
-        let (high, units, sum) = (self.high.list(), &self.units[..], &mut *out);
-        if let Some(low) = &self.low {
-            low.sum_up(high, units, x, sum);
-        } else {
-            let low = SeriesList { coefficients: &self.origin[..], stride: 1 };
-            in_four_lanes(StateSum { low, known: 1, high, units, x, out: sum });
-        }
+        let (low, known) = match &self.low {
+            Some(low) => (low.list(), low.known_orders()),
+            None => (SeriesList { coefficients: &self.origin, stride: 1 }, 1),
+        };
+        let (high, units) = (self.high.list(), &self.units[..]);
+        in_four_lanes(StateSum { low, known, high, units, x, out: &mut *out });
         let time = self.time + after;
         (out.time, out.time_carry) = (time.high, time.low);
     }

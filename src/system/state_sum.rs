@@ -4,8 +4,7 @@
 
 use super::state::State;
 use crate::num::{
-    Analytic, DoubleDouble, FloatPair, FourLaneKernel, FourLanes, LANES, Polynomial, four_tails,
-    tail,
+    Analytic, DoubleDouble, FourLaneKernel, FourLanes, LANES, Polynomial, four_tails, tail,
 };
 
 /// Series of the numbers of a state one after another.
@@ -25,9 +24,9 @@ impl<'a, R> SeriesList<'a, R> {
 }
 
 /// The polynomials of a state, at a time in the unit of the series.
-pub(super) struct StateSum<'a, C> {
-    /// The terms of low order of each number, each the sum of two parts, of which so many are summed.
-    pub(super) low: SeriesList<'a, C>,
+pub(super) struct StateSum<'a> {
+    /// The terms of low order of each number in double-double, of which so many are summed.
+    pub(super) low: SeriesList<'a, DoubleDouble>,
     pub(super) known: usize,
     /// All terms of each number.
     pub(super) high: SeriesList<'a, f64>,
@@ -36,7 +35,7 @@ pub(super) struct StateSum<'a, C> {
     pub(super) out: &'a mut State,
 }
 
-impl<C: Copy + Into<FloatPair>> FourLaneKernel for StateSum<'_, C> {
+impl FourLaneKernel for StateSum<'_> {
     type Output = ();
 
     #[inline(always)]
@@ -50,7 +49,7 @@ impl<C: Copy + Into<FloatPair>> FourLaneKernel for StateSum<'_, C> {
             let (i, j, k, l) = (start, start + 1, start + 2, start + 3);
             let low = [low.of(i), low.of(j), low.of(k), low.of(l)];
             let high = [high.of(i), high.of(j), high.of(k), high.of(l)];
-            let (sums, left) = sums_of_four::<L, C, FUSED>(lanes, (low, high, known), x.high);
+            let (sums, left) = sums_of_four::<L, FUSED>(lanes, (low, high, known), x.high);
             for lane in 0..LANES {
                 let number = DoubleDouble { high: sums[lane], low: left[lane] };
                 let number = in_unit(number, units[start + lane]);
@@ -71,9 +70,9 @@ impl<C: Copy + Into<FloatPair>> FourLaneKernel for StateSum<'_, C> {
 /// What [`Polynomial::with_tail`] gives of four numbers where x is an `f64`, bit for bit. So many terms of each number are of low
 /// order.
 #[inline(always)]
-fn sums_of_four<L: FourLanes, C: Copy + Into<FloatPair>, const FUSED: bool>(
+fn sums_of_four<L: FourLanes, const FUSED: bool>(
     lanes: L,
-    (low, high, known): ([&[C]; LANES], [&[f64]; LANES], usize),
+    (low, high, known): ([&[DoubleDouble]; LANES], [&[f64]; LANES], usize),
     x: f64,
 ) -> ([f64; LANES], [f64; LANES]) {
     let [a, b, c, d] = high;
@@ -84,11 +83,9 @@ fn sums_of_four<L: FourLanes, C: Copy + Into<FloatPair>, const FUSED: bool>(
     let (a, b, c, d) = (&a[..known], &b[..known], &c[..known], &d[..known]);
     for j in (0..known).rev() {
         let (product, lost) = lanes.product::<FUSED>(sums, x);
-        let (a, b): (FloatPair, FloatPair) = (a[j].into(), b[j].into());
-        let (c, d): (FloatPair, FloatPair) = (c[j].into(), d[j].into());
-        let terms = lanes.from_array([a.high, b.high, c.high, d.high]);
+        let terms = lanes.from_array([a[j].high, b[j].high, c[j].high, d[j].high]);
         let (next, left) = lanes.sum(product, terms);
-        let terms = lanes.from_array([a.low, b.low, c.low, d.low]);
+        let terms = lanes.from_array([a[j].low, b[j].low, c[j].low, d[j].low]);
         let rest = lanes.add(lanes.add(lost, left), terms);
         errors = lanes.add(lanes.mul(errors, x), rest);
         sums = next;

@@ -3,7 +3,6 @@
 
 use super::DoubleDouble;
 use crate::num::convolution::{DoubleLanes, InnerProducts, LANES};
-use crate::num::float_pair::FloatPair;
 use crate::num::instruction_set::{Kernel, vectorized};
 use crate::num::math;
 use crate::num::real::{Analytic, Real};
@@ -82,12 +81,6 @@ impl DoubleDouble {
     fn scaled(self, n: i32) -> DoubleDouble {
         let (a, b) = (math::powi(2.0, n / 2), math::powi(2.0, n - n / 2));
         DoubleDouble { high: self.high * a * b, low: self.low * a * b }
-    }
-
-    /// 1/n, for n from 1 to 64.
-    #[inline(always)]
-    pub(in crate::num) fn reciprocal(n: usize) -> DoubleDouble {
-        RECIPROCALS[n]
     }
 
     /// `e^self − 1` for a small argument, without cancellation: a short series at `self / 2^8`,
@@ -206,7 +199,7 @@ impl Analytic for DoubleDouble {
         for lane in 0..LANES {
             numbers[lane] = number(lane);
         }
-        DoubleLanes::of(numbers.map(FloatPair::from))
+        DoubleLanes::of(numbers)
     }
     #[expect(
         clippy::manual_memcpy,
@@ -220,7 +213,7 @@ impl Analytic for DoubleDouble {
     ) {
         let products = InnerProducts { left, right }.run::<FUSED>();
         for lane in 0..LANES {
-            out[lane] = products[lane].double();
+            out[lane] = products[lane];
         }
     }
 

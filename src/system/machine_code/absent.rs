@@ -6,7 +6,7 @@
     reason = "has the form of what it stands for"
 )]
 
-use crate::num::{Batch, DoubleDouble, FloatPair};
+use crate::num::{Batch, DoubleDouble};
 use crate::system::growth::{SeriesBuilder, SeriesClock};
 use crate::system::program::Singular;
 
@@ -36,7 +36,7 @@ impl CompiledGrowth {
     pub(in crate::system) fn grow(
         &mut self,
         _: &mut SeriesBuilder<f64>,
-        _: Option<&mut SeriesBuilder<FloatPair>>,
+        _: Option<&mut SeriesBuilder<DoubleDouble>>,
         _: (DoubleDouble, f64),
     ) -> Result<bool, Singular> {
         Ok(false)

@@ -229,7 +229,7 @@ pub(super) trait Arithmetic {
     /// Stores [`Arithmetic::SIDE`] numbers side by side.
     fn side_by_side(code: &mut Code, numbers: &[Self::Number], to: Address);
     /// The nearest `f64`.
-    fn nearest(code: &mut Code, a: Self::Number) -> Operand;
+    fn nearest(a: Self::Number) -> Operand;
     /// [`Arithmetic::SIDE`] inner products `Σ a_j b_j` of so many terms, whose operands lie side by side.
     fn inner_products(code: &mut Code, operands: (Address, Address), terms: usize) -> Self::Number;
     /// Stores such inner products where they are overwritten later.

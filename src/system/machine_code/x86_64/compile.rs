@@ -6,10 +6,10 @@
 use super::allocation::assemble;
 use super::arithmetic::{Arithmetic, Code};
 use super::basic_block::{MachineInstruction, Width};
+use super::double::Double;
 use super::emitter::Emitter;
 use super::function::{CompiledFunction, NotCompiled, WorkMemory};
 use super::layout::{Address, Area, FactoredPlace, Precision, SeriesPlaces};
-use super::pairs::Pairs;
 use super::plain::{Lanes, Plain};
 use crate::num::BATCH;
 use crate::system::jet::JetPlan;
@@ -44,7 +44,7 @@ pub(super) struct Compiled {
     /// The registers whose series would be compared with zero: the code takes it that their values are not zero.
     pub(super) vanishing: Vec<Register>,
     /// The registers that are divided by: the code takes it that their values have
-    /// [reciprocals](crate::num::FloatPair::has_reciprocal).
+    /// [reciprocals](crate::num::DoubleDouble::has_reciprocal).
     pub(super) divisors: Vec<Register>,
 }
 
@@ -80,12 +80,12 @@ pub(super) fn compile(
     first_work.resize(work, 0.0);
     let (size, exact_stride) = (places.size, exact.map_or(0, |exact| exact.stride));
     let length = |area| match area {
-        Area::Values => plan.values * exact.map_or(size, |_| Pairs::SIZE),
+        Area::Values => plan.values * exact.map_or(size, |_| Double::SIZE),
         Area::Work => work,
         Area::Series => plan.series * size,
         Area::State => extent.numbers * plan.stride * size,
-        Area::ExactSeries => exact.map_or(0, |exact| exact.series * Pairs::SIZE),
-        Area::ExactState => extent.numbers * exact_stride * Pairs::SIZE,
+        Area::ExactSeries => exact.map_or(0, |exact| exact.series * Double::SIZE),
+        Area::ExactState => extent.numbers * exact_stride * Double::SIZE,
     };
     let mut accesses =
         code.block.instructions.iter().flat_map(MachineInstruction::memory).flatten();
@@ -119,7 +119,7 @@ fn write_one(
     let numbers = (extent.numbers, extent.inputs);
     let exact_places = exact.map(|exact| {
         let (stride, areas) = (exact.stride, (Area::ExactSeries, Area::ExactState));
-        code.layout.series(exact, precision_of::<Pairs>(stride, areas))
+        code.layout.series(exact, precision_of::<Double>(stride, areas))
     });
     let precision = precision_of::<Plain>(plan.stride, (Area::Series, Area::State));
     let precision = Precision { copies_values: exact.is_some(), ..precision };
@@ -127,7 +127,7 @@ fn write_one(
     let mut first = 0;
     if let (Some(exact), Some(own)) = (exact, &exact_places) {
         first = exact.stride - 1;
-        Emitter::<Pairs>::new(exact, code, (own, Some(&places)), numbers).write(0, first)?;
+        Emitter::<Double>::new(exact, code, (own, Some(&places)), numbers).write(0, first)?;
     }
     Emitter::<Plain>::new(plan, code, (&places, None), numbers).write(first, plan.stride - 1)?;
     Ok((places, exact_places.map_or_else(Vec::new, |places| places.factored)))

@@ -30,8 +30,6 @@ pub(super) struct Emitter<'a, A: Arithmetic> {
     /// The order that is written, and the registers at it.
     pub(super) k: usize,
     now: Vec<Option<A::Number>>,
-    /// The same as `f64`, where they were asked for.
-    nearest: Vec<Option<Operand>>,
     /// The inner products at it, where they are not stored.
     cached: Vec<CachedProducts<A::Number>>,
     divisors: Vec<(SharedDivisor, A::Number)>,
@@ -70,7 +68,6 @@ impl<'a, A: Arithmetic> Emitter<'a, A> {
     ) -> Emitter<'a, A> {
         Emitter {
             now: vec![None; plan.program.ops.len()],
-            nearest: vec![None; plan.program.ops.len()],
             scaled: vec![false; plan.program.blocks.len()],
             plan,
             code,
@@ -191,8 +188,7 @@ impl<'a, A: Arithmetic> Emitter<'a, A> {
             slopes.push(self.multiple(number, k));
             if self.copies.is_some() {
                 // of the nearest `f64`, as a series in that precision has it
-                let nearest = self.nearest(register)?;
-                nearest_slopes.push(multiple::<Plain>(self.code, nearest, k));
+                nearest_slopes.push(multiple::<Plain>(self.code, A::nearest(number), k));
             }
         }
         for (group, pairs) in self.plan.schedule.pairs.chunks(A::SIDE).enumerate() {
@@ -213,15 +209,14 @@ impl<'a, A: Arithmetic> Emitter<'a, A> {
                 A::side_by_side(self.code, &right, self.places.right(group, k));
             }
             if let Some(copies) = self.copies {
-                let (mut left, mut right) = (Vec::new(), Vec::new());
-                for pair in &pairs {
-                    right.push(self.nearest(pair.right)?);
-                    left.push(match slope_of(pair) {
+                let right: Vec<_> = right.into_iter().map(A::nearest).collect();
+                let nearest =
+                    left.into_iter().zip(&pairs).map(|(left, pair)| match slope_of(pair) {
                         Some(slope) => nearest_slopes[slope],
-                        None => self.nearest(pair.left)?,
+                        None => A::nearest(left),
                     });
-                }
-                Plain::side_by_side(self.code, &left, copies.left(group, k));
+                let nearest: Vec<_> = nearest.collect();
+                Plain::side_by_side(self.code, &nearest, copies.left(group, k));
                 Plain::side_by_side(self.code, &right, copies.right(group, k));
             }
         }
@@ -235,7 +230,7 @@ impl<'a, A: Arithmetic> Emitter<'a, A> {
             let place = place as usize;
             A::store(self.code, coefficient, self.places.of_series(place, self.k));
             if let Some(copies) = self.copies {
-                let nearest = self.nearest(register)?;
+                let nearest = A::nearest(coefficient);
                 Plain::store(self.code, nearest, copies.of_series(place, self.k));
             }
         }
@@ -246,24 +241,17 @@ impl<'a, A: Arithmetic> Emitter<'a, A> {
     fn give_out(&mut self) -> Result<(), NotCompiled> {
         let (program, next) = (self.plan.program, self.k + 1);
         let mut coefficients = Vec::with_capacity(self.numbers);
-        let mut all_nearest = Vec::new();
         for (i, &output) in program.outputs.iter().take(self.numbers).enumerate() {
             let rate = if self.k == 0 { self.value(output) } else { self.now(output)? };
             let made = A::integrated(self.code, rate, next);
             let made = A::in_register(self.code, made);
             A::store(self.code, made, self.places.of_state(i, next));
             if let Some(copies) = self.copies {
-                let nearest = A::nearest(self.code, made);
-                Plain::store(self.code, nearest, copies.of_state(i, next));
-                all_nearest.push(nearest);
+                Plain::store(self.code, A::nearest(made), copies.of_state(i, next));
             }
             coefficients.push(made);
         }
         self.now.fill(None);
-        self.nearest.fill(None);
-        for (&input, &nearest) in program.inputs.iter().take(self.inputs).zip(&all_nearest) {
-            self.nearest[input as usize] = Some(nearest);
-        }
         for (&input, &coefficient) in program.inputs.iter().take(self.inputs).zip(&coefficients) {
             self.set(input, coefficient);
         }
@@ -412,18 +400,6 @@ impl<'a, A: Arithmetic> Emitter<'a, A> {
             return Ok(self.zero());
         }
         self.now[register as usize].ok_or(NotCompiled)
-    }
-
-    /// A register at this order as `f64`.
-    fn nearest(&mut self, register: Register) -> Result<Operand, NotCompiled> {
-        if let Some(known) = self.nearest[register as usize] {
-            return Ok(known);
-        }
-        let number = self.now(register)?;
-        let nearest = A::nearest(self.code, number);
-        let nearest = Plain::in_register(self.code, nearest);
-        self.nearest[register as usize] = Some(nearest);
-        Ok(nearest)
     }
 
     /// Gives a register its coefficient of this order.

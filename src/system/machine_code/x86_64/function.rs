@@ -24,7 +24,7 @@ use rustix::mm::{MapFlags, MprotectFlags, ProtFlags, mmap_anonymous, mprotect, m
 
 use super::basic_block::Width;
 use super::layout::{Area, LINE};
-use crate::num::{BATCH, Batch, FloatPair};
+use crate::num::{BATCH, Batch, DoubleDouble};
 
 /// The values, the work, the series and the state, and the exact series and state.
 type FunctionPointer =
@@ -81,7 +81,7 @@ impl Drop for Pages {
 #[derive(Clone, Copy)]
 pub(super) enum Values<'a> {
     Plain(&'a [f64]),
-    Exact(&'a [FloatPair]),
+    Exact(&'a [DoubleDouble]),
 }
 
 pub(super) struct Stretches<'a> {
@@ -89,8 +89,8 @@ pub(super) struct Stretches<'a> {
     pub(super) work: &'a mut WorkMemory,
     pub(super) series: &'a mut [f64],
     pub(super) state: &'a mut [f64],
-    pub(super) exact_series: &'a mut [FloatPair],
-    pub(super) exact_state: &'a mut [FloatPair],
+    pub(super) exact_series: &'a mut [DoubleDouble],
+    pub(super) exact_state: &'a mut [DoubleDouble],
 }
 
 /// A cache line.
@@ -185,7 +185,7 @@ impl CompiledFunction {
         let lengths =
             [count, work.length, series.len(), state.len(), exact_series_len, exact_state_len];
         self.assert_lengths(lengths);
-        // SAFETY: the code stays within these lengths; a `FloatPair` is two `f64`
+        // SAFETY: the code stays within these lengths; a `DoubleDouble` is two `f64`
         unsafe {
             self.enter(
                 start,

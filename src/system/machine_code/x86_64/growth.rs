@@ -11,7 +11,7 @@ use super::compile::{Compiled, SeriesExtent};
 use super::function::{BatchStretches, Stretches, Values, WorkMemory, widest};
 use super::layout::FactoredPlace;
 use super::values::CompiledValues;
-use crate::num::{Batch, DoubleDouble, FloatPair, Real};
+use crate::num::{Batch, DoubleDouble, Real};
 use crate::system::growth::{SeriesBuilder, SeriesClock};
 use crate::system::program::Singular;
 use crate::system::solve::Factored;
@@ -51,7 +51,7 @@ impl CompiledGrowth {
     pub(in crate::system) fn grow(
         &mut self,
         high: &mut SeriesBuilder<f64>,
-        low: Option<&mut SeriesBuilder<FloatPair>>,
+        low: Option<&mut SeriesBuilder<DoubleDouble>>,
         (time, scale): (DoubleDouble, f64),
     ) -> Result<bool, Singular> {
         self.has_grown = false;
@@ -110,8 +110,7 @@ impl CodeInUse {
         if self.vanishes(high.jet.values()) {
             return Ok(false);
         }
-        let parts = |x: f64| (x, 0.0);
-        take_matrices(high.jet.factored(), &self.compiled.factored, parts, &mut self.work);
+        take_matrices(high.jet.factored(), &self.compiled.factored, &mut self.work);
         let (jet, state) = high.parts();
         let (values, series) = jet.values_and_series();
         let (values, work) = (Values::Plain(values), &mut self.work);
@@ -124,7 +123,7 @@ impl CodeInUse {
     fn grow_exactly(
         &mut self,
         high: &mut SeriesBuilder<f64>,
-        low: &mut SeriesBuilder<FloatPair>,
+        low: &mut SeriesBuilder<DoubleDouble>,
         (time, scale): (DoubleDouble, f64),
     ) -> Result<bool, Singular> {
         low.evaluate(&mut self.values, SeriesClock::new(time, scale))?;
@@ -134,11 +133,9 @@ impl CodeInUse {
         }
         high.take_origin(low)?;
         self.work.copy(self.compiled.values.offset, high.jet.values());
-        let parts = |x: f64| (x, 0.0);
-        take_matrices(high.jet.factored(), &self.compiled.factored, parts, &mut self.work);
+        take_matrices(high.jet.factored(), &self.compiled.factored, &mut self.work);
         let places = &self.compiled.exactly_factored;
-        let parts = |x: FloatPair| (x.high, x.low);
-        if !take_matrices(low.jet.factored(), places, parts, &mut self.work) {
+        if !take_matrices(low.jet.factored(), places, &mut self.work) {
             return Ok(false);
         }
         let (jet, exact_state) = low.parts();
@@ -176,7 +173,7 @@ impl CodeInUse {
     }
 
     /// Whether something is divided by what has no reciprocal of all digits.
-    fn divides_badly(&self, values: &[FloatPair]) -> bool {
+    fn divides_badly(&self, values: &[DoubleDouble]) -> bool {
         self.compiled.divisors.iter().any(|&r| !values[r as usize].has_reciprocal())
     }
 }
@@ -185,7 +182,6 @@ impl CodeInUse {
 fn take_matrices<R: Real>(
     matrices: &[Factored<R>],
     places: &[FactoredPlace],
-    parts: impl Fn(R) -> (f64, f64),
     work: &mut WorkMemory,
 ) -> bool {
     let mut regular = true;
@@ -204,10 +200,9 @@ fn take_matrices<R: Real>(
                 let at = place.entries + (i * n + j) * size;
                 let double = entry.double();
                 regular &= double.high.is_finite() && (i != j || double.has_reciprocal());
-                let (high, low) = parts(*entry);
-                work.set(at, high);
+                work.set(at, double.high);
                 if size > 1 {
-                    work.set(at + 1, low);
+                    work.set(at + 1, double.low);
                 }
             }
             // its offset in bytes

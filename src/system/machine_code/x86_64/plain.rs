@@ -107,7 +107,7 @@ impl<const ORBITS: usize> Arithmetic for Floats<ORBITS> {
         }
     }
 
-    fn nearest(_: &mut Code, a: Operand) -> Operand {
+    fn nearest(a: Operand) -> Operand {
         a
     }
 

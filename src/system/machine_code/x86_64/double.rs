@@ -1,7 +1,7 @@
-//! Pair arithmetic as instructions.
+//! The arithmetic of double-double as instructions.
 //!
-//! In: numbers of two parts. Out: instructions whose results have the bits of [`FloatPair`](crate::num::FloatPair), but for the
-//! sign of a second part that is zero. Never here: which numbers.
+//! In: numbers of two parts. Out: instructions whose results have the bits of [`DoubleDouble`], but for the sign of a low part
+//! that is zero. Never here: which numbers.
 
 use super::arithmetic::{Arithmetic, Code, SIDE, four_of};
 use super::basic_block::{Operand, Operation, Width};
@@ -9,9 +9,9 @@ use super::layout::Address;
 use super::plain::Plain;
 use crate::num::{Analytic, DoubleDouble};
 
-/// Pairs of `f64`: a number and its error.
+/// Double-double: its high and its low part.
 #[derive(Debug)]
-pub(super) struct Pairs;
+pub(super) struct Double;
 
 /// The two parts of a number, or of four side by side.
 type DoubleOperand = (Operand, Operand);
@@ -37,6 +37,13 @@ impl Code {
         (high, self.binary(Operation::Subtract, width, a_error, b_error))
     }
 
+    /// The same where the first is not smaller.
+    fn ordered_sum(&mut self, a: Operand, b: Operand) -> DoubleOperand {
+        let high = self.binary(Operation::Add, Width::One, a, b);
+        let part = self.binary(Operation::Subtract, Width::One, high, a);
+        (high, self.binary(Operation::Subtract, Width::One, b, part))
+    }
+
     /// The product and its rounding error.
     fn exact_product(&mut self, width: Width, a: Operand, b: Operand) -> DoubleOperand {
         let (a, b) = (self.block.made(width, a), self.block.made(width, b));
@@ -49,13 +56,38 @@ impl Code {
     fn exact_multiple(&mut self, a: DoubleOperand, factor: Operand) -> DoubleOperand {
         let (high, low) = self.exact_product(Width::One, a.0, factor);
         let mixed = Plain::product(self, a.1, factor);
-        (high, Plain::sum(self, low, mixed))
+        let low = Plain::sum(self, low, mixed);
+        self.ordered_sum(high, low)
     }
 
-    /// The product with a power of two, which is exact.
+    fn exact_quotient(&mut self, a: DoubleOperand, b: DoubleOperand) -> DoubleOperand {
+        let (a, b) = (Double::in_register(self, a), Double::in_register(self, b));
+        let first = Plain::over_shared(self, a.0, b.0);
+        let part = self.exact_multiple(b, first);
+        let rest = Double::difference(self, a, part);
+        let second = Plain::over_shared(self, rest.0, b.0);
+        let part = self.exact_multiple(b, second);
+        let rest = Double::difference(self, rest, part);
+        let third = Plain::over_shared(self, rest.0, b.0);
+        let (high, low) = self.ordered_sum(first, second);
+        let low = Plain::sum(self, low, third);
+        self.ordered_sum(high, low)
+    }
+
+    /// The product with a power of two, which is exact. The high part of a product is never −0.
     fn by_power_of_two(&mut self, a: DoubleOperand, factor: f64) -> DoubleOperand {
         let factor = self.constant(factor);
-        Pairs::scaled(self, a, factor)
+        let (high, low) = Double::scaled(self, a, factor);
+        let zero = self.constant(0.0);
+        (Plain::sum(self, high, zero), low)
+    }
+
+    /// The sum of two numbers from the sums of their parts.
+    fn renormalized(&mut self, highs: DoubleOperand, lows: DoubleOperand) -> DoubleOperand {
+        let low = Plain::sum(self, highs.1, lows.0);
+        let (high, low) = self.ordered_sum(highs.0, low);
+        let low = Plain::sum(self, lows.1, low);
+        self.ordered_sum(high, low)
     }
 }
 
@@ -64,7 +96,7 @@ fn is_power_of_two(factor: DoubleDouble) -> bool {
     factor.low == 0.0 && factor.high.is_normal() && factor.high.to_bits().trailing_zeros() >= 52
 }
 
-impl Arithmetic for Pairs {
+impl Arithmetic for Double {
     type Number = DoubleOperand;
     const SIZE: usize = 2;
     const SIDE: usize = SIDE;
@@ -74,29 +106,30 @@ impl Arithmetic for Pairs {
     }
 
     fn constant(code: &mut Code, number: DoubleDouble) -> DoubleOperand {
-        Pairs::at(code.layout.constant(&[number.high, number.low]))
+        Double::at(code.layout.constant(&[number.high, number.low]))
     }
 
     fn sum(code: &mut Code, a: DoubleOperand, b: DoubleOperand) -> DoubleOperand {
-        let (first, second) = (Plain::in_register(code, a.0), Plain::in_register(code, b.0));
-        let (high, error) = code.exact_sum(Width::One, first, second);
-        let low = Plain::sum(code, a.1, b.1);
-        (high, Plain::sum(code, low, error))
+        let (a, b) = (Double::in_register(code, a), Double::in_register(code, b));
+        let highs = code.exact_sum(Width::One, a.0, b.0);
+        let lows = code.exact_sum(Width::One, a.1, b.1);
+        code.renormalized(highs, lows)
     }
 
     fn difference(code: &mut Code, a: DoubleOperand, b: DoubleOperand) -> DoubleOperand {
-        let (first, second) = (Plain::in_register(code, a.0), Plain::in_register(code, b.0));
-        let (high, error) = code.exact_difference(first, second);
-        let low = Plain::difference(code, a.1, b.1);
-        (high, Plain::sum(code, low, error))
+        let (a, b) = (Double::in_register(code, a), Double::in_register(code, b));
+        let highs = code.exact_difference(a.0, b.0);
+        let lows = code.exact_difference(a.1, b.1);
+        code.renormalized(highs, lows)
     }
 
     fn product(code: &mut Code, a: DoubleOperand, b: DoubleOperand) -> DoubleOperand {
-        let (first, second) = (Plain::in_register(code, a.0), Plain::in_register(code, b.0));
-        let (high, low) = code.exact_product(Width::One, first, second);
-        let (first, second) = (Plain::product(code, first, b.1), Plain::product(code, a.1, second));
+        let (a, b) = (Double::in_register(code, a), Double::in_register(code, b));
+        let (high, low) = code.exact_product(Width::One, a.0, b.0);
+        let (first, second) = (Plain::product(code, a.0, b.1), Plain::product(code, a.1, b.0));
         let mixed = Plain::sum(code, first, second);
-        (high, Plain::sum(code, low, mixed))
+        let low = Plain::sum(code, low, mixed);
+        code.ordered_sum(high, low)
     }
 
     fn multiple(code: &mut Code, a: DoubleOperand, n: usize) -> DoubleOperand {
@@ -111,34 +144,22 @@ impl Arithmetic for Pairs {
         (Plain::product(code, a.0, power_of_two), Plain::product(code, a.1, power_of_two))
     }
 
-    /// The reciprocal, of the sum of both parts.
     fn shared(code: &mut Code, divisor: DoubleOperand) -> DoubleOperand {
-        let (first, second) = Pairs::in_register(code, divisor);
-        let divisor = code.exact_sum(Width::One, first, second);
-        let one = Plain::constant(code, DoubleDouble::ONE);
-        let high = Plain::over_shared(code, one, divisor.0);
-        let part = code.exact_product(Width::One, high, divisor.0);
-        let rest = Plain::difference(code, one, part.0);
-        let rest = Plain::difference(code, rest, part.1);
-        let more = Plain::product(code, high, divisor.1);
-        let rest = Plain::difference(code, rest, more);
-        (high, Plain::over_shared(code, rest, divisor.0))
+        let one = Double::constant(code, DoubleDouble::ONE);
+        let reciprocal = code.exact_quotient(one, divisor);
+        Double::in_register(code, reciprocal)
     }
 
     fn over_shared(code: &mut Code, a: DoubleOperand, reciprocal: DoubleOperand) -> DoubleOperand {
-        Pairs::product(code, a, reciprocal)
+        Double::product(code, a, reciprocal)
     }
 
     fn times(code: &mut Code, a: DoubleOperand, factor: DoubleDouble) -> DoubleOperand {
         if is_power_of_two(factor) {
             return code.by_power_of_two(a, factor.high);
         }
-        if factor.low == 0.0 {
-            let factor = code.constant(factor.high);
-            return code.exact_multiple(a, factor);
-        }
-        let factor = Pairs::constant(code, factor);
-        Pairs::product(code, a, factor)
+        let factor = Double::constant(code, factor);
+        Double::product(code, a, factor)
     }
 
     fn twice(code: &mut Code, a: DoubleOperand) -> DoubleOperand {
@@ -146,7 +167,7 @@ impl Arithmetic for Pairs {
     }
 
     fn over(code: &mut Code, a: DoubleOperand, n: usize) -> DoubleOperand {
-        Pairs::times(code, a, DoubleDouble::ONE.over::<false>(n))
+        Double::times(code, a, DoubleDouble::ONE.over::<false>(n))
     }
 
     fn opposite(code: &mut Code, a: DoubleOperand) -> DoubleOperand {
@@ -173,11 +194,8 @@ impl Arithmetic for Pairs {
         code.side_by_side(numbers.map(|parts| parts.1), to.plus(SIDE));
     }
 
-    /// The sum of both parts, without the sign of a zero.
-    fn nearest(code: &mut Code, a: DoubleOperand) -> Operand {
-        let zero = Plain::constant(code, DoubleDouble::ZERO);
-        let low = Plain::sum(code, a.1, zero);
-        Plain::sum(code, a.0, low)
+    fn nearest(a: DoubleOperand) -> Operand {
+        a.0
     }
 
     fn inner_products(
@@ -186,27 +204,22 @@ impl Arithmetic for Pairs {
         terms: usize,
     ) -> DoubleOperand {
         let four = Width::Four;
-        let zero: Operand = code.block.zero(four).into();
-        let mut sums: Option<DoubleOperand> = None;
+        let mut sum: Operand = code.block.zero(four).into();
+        let mut errors = sum;
         for j in 0..terms {
             let [a_high, a_low, b_high, b_low] = [(left, 0), (left, 1), (right, 0), (right, 1)]
                 .map(|(series, part)| code.four(series.plus((2 * j + part) * SIDE)).into());
             let (product, error) = code.exact_product(four, a_high, b_high);
+            let (next, lost) = code.exact_sum(four, sum, product);
             let first = code.binary(Operation::Multiply, four, a_high, b_low);
             let second = code.binary(Operation::Multiply, four, a_low, b_high);
             let mixed = code.binary(Operation::Add, four, first, second);
             let low = code.binary(Operation::Add, four, error, mixed);
-            sums = Some(match sums {
-                Some((sum, errors)) => {
-                    let (next, lost) = code.exact_sum(four, sum, product);
-                    let low = code.binary(Operation::Add, four, lost, low);
-                    (next, code.binary(Operation::Add, four, errors, low))
-                }
-                // a sum is never −0
-                None => (code.binary(Operation::Add, four, product, zero), low),
-            });
+            let low = code.binary(Operation::Add, four, lost, low);
+            errors = code.binary(Operation::Add, four, errors, low);
+            sum = next;
         }
-        sums.unwrap_or((zero, zero))
+        code.exact_sum(four, sum, errors)
     }
 
     fn store_inner_products(code: &mut Code, (high, low): DoubleOperand, to: Address) {
