@@ -222,3 +222,29 @@ fn the_ledger_balances() {
         assert!((out[balance] - before).abs() < 1.5e-14, "{t}: {:e}", out[balance] - before);
     }
 }
+
+/// Near a pole that is not at the origin, and of bodies far from it, what is squared is a small difference of large numbers.
+#[test]
+fn differences_that_are_squared_keep_their_digits() {
+    let one = |initial: &str, potential: &str, to: f64| {
+        Run::new(&format!(
+            "title = \"One\"\n[coordinates]\nx = {{ {initial} }}\n[lagrangian]\nL = \"1/2*x'^2 - ({potential})\"\n"
+        ))
+        .to(to)
+    };
+    let back = one("initial = 2, velocity = -1", "1e-25/(x - 1)^2", 5.0);
+    near(&back, &[5.0, 1.0], 1e-11);
+    // away from a zero of the divisor that is none of the quotient
+    let start = "initial = 1e-3, velocity = 1";
+    let plain = one(start, "1/(4*cos(x/2)^4)", 0.5);
+    near(&one(start, "(1 - cos(x))^2/sin(x)^4", 0.5), &plain, 1e-13);
+    let two = |from: f64, (place, velocity): (&str, &str), law: &str, to: f64| {
+        let mut run = Run::new(&format!(
+            "title = \"Two\"\n[coordinates]\nx1 = {{ initial = {from}, velocity = {velocity} }}\ny1 = {{ initial = 0, velocity = 1e-4 }}\nx2 = {{ initial = {place} }}\ny2 = 0\n[lagrangian]\nL = \"1/2*(x1'^2 + y1'^2 + x2'^2 + y2'^2) + {law}\"\n"
+        ));
+        run.to(to)
+    };
+    let law = "1/sqrt((x1 - x2)^2 + (y1 - y2)^2)";
+    let (far, near_by) = (two(1000.0, ("1001", "0"), law, 3.0), two(0.0, ("1", "0"), law, 3.0));
+    near(&[far[0] - 1000.0, far[1]], &near_by[..2], 1e-9);
+}
