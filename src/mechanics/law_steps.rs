@@ -61,8 +61,7 @@ impl Equations {
             let is_of_time = !self.pool.depends_on_any(e, &places);
             is_of_time && !self.may_have_poles(e) && !self.pool.may_have_kink(e, &time)
         });
-        steps.retain(|_| !self.is_singular_in_time());
-        steps
+        if steps.is_empty() || self.is_singular_in_time() { Vec::new() } else { steps }
     }
 
     /// Whether L (or H) has a root, a power that is not whole, or a pole of the time alone.
