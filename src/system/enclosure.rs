@@ -151,9 +151,12 @@ impl Enclosure {
         })
     }
 
-    /// The rounding of a rate at a point that was enclosed last.
-    pub fn rounding(&mut self) -> impl Iterator<Item = f64> {
+    /// The rounding of a rate at a point that was enclosed last, where the numbers have these errors.
+    pub fn rounding(&mut self, errors: impl Iterator<Item = f64>) -> impl Iterator<Item = f64> {
         let program = Arc::clone(&self.program);
+        for (&r, error) in program.inputs.iter().zip(errors) {
+            self.rounding[r as usize] = error;
+        }
         for &r in &program.body {
             self.round(&program, r);
         }
@@ -338,8 +341,8 @@ impl Enclosure {
                 self.rounding[r as usize..][..n].fill(0.0);
                 return;
             }
-            Op::Written => return,
-            Op::Parameter(_) | Op::Constant(_) | Op::Time | Op::Input(_) => 0.0,
+            Op::Written | Op::Input(_) => return,
+            Op::Parameter(_) | Op::Constant(_) | Op::Time => 0.0,
         };
         let all: f64 = own + passed_on;
         self.rounding[r as usize] = if all.is_nan() { 0.0 } else { all };

@@ -23,6 +23,9 @@ const UNSEEN: f64 = 1e-17;
 /// The same part, below which a power needs no resolution.
 const NOTHING: f64 = 1e-18;
 
+/// The part of a number to which it is known after many steps.
+const KNOWN: f64 = 1e-16;
+
 /// What is smaller has underflowed.
 const FAINT: f64 = 1e-290;
 
@@ -253,8 +256,11 @@ impl Taylor {
             if apart <= shown || apart * unit < FAINT || !apart.is_finite() {
                 continue;
             }
-            let rounding =
-                rounding.get_or_insert_with(|| rounding_at(&mut self.enclosure, &self.state));
+            let rounding = rounding.get_or_insert_with(|| {
+                // what depends on more digits than are known of the motion is no evidence
+                let errors = sizes.iter().map(|size| size * KNOWN.max(tolerance));
+                rounding_at(&mut self.enclosure, &self.state, errors)
+            });
             let by_rounding = rounding[i] * (scale / unit).abs() * width;
             if apart > shown + by_rounding {
                 return Ok(true);
@@ -264,11 +270,15 @@ impl Taylor {
     }
 }
 
-/// The rounding of the rates at a state.
-fn rounding_at(enclosure: &mut Enclosure, state: &State) -> Vec<f64> {
+/// The rounding of the rates at a state whose numbers have these errors.
+fn rounding_at(
+    enclosure: &mut Enclosure,
+    state: &State,
+    errors: impl Iterator<Item = f64>,
+) -> Vec<f64> {
     enclosure
         .enclose(Interval::point(state.time), state.values.iter().map(|&x| Interval::point(x)));
-    enclosure.rounding().collect()
+    enclosure.rounding(errors).collect()
 }
 
 /// Whether a step of this size may pass a pole of the law of one of several orbits that its series does not show.
