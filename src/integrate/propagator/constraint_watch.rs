@@ -279,8 +279,12 @@ impl Propagator {
         }
         let (begin, _) = self.stepper.interval();
         let mut origin = self.state.clone();
-        let grown = is_vast(self.stepper.state())
-            || (self.stepper.at(begin, &mut origin).is_ok() && is_vast(&origin));
+        let before = self.stepper.at(begin, &mut origin).is_ok().then_some(origin);
+        let last = self.stepper.state().clone();
+        let grown = [Some(last), before]
+            .into_iter()
+            .flatten()
+            .any(|state| is_vast(&state) || state.is_finite() && self.has_run_away(&state));
         grown.then(|| MotionErrorKind::OutOfRange(Some(name.clone())))
     }
 }

@@ -32,6 +32,9 @@ const GROWING: [f64; 12] = [0.95, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.15, 
 /// A number that changes by less than this part of the largest of its kind is ignored.
 const NEGLIGIBLE: f64 = 1e-6;
 
+/// A number of a motion by fixed steps that is so many times all of its kind in the motion itself has run away.
+const RUN_AWAY: f64 = 1e3;
+
 /// The number of step sizes tried, each a tenth of the one before.
 const STEPS_TRIED: u32 = 3;
 
@@ -119,6 +122,28 @@ impl Propagator {
             }
         }
         if self.method.stepping == Stepping::Fixed { None } else { self.fixed_past(time) }
+    }
+
+    /// Whether fixed steps have led far beyond where the motion itself is at that time and was at its beginning, as the default
+    /// method follows it.
+    pub(super) fn has_run_away(&mut self, state: &State) -> bool {
+        let settings = Settings { step: None, tolerance: None };
+        let (Some(from), Some(method)) = (self.watch.begun.clone(), method_named("taylor")) else {
+            return false;
+        };
+        if self.method.stepping != Stepping::Fixed || state.time <= from.time {
+            return false;
+        }
+        let Trial::Passed(there) = self.trial(method, settings, &from, state.time) else {
+            return false;
+        };
+        let native = |state| self.system.convert(state, self.system.form(), &self.parameters);
+        match [native(state), native(&from), native(&there)] {
+            [Ok(state), Ok(from), Ok(there)] => {
+                runs_away(&state, [&from, &there], self.system.degrees())
+            }
+            _ => false,
+        }
     }
 
     /// Whether the motion itself stays in range beyond a time at which fixed steps have left the range of numbers, as methods of
@@ -234,6 +259,18 @@ pub(super) enum Trial {
     Unfinished,
 }
 
+/// Whether numbers of a kind, coordinates or rates, are far larger than all of their kind in other states.
+fn runs_away(state: &State, others: [&State; 2], degrees: usize) -> bool {
+    let kinds = [0..degrees, degrees..(2 * degrees).min(state.values.len())];
+    let largest = |state: &State, kind: &std::ops::Range<usize>| {
+        state.values[kind.clone()].iter().map(|x| x.abs()).fold(0.0, f64::max)
+    };
+    kinds.iter().any(|kind| {
+        let most = others.iter().map(|other| largest(other, kind)).fold(0.0, f64::max);
+        largest(state, kind) > RUN_AWAY * most && most > 0.0
+    })
+}
+
 /// Whether two integrations from a state end at the same point. Numbers are compared relative to
 /// their change, and to the largest of their kind, since one may be nothing but rounding.
 fn agree(from: &State, coarse: &State, fine: &State, degrees: usize) -> bool {
@@ -264,6 +301,14 @@ mod tests {
         assert_eq!(way_beyond(BEYOND, 2.0, 0.5), 1.0);
     }
     use crate::system::Form;
+
+    #[test]
+    fn steps_run_away_at_a_thousand_times_the_motion() {
+        let motion = [&state([1.0, 0.0, 0.5, 2.0]), &state([-0.3, 0.0, 0.0, 0.0])];
+        assert!(!runs_away(&state([900.0, -900.0, 1900.0, 0.0]), motion, 2));
+        assert!(runs_away(&state([0.0, -1100.0, 0.0, 0.0]), motion, 2));
+        assert!(runs_away(&state([0.0, 0.0, 2100.0, 0.0]), motion, 2));
+    }
 
     fn state(values: [f64; 4]) -> State {
         State::new(0.0, Form::Velocity, values.to_vec())
