@@ -21,6 +21,7 @@ use super::setup::{MethodNotFound, Setup, choose_method};
 use super::snapshot::{Gauge, MethodFact, Recorded, Snapshot, Status};
 use crate::analysis::CrossingLog;
 use crate::cancel::Cancel;
+use crate::integrate::NarrowPlace;
 use crate::mechanics::{Equations, Valuation};
 use crate::model::Model;
 use crate::num::short;
@@ -222,9 +223,15 @@ impl Experiment {
     /// A sentence about the first step that has passed a narrow place of the law without having been there.
     pub fn narrow_passage(&self) -> Option<String> {
         let found = self.motion.narrow_passage()?;
+        let (what, why) = match found.place {
+            NarrowPlace::Exponential => {
+                ("narrow feature", "an exponential function changes by more than")
+            }
+            NarrowPlace::Pole => ("pole", "a force grows by more than"),
+        };
         Some(format!(
-            "{} steps over a narrow feature of the law before t = {}, where an exponential function changes by more than a step of {} \
-             can resolve: try a shorter one, or the default method",
+            "{} steps over a {what} of the law before t = {}, where {why} a step of {} can resolve: try a shorter one, or the default \
+             method",
             self.motion.method().name,
             short(self.motion.sign() * found.time),
             short(found.step)

@@ -21,11 +21,12 @@ mod trial;
 mod vanishing_event_watch;
 
 use super::narrow_place::PassedPlaces;
+use super::passed_poles::PassedPoles;
 use super::{Method, MethodError, Settings, Stepper, Stepping, Unstable};
 use crate::num::DoubleDouble;
 use crate::system::{ConstraintProjector, Form, MotionError, State, StepsInTime, System};
 use domain::MotionDomain;
-pub use narrow_watch::NarrowPassage;
+pub use narrow_watch::{NarrowPassage, NarrowPlace};
 pub use occurrence::{Occurrence, OccurrenceKind};
 use occurrence_search::OccurrenceSearch;
 use passed_event::PassedEvents;
@@ -70,6 +71,7 @@ pub struct Propagator {
     active_set_changes: u64,
     ended: bool,
     narrow: Option<PassedPlaces>,
+    poles: Option<PassedPoles>,
     narrow_passage: Option<NarrowPassage>,
     /// The last impulse, and the event that caused it.
     impulse: Option<(usize, Option<usize>)>,
@@ -111,6 +113,7 @@ impl Propagator {
             active_set_changes: 0,
             ended: false,
             narrow: None,
+            poles: None,
             narrow_passage: None,
             impulse: None,
             steps: 0,

@@ -50,6 +50,7 @@ pub(super) struct Shared {
     /// The arguments of the exponential functions in the law, of (q, native rates, action, work).
     steep: Arc<Program>,
     divisors: Arc<Program>,
+    signed_divisors: Arc<Program>,
     inertia: Option<Inertia>,
     legendre: Arc<Program>,
     /// The index, among the auxiliary numbers, at which an attitude begins.
@@ -240,6 +241,7 @@ impl System {
             discontinuities: Discontinuities::of(model, builder)?,
             steep: steep_program::program(builder)?,
             divisors: steep_program::divisors(builder)?,
+            signed_divisors: steep_program::signed_divisors(builder)?,
             watch: list.compile(builder)?,
             terms: quantities.compile(builder)?,
             inertia: None,
@@ -352,6 +354,10 @@ impl System {
 
     pub(super) fn divisor_program(&self) -> &Arc<Program> {
         &self.shared.divisors
+    }
+
+    pub(super) fn signed_divisor_program(&self) -> &Arc<Program> {
+        &self.shared.signed_divisors
     }
 
     pub(super) fn terms(&self) -> &Terms {

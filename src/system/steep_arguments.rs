@@ -61,6 +61,11 @@ impl System {
         self.evaluator_of(self.divisor_program(), parameters)
     }
 
+    /// Returns the evaluator of those of them that may change their sign; `None` if there are none.
+    pub fn signed_divisors(&self, parameters: &[f64]) -> Option<SteepArguments> {
+        self.evaluator_of(self.signed_divisor_program(), parameters)
+    }
+
     fn evaluator_of(&self, program: &Arc<Program>, parameters: &[f64]) -> Option<SteepArguments> {
         let count = program.outputs();
         if count == 0 {

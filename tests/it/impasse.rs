@@ -193,6 +193,19 @@ fn an_error_names_the_method_that_passes() {
     assert!(message.contains("# faulted") && !message.contains("passes"), "{message}");
 }
 
+/// Steps that are too long lead within one of them from where the motion is not to beyond the range of numbers.
+#[test]
+fn steps_that_run_away_are_blamed_themselves() {
+    let quartic = "[coordinates]\nx = { initial = 1.0, velocity = 0.5 }\n[lagrangian]\n\
+                   L = \"1/2*x'^2 - x^4/4 - x^2/2\"";
+    for step in ["0.9", "1.25", "2"] {
+        let words = ["--method", "yoshida4", "--step", step, "--until", "200"];
+        let message = said(quartic, &words);
+        assert!(message.contains("is too long for it"), "{message}");
+        assert!(!message.contains("passes it"), "{message}");
+    }
+}
+
 const PARALLELOGRAM: &str = r#"
 [coordinates]
 a = { initial = 0, velocity = 1 }
@@ -783,6 +796,31 @@ fn no_barrier_of_a_negative_power_is_stepped_over_by_dop853() {
             let (x, free) = (value(&experiment, "x"), time.cos() + 0.5 * time.sin());
             let off = (x - free.abs()).abs();
             assert!(off < 2e-4, "{barrier}: {x} at {time}");
+        }
+    }
+}
+
+/// Equal steps do not see a barrier of a negative power, and say so; what only seems to be one is passed without a word.
+#[test]
+fn equal_steps_over_a_pole_are_reported() {
+    let passage = |method: &str, potential: &str| {
+        let text = format!(
+            "[coordinates]\nx = {{ initial = 1.0, velocity = 0.5 }}\n[lagrangian]\nL = \"1/2*x'^2 - 1/2*x^2 - {potential}\""
+        );
+        let mut experiment = by(method, Some(0.013), &text);
+        run(&mut experiment, 4.0);
+        experiment.narrow_passage()
+    };
+    for method in ["symplectic-euler", "leapfrog", "yoshida4", "rk4"] {
+        for barrier in ["1e-25/x^2", "1e-40/x^4", "1e-60/x^12", "1e-20/(x + 0.3)^2"] {
+            let said = passage(method, barrier);
+            assert!(
+                said.as_ref().is_some_and(|said| said.contains("steps over a pole of the law")),
+                "{method} {barrier}: {said:?}"
+            );
+        }
+        for harmless in ["sin(x)/x", "(1 - cos(x))/x^2", "1e-25/(x - 10)^2", "1/(1 + x^2)"] {
+            assert_eq!(passage(method, harmless), None, "{method} {harmless}");
         }
     }
 }

@@ -122,6 +122,7 @@ impl Propagator {
             && self.system.attitude_place().is_none()
             && self.search.is_empty()
             && self.narrow.is_none()
+            && self.poles.is_none()
     }
 
     /// Takes the steps to a time, between which nothing is observed.
