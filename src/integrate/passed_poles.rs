@@ -75,6 +75,8 @@ impl PassedPoles {
         }
         let step = (last.exact_time() - first.exact_time()).high;
         let n = self.system.degrees();
+        // at a pole the change grows towards the zero, where that by an ordinary force shrinks
+        let mut farther = vec![f64::INFINITY; self.rates.moving()];
         (1..=DISTANCES).any(|k| {
             let beyond = (1.0 - far) * math::powi(0.5, k);
             let there = between(&first, &last, far + beyond);
@@ -83,11 +85,15 @@ impl PassedPoles {
             if self.rates.evaluate(there.exact_time(), &numbers).is_err() {
                 return false;
             }
-            (n..self.rates.moving()).any(|i| {
+            let mut is_pole = false;
+            for (i, farther) in farther.iter_mut().enumerate().skip(n) {
                 let size = first.values[i].abs().max(last.values[i].abs());
                 let change = (self.rates.rate(i).high * beyond * step).abs();
-                change.is_finite() && size > 0.0 && change > CHANGED * size
-            })
+                let grows = change.is_finite() && change > *farther;
+                is_pole |= grows && size > 0.0 && change > CHANGED * size;
+                *farther = change;
+            }
+            is_pole
         })
     }
 }

@@ -825,6 +825,18 @@ fn equal_steps_over_a_pole_are_reported() {
     }
 }
 
+/// A velocity that turns while another coordinate passes what is no pole is changed by much of itself, and not by a pole.
+#[test]
+fn a_velocity_that_turns_beside_a_zero_is_no_pole() {
+    let text = "[coordinates]\nx = { initial = 1.0, velocity = 0.0 }\ny = { initial = -0.004, velocity = 0.9999 }\n[lagrangian]\n\
+                L = \"1/2*(x'^2 + y'^2) - 1/2*(x^2 + y^2) - 1e-9*(1 - cos(x))/x^2\"";
+    for step in [0.01, 0.1] {
+        let mut experiment = by("rk4", Some(step), text);
+        run(&mut experiment, 30.0);
+        assert_eq!(experiment.narrow_passage(), None, "{step}");
+    }
+}
+
 /// A force without bound at a kink that the motion passes, as |x|^−0.3: what the digits of a place beside it make of the force is no
 /// rounding that a step may err by. The period from rest at 1 is 4 √π Γ(1 + 1/a)/(√2 Γ(½ + 1/a)).
 #[test]

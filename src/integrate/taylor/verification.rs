@@ -68,10 +68,6 @@ impl Taylor {
         if self.series.is_steep() {
             return true;
         }
-        if self.series.guards() > 0 {
-            // what is divided by may vanish with a root, as v/|v| of friction where a velocity touches zero
-            return false;
-        }
         self.series.divisors().any(|u| may_vanish(u.iter().copied(), x))
             || self.series.tangents().any(|(u, zero)| may_meet_pole(u.iter().copied(), zero, x))
     }

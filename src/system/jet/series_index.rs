@@ -5,7 +5,7 @@
 use std::collections::BTreeMap;
 
 use crate::expr::FunctionId;
-use crate::system::program::{Op, PARAMETRIC_POWER_BITS, Program, Register};
+use crate::system::program::{Guard, Op, PARAMETRIC_POWER_BITS, Program, Register};
 
 #[derive(Debug)]
 pub(super) struct SeriesIndex {
@@ -161,6 +161,12 @@ fn divisors(program: &Program) -> Vec<Register> {
         };
         divisors.extend(below.into_iter().map(|(base, _)| base));
     }
+    // a root is checked where it may vanish: with it vanishes what it divides, as in v/|v| of friction where a velocity touches zero
+    divisors.retain(|&r| {
+        let is_of =
+            |guard: &Guard| guard.value == r || guard.argument == Some(r) || guard.under == Some(r);
+        !program.guards.iter().any(is_of)
+    });
     divisors.sort_unstable();
     divisors.dedup();
     divisors

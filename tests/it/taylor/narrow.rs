@@ -148,6 +148,20 @@ fn thin_barriers_reflect_in_any_unit() {
     }
 }
 
+/// A root elsewhere in the law hides no barrier.
+#[test]
+fn a_thin_barrier_beside_a_root_reflects() {
+    for root in ["sqrt(1 + x^2)", "1/sqrt(x^2 + 0.01)", "(x + 9)^1.5", "sqrt(5 - x^2)"] {
+        let end = |barrier: &str| {
+            Run::new(&format!(
+                "title = \"Root\"\n[coordinates]\nx = {{ initial = 2.0, velocity = -1.0 }}\n[lagrangian]\nL = \"1/2*x'^2 {barrier} - 1e-3*{root}\"\n"
+            ))
+            .to(4.0)[0]
+        };
+        assert!(end("") < -1.9 && end("- 1e-25/x^2") > 1.9, "{root}");
+    }
+}
+
 #[test]
 fn a_thin_barrier_in_the_way_of_an_oscillation_reflects() {
     // x² = cos² t + 2 c sin² t
