@@ -90,7 +90,7 @@ impl Enclosure {
         for &r in &program.prologue {
             match program.ops[r as usize] {
                 Op::Parameter(i) => {
-                    self.registers[r as usize] = Interval::of(parameters[i as usize])
+                    self.registers[r as usize] = Interval::of(parameters[i as usize]);
                 }
                 op => self.evaluate(&program, r, op),
             }

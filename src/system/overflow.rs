@@ -93,7 +93,7 @@ mod tests {
         let constants = vec![DoubleDouble::from(above), DoubleDouble::from(below)];
         let ops = vec![Op::Input(0), Op::Power(0, 0), Op::Power(0, 1), Op::Divide(1, 2)];
         let (body, fixed) = (vec![1, 2, 3], vec![false; 4]);
-        Program { ops, constants, body, fixed, ..Program::default() }
+        Program { ops, constants, fixed, body, ..Program::default() }
     }
 
     #[test]

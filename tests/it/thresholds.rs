@@ -164,12 +164,12 @@ fn claimed([within, beyond]: [&str; 2], said: &str, text: impl Fn(&str) -> Strin
     with_file(&text(beyond), &["check", "system.toml"]).fails(65, &[said]);
 }
 
-/// Where a quantity may jump its rate decides nothing. Its terms are 1 and ½.
+/// It jumps, and its rate vanishes before and after. Its terms are 1 and ½.
 #[test]
 fn what_is_claimed_conserved_drifts_by_no_more_than_1e_10_of_its_terms() {
     claimed(["1.4e-10", "1.6e-10"], "claimed to be conserved, but it is not", |drift| {
         oscillator(&format!(
-            "[[observables]]\nname = \"one\"\nexpression = \"1 + {drift}*t + 1/2*sign(x^2 + 10)\"\n\
+            "[[observables]]\nname = \"one\"\nexpression = \"1 + {drift}/2*sign(t - 1/2) + 1/2*sign(x^2 + 10)\"\n\
              conserved = true"
         ))
     });

@@ -68,7 +68,7 @@ impl Taylor {
         if self.series.is_steep() {
             return true;
         }
-        self.series.divisors().any(|u| may_vanish(u.iter().copied(), x))
+        self.series.divisors().any(|u| may_vanish(&u.iter().copied(), x))
             || self.series.tangents().any(|(u, zero)| may_meet_pole(u.iter().copied(), zero, x))
     }
 
@@ -166,7 +166,7 @@ impl Taylor {
     /// Whether the series leads to a pole of the law within a step of this size, where the rates change what they change by many
     /// times itself in less than the time to it.
     pub(super) fn meets_pole(&mut self, x: f64) -> Result<bool, MotionError> {
-        if !self.series.divisors().any(|u| may_vanish(u.iter().copied(), x)) {
+        if !self.series.divisors().any(|u| may_vanish(&u.iter().copied(), x)) {
             return Ok(false);
         }
         let from = self.state.clone();
@@ -279,13 +279,16 @@ fn rounding_at(
 
 /// Whether a step of this size may pass a pole of the law of one of several orbits that its series does not show.
 pub(super) fn may_hide_in_lane(series: &BatchSeries, lane: usize, x: f64) -> bool {
-    series.divisors().any(|u| may_vanish(u.iter().map(|c| c.0[lane]), x))
+    series.divisors().any(|u| may_vanish(&u.iter().map(|c| c.0[lane]), x))
         || series.tangents().any(|(u, zero)| may_meet_pole(u.iter().map(|c| c.0[lane]), zero, x))
 }
 
 /// Whether a series may come near to zero within a step, by bounds of Horner's rule: for all of the step at once, and if that does
 /// not tell, for pieces of it. The highest order is not known.
-fn may_vanish(u: impl DoubleEndedIterator<Item = f64> + ExactSizeIterator + Clone, x: f64) -> bool {
+fn may_vanish(
+    u: &(impl DoubleEndedIterator<Item = f64> + ExactSizeIterator + Clone),
+    x: f64,
+) -> bool {
     let orders = u.len() - 1;
     let first = u.clone().next().unwrap_or(0.0);
     let terms = || u.clone().take(orders).rev().map(|c| c * first.signum());

@@ -59,7 +59,7 @@ const AREA: Rect = Rect::new(0, 0, 80, 24);
 fn lab(bytes: &[u8]) -> App {
     static LAB: OnceLock<App> = OnceLock::new();
     let mut app = LAB.get_or_init(in_lab).clone();
-    app.jobs.in_background = bytes.len() % 10 > 0;
+    app.jobs.in_background = !bytes.len().is_multiple_of(10);
     app
 }
 

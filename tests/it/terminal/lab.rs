@@ -183,7 +183,7 @@ fn frames_a_second_are_shown_and_changed() {
     let frames = calm.frames_in(Duration::from_secs(2));
     assert!(frames <= 9, "{frames} frames in two seconds");
     calm.press(">");
-    calm.shows("the most");
+    calm.shows("The highest rate");
     quits(calm);
 
     let mut wrong = Setup::new(PROGRAM, &["pendulum", "--bandwidth", "slow"]).start();
