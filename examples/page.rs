@@ -130,7 +130,7 @@ fn main() -> Result<ExitCode> {
         },
     ) {
         Ok(Ending::Quit) => Ok(ExitCode::SUCCESS),
-        Ok(Ending::Gone) => Ok(ExitCode::from(129)),
+        Ok(Ending::HungUp) => Ok(ExitCode::from(129)),
         Ok(Ending::Signal(number)) => Ok(ExitCode::from(128 + number as u8)),
         Err(LabError::TerminalError(why)) => {
             writeln!(stderr(), "{why}")?;

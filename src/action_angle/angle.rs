@@ -51,12 +51,12 @@ pub fn angle(
             };
             let there = time(PI, Root::Positive)?;
             let back = time(PI, Root::Negative)?;
-            let gone = if velocity >= 0.0 {
+            let elapsed = if velocity >= 0.0 {
                 time(phase, Root::Positive)?
             } else {
                 there + back - time(phase, Root::Negative)?
             };
-            Ok((gone / (there + back)).rem_euclid(1.0))
+            Ok((elapsed / (there + back)).rem_euclid(1.0))
         }
         (RegionKind::Rotation | RegionKind::BackwardRotation, _, Some(turn)) => {
             let (sign, root) =

@@ -73,13 +73,13 @@ impl CrossingLog {
     pub fn rewind(&mut self, time: f64, sign: f64, channels: usize) {
         let width = channels + 1;
         for (surface, crossed) in self.surfaces.iter_mut().enumerate() {
-            let mut gone = 0;
+            let mut removed = 0;
             loop {
                 let is_later = |row: &[f64]| sign * row[0] > sign * time;
                 let later = crossed.open.chunks_exact(width).rev().take_while(|row| is_later(row));
                 let later = later.count();
                 if later > 0 {
-                    gone += later;
+                    removed += later;
                     let left = crossed.open.len() - later * width;
                     crossed.open = Arc::new(crossed.open[..left].to_vec());
                 }
@@ -90,8 +90,8 @@ impl CrossingLog {
                 }
                 crossed.open = crossed.sealed.pop_back().unwrap_or_default();
             }
-            if gone > 0 {
-                Arc::make_mut(&mut self.counts)[surface] -= gone as u64;
+            if removed > 0 {
+                Arc::make_mut(&mut self.counts)[surface] -= removed as u64;
             }
         }
     }

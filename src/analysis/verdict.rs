@@ -208,7 +208,7 @@ fn trend(intervals: &[Stretch]) -> Option<f64> {
         (average(last, extreme) - average(first, extreme)) / rise > ALONG
     };
     let (slope, scatter) = line(intervals);
-    let clear = rise.abs() > CLEARANCE * scatter / (first.len() as f64).sqrt()
+    let clear = rise.abs() > SIGNIFICANCE * scatter / (first.len() as f64).sqrt()
         && rise.abs() > LEAST_RISE * swing(intervals)
         && along(|s| s.least)
         && along(|s| s.greatest);
@@ -251,7 +251,7 @@ fn swing(intervals: &[Stretch]) -> f64 {
 }
 
 /// The number of standard errors of a quarter's mean that a trend must exceed.
-const CLEARANCE: f64 = 6.0;
+const SIGNIFICANCE: f64 = 6.0;
 
 /// The mean rate of change of a quantity that has left one level for another: the means of the
 /// first and the last quarter differ by more than the oscillation within a quarter. This detects an

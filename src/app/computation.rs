@@ -8,7 +8,7 @@ use crate::instrument::Answer;
 use crate::job::{Job, Share};
 
 /// A job that takes longer than this is reported as under way.
-const PATIENCE: Duration = Duration::from_millis(300);
+const NOTICE_DELAY: Duration = Duration::from_millis(300);
 
 /// The requester of a job; each has at most one job at a time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -88,6 +88,6 @@ impl UnderWay {
         let share = self.share.total.map_or_else(String::new, |total| {
             format!(" {} %", self.share.done * 100 / total.max(1))
         });
-        (self.since >= PATIENCE).then(|| format!("{}{share} …", self.name))
+        (self.since >= NOTICE_DELAY).then(|| format!("{}{share} …", self.name))
     }
 }

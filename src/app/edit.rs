@@ -213,15 +213,15 @@ impl App {
 
     fn find(&mut self) -> Vec<Effect> {
         let Some(buffer) = self.buffer() else { return Vec::new() };
-        let sought = buffer.searched.clone();
-        if sought.is_empty() {
+        let pattern = buffer.searched.clone();
+        if pattern.is_empty() {
             buffer.asking = Some(Asking::Words(Input::default()));
             return Vec::new();
         }
-        if buffer.editor.find(&sought) {
+        if buffer.editor.find(&pattern) {
             return Vec::new();
         }
-        self.notify(format!("not found: `{sought}`"))
+        self.notify(format!("not found: `{pattern}`"))
     }
 
     pub(super) fn tick_buffer(&mut self, elapsed: Duration) -> Option<Effect> {

@@ -205,15 +205,15 @@ impl Editor {
         if wanted.is_empty() {
             return false;
         }
-        let sought = smart_case(wanted, wanted);
+        let pattern = smart_case(wanted, wanted);
         let rows = self.lines.len();
         for step in 0..=rows {
             let row = (self.cursor.row + step) % rows;
             let line = smart_case(&self.lines[row], wanted);
             let from = if step == 0 { self.cursor.column } else { 0 };
-            let found = (from..line.len()).find(|&at| line[at..].starts_with(&sought));
+            let found = (from..line.len()).find(|&at| line[at..].starts_with(&pattern));
             if let Some(column) = found {
-                self.go(Caret { row, column: column + sought.len() });
+                self.go(Caret { row, column: column + pattern.len() });
                 self.anchor = Some(Caret { row, column });
                 return true;
             }

@@ -18,7 +18,7 @@ use crate::mechanics::{Equations, derive};
 use crate::model::Model;
 
 /// A search that takes longer than this is reported as under way.
-const PATIENCE: Duration = Duration::from_millis(300);
+const NOTICE_DELAY: Duration = Duration::from_millis(300);
 
 /// The greatest degree of the first search; each further one goes two beyond.
 const DEGREE: u32 = 6;
@@ -79,7 +79,7 @@ pub(super) struct SearchUnderWay {
 impl InvariantSearch {
     /// What is shown of a search that has taken a while.
     pub fn status(&self) -> Option<String> {
-        let job = self.under_way.as_ref().filter(|job| job.since >= PATIENCE)?;
+        let job = self.under_way.as_ref().filter(|job| job.since >= NOTICE_DELAY)?;
         Some(format!("Searching for constants of the motion, {} s …", job.since.as_secs()))
     }
 

@@ -60,10 +60,10 @@ impl Picker {
 
     /// Returns the indices of the systems that match the search, best first, and how each matches.
     pub fn found(&self) -> Vec<(usize, FuzzyMatch)> {
-        let Some(sought) = self.sought() else {
+        let Some(pattern) = self.pattern() else {
             return (0..self.entries.len()).map(|index| (index, FuzzyMatch::default())).collect();
         };
-        let mut query = Query::new(sought);
+        let mut query = Query::new(pattern);
         let mut fit = |entry: &CatalogEntry| {
             let info = &entry.info;
             let mut about = vec![info.summary.as_str(), &info.source];
@@ -74,9 +74,9 @@ impl Picker {
         let mut found: Vec<(usize, FuzzyMatch)> =
             entries.filter_map(|(index, entry)| Some((index, fit(entry)?))).collect();
         // The system whose own name begins so comes first, and of several the one with the shortest name.
-        let sought = sought.to_lowercase();
+        let pattern = pattern.to_lowercase();
         let begins =
-            |index: usize| sought.len() > 2 && self.entries[index].name.starts_with(&sought);
+            |index: usize| pattern.len() > 2 && self.entries[index].name.starts_with(&pattern);
         let length = |index: usize| self.entries[index].name.len();
         found.sort_by_key(|(index, fit)| {
             let begins = begins(*index);
@@ -86,7 +86,7 @@ impl Picker {
     }
 
     /// Returns the text searched for, if there is one.
-    pub fn sought(&self) -> Option<&str> {
+    pub fn pattern(&self) -> Option<&str> {
         self.search.as_ref().map(|input| input.value().trim()).filter(|text| !text.is_empty())
     }
 
@@ -111,14 +111,14 @@ impl Picker {
 
     /// Whether a row above the systems fits the search.
     fn lists(&self, row: Above) -> bool {
-        let Some(sought) = self.sought().map(str::to_lowercase) else { return true };
+        let Some(pattern) = self.pattern().map(str::to_lowercase) else { return true };
         let words: &[&str] = match row {
             Above::Session => &["continue", "resume"],
             Above::Unsaved => &["unsaved"],
             Above::Guides => &["lessons", "demos", "tour"],
             Above::NewSystem => &["new"],
         };
-        sought.len() > 2 && words.iter().any(|word| word.starts_with(&sought))
+        pattern.len() > 2 && words.iter().any(|word| word.starts_with(&pattern))
     }
 
     /// Returns the title of the unsaved text to which a row leads.

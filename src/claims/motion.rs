@@ -89,7 +89,7 @@ fn place_of(model: &Model, error: &MotionError) -> SourceRange {
     let constraint = match &error.kind {
         MotionErrorKind::ConstraintMissed(name, _)
         | MotionErrorKind::VelocitiesMissed(name, _)
-        | MotionErrorKind::ConstraintParted(name) => {
+        | MotionErrorKind::ConstraintContradicts(name) => {
             model.constraints.iter().find(|c| c.name == *name)
         }
         MotionErrorKind::FreeVelocities(_) => model.constraints.first(),
@@ -195,7 +195,8 @@ impl<'a> ClaimedMotion<'a> {
         let error = stepped.err().filter(|error| error.time == model.run.start);
         let own = || own_method::first_step(model, system, &state, &parameters);
         let error = error.filter(|_| !matches!(own(), Some(Ok(()))));
-        if let Some(error @ MotionError { kind: MotionErrorKind::ConstraintParted(_), .. }) = &error
+        if let Some(error @ MotionError { kind: MotionErrorKind::ConstraintContradicts(_), .. }) =
+            &error
         {
             return Err(refused(place_of(model, error), error.to_string()));
         }

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use indicatif::{ProgressBar, ProgressStyle};
 
 /// A shorter computation shows no bar.
-const PATIENCE: Duration = Duration::from_millis(500);
+const NOTICE_DELAY: Duration = Duration::from_millis(500);
 
 /// A bar on standard error, shown only on a terminal and only if the computation is long.
 pub(super) struct CountBar {
@@ -27,7 +27,7 @@ impl CountBar {
     /// One more is done.
     pub(super) fn add(&mut self) {
         self.done += 1;
-        if self.bar.is_none() && self.begun.elapsed() > PATIENCE && stderr().is_terminal() {
+        if self.bar.is_none() && self.begun.elapsed() > NOTICE_DELAY && stderr().is_terminal() {
             let style = ProgressStyle::with_template("{bar:40} {pos} of {len}  {eta} left");
             let bar = ProgressBar::new(self.count);
             bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));

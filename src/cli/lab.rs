@@ -129,7 +129,7 @@ fn watchable(name: Option<&str>) -> Result<(), CommandError> {
 pub(super) fn how_it_ended(ended: Result<Ending, LabError>) -> Result<(), CommandError> {
     match ended {
         Ok(Ending::Quit) => Ok(()),
-        Ok(Ending::Gone) => Err(CommandError::Signal(signal_hook::consts::SIGHUP)),
+        Ok(Ending::HungUp) => Err(CommandError::Signal(signal_hook::consts::SIGHUP)),
         Ok(Ending::Signal(number)) => Err(CommandError::Signal(number)),
         Err(error @ LabError::System(_)) => Err(CommandError::CouldNot(error.to_string())),
         Err(error @ (LabError::Unsaved(_) | LabError::Unrecorded(_) | LabError::LogError(_))) => {

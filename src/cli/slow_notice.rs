@@ -10,7 +10,7 @@ use std::time::Duration;
 use super::stderr;
 
 /// Shorter work is not mentioned.
-const PATIENCE: Duration = Duration::from_secs(2);
+const NOTICE_DELAY: Duration = Duration::from_secs(2);
 
 /// Does the work, and says after a while what is being done and how to stop it, if somebody is there to read it.
 pub(super) fn with_notice<T>(what: &str, work: impl FnOnce() -> T) -> T {
@@ -20,7 +20,7 @@ pub(super) fn with_notice<T>(what: &str, work: impl FnOnce() -> T) -> T {
     let (done, waiting) = channel::<()>();
     thread::scope(|scope| {
         scope.spawn(move || {
-            if waiting.recv_timeout(PATIENCE) == Err(RecvTimeoutError::Timeout) {
+            if waiting.recv_timeout(NOTICE_DELAY) == Err(RecvTimeoutError::Timeout) {
                 stderr::report(&format!("{what}; this takes a while; Ctrl-C ends it"));
             }
         });

@@ -26,7 +26,7 @@ const GROWTH: f64 = 8.0;
 /// The distance from the start grows by this part of the power of e by which neighbours part where these part as the motion escapes.
 const ESCAPE: f64 = 0.5;
 
-/// A motion that is to close does so before neighbours have parted by this power of e: rounding has led it away from where it was later.
+/// A motion that is to close does so before neighbours have separated by this power of e: rounding has led it away from where it was later.
 const LOST: f64 = 20.0;
 
 /// Whether neighbouring motions separate exponentially, and whether that is chaos.
@@ -83,7 +83,7 @@ impl Evidence<'_> {
     pub(super) fn verdict(&self) -> (Chaos, String) {
         let Evidence { grown, megno, .. } = *self;
         let (time, off) = (short(self.lasted), self.uncertainty);
-        if has_parted(grown) && megno >= CHAOTIC && self.largest > 2.0 * off {
+        if has_separated(grown) && megno >= CHAOTIC && self.largest > 2.0 * off {
             let reason = format!(
                 "neighbouring motions separate by e^{grown:.1} in a time of {time}, and MEGNO is {megno:.1}, \
                  where regular motion has 2"
@@ -141,13 +141,13 @@ impl Evidence<'_> {
 }
 
 /// Whether vectors that have grown by this power of e show that neighbours part exponentially.
-pub(super) fn has_parted(grown: f64) -> bool {
+pub(super) fn has_separated(grown: f64) -> bool {
     grown >= GROWTH
 }
 
 /// Whether a motion goes away from its start as its neighbours part: by these powers of e in the second half of the time.
-pub(super) fn is_escape(widening: f64, parted: f64) -> bool {
-    parted > 1.0 && widening >= ESCAPE * parted
+pub(super) fn is_escape(widening: f64, separation: f64) -> bool {
+    separation > 1.0 && widening >= ESCAPE * separation
 }
 
 /// The time until which a motion from `begin` with this largest exponent would close if it does.
@@ -243,13 +243,13 @@ mod tests {
     fn a_motion_that_goes_away_half_as_fast_as_neighbours_part_escapes() {
         assert!(is_escape(5.0, 10.0));
         assert!(!is_escape(4.99, 10.0));
-        // neighbours have hardly parted
+        // neighbours have hardly separated
         assert!(is_escape(1.0, 1.01) && !is_escape(1.0, 1.0));
     }
 
     #[test]
-    fn a_motion_closes_before_neighbours_have_parted_by_e_to_the_20() {
+    fn a_motion_closes_before_neighbours_have_separated_by_e_to_the_20() {
         assert_eq!(last_closing(3.0, 0.5), 43.0);
-        assert!(has_parted(8.0) && !has_parted(7.99));
+        assert!(has_separated(8.0) && !has_separated(7.99));
     }
 }

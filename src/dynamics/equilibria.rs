@@ -11,9 +11,9 @@
 //! derivative is H_qq − H_qp H_pp⁻¹ H_pq.
 
 mod acceptance;
+mod equivalence;
 mod family;
 mod guesses;
-mod likeness;
 mod search;
 mod zero;
 

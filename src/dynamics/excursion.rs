@@ -51,7 +51,7 @@ pub(super) struct Excursion {
 struct OneDegree {
     forwards: Option<bool>,
     turned: u32,
-    gone: f64,
+    displacement: f64,
     /// Whether it has come round, or closed otherwise.
     revolved: bool,
     last: Option<f64>,
@@ -183,9 +183,9 @@ impl Excursion {
         if rates[0] != 0.0 {
             one.forwards = Some(forwards);
         }
-        one.gone += one.last.map_or(0.0, |last| self.difference(0, x, last));
+        one.displacement += one.last.map_or(0.0, |last| self.difference(0, x, last));
         one.last = Some(x);
-        one.revolved |= self.turns[0].is_some_and(|period| one.gone.abs() >= period);
+        one.revolved |= self.turns[0].is_some_and(|period| one.displacement.abs() >= period);
         let hyperbolic = derivative.determinant() < 0.0;
         let near = |step: &DVector<f64>| {
             step.iter().zip(&self.extents).all(|(&step, &extent)| is_at_saddle(step, extent))

@@ -118,7 +118,7 @@ impl FamilyCourse {
         };
         let first = sides[0].begin.value;
         let lengths = [first - low, high - first].map(|length| length.max(0.0));
-        let gone = |side: &FamilySide, length: f64| match side.ended {
+        let done = |side: &FamilySide, length: f64| match side.ended {
             Some(_) => length,
             None => (side.here.value - first).abs().min(length),
         };
@@ -135,7 +135,7 @@ impl FamilyCourse {
                         sides[which].ended = Some(SideEnd::Before(why));
                     }
                 }
-                let behind: f64 = (0..2).map(|k| gone(&sides[k], lengths[k])).sum();
+                let behind: f64 = (0..2).map(|k| done(&sides[k], lengths[k])).sum();
                 report(behind / (high - low));
             }
         }

@@ -19,7 +19,7 @@ const LOOKED_FIXED: u64 = 20_000;
 const ENDLESS: f64 = 1e150;
 
 /// Where impulses may act, a step ends so much later than it begins, or this much longer than the one before.
-const FIRST_LOOK: f64 = 1.0;
+const FIRST_SPAN: f64 = 1.0;
 const GROWTH: f64 = 8.0;
 
 /// A return this near, relative to the farthest distance, is taken at once.
@@ -61,7 +61,7 @@ pub(super) fn return_near(
         let (before, now) = carrier.interval();
         // a step of free motion has no end by itself, and in one that is too long no event is found
         let limit = match (space.has_jumps(), fixed) {
-            (true, _) => now + (GROWTH * (now - before)).max(FIRST_LOOK),
+            (true, _) => now + (GROWTH * (now - before)).max(FIRST_SPAN),
             (false, true) => f64::INFINITY,
             (false, false) => ENDLESS,
         };

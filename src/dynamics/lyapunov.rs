@@ -10,7 +10,7 @@
 //! Never here: text.
 
 use super::carrier::Carrier;
-use super::chaos::{Chaos, Evidence, has_parted, is_escape, last_closing};
+use super::chaos::{Chaos, Evidence, has_separated, is_escape, last_closing};
 use super::closing::closing;
 use super::error::DynamicsError;
 use super::excursion::Departure;
@@ -182,7 +182,7 @@ pub(super) fn exponents(
     };
     if let Some(why) = why {
         found.verdict = Chaos::Unstable;
-        found.reason = format!("{}; {why}", parted(whole, growth.end() - growth.begin()));
+        found.reason = format!("{}; {why}", separation_words(whole, growth.end() - growth.begin()));
     }
     Ok(found)
 }
@@ -217,9 +217,9 @@ fn departing(
         Departure::Unreturned if found.verdict != Chaos::Chaotic => return Ok(found),
         Departure::Unreturned => "the motion does not return".to_owned(),
     };
-    if known && has_parted(grown) {
+    if known && has_separated(grown) {
         found.verdict = Chaos::Unstable;
-        found.reason = format!("{}; {why}", parted(grown, growth.end() - growth.begin()));
+        found.reason = format!("{}; {why}", separation_words(grown, growth.end() - growth.begin()));
     } else if found.verdict == Chaos::Regular || found.verdict == Chaos::Chaotic {
         found.verdict = Chaos::Undecided;
         found.reason = format!("{why}, and λ is known to ± {:.1e}", found.uncertainty[0]);
@@ -228,7 +228,7 @@ fn departing(
 }
 
 /// By how much neighbours part.
-fn parted(grown: f64, time: f64) -> String {
+fn separation_words(grown: f64, time: f64) -> String {
     format!("neighbouring motions separate by e^{grown:.1} in a time of {}", short(time))
 }
 

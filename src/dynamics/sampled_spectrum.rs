@@ -227,17 +227,17 @@ fn is_faint_image(line: &SpectralLine, base: &SpectralLine, left: f64, spacing: 
 }
 
 /// Takes lines of these frequencies out of a spectrum, with the names that others have by them.
-fn without(spectrum: &mut Spectrum, gone: &[f64]) {
-    if gone.is_empty() {
+fn without(spectrum: &mut Spectrum, removed: &[f64]) {
+    if removed.is_empty() {
         return;
     }
-    spectrum.lines.retain(|line| !gone.contains(&line.frequency));
-    let is_gone: Vec<bool> = spectrum.fundamentals.iter().map(|f| gone.contains(f)).collect();
+    spectrum.lines.retain(|line| !removed.contains(&line.frequency));
+    let is_removed: Vec<bool> = spectrum.fundamentals.iter().map(|f| removed.contains(f)).collect();
     for line in &mut spectrum.lines {
         let by_the_rest = |k: Vec<_>| {
             let mut rest = Vec::new();
-            for (n, &gone) in k.into_iter().zip(&is_gone) {
-                match (gone, n) {
+            for (n, &removed) in k.into_iter().zip(&is_removed) {
+                match (removed, n) {
                     (false, n) => rest.push(n),
                     (true, 0) => {}
                     (true, _) => return None,
@@ -247,7 +247,7 @@ fn without(spectrum: &mut Spectrum, gone: &[f64]) {
         };
         line.combination = line.combination.take().and_then(by_the_rest);
     }
-    spectrum.fundamentals.retain(|f| !gone.contains(f));
+    spectrum.fundamentals.retain(|f| !removed.contains(f));
 }
 
 /// The amplitude of numbers at this advance of the phase from each to the next, under Hann's window.

@@ -3,7 +3,7 @@
 //! In: the logarithm of the vector's length after each step. Out: the greatest growth. Never here: the vector, or a verdict.
 
 /// Within one step of a motion that it resolves, neighbours part by less than this power of e.
-const PARTED: f64 = 1.0;
+const SEPARATED: f64 = 1.0;
 
 /// A step stands out where neighbours part in it by so many times as much as on the average: under a map, whose steps
 /// are long, they part by more than that power in all of them.
@@ -39,7 +39,7 @@ impl StepGrowth {
     pub(super) fn outstanding(&self, steps: u64) -> Option<(f64, f64)> {
         let (grown, _) = self.greatest;
         let mean = self.sum / steps as f64;
-        (grown > PARTED && grown > OUTSTANDING * mean).then_some(self.greatest)
+        (grown > SEPARATED && grown > OUTSTANDING * mean).then_some(self.greatest)
     }
 }
 

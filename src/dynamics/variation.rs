@@ -204,7 +204,7 @@ pub fn varied_phase_action<'a>(
     let variation = SineVariation { coordinate, k: 1 };
     let mut curves = Vec::new();
     for (with_q, with_p) in
-        [(true, MomentumRule::Kept), (false, MomentumRule::Varied), (true, MomentumRule::OfPath)]
+        [(true, MomentumRule::Fixed), (false, MomentumRule::Varied), (true, MomentumRule::OfPath)]
     {
         let mut rise = |epsilon: f64| {
             let terms = followed.nodes.iter().zip(followed.path.iter().zip(&momenta));
@@ -213,7 +213,7 @@ pub fn varied_phase_action<'a>(
                 let varied = variation.of(state, (time, duration), size);
                 let mut p = own.clone();
                 match with_p {
-                    MomentumRule::Kept => {}
+                    MomentumRule::Fixed => {}
                     MomentumRule::Varied => {
                         p[coordinate] += epsilon * scale * math::cos(PI * time / duration);
                     }
@@ -230,7 +230,7 @@ pub fn varied_phase_action<'a>(
 
 #[derive(Clone, Copy)]
 enum MomentumRule {
-    Kept,
+    Fixed,
     Varied,
     OfPath,
 }

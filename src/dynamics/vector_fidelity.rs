@@ -54,9 +54,9 @@ impl VectorFidelity<'_> {
         if !self.motion.fixed || self.jumps {
             return None;
         }
-        let (parted, at) = self.single_steps.outstanding(self.motion.steps)?;
+        let (growth, at) = self.single_steps.outstanding(self.motion.steps)?;
         Some(format!(
-            "in the single step that ends at t = {} neighbouring motions separate by e^{parted:.1}; the step leads past a pole of \
+            "in the single step that ends at t = {} neighbouring motions separate by e^{growth:.1}; the step leads past a pole of \
              the coordinates, or is too long; {} may tell",
             short(at),
             self.remedy()

@@ -87,13 +87,13 @@ impl SectionPlan {
 /// How far an orbit that begins at a time is followed at first, and a time that no step goes beyond. Where there is no end
 /// in time, no step ends early at one.
 pub(super) fn first_limit(plan: &SectionPlan, start: f64) -> (f64, f64) {
-    let target = plan.until.unwrap_or(start + look_ahead(start, FIRST_LOOK));
-    (target, plan.until.unwrap_or(target + look_ahead(target, FIRST_LOOK)))
+    let target = plan.until.unwrap_or(start + look_ahead(start, FIRST_SPAN));
+    (target, plan.until.unwrap_or(target + look_ahead(target, FIRST_SPAN)))
 }
 
 /// The same for an orbit without an end in time that was followed to `target`, by a last step of this size.
 pub(super) fn next_limit(target: f64, step: f64) -> (f64, f64) {
-    let ahead = look_ahead(target, (GROWTH * step.abs()).max(FIRST_LOOK));
+    let ahead = look_ahead(target, (GROWTH * step.abs()).max(FIRST_SPAN));
     (target + ahead, target + ahead + ahead)
 }
 
@@ -163,7 +163,7 @@ const STEPS_PER_CHECK: u64 = 64;
 
 /// Where no end is given, the time is first advanced so far, and then by so many of the steps taken: the greatest
 /// ratio of a step to the one before.
-const FIRST_LOOK: f64 = 1.0;
+const FIRST_SPAN: f64 = 1.0;
 const GROWTH: f64 = 8.0;
 
 /// A step in which a crossing can be located has at least so many times.

@@ -76,14 +76,14 @@ impl EventLog {
     /// Forgets what happened after a time; with the sign −1, what happened at earlier ones.
     pub(super) fn rewind(&mut self, time: f64, sign: f64) {
         let later = |occurrence: &&Occurrence| sign * occurrence.time > sign * time;
-        let gone: Vec<String> = self.iter().filter(later).map(|o| o.name.clone()).collect();
-        if gone.is_empty() {
+        let removed: Vec<String> = self.iter().filter(later).map(|o| o.name.clone()).collect();
+        if removed.is_empty() {
             return;
         }
         let mut counts = (*self.counts).clone();
         let mut rest: EventLog = self.iter().filter(|o| !later(o)).cloned().collect();
         for entry in &mut counts {
-            entry.count -= gone.iter().filter(|name| **name == entry.name).count() as u64;
+            entry.count -= removed.iter().filter(|name| **name == entry.name).count() as u64;
             let left = rest.counts().iter().find(|left| left.name == entry.name);
             entry.last = left.map_or(entry.last, |left| left.last);
         }

@@ -203,13 +203,13 @@ impl ObservedMotion {
     /// The current values but for those of channels that had none at some state since this was last asked: a row that
     /// parts what lies before it from what comes. `None` if no channel has a value again.
     pub(super) fn parting(&mut self) -> Option<Vec<f64>> {
-        let mut parted = None;
+        let mut gaps = None;
         for (k, lost) in self.lost.iter_mut().enumerate() {
             if std::mem::take(lost) && !self.values[k].is_nan() {
-                parted.get_or_insert_with(|| self.values.clone())[k] = f64::NAN;
+                gaps.get_or_insert_with(|| self.values.clone())[k] = f64::NAN;
             }
         }
-        parted
+        gaps
     }
 
     pub(super) fn dated(&self, error: MotionError) -> MotionError {

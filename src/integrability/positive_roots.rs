@@ -14,7 +14,7 @@ use crate::expr::Symbol;
 use crate::num::{PrimeField, Residue};
 
 /// A symbol is drawn this many times as often as it takes on average.
-const PATIENCE: usize = 16;
+const ATTEMPTS: usize = 16;
 
 /// The most roots that the average is taken of.
 const MOST_ROOTS: usize = 12;
@@ -72,7 +72,7 @@ impl PositiveRoots {
             let tries = match count {
                 0 => 1,
                 _ if due.symbol.is_none() => 1,
-                _ => PATIENCE << count.min(MOST_ROOTS),
+                _ => ATTEMPTS << count.min(MOST_ROOTS),
             };
             for _ in 0..tries {
                 if let Some(symbol) = due.symbol {

@@ -16,8 +16,8 @@ pub(super) const SMALL: f64 = 1e-9;
 
 /// After every so many passes a number also counts as moving by rounding alone if it moves by less than this multiple
 /// of the rounding of its rate.
-pub(super) const PATIENCE: usize = 12;
-const _: () = assert!(PASSES.is_multiple_of(PATIENCE), "passes are made by so many");
+pub(super) const PASSES_PER_ROUND: usize = 12;
+const _: () = assert!(PASSES.is_multiple_of(PASSES_PER_ROUND), "passes are made by so many");
 pub(super) const ROUNDINGS: f64 = 64.0;
 
 /// A number that has come to rest moves on if it moves by more than this multiple of what it moved

@@ -105,7 +105,7 @@ struct DormandPrince {
     /// Where the law may have something narrow in it.
     narrow: Option<NarrowPlaces>,
     /// The switches and roots whose kink lies within the attempted step.
-    parted: (Vec<usize>, Vec<usize>),
+    differing: (Vec<usize>, Vec<usize>),
     /// Whether the motion follows a kink.
     course: KinkCourse,
     parameters: Vec<f64>,
@@ -141,7 +141,7 @@ impl DormandPrince {
             longest: 0.0,
             crossings: 0,
             narrow: None,
-            parted: Default::default(),
+            differing: Default::default(),
             course: KinkCourse::Away,
             parameters: Vec::new(),
         })

@@ -14,7 +14,7 @@
 //! VIII.6; E. Hairer, R. McLachlan, A. Razakarivony, BIT Numerical Mathematics 48 (2008) 231.
 
 use super::convergence::{
-    MOVING, PASSES, PATIENCE, RESUMES, ROUNDINGS, SMALL, bound_after, size_of,
+    MOVING, PASSES, PASSES_PER_ROUND, RESUMES, ROUNDINGS, SMALL, bound_after, size_of,
 };
 use super::fixed::Scheme;
 use super::method::{Method, MethodError};
@@ -189,7 +189,7 @@ impl Implicit {
         self.noise.fill(0.0);
         lanes.begin(step, state, self.contiguous);
         let n = state.values.len();
-        for first in (0..PASSES).step_by(PATIENCE) {
+        for first in (0..PASSES).step_by(PASSES_PER_ROUND) {
             self.check_cancelled(state)?;
             if lanes.passes(first, step, state, &self.noise) {
                 if !lanes.end(step, state) {
@@ -234,7 +234,7 @@ impl Implicit {
                 Err(_) if count > 1 => break,
                 Err(error) => return Err(error),
             }
-            if count % PATIENCE == 0 {
+            if count % PASSES_PER_ROUND == 0 {
                 self.estimate_roundoff(step, state);
             }
             if self.stages.iter().any(|x| !x.is_finite()) {

@@ -134,8 +134,8 @@ pub(super) fn first(
     let until = first.map_or(to, |first| first.exact.high);
     for (event, crossings) in passed.iter().enumerate() {
         let mine = first.is_some_and(|first| first.event == event);
-        let mut gone = crossings.iter().filter(|c| c.exact.high < until || mine);
-        if let Some(last) = gone.next_back() {
+        let mut before = crossings.iter().filter(|c| c.exact.high < until || mine);
+        if let Some(last) = before.next_back() {
             sides[event] = last.side;
         }
     }

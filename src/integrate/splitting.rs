@@ -116,13 +116,13 @@ impl Scheme for Splitting {
             return Ok(());
         }
         self.known = false;
-        let (mut before, mut gone) = (0.0, 0.0);
+        let (mut before, mut elapsed) = (0.0, 0.0);
         for &w in &self.weights {
             add(state, 0.5 * (before + w) * step, &self.force);
             self.drift.evaluate(state.time, &state.values, &mut self.velocity)?;
             add(state, w * step, &self.velocity);
-            gone += w;
-            self.kick.evaluate(state.time + gone * step, &state.values, &mut self.force)?;
+            elapsed += w;
+            self.kick.evaluate(state.time + elapsed * step, &state.values, &mut self.force)?;
             before = w;
         }
         add(state, 0.5 * before * step, &self.force);

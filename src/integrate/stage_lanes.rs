@@ -4,7 +4,9 @@
 //! computes stage by stage, to the last bit. Never here: programs that cannot be written as a list, numbers that leave
 //! the range of `f64`, iterations that do not converge: these are detected and left to the stages one by one.
 
-use super::convergence::{MOVING, PATIENCE, RESUMES, ROUNDINGS, SMALL, bound_after, size_of};
+use super::convergence::{
+    MOVING, PASSES_PER_ROUND, RESUMES, ROUNDINGS, SMALL, bound_after, size_of,
+};
 use super::tableau::Tableau;
 use crate::num::{Analytic, Batch, BatchDouble, Kernel, vectorized};
 use crate::system::{Rates, STAGES, StageRates, Stages, State};
@@ -117,7 +119,7 @@ impl StageLanes {
         vectorized(BeginStep { lanes: self, step, state, contiguous });
     }
 
-    /// Performs passes from the `first` one on, of which at most [`PATIENCE`]. Returns whether all numbers have converged.
+    /// Performs passes from the `first` one on, of which at most [`PASSES_PER_ROUND`]. Returns whether all numbers have converged.
     pub(super) fn passes(&mut self, first: usize, step: f64, state: &State, noise: &[f64]) -> bool {
         vectorized(Passes { lanes: self, first, step, state, noise })
     }
@@ -223,7 +225,7 @@ impl Kernel for Passes<'_> {
         let Passes { lanes, first, step, state, noise } = self;
         let StageLanes { rates, places, matrix, stays, iteration, .. } = lanes;
         let least = Stages::splat(size_of(0.0));
-        for count in first..first + PATIENCE {
+        for count in first..first + PASSES_PER_ROUND {
             rates.evaluate();
             let (numbers, slopes) = rates.moving();
             let (mut least_bound, mut largest) = (Stages::splat(f64::INFINITY), Stages::ZERO);

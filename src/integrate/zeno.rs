@@ -4,7 +4,7 @@
 //! In: the times of one event. Out: whether they accumulate. Never here: the consequences.
 
 /// Events accumulate if their intervals shrink this many times in a row.
-const PATIENCE: u32 = 4;
+const LEAST_EVENTS: u32 = 4;
 
 /// The last of these intervals is at most this part of the time that has passed.
 const ACCUMULATION: f64 = 1e-9;
@@ -30,7 +30,7 @@ impl AccumulationDetector {
         let gap = time - self.last;
         let count = if gap <= FASTER * self.gap { self.count + 1 } else { 0 };
         *self = AccumulationDetector { last: time, gap, count };
-        count >= PATIENCE && gap <= ACCUMULATION * (time - start).abs()
+        count >= LEAST_EVENTS && gap <= ACCUMULATION * (time - start).abs()
     }
 }
 

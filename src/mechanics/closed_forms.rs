@@ -245,14 +245,14 @@ fn largest_front(matrix: &[Vec<Expr>], moves: impl Fn(usize) -> bool) -> usize {
     let mut left: Vec<usize> = (0..n).collect();
     let mut largest = 0;
     while let Some(place) = (0..left.len()).min_by_key(|&k| coupled[left[k]].len()) {
-        let gone = left.swap_remove(place);
-        let others = std::mem::take(&mut coupled[gone]);
-        if moving[gone] || others.iter().any(|&i| moving[i]) {
+        let removed = left.swap_remove(place);
+        let others = std::mem::take(&mut coupled[removed]);
+        if moving[removed] || others.iter().any(|&i| moving[i]) {
             largest = largest.max(others.len() + 1);
         }
         for &i in &others {
-            moving[i] |= moving[gone];
-            coupled[i].remove(&gone);
+            moving[i] |= moving[removed];
+            coupled[i].remove(&removed);
             coupled[i].extend(others.iter().filter(|&&j| j != i));
         }
     }

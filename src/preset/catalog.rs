@@ -126,11 +126,11 @@ impl Catalog {
             let text = text.to_lowercase();
             text.split(|c: char| !c.is_alphanumeric()).any(|word| word == folded)
         };
-        let sought = || self.entries.iter().filter(|_| folded.chars().count() >= LEAST_SOUGHT);
+        let candidates = || self.entries.iter().filter(|_| folded.chars().count() >= LEAST_LETTERS);
         let with_word = || {
-            sought()
+            candidates()
                 .find(|entry| holds(&entry.name) || holds(&entry.info.title))
-                .or_else(|| sought().find(|entry| holds(&entry.info.summary)))
+                .or_else(|| candidates().find(|entry| holds(&entry.info.summary)))
         };
         self.titled(wanted)
             .or_else(|| nearest(wanted, names))
@@ -160,8 +160,8 @@ impl Catalog {
     }
 }
 
-/// What is sought among the words of names, titles and summaries has at least this many letters.
-const LEAST_SOUGHT: usize = 3;
+/// What is searched for among the words of names, titles and summaries has at least this many letters.
+const LEAST_LETTERS: usize = 3;
 
 /// Finds the document that a user names, as [`Catalog::find`] does, without reading any other.
 ///

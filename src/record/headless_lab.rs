@@ -19,20 +19,21 @@ pub(super) struct Budget {
     paced: u64,
     flat_out: u64,
     /// The number of frames that may use up their steps before the motion is overdue; `None` for any number.
-    patience: Option<u32>,
+    overdue_after: Option<u32>,
 }
 
 impl Budget {
     /// For a recording, which runs unattended.
     pub(super) const RECORDED: Budget =
-        Budget { paced: 100_000, flat_out: 20_000, patience: Some(20) };
+        Budget { paced: 100_000, flat_out: 20_000, overdue_after: Some(20) };
 
     /// For a live performance, in which a viewer may press a key.
-    pub(super) const WATCHED: Budget = Budget { paced: 20_000, flat_out: 5_000, patience: None };
+    pub(super) const WATCHED: Budget =
+        Budget { paced: 20_000, flat_out: 5_000, overdue_after: None };
 
     /// Whether nobody watches.
     pub(super) fn is_unattended(self) -> bool {
-        self.patience.is_some()
+        self.overdue_after.is_some()
     }
 }
 
@@ -100,8 +101,8 @@ impl HeadlessLab {
 
     /// Why the recording stops, if the motion needs more steps than it may take.
     pub(super) fn overdue(&self) -> Option<String> {
-        let (patience, experiment) = (self.budget.patience?, self.experiment.as_ref()?);
-        (self.behind >= patience).then(|| {
+        let (overdue_after, experiment) = (self.budget.overdue_after?, self.experiment.as_ref()?);
+        (self.behind >= overdue_after).then(|| {
             format!(
                 "the motion is too slow for this: {} frames took {} steps each and led only to t = {}",
                 self.behind,

@@ -21,7 +21,7 @@ pub struct LessonReport {
 }
 
 /// How long the keys of a solution may take to fulfil a task, in microseconds.
-const PATIENCE: u64 = 60_000_000;
+const TIME_LIMIT: u64 = 60_000_000;
 
 /// Takes a lesson with the right answers, and then with every wrong one.
 ///
@@ -116,7 +116,7 @@ fn solve(lesson: &mut Lesson) -> Result<(), Diagnostic> {
         lesson.advance(100_000)?;
     }
     let mut passed = 0;
-    while matches!(lesson.stage, LessonStage::Task { .. }) && passed < PATIENCE {
+    while matches!(lesson.stage, LessonStage::Task { .. }) && passed < TIME_LIMIT {
         lesson.advance(100_000)?;
         passed += 100_000;
     }

@@ -105,8 +105,8 @@ impl EventSource for Decoder {
     }
 
     fn deadline(&self) -> Option<Instant> {
-        let ((first, last), patience) = (self.times?, self.patience()?);
-        Some((last + patience).min(first + IN_ALL * patience))
+        let ((first, last), timeout) = (self.times?, self.timeout()?);
+        Some((last + timeout).min(first + IN_ALL * timeout))
     }
 
     fn expect(&mut self, mode: TerminalMode, expected: bool) {
@@ -138,7 +138,7 @@ impl Decoder {
     fn feed(&mut self, bytes: &[u8], now: Instant) {
         self.parse(bytes);
         let first = self.times.map_or(now, |(first, _)| first);
-        self.times = self.patience().map(|_| (first, now));
+        self.times = self.timeout().map(|_| (first, now));
     }
 
     fn parse(&mut self, bytes: &[u8]) {
@@ -171,7 +171,7 @@ impl Decoder {
     }
 
     /// Returns how long to wait for the rest of unfinished input.
-    fn patience(&self) -> Option<Duration> {
+    fn timeout(&self) -> Option<Duration> {
         if self.sink.paste.is_some() {
             Some(PASTE)
         } else {
@@ -257,14 +257,14 @@ mod tests {
     }
 
     /// Decodes a `q` typed a while after an unfinished sequence.
-    fn q_after(unfinished: &[u8], patience: Duration) -> Vec<Event> {
+    fn q_after(unfinished: &[u8], timeout: Duration) -> Vec<Event> {
         let (mut decoder, now) = (Decoder::default(), Instant::now());
         for mode in [TerminalMode::Paste, TerminalMode::Mouse, TerminalMode::Focus] {
             decoder.expect(mode, true);
         }
         decoder.feed(unfinished, now);
-        let mut events: Vec<Event> = decoder.next(now + patience).into_iter().collect();
-        decoder.feed(b"q", now + patience);
+        let mut events: Vec<Event> = decoder.next(now + timeout).into_iter().collect();
+        decoder.feed(b"q", now + timeout);
         events.extend(taken(&mut decoder));
         events
     }

@@ -91,7 +91,7 @@ pub(super) enum FileChange {
         text: String,
         back: bool,
     },
-    Gone,
+    Removed,
 }
 
 /// The number of consecutive misses after which a file counts as gone; some editors remove a file briefly when they
@@ -123,7 +123,7 @@ impl Watch {
         self.since = INTERVAL;
         let Some(stamp) = stamp(place) else {
             self.missed = self.missed.saturating_add(1);
-            return (self.missed == MISSES).then_some(FileChange::Gone);
+            return (self.missed == MISSES).then_some(FileChange::Removed);
         };
         let back = self.missed >= MISSES;
         if self.stamp == Some(stamp) && !back {
@@ -222,7 +222,7 @@ mod tests {
         // It is gone for good.
         fs::remove_file(&place).expect("it goes");
         let changes: Vec<_> = (0..4).filter_map(|_| watch.poll(&place, INTERVAL)).collect();
-        assert_eq!(changes, [FileChange::Gone], "it is reported once");
+        assert_eq!(changes, [FileChange::Removed], "it is reported once");
         fs::write(&place, "again").expect("it is written");
         assert_eq!(watch.poll(&place, INTERVAL), text("again", true));
         assert_eq!(watch.poll(&place, INTERVAL), None);

@@ -106,7 +106,7 @@ pub enum Ending {
     /// The page requested it.
     Quit,
     /// The terminal has hung up.
-    Gone,
+    HungUp,
     /// The program was asked to end by this signal.
     Signal(i32),
 }
@@ -244,7 +244,7 @@ impl<E: EventSource> FrameLoop<'_, E> {
 
             let ready = self.wait(due)?;
             if ready.hung_up || ready.input && !self.events.read(self.terminal)? {
-                return Ok(Ending::Gone);
+                return Ok(Ending::HungUp);
             }
         }
     }

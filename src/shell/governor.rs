@@ -48,7 +48,7 @@ pub struct Governor {
     /// When the last frame was sent.
     at: Instant,
     /// The bytes that had not been transmitted then.
-    owed: f64,
+    backlog: f64,
     /// The average transmission time of a frame, in seconds.
     need: f64,
     detail: Detail,
@@ -67,7 +67,7 @@ impl Governor {
             budget: budget.map(|bytes| f64::from(bytes.max(1))),
             watched: true,
             at: now,
-            owed: 0.0,
+            backlog: 0.0,
             need: 0.0,
             detail: Detail::default(),
             slow: Duration::ZERO,
@@ -97,7 +97,7 @@ impl Governor {
         let passed = now.saturating_duration_since(self.at);
         self.at = now;
         let Some(budget) = self.budget else { return };
-        self.owed = (self.owed - passed.as_secs_f64() * budget).max(0.0) + bytes as f64;
+        self.backlog = (self.backlog - passed.as_secs_f64() * budget).max(0.0) + bytes as f64;
         let share = passed.as_secs_f64() / (passed.as_secs_f64() + MEMORY);
         self.need += (bytes as f64 / budget - self.need) * share;
         self.judge(passed, now);
@@ -120,7 +120,7 @@ impl Governor {
 
     /// Returns when everything sent will have been transmitted.
     fn paid(&self) -> Instant {
-        self.at + Duration::from_secs_f64(self.budget.map_or(0.0, |budget| self.owed / budget))
+        self.at + Duration::from_secs_f64(self.budget.map_or(0.0, |budget| self.backlog / budget))
     }
 
     /// Reduces or raises the detail if frames have been too large, or small, for long enough.

@@ -84,7 +84,7 @@ pub fn run(request: &Request) -> Result<Ending, LabError> {
     let lost = kept.map_err(LabError::Unsaved).and(recorded.map_err(LabError::Unrecorded));
     match (lost, ending) {
         (Err(why), Ending::Quit) => Err(why),
-        (Err(why), Ending::Signal(_) | Ending::Gone) => {
+        (Err(why), Ending::Signal(_) | Ending::HungUp) => {
             // The signal decides the exit status; nothing changes if the message cannot be written.
             let _ = writeln!(io::stderr(), "phaselab: {why}");
             Ok(ending)

@@ -41,7 +41,7 @@ pub struct LogError {
 }
 
 /// How long the end of the program waits for the last lines.
-const PATIENCE: Duration = Duration::from_millis(200);
+const TIMEOUT: Duration = Duration::from_millis(200);
 
 #[derive(Debug)]
 pub(super) struct Log {
@@ -89,7 +89,7 @@ impl Log {
             let _ = done.send(());
         };
         if thread::Builder::new().name("log".to_owned()).spawn(close).is_ok() {
-            let _ = wait.recv_timeout(PATIENCE);
+            let _ = wait.recv_timeout(TIMEOUT);
         }
     }
 }

@@ -157,7 +157,7 @@ mod tests {
         assert!(malformed.contains("is not a session:\n"), "{malformed}");
         assert!(message("version = ]\n").contains("line 1"));
         assert!(message(" \n").contains("it is empty"));
-        let gone = read_from(&folder.path().join("other.toml")).expect_err("it is not there");
-        assert!(gone.to_string().starts_with("there is no session to resume: "), "{gone}");
+        let missing = read_from(&folder.path().join("other.toml")).expect_err("it is not there");
+        assert!(missing.to_string().starts_with("there is no session to resume: "), "{missing}");
     }
 }

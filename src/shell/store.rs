@@ -332,15 +332,15 @@ mod tests {
 
     #[test]
     fn what_cannot_be_understood_is_put_aside_and_does_not_stop_saving() {
-        for strange in ["version = ]\n", "", "\0\0\0\0"] {
+        for malformed in ["version = ]\n", "", "\0\0\0\0"] {
             let folder = tempfile::tempdir().expect("a folder");
             let path = folder.path().join("session.toml");
             let texts = path.with_file_name("texts.toml");
             for place in [&path, &texts] {
-                fs::write(place, strange).expect("it is written");
+                fs::write(place, malformed).expect("it is written");
             }
             let mut store = Store::at(path.clone()).expect("it is free");
-            let empty = !strange.starts_with("version");
+            let empty = !malformed.starts_with("version");
             assert_eq!(store.troubles.is_empty(), empty, "{:?}", store.troubles);
             store.save(session());
             store.keep_texts(vec![text("one", "two")], false);
@@ -349,7 +349,7 @@ mod tests {
             assert_eq!(read_texts(&texts).expect("they are read"), [text("one", "two")]);
             for aside in ["session-damaged-1.toml", "texts-damaged-1.toml"] {
                 let found = fs::read_to_string(folder.path().join(aside)).ok();
-                assert_eq!(found.as_deref(), Some(strange).filter(|_| !empty));
+                assert_eq!(found.as_deref(), Some(malformed).filter(|_| !empty));
             }
         }
     }

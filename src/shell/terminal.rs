@@ -31,7 +31,7 @@ use rustix::fs::{Mode as FileMode, OFlags, open};
 use rustix::termios::{QueueSelector, isatty, tcflush, ttyname};
 
 /// How long a terminal may take to accept the restoring bytes before its unsent output is discarded.
-const PATIENCE: Duration = Duration::from_millis(60);
+const TIMEOUT: Duration = Duration::from_millis(60);
 
 /// Larger sizes, in columns and rows, are treated as errors of the terminal.
 const LARGEST: (u16, u16) = (1000, 1000);
@@ -193,10 +193,10 @@ impl Terminal {
         for mode in modes.iter().rev() {
             let _ = mode.switch(false, &mut bytes);
         }
-        if !self.write_within(&mut bytes, PATIENCE) {
+        if !self.write_within(&mut bytes, TIMEOUT) {
             // The terminal is stalled: the rest of the frame that it has not accepted no longer matters.
             let _ = tcflush(&self.output, QueueSelector::OFlush);
-            self.write_within(&mut bytes, PATIENCE);
+            self.write_within(&mut bytes, TIMEOUT);
         }
         let _ = tcflush(self.input, QueueSelector::IFlush);
         let _ = disable_raw_mode();
@@ -293,7 +293,7 @@ impl Terminal {
 
     /// Takes the lock, unless its holder is stuck in a blocking write: then nothing can be restored.
     fn lock_soon(&self) -> Option<MutexGuard<'_, Option<Vec<TerminalMode>>>> {
-        let end = Instant::now() + PATIENCE;
+        let end = Instant::now() + TIMEOUT;
         loop {
             match self.active.try_lock() {
                 Ok(active) => return Some(active),

@@ -146,7 +146,7 @@ impl System {
         let n = self.degrees();
         let moving = self.moving();
         let layout = TangentLayout { count: n, moving, first: moving, outputs: n, last: 0 };
-        let program = self.legendre_program().tangent(layout);
+        let program = self.shared.legendre.tangent(layout);
         let mut values = Evaluator::new(Arc::clone(&program));
         values.set_parameters(&self.inputs(parameters));
         values

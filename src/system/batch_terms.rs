@@ -37,7 +37,7 @@ impl System {
     /// The terms of the conserved quantities of several orbits, whose states have this form; `None`
     /// where they have to be evaluated one by one.
     pub fn batch_terms(&self, form: Form) -> Option<BatchTerms> {
-        let terms = self.terms();
+        let terms = &self.shared.terms;
         let native = form == self.form();
         let program = if native { &terms.native } else { terms.canonical.as_ref()? };
         let alone = |&r: &u32| {

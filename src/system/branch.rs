@@ -4,6 +4,8 @@
 //! det ∂²L/∂q̇² vanishes, and its sign differs between them. Never here: finding velocities from
 //! momenta.
 
+use std::sync::Arc;
+
 use super::value::Evaluator;
 use super::{Form, State, System};
 
@@ -23,7 +25,7 @@ impl System {
         if !self.has_branches() || state.form != Form::Velocity {
             return None;
         }
-        let mut momenta = Evaluator::new(self.legendre_program());
+        let mut momenta = Evaluator::new(Arc::clone(&self.shared.legendre));
         momenta.set_parameters(&self.inputs(parameters));
         let degrees = self.degrees();
         let numbers = vec![0.0; 2 * degrees];

@@ -3,6 +3,8 @@
 //! In: states, impulses, requests to release a constraint. Out: systems with another active set, states on the
 //! constraints, reactions. Never here: how a state is projected.
 
+use std::sync::Arc;
+
 use super::active_set::ActiveSet;
 use super::conditions::Conditions;
 use super::consistent_initial::{self, InconsistentStart, KnownVelocity};
@@ -148,7 +150,7 @@ impl System {
         if conditions.independence(&self.active_set().enforced) == 0.0 {
             return Err(self.lost(ProjectionError::Singular, &state));
         }
-        let mut momenta = Evaluator::new(self.legendre_program());
+        let mut momenta = Evaluator::new(Arc::clone(&self.shared.legendre));
         momenta.set_parameters(&self.inputs(parameters));
         let mut numbers: Vec<DoubleDouble> = (0..self.moving()).map(|i| state.exact(i)).collect();
         let time = state.exact_time();

@@ -69,11 +69,7 @@ impl System {
     ) -> Result<(), MotionError> {
         let program = &self.shared.auxiliary;
         if program.outputs() > 0 {
-            let mut values: Evaluator<DoubleDouble> = Evaluator::new(Arc::clone(program));
-            values.set_parameters(&self.inputs(parameters));
-            let numbers: Vec<DoubleDouble> = (0..self.moving()).map(|i| state.exact(i)).collect();
-            let found = values.evaluate(state.exact_time(), &numbers);
-            found.map_err(|why| self.singular(program, why, state.time, &state.values))?;
+            let values = self.evaluated(program, state, parameters)?;
             for i in 0..program.outputs() {
                 state.set(self.moving() + i, values.output(i));
             }
@@ -288,5 +284,19 @@ impl System {
     ) -> Result<State, MotionError> {
         let mut legendre = self.legendre(&self.inputs(parameters));
         self.convert_by(&mut legendre, state, self.form(), Some(near))
+    }
+
+    pub(super) fn state_of(
+        &self,
+        time: DoubleDouble,
+        form: Form,
+        numbers: &[DoubleDouble],
+    ) -> State {
+        let mut state = State::new(time.high, form, vec![0.0; self.state_len()]);
+        state.time_carry = time.low;
+        for (i, &x) in numbers.iter().enumerate() {
+            state.set(i, x);
+        }
+        state
     }
 }

@@ -47,7 +47,7 @@ pub enum MotionErrorKind {
     /// pass the place, if known.
     SingularConstraints(Option<Passage>),
     /// This constraint was redundant at the start and contradicts the others here.
-    ConstraintParted(String),
+    ConstraintContradicts(String),
     /// This constraint has a corner here, where the motion needs an impulse that the law does not determine.
     ConstraintCorner(String),
     /// No state nearby satisfies this constraint.
@@ -171,7 +171,7 @@ impl fmt::Display for MotionError {
             MotionErrorKind::SingularConstraints(_) => {
                 write!(f, "singular configuration of the constraints at t = {time}")?;
             }
-            MotionErrorKind::ConstraintParted(name) => write!(
+            MotionErrorKind::ConstraintContradicts(name) => write!(
                 f,
                 "the constraint `{name}`, which repeated those before it where the motion began, \
                  contradicts them after t = {time}"
@@ -296,7 +296,7 @@ impl fmt::Display for MotionError {
                 let Some(passage) = passage else { return Ok(()) };
                 return write!(f, "; {passage} passes it, on the smooth one of its branches");
             }
-            MotionErrorKind::ConstraintParted(_) => {
+            MotionErrorKind::ConstraintContradicts(_) => {
                 ": the motion began at a singular configuration of the constraints"
             }
             MotionErrorKind::ConstraintCorner(_) => {

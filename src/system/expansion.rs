@@ -20,7 +20,7 @@ use crate::num::{
 };
 
 /// The most times ahead from which functions are evaluated whose last terms show nothing.
-const MOST_LOOKS: u32 = 100;
+const MOST_SAMPLES: u32 = 100;
 
 /// The series of the functions, up to one order.
 #[derive(Clone, Debug)]
@@ -258,7 +258,7 @@ impl Expansion {
         // number of terms about here holds no farther
         let mut ahead = if reach.is_finite() { 0.5 * reach } else { 1.0 };
         let mut least = 0.0;
-        for _ in 0..MOST_LOOKS {
+        for _ in 0..MOST_SAMPLES {
             let there =
                 if self.about(series, x + ahead) { self.reach(cut_off, whole) } else { 0.0 };
             if there >= ahead {

@@ -40,7 +40,7 @@ impl KinkSides {
     }
 
     /// The switches, and the functions under roots, between whose sides here and elsewhere a kink lies.
-    pub fn parted(&self, other: &KinkSides) -> (Vec<usize>, Vec<usize>) {
+    pub fn differences(&self, other: &KinkSides) -> (Vec<usize>, Vec<usize>) {
         let switches = (0..self.switches.len()).filter(|&i| self.switches[i] != other.switches[i]);
         let roots = (0..self.roots.len()).filter(|&i| !alike(self.roots[i], other.roots[i]));
         (switches.collect(), roots.collect())

@@ -33,7 +33,7 @@ const FEW_HALVINGS: u32 = 8;
 const ROUNDING: f64 = 1e-29;
 
 /// A residual this small that no step reduces is rounding as well.
-const STUBBORN: f64 = 1e-20;
+const STAGNATION: f64 = 1e-20;
 
 /// A larger residual is never a solution, however small the last step was: the iteration is stuck
 /// at a fold of the relation.
@@ -246,7 +246,7 @@ impl Legendre {
                 }
                 self.missing(time, targets, unknown, scales_there, next)?;
                 (old, new) = (largest(missed, scales), largest(next, scales));
-                let at_rounding = (halving == 0 && change < 1e-20) || old <= STUBBORN;
+                let at_rounding = (halving == 0 && change < 1e-20) || old <= STAGNATION;
                 if new <= old || new == 0.0 || (at_rounding && new.is_finite()) {
                     if halving > 0 {
                         left = Some(1.0);
@@ -265,7 +265,7 @@ impl Legendre {
                 }
                 size *= 0.5;
             }
-            left.get_or_insert(if old <= STUBBORN { 0.0 } else { new / old });
+            left.get_or_insert(if old <= STAGNATION { 0.0 } else { new / old });
             std::mem::swap(scales, scales_there);
             new = largest(next, scales);
             // converged: the correction is below the precision of the result, or the residual stops
@@ -331,7 +331,7 @@ fn largest(missing: &[DoubleDouble], scales: &[f64]) -> f64 {
 /// Whether what is left of a residual, relative to its terms, is rounding, after `old` was left before the
 /// last step.
 fn is_rounding(old: f64, new: f64) -> bool {
-    old <= STUBBORN && (new <= ROUNDING || (new <= STUBBORN && new >= 0.5 * old))
+    old <= STAGNATION && (new <= ROUNDING || (new <= STAGNATION && new >= 0.5 * old))
 }
 
 #[cfg(test)]

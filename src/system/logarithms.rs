@@ -24,17 +24,17 @@ pub struct Logarithms {
 impl System {
     /// Whether the energy contains logarithms of what moves.
     pub(super) fn has_logarithms(&self) -> bool {
-        arguments(&self.energy_program()).next().is_some()
+        arguments(&self.shared.energy).next().is_some()
     }
 
     /// The logarithms of the energy, or `None` if there are none.
     pub fn logarithms(&self, parameters: &[f64]) -> Option<Logarithms> {
-        let program = self.energy_program();
-        let arguments: Vec<Register> = arguments(&program).collect();
+        let program = &self.shared.energy;
+        let arguments: Vec<Register> = arguments(program).collect();
         if arguments.is_empty() {
             return None;
         }
-        let mut energy = Evaluator::new(Arc::clone(&program));
+        let mut energy = Evaluator::new(Arc::clone(program));
         energy.set_parameters(&self.inputs(parameters));
         let numbers = vec![0.0; self.moving()];
         let (system, parameters) = (self.clone(), parameters.to_vec());

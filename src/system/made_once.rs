@@ -27,10 +27,10 @@ impl MadeOnce {
     /// type is there.
     pub(super) fn get<T: Send + Sync + 'static>(
         &self,
-        patience: usize,
+        threshold: usize,
         make: impl FnOnce() -> T,
     ) -> Option<Arc<T>> {
-        if self.made.get().is_none() && self.wanted.fetch_add(1, Ordering::Relaxed) < patience {
+        if self.made.get().is_none() && self.wanted.fetch_add(1, Ordering::Relaxed) < threshold {
             return None;
         }
         let made = self.made.get_or_init(|| Arc::new(make()));

@@ -26,13 +26,13 @@ pub struct Observer {
 
 impl Observer {
     fn new(system: System, parameters: &[f64]) -> Observer {
-        let watch = system.watch();
+        let watch = &system.shared.observables;
         let images: Vec<MapImage> = watch.images.iter().map(MapImage::new).collect();
         let inputs = system.motion_len() + 2 + images.iter().map(MapImage::len).sum::<usize>();
         let mut observer = Observer {
             precise: Evaluator::new(Arc::clone(&watch.precise)),
             drawn: Evaluator::new(Arc::clone(&watch.drawn)),
-            energy: Evaluator::new(system.energy_program()),
+            energy: Evaluator::new(Arc::clone(&system.shared.energy)),
             native: NativeStates::new(&system),
             inputs: vec![DoubleDouble::ZERO; inputs],
             rounded: vec![0.0; inputs],
@@ -66,7 +66,7 @@ impl Observer {
     /// # Errors
     /// Returns an error only if the state has no velocities (or momenta), or no accelerations although a channel needs them.
     pub fn observe(&mut self, state: &State, out: &mut [f64]) -> Result<(), MotionError> {
-        let precise = self.system.watch().precise.outputs();
+        let precise = self.system.shared.observables.precise.outputs();
         let (first, others) = out.split_at_mut(precise);
         self.observe_leading(state, first)?;
         for (rounded, x) in self.rounded.iter_mut().zip(&self.inputs) {
@@ -74,7 +74,7 @@ impl Observer {
         }
         let outcome = self.drawn.evaluate(state.time, &self.rounded);
         outcome.map_err(|singular| {
-            let program = &self.system.watch().drawn;
+            let program = &self.system.shared.observables.drawn;
             self.system.singular(program, singular, state.time, &state.values)
         })?;
         for (i, x) in others.iter_mut().enumerate() {
@@ -102,7 +102,7 @@ impl Observer {
         }
         let outcome = self.precise.evaluate(state.exact_time(), &self.inputs);
         outcome.map_err(|singular| {
-            let program = &self.system.watch().precise;
+            let program = &self.system.shared.observables.precise;
             self.system.singular(program, singular, state.time, &state.values)
         })?;
         for (i, x) in out.iter_mut().enumerate() {

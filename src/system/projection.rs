@@ -19,7 +19,7 @@ const ROUNDING: f64 = 1e-30;
 
 /// So is a residual this small that no correction reduces: the terms may themselves be differences
 /// of larger ones.
-const STUBBORN: f64 = 1e-22;
+const STAGNATION: f64 = 1e-22;
 
 /// The projection of one system's states onto its constraints, at one set of parameters.
 #[derive(Clone, Debug)]
@@ -39,7 +39,7 @@ pub(super) enum ProjectionError {
     /// No state nearby satisfies this constraint.
     Lost(usize),
     /// This constraint was redundant at the start and contradicts the others here.
-    Parted(usize),
+    Contradicts(usize),
 }
 
 impl Projection {
@@ -126,7 +126,7 @@ impl Projection {
                 state[first + i] = state[first + i] + step[i];
             }
         }
-        let lost = rows.iter().copied().find(|&k| residual(self, k, state).relative() > STUBBORN);
+        let lost = rows.iter().copied().find(|&k| residual(self, k, state).relative() > STAGNATION);
         lost.map_or(Ok(()), |k| Err(ProjectionError::Lost(k)))
     }
 
@@ -187,7 +187,7 @@ impl Projection {
                         self.momenta.evaluate(time, &numbers)?;
                     }
                     let new = merit(&next, &scales);
-                    if new < size || new <= STUBBORN {
+                    if new < size || new <= STAGNATION {
                         (step, size) = (next, new);
                         break;
                     }
@@ -257,7 +257,7 @@ fn merit(missing: &[DoubleDouble], scales: &[f64]) -> f64 {
 /// Whether what is left of a residual, relative to its terms, is rounding; `last` is what was left
 /// before the last correction.
 fn is_rounding(size: f64, last: f64) -> bool {
-    size <= ROUNDING || (size <= STUBBORN && size >= 0.5 * last)
+    size <= ROUNDING || (size <= STAGNATION && size >= 0.5 * last)
 }
 
 #[cfg(test)]

@@ -3,6 +3,8 @@
 //! In: states near the constraints. Out: the nearest states on them, residuals, directions. Never here: which constraints
 //! are enforced, and the constraint forces along the motion, which are outputs of the programs.
 
+use std::sync::Arc;
+
 use super::active_set::ActiveSet;
 use super::conditions::Conditions;
 use super::constraint_programs::GIVEN_WITHIN;
@@ -81,7 +83,7 @@ impl ConstraintProjector {
             let off = conditions.position(k).relative();
             let off = off.max(conditions.velocity(k, velocities).relative());
             if off.is_nan() || off > GIVEN_WITHIN {
-                return Err(self.system.lost(ProjectionError::Parted(k), state));
+                return Err(self.system.lost(ProjectionError::Contradicts(k), state));
             }
         }
         conditions.take_turns();
@@ -168,7 +170,7 @@ impl System {
     /// The projector onto the constraints, or `None` if there are none.
     pub fn projector(&self, parameters: &[f64]) -> Option<ConstraintProjector> {
         let conditions = Conditions::new(&self.constrained()?.programs, self.constraints());
-        let momenta = Evaluator::new(self.legendre_program());
+        let momenta = Evaluator::new(Arc::clone(&self.shared.legendre));
         let projection = Projection::new(conditions, momenta, &self.active_set().enforced);
         let numbers = vec![DoubleDouble::ZERO; self.moving()];
         let mut projector = ConstraintProjector { system: self.clone(), projection, numbers };
@@ -181,8 +183,8 @@ impl System {
             (ProjectionError::Lost(k), Some(c)) => {
                 MotionErrorKind::ConstraintLost(c.names[k].clone())
             }
-            (ProjectionError::Parted(k), Some(c)) => {
-                MotionErrorKind::ConstraintParted(c.names[k].clone())
+            (ProjectionError::Contradicts(k), Some(c)) => {
+                MotionErrorKind::ConstraintContradicts(c.names[k].clone())
             }
             (ProjectionError::Singular, _) | (_, None) => {
                 MotionErrorKind::SingularConstraints(None)

@@ -58,7 +58,7 @@ impl System {
         if !direct {
             let n = self.degrees();
             rates.solver = Some(Solver {
-                legendre: self.blank_legendre(),
+                legendre: Legendre::new(Arc::clone(&self.shared.legendre), self.form()),
                 native: vec![DoubleDouble::ZERO; 2 * n],
                 under_way: false,
                 targets: vec![None; n],

@@ -53,17 +53,17 @@ impl SteepArguments {
 impl System {
     /// Returns the evaluator of the arguments of exponential functions in the law; `None` if there are none.
     pub fn steep_arguments(&self, parameters: &[f64]) -> Option<SteepArguments> {
-        self.evaluator_of(self.steep_program(), parameters)
+        self.evaluator_of(&self.shared.steep, parameters)
     }
 
     /// Returns the evaluator of what negative powers in the law divide by; `None` if there are none.
     pub fn divisors(&self, parameters: &[f64]) -> Option<SteepArguments> {
-        self.evaluator_of(self.divisor_program(), parameters)
+        self.evaluator_of(&self.shared.divisors, parameters)
     }
 
     /// Returns the evaluator of those of them that may change their sign; `None` if there are none.
     pub fn signed_divisors(&self, parameters: &[f64]) -> Option<SteepArguments> {
-        self.evaluator_of(self.signed_divisor_program(), parameters)
+        self.evaluator_of(&self.shared.signed_divisors, parameters)
     }
 
     fn evaluator_of(&self, program: &Arc<Program>, parameters: &[f64]) -> Option<SteepArguments> {

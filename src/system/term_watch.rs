@@ -140,7 +140,7 @@ impl TermWatch {
 impl System {
     /// Returns an evaluator of the terms of the conserved quantities at these parameters.
     pub fn term_watch(&self, parameters: &[f64]) -> TermWatch {
-        TermWatch::new(self.clone(), self.terms(), parameters)
+        TermWatch::new(self.clone(), &self.shared.terms, parameters)
     }
 }
 

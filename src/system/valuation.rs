@@ -6,6 +6,7 @@ use super::{ChannelKind, System};
 use crate::expr::Symbol;
 use crate::mechanics::{Equations, Valuation};
 use crate::model::Model;
+use crate::num::DoubleDouble;
 
 impl System {
     /// The values of all symbols: the parameters and the quantities derived from the file's body,
@@ -40,5 +41,14 @@ impl System {
         };
         let channels = self.channels().iter().enumerate();
         channels.filter_map(|(i, channel)| Some((symbol(channel.kind)?, i))).collect()
+    }
+
+    /// The values of the body's symbols at these parameters, empty if there is no body.
+    pub fn body_values(&self, parameters: &[f64]) -> Vec<(Symbol, f64)> {
+        let Some(inertia) = &self.shared.inertia else { return Vec::new() };
+        let written: Vec<DoubleDouble> =
+            parameters.iter().map(|&x| DoubleDouble::from_decimal(x)).collect();
+        let values = inertia.values(&written).into_iter().map(|x| x.high);
+        inertia.names().iter().copied().zip(values).collect()
     }
 }

@@ -46,7 +46,7 @@ impl System {
             SplitHamiltonian { drift: of(&split.drift, degrees), kick: of(&split.kick, degrees) }
         });
         let (canonical, direct) = &motion.canonical;
-        let legendre = self.legendre_program();
+        let legendre = &self.shared.legendre;
         let outputs = if self.form() == Form::Variables { 0 } else { degrees };
         let layout = TangentLayout { count: 1, moving, first: moving, outputs, last: 0 };
         Tangents {

@@ -212,14 +212,14 @@ fn meaning(canvas: &Canvas<'_>, lab: &Lab) -> Vec<String> {
         });
     }
     let selected = lab.selected().and_then(|target| Some((target, lab.value_info(target)?)));
-    let Some((target, facts)) = selected else { return Vec::new() };
-    let text = value_meaning(lab, target, &facts);
-    let name = glyphs.pick(&facts.shown, &facts.name);
+    let Some((target, info)) = selected else { return Vec::new() };
+    let text = value_meaning(lab, target, &info);
+    let name = glyphs.pick(&info.shown, &info.name);
     // the keys have precedence over what the list itself says
     let explained = text.is_empty() || canvas.explained;
     let about = if explained { String::new() } else { format!(": {text}") };
-    let unit = if facts.unit.is_empty() { String::new() } else { format!(" [{}]", facts.unit) };
-    let range = facts.range.map_or_else(String::new, |(min, max, _)| {
+    let unit = if info.unit.is_empty() { String::new() } else { format!(" [{}]", info.unit) };
+    let range = info.range.map_or_else(String::new, |(min, max, _)| {
         format!(", {} to {}", brief(min, 4, glyphs), brief(max, 4, glyphs))
     });
     let named = format!("{name}{unit}{about}");
@@ -298,24 +298,24 @@ fn hints(canvas: &Canvas<'_>, (app, body): (&App, Rect)) -> Vec<Hint> {
 
 /// Draws the text being typed, what is wrong with it, and at the right the keys that end it: at least how to leave.
 fn open_field(canvas: &mut Canvas<'_>, (area, body): (Rect, Rect), app: &App, field: &InputField) {
-    let facts = match (&app.lab, field.purpose) {
+    let info = match (&app.lab, field.purpose) {
         (Some(lab), Purpose::Value(target)) => lab.value_info(target),
         (Some(lab), Purpose::Ramp(index)) => lab.value_info(ValueId::Parameter(index)),
         _ => None,
     };
     let glyphs = canvas.style.glyphs;
-    let name = match (field.purpose, &facts) {
+    let name = match (field.purpose, &info) {
         (Purpose::Flow(_) | Purpose::SymmetryFlow(_) | Purpose::GeneratorFlow(_), _) => {
             "how far, ε; a negative value goes back".to_owned()
         }
         (Purpose::TypedFlow, _) => "G; ε".to_owned(),
-        (Purpose::Ramp(_), Some(facts)) => {
-            format!("ramp {}: value in time", glyphs.pick(&facts.shown, &facts.name))
+        (Purpose::Ramp(_), Some(info)) => {
+            format!("ramp {}: value in time", glyphs.pick(&info.shown, &info.name))
         }
         (Purpose::Surface(_), _) => "section at".to_owned(),
         (Purpose::Step, _) => "step".to_owned(),
         (Purpose::Tolerance, _) => "tolerance".to_owned(),
-        (_, Some(facts)) => glyphs.pick(&facts.shown, &facts.name).clone(),
+        (_, Some(info)) => glyphs.pick(&info.shown, &info.name).clone(),
         _ => "value".to_owned(),
     };
     let is_surface = matches!(field.purpose, Purpose::Surface(_));
@@ -328,7 +328,7 @@ fn open_field(canvas: &mut Canvas<'_>, (area, body): (Rect, Rect), app: &App, fi
     let taken = if field.diagnostic.is_some() { typed } else { room };
     let rest = columns(area, used + taken + 2, area.width);
     let mut shorter = None;
-    let (role, text) = match (&field.diagnostic, facts) {
+    let (role, text) = match (&field.diagnostic, info) {
         (Some(diagnostic), _) => (Role::Bad, diagnostic.clone()),
         (None, _) if field.purpose == Purpose::TypedFlow => {
             (Role::Dim, "a function of q, p and t; p_x*y - p_y*x; 0.1".to_owned())
@@ -339,14 +339,14 @@ fn open_field(canvas: &mut Canvas<'_>, (area, body): (Rect, Rect), app: &App, fi
         (None, _) if is_surface => {
             (Role::Dim, "x = 0, rising (falling, either); every 2*pi/w; event NAME".to_owned())
         }
-        (None, Some(facts)) => {
-            let range = facts.range.map_or_else(String::new, |(min, max, _)| {
+        (None, Some(info)) => {
+            let range = info.range.map_or_else(String::new, |(min, max, _)| {
                 let [min, max] = [min, max].map(|x| brief(x, 6, glyphs));
                 format!("{min} to {max} ")
             });
-            let unit = if facts.unit.is_empty() { "" } else { "   " };
-            let range = format!("{range}{}", facts.unit);
-            let whole = format!("{range}{unit}{}", facts.about);
+            let unit = if info.unit.is_empty() { "" } else { "   " };
+            let range = format!("{range}{}", info.unit);
+            let whole = format!("{range}{unit}{}", info.about);
             shorter = Some(range);
             (Role::Dim, whole)
         }

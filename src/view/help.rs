@@ -35,7 +35,7 @@ pub(super) fn draw(
     let title = [canvas.span(Role::Title, "Keys")];
     let mut inner = canvas.pane(area, &title, true);
     canvas.target(area, HitTarget::Text);
-    let sought = search.map_or("", |input| input.value());
+    let pattern = search.map_or("", |input| input.value());
     if let Some(input) = search {
         let (above, below) = split_rows(inner, 1);
         let field = columns(above, 1, above.width.saturating_sub(2));
@@ -43,7 +43,7 @@ pub(super) fn draw(
         let place = columns(field, used, field.width);
         let room = usize::from(place.width.saturating_sub(1));
         let skipped = input.visual_scroll(room);
-        let text: String = sought.chars().skip(skipped).take(room).collect();
+        let text: String = pattern.chars().skip(skipped).take(room).collect();
         canvas.left(place, Role::Text, &text);
         if typing {
             let cursor = input.visual_cursor().saturating_sub(skipped).min(room) as u16;
@@ -51,15 +51,15 @@ pub(super) fn draw(
         }
         inner = below;
     }
-    let page = document(canvas.style, active, sought);
+    let page = document(canvas.style, active, pattern);
     page.draw_in_columns(canvas, inner, scroll)
 }
 
 /// Builds the page: a few keys to begin with, then those of what has the focus, then those of the page around it, the mouse, then all
 /// others. Of a search only what was found is left, by the words of the page or by other words for the same action.
-fn document(style: &RenderStyle, active: &[KeyContext], sought: &str) -> TextPage {
+fn document(style: &RenderStyle, active: &[KeyContext], pattern: &str) -> TextPage {
     let mut page = TextPage::default();
-    let words: Vec<String> = sought.split_whitespace().map(str::to_lowercase).collect();
+    let words: Vec<String> = pattern.split_whitespace().map(str::to_lowercase).collect();
     let has = |text: String| {
         let text = text.to_lowercase();
         words.iter().all(|word| text.contains(word))
@@ -82,7 +82,7 @@ fn document(style: &RenderStyle, active: &[KeyContext], sought: &str) -> TextPag
         let rows = KEYS.iter().filter(|row| row.context == context).filter(fits);
         rows.map(|row| (keys(row, style), row.help)).collect()
     };
-    if sought.is_empty() && active.contains(&KeyContext::Experiment) {
+    if pattern.is_empty() && active.contains(&KeyContext::Experiment) {
         let first = FIRST.iter().filter_map(|action| {
             let row = KEYS.iter().find(|row| row.action == *action)?;
             Some((keys(row, style), row.help))

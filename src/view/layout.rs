@@ -233,9 +233,9 @@ fn rows_of_reasons(lab: &Lab, width: u16, glyphs: Glyphs) -> u16 {
 /// Rows for the meaning of the selected parameter: as many as the longest text needs, from two to four.
 fn meaning(lab: &Lab, width: u16) -> u16 {
     let room = usize::from(width.saturating_sub(5));
-    let facts =
+    let info =
         (0..lab.count(ValueId::Parameter)).filter_map(|i| lab.value_info(ValueId::Parameter(i)));
-    let longest = facts.map(|facts| words(&facts.about, room).len() as u16).max();
+    let longest = info.map(|info| words(&info.about, room).len() as u16).max();
     (longest.unwrap_or(0) + 1).clamp(2, 4)
 }
 

@@ -34,14 +34,14 @@ fn prefix(text: &[Vec<char>], mut letters: &[char]) -> Option<usize> {
 /// Where some words stand in a row, counted in characters.
 fn places(line: &[StyledText], words: &str) -> Vec<Range<usize>> {
     let row: String = line.iter().map(|(text, _)| text.as_str()).collect();
-    let (text, sought) = (folded(&row, words), folded(words, words).concat());
-    if sought.is_empty() {
+    let (text, pattern) = (folded(&row, words), folded(words, words).concat());
+    if pattern.is_empty() {
         return Vec::new();
     }
-    let here = |at: usize| Some(at..at + prefix(&text[at..], &sought)?);
+    let here = |at: usize| Some(at..at + prefix(&text[at..], &pattern)?);
     let mut places: Vec<Range<usize>> = (0..text.len()).filter_map(here).collect();
     // ∂G/∂t is found as a fraction, and as the d_t G that ASCII has
-    let is_typed = |spelling: &str| folded(spelling, words).concat().starts_with(&sought);
+    let is_typed = |spelling: &str| folded(spelling, words).concat().starts_with(&pattern);
     let derivatives = spelt_derivatives(&row).into_iter();
     places.extend(derivatives.filter(|(_, text)| is_typed(text)).map(|(place, _)| place));
     places

@@ -135,7 +135,7 @@ fn list(canvas: &mut Canvas<'_>, frame: Rect, picker: &Picker) {
     for (place, (index, fit)) in shown.iter().enumerate() {
         let entry = &picker.entries[*index];
         // Search results are ordered by quality of the match, not by topic.
-        if picker.sought().is_none() && topic != Some(entry.topic()) {
+        if picker.pattern().is_none() && topic != Some(entry.topic()) {
             topic = Some(entry.topic());
             lines.push(ListLine::Topic(entry.topic()));
         }
@@ -208,7 +208,7 @@ fn ends_of_titles<'a>(
     picker: &'a Picker,
     width: usize,
 ) -> HashMap<&'a String, String> {
-    if picker.sought().is_some() {
+    if picker.pattern().is_some() {
         return HashMap::new();
     }
     let mark = canvas.style.glyphs.pick("…", "~");

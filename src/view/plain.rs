@@ -116,7 +116,7 @@ const MOST: usize = 10;
 /// A value with its name, its meaning, its unit and its range.
 fn value(q: &Quantities<'_>, target: ValueId) -> String {
     let lab: &Lab = q.lab;
-    let Some(facts) = lab.value_info(target) else { return String::new() };
+    let Some(info) = lab.value_info(target) else { return String::new() };
     let number = match target {
         ValueId::Parameter(index) => {
             let (parameters, time) = (&q.snapshot.parameters, q.snapshot.time);
@@ -126,16 +126,16 @@ fn value(q: &Quantities<'_>, target: ValueId) -> String {
         ValueId::Initial(index) => q.snapshot.initial.get(index).copied(),
     };
     let is = number.map_or_else(|| "not known".to_owned(), |v| brief(v, 6, q.style.glyphs));
-    let is = if facts.ramped { format!("now {is}, ramped") } else { is };
-    let about = if facts.about.is_empty() { String::new() } else { format!(", {}", facts.about) };
-    let range = facts.range.map_or_else(String::new, |(min, max, _)| {
+    let is = if info.ramped { format!("now {is}, ramped") } else { is };
+    let about = if info.about.is_empty() { String::new() } else { format!(", {}", info.about) };
+    let range = info.range.map_or_else(String::new, |(min, max, _)| {
         format!(", from {} to {}", brief(min, 4, q.style.glyphs), brief(max, 4, q.style.glyphs))
     });
-    format!("{} is {is}{}{about}{range}", name(q, &facts), after(&facts.unit))
+    format!("{} is {is}{}{about}{range}", name(q, &info), after(&info.unit))
 }
 
-fn name(q: &Quantities<'_>, facts: &ValueInfo) -> String {
-    q.style.glyphs.pick(&facts.shown, &facts.name).clone()
+fn name(q: &Quantities<'_>, info: &ValueInfo) -> String {
+    q.style.glyphs.pick(&info.shown, &info.name).clone()
 }
 
 fn after(unit: &str) -> String {

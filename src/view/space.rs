@@ -130,7 +130,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
         }
     }
     painter.halos();
-    painter.name_parted();
+    painter.name_separated();
     if canvas.regions.is_some() {
         canvas.masses = painter.draggable();
     }

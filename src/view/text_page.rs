@@ -29,7 +29,7 @@ pub(super) struct TextPage {
     /// The heading with which the rows that are drawn begin, where the page has it: its last place.
     from: Option<&'static str>,
     /// The words that are searched for, and the number of the match to be in view, if one is.
-    sought: (String, Option<usize>),
+    pattern: (String, Option<usize>),
 }
 
 enum TextBlock {
@@ -109,12 +109,12 @@ impl TextPage {
 
     /// The same page, with some words marked, and a match of them in view.
     pub(super) fn searched(self, words: String, place: Option<usize>) -> Self {
-        Self { sought: (words, place), ..self }
+        Self { pattern: (words, place), ..self }
     }
 
     /// The row at which the section to be in view begins, or a few above the match to be in view.
     fn section(&self, canvas: &Canvas<'_>, lines: &[Vec<StyledText>]) -> Option<u16> {
-        let (words, place) = &self.sought;
+        let (words, place) = &self.pattern;
         if let Some(place) = place {
             let found = matches(lines, words);
             let row = found.get((*place).min(found.len().saturating_sub(1)))?;
@@ -142,9 +142,9 @@ impl TextPage {
             let drawn = draw_rows(canvas, area, section.unwrap_or(scroll), &whole);
             let first = usize::from(section.unwrap_or(scroll)).min(drawn.beyond.into());
             for (index, line) in whole.iter().skip(first).take(height).enumerate() {
-                mark(canvas, columns(row(area, index), 1, area.width), line, &self.sought.0);
+                mark(canvas, columns(row(area, index), 1, area.width), line, &self.pattern.0);
             }
-            let matches = matches(&whole, &self.sought.0).len();
+            let matches = matches(&whole, &self.pattern.0).len();
             return Drawn { scroll: section, matches, ..drawn };
         }
         let lines = self.laid_out(canvas, half);
@@ -167,19 +167,19 @@ impl TextPage {
         for (index, line) in lines.iter().skip(first).take(split).enumerate() {
             let at = columns(row(area, index), 1, measure(half) + 1);
             canvas.spans(at, line);
-            mark(canvas, at, line, &self.sought.0);
+            mark(canvas, at, line, &self.pattern.0);
         }
         for (index, line) in right.enumerate() {
             let at = columns(row(area, index), half + BETWEEN, measure(half) + 1);
             canvas.spans(at, line);
-            mark(canvas, at, line, &self.sought.0);
+            mark(canvas, at, line, &self.pattern.0);
         }
         if beyond > 0 {
             scroll_bar(canvas, area, first, lines.len() - height);
         }
         let rows = area.height.saturating_mul(2);
         let beyond = beyond.min(usize::from(u16::MAX)) as u16;
-        let matches = matches(&lines, &self.sought.0).len();
+        let matches = matches(&lines, &self.pattern.0).len();
         Drawn { beyond, rows, scroll: section, matches, ..Drawn::default() }
     }
 

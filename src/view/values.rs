@@ -67,8 +67,8 @@ impl ValueList<'_> {
     fn about(&self, area: Rect, count: usize) -> Vec<String> {
         let spare = usize::from(area.height).saturating_sub(count);
         let target = (self.kind)(self.selected);
-        let facts = self.lab.value_info(target);
-        let text = facts.map_or_else(String::new, |facts| meaning(self.lab, target, &facts));
+        let info = self.lab.value_info(target);
+        let text = info.map_or_else(String::new, |info| meaning(self.lab, target, &info));
         let width = usize::from(area.width.saturating_sub(3));
         let mut lines = words(&text, width);
         lines.retain(|line| !line.is_empty());
@@ -78,10 +78,10 @@ impl ValueList<'_> {
     /// The bars have what names, numbers and units leave.
     fn columns(&self, canvas: &Canvas<'_>, count: usize, width: u16) -> ListColumns {
         let glyphs = canvas.style.glyphs;
-        let facts: Vec<ValueInfo> =
+        let info: Vec<ValueInfo> =
             (0..count).filter_map(|i| self.lab.value_info((self.kind)(i))).collect();
         let widest = |text: &dyn Fn(&ValueInfo) -> String, most: u16| {
-            let wide = facts.iter().map(|f| canvas.text(&text(f)).width() as u16).max();
+            let wide = info.iter().map(|f| canvas.text(&text(f)).width() as u16).max();
             wide.unwrap_or(0).min(most)
         };
         let name = widest(&|f| glyphs.pick(&f.shown, &f.name).clone(), NAME);
@@ -92,14 +92,14 @@ impl ValueList<'_> {
 
     fn line(&self, canvas: &mut Canvas<'_>, area: Rect, (index, grid): (usize, &ListColumns)) {
         let target = (self.kind)(index);
-        let Some(facts) = self.lab.value_info(target) else { return };
+        let Some(info) = self.lab.value_info(target) else { return };
         let value = self.lab.current_value(target);
         let glyphs = canvas.style.glyphs;
         canvas.target(area, HitTarget::Value(target));
         let here = self.selected == index;
         let mark = if here { glyphs.pick("›", ">") } else { " " };
         canvas.left(columns(area, 0, 1), if self.focused { Role::Focus } else { Role::Dim }, mark);
-        let name = glyphs.pick(&facts.shown, &facts.name);
+        let name = glyphs.pick(&info.shown, &info.name);
         let role = if here && self.focused { Role::Title } else { Role::Text };
         canvas.left(columns(area, 2, grid.number - 3), role, name);
         let number = columns(area, grid.number, NUMBER);
@@ -114,8 +114,8 @@ impl ValueList<'_> {
                 canvas.tint(number, Role::Selected);
             }
         }
-        canvas.left(columns(area, grid.unit, grid.bar - grid.unit - 2), Role::Dim, &unit(&facts));
-        if let Some(of_file) = &facts.follows {
+        canvas.left(columns(area, grid.unit, grid.bar - grid.unit - 2), Role::Dim, &unit(&info));
+        if let Some(of_file) = &info.follows {
             let text = canvas.text(&format!("= {of_file}"));
             let place = columns(area, grid.bar, area.width.saturating_sub(grid.bar + 1));
             if text.width() <= place.width.into() {
@@ -124,15 +124,15 @@ impl ValueList<'_> {
         }
         if let Some(value) = value {
             let place = columns(area, grid.bar, area.width);
-            bar(canvas, place, (target, &facts), value, here && self.focused);
+            bar(canvas, place, (target, &info), value, here && self.focused);
         }
     }
 }
 
 /// The unit of a value, and whether it changes with the time.
-fn unit(facts: &ValueInfo) -> String {
-    let ramped = if facts.ramped { "ramped" } else { "" };
-    [facts.unit.as_str(), ramped]
+fn unit(info: &ValueInfo) -> String {
+    let ramped = if info.ramped { "ramped" } else { "" };
+    [info.unit.as_str(), ramped]
         .into_iter()
         .filter(|part| !part.is_empty())
         .collect::<Vec<_>>()
@@ -140,10 +140,10 @@ fn unit(facts: &ValueInfo) -> String {
 }
 
 /// What a value means, and whether it is ramped.
-pub(super) fn meaning(lab: &Lab, target: ValueId, facts: &ValueInfo) -> String {
+pub(super) fn meaning(lab: &Lab, target: ValueId, info: &ValueInfo) -> String {
     match lab.value(target) {
-        Some(before) if facts.ramped => ramped_in_words(&facts.about, before),
-        _ => facts.about.clone(),
+        Some(before) if info.ramped => ramped_in_words(&info.about, before),
+        _ => info.about.clone(),
     }
 }
 
@@ -158,11 +158,11 @@ fn ramped_in_words(about: &str, before: f64) -> String {
 fn bar(
     canvas: &mut Canvas<'_>,
     area: Rect,
-    (target, facts): (ValueId, &ValueInfo),
+    (target, info): (ValueId, &ValueInfo),
     value: f64,
     here: bool,
 ) {
-    let Some((min, max, scale)) = facts.range else { return };
+    let Some((min, max, scale)) = info.range else { return };
     if area.width < 6 {
         return;
     }

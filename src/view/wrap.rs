@@ -247,15 +247,15 @@ fn parts(term: &str, depth: usize) -> Vec<String> {
     factors
 }
 
-/// Cuts a text at its spaces, at most `depth` deep in parentheses, where the words before and after are to be parted.
-fn cut(text: &str, depth: usize, parted: impl Fn(&str, &str) -> bool) -> Vec<String> {
+/// Cuts a text at its spaces, at most `depth` deep in parentheses, where the words before and after are to be separated.
+fn cut(text: &str, depth: usize, is_cut: impl Fn(&str, &str) -> bool) -> Vec<String> {
     let mut pieces: Vec<String> = Vec::new();
     let (mut open, mut before) = (0_usize, "");
     // the parentheses that were open where an exponent began
     let mut exponent: Option<usize> = None;
     for word in text.split(' ').filter(|word| !word.is_empty()) {
         match pieces.last_mut() {
-            Some(piece) if open > depth || exponent.is_some() || !parted(before, word) => {
+            Some(piece) if open > depth || exponent.is_some() || !is_cut(before, word) => {
                 piece.push(' ');
                 piece.push_str(word);
             }

@@ -22,7 +22,7 @@ pub const THREAD_NAME: &str = "phaselab worker";
 
 /// How long a worker may take to end. A step normally checks its token far sooner, and one that
 /// does not must not delay the end of the program.
-const PATIENCE: Duration = Duration::from_millis(50);
+const TIMEOUT: Duration = Duration::from_millis(50);
 
 /// A thread with its mailbox and its snapshot slot. Dropping it ends the thread.
 #[derive(Debug)]
@@ -106,7 +106,7 @@ impl Drop for Worker {
         self.cancel.cancel();
         self.send(Message::Stop);
         // its panics were caught where they happened; nothing is ever sent
-        if let Err(RecvTimeoutError::Timeout) = self.end.recv_timeout(PATIENCE) {
+        if let Err(RecvTimeoutError::Timeout) = self.end.recv_timeout(TIMEOUT) {
             // a step that does not check its token ends with the program
         }
     }

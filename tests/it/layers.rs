@@ -10,45 +10,23 @@ use crate::nonempty;
 /// The rooms that each room may use.
 type Table = BTreeMap<String, BTreeSet<String>>;
 
-/// The table of `ARCHITECTURE.md`. A room is given by its name; `… x` is x and what x may use; `x and below` is x and all
-/// rooms under it; `all` is all rooms under it; what follows `never` must not be used.
+/// The table of `ARCHITECTURE.md`: in its order each room, and those above it that it may use.
 fn table() -> Table {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("ARCHITECTURE.md");
-    table_of(&fs::read_to_string(path).expect("ARCHITECTURE.md"))
-}
-
-fn table_of(text: &str) -> Table {
     let mut table = Table::new();
-    let mut rooms: Vec<&str> = Vec::new();
-    for line in text.lines() {
+    for line in fs::read_to_string(path).expect("ARCHITECTURE.md").lines() {
         let mut cells = line.split('|').map(str::trim).skip(1);
         let (Some(room), Some(uses)) = (cells.next(), cells.next()) else { continue };
         let Some(room) = room.strip_prefix('`').and_then(|r| r.strip_suffix('`')) else { continue };
-        let (uses, never) = uses.split_once("never").unwrap_or((uses, ""));
-        let mut allowed = BTreeSet::new();
-        for word in uses.split([',', ';']).map(str::trim).filter(|w| !w.is_empty() && *w != "–") {
-            let known = |name: &str| {
-                assert!(rooms.contains(&name), "{word:?} in the row of `{room}`");
-                name.to_owned()
-            };
-            if word.starts_with("all") {
-                allowed.extend(rooms.iter().map(|&r| r.to_owned()));
-            } else if let Some(top) = word.strip_prefix("… ") {
-                allowed.extend(table[top].iter().cloned().chain([known(top)]));
-            } else if let Some(top) = word.strip_suffix(" and below") {
-                let floor = rooms.iter().position(|r| *r == top).expect("a room above");
-                allowed.extend(rooms[..=floor].iter().map(|&r| r.to_owned()));
-            } else {
-                allowed.insert(known(word));
-            }
-        }
-        never.split(',').for_each(|word| {
-            allowed.remove(word.trim());
-        });
+        let uses = uses.split(',').map(str::trim).filter(|word| *word != "–");
+        let allowed: BTreeSet<String> = uses.map(str::to_owned).collect();
+        assert!(
+            allowed.iter().all(|used| table.contains_key(used)),
+            "the row of `{room}`: {allowed:?}"
+        );
         table.insert(room.to_owned(), allowed);
-        rooms.push(room);
     }
-    assert!(rooms.len() >= 15, "{rooms:?}");
+    assert!(table.len() >= 15, "{table:?}");
     table
 }
 

@@ -8,7 +8,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use crate::printable;
 
 /// A shorter run shows no bar.
-const PATIENCE: Duration = Duration::from_millis(500);
+const NOTICE_DELAY: Duration = Duration::from_millis(500);
 
 /// The least time between two updates of the bar.
 const BETWEEN: Duration = Duration::from_millis(100);
@@ -27,7 +27,7 @@ pub(crate) struct Bar {
 impl Bar {
     pub(crate) fn new(start: f64, end: f64) -> Bar {
         let watched = stderr().is_terminal();
-        Bar { start, length: end - start, due: Instant::now() + PATIENCE, shown: None, watched }
+        Bar { start, length: end - start, due: Instant::now() + NOTICE_DELAY, shown: None, watched }
     }
 
     pub(crate) fn show(&mut self, time: f64) {

@@ -214,11 +214,11 @@ impl EquilibriumSearch<'_> {
         direction: &DVector<f64>,
     ) -> Option<Vec<FamilyPlace>> {
         let size = size_of(&first.place);
-        let (mut step, mut longest, mut gone) = (LONGEST * size, 0.0_f64, 0.0);
+        let (mut step, mut longest, mut covered) = (LONGEST * size, 0.0_f64, 0.0);
         let (mut member, mut direction) = (first.clone(), direction.clone());
         let mut members = Vec::new();
         for _ in 0..ATTEMPTS {
-            if gone >= size || (members.len() >= STEPS && step >= longest / 8.0) {
+            if covered >= size || (members.len() >= STEPS && step >= longest / 8.0) {
                 return Some(members);
             }
             let next = self.stepped(&member, &(&direction * step));
@@ -233,7 +233,7 @@ impl EquilibriumSearch<'_> {
                 }
                 continue;
             };
-            gone += step;
+            covered += step;
             longest = longest.max(step);
             step = (2.0 * step).min(LONGEST * size);
             direction = along;

@@ -57,7 +57,7 @@ impl DormandPrince {
         let before = self.rates.sides();
         self.rates.evaluate(time + step, &self.next.values, &mut self.fresh)?;
         let after = self.rates.sides();
-        self.parted = after.parted(&before);
+        self.differing = after.differences(&before);
         Ok(!after.agrees(&before))
     }
 
@@ -104,9 +104,9 @@ impl DormandPrince {
             self.kinks_at(on(times[0], times[1]), &beyond),
         ];
         let [Some(before), Some(after), Some(beyond)] = seen else {
-            return vec![false; self.parted.0.len() + self.parted.1.len()];
+            return vec![false; self.differing.0.len() + self.differing.1.len()];
         };
-        let is_switch = |k: usize| k < self.parted.0.len();
+        let is_switch = |k: usize| k < self.differing.0.len();
         let parts = |k: usize| {
             if is_switch(k) {
                 before[k] * after[k].signum() < 0.0
@@ -121,7 +121,7 @@ impl DormandPrince {
     fn approach(&mut self, from: &State, step: f64) -> Vec<bool> {
         let after = DoubleDouble::from(AHEAD * step);
         let numbers = numbers_of(from);
-        let nowhere = vec![false; self.parted.0.len() + self.parted.1.len()];
+        let nowhere = vec![false; self.differing.0.len() + self.differing.1.len()];
         let Some(here) = self.kinks_at(from.exact_time(), &numbers) else { return nowhere };
         let rates = (0..numbers.len()).map(|i| self.exact.rate(i));
         let ahead: Vec<DoubleDouble> =
@@ -133,7 +133,7 @@ impl DormandPrince {
     /// The values of the switches, and of the functions under roots, whose kinks the attempted step seems to cross.
     fn kinks_at(&mut self, time: DoubleDouble, numbers: &[DoubleDouble]) -> Option<Vec<f64>> {
         self.exact.evaluate(time, numbers).ok()?;
-        let (switches, roots) = &self.parted;
+        let (switches, roots) = &self.differing;
         let switches = switches.iter().map(|&i| self.exact.switch(i));
         Some(switches.chain(roots.iter().map(|&i| self.exact.guard(i))).collect())
     }

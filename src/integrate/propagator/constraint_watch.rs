@@ -170,7 +170,7 @@ impl Propagator {
             let kind = self.of_step(kind, error.time);
             return MotionError { kind, place: Vec::new(), ..error };
         }
-        if let MotionErrorKind::ConstraintParted(_) = error.kind {
+        if let MotionErrorKind::ConstraintContradicts(_) = error.kind {
             return self.at_the_beginning_of_the_step(error);
         }
         let may_be_passed = matches!(

@@ -33,7 +33,7 @@ const SAME: f64 = 1e-9;
 const COMBINED: usize = 5;
 
 /// The maximal number of surfaces met at the same time; beyond it the motion counts as stuck.
-const PATIENCE: u32 = 64;
+const MOST_STALLED: u32 = 64;
 
 /// After so many steps in a row that do not advance the time the surface counts as touched only.
 const STALLS: u32 = 8;
@@ -273,7 +273,7 @@ impl Kinks {
                 state.set(number, DoubleDouble::ZERO);
             }
         }
-        self.stalled < PATIENCE
+        self.stalled < MOST_STALLED
     }
 
     /// Whether the motion moves to the chosen side of a surface, that is whether the term of the switch that decides has

@@ -43,7 +43,7 @@ impl Session {
         };
         match watch.poll(&place, elapsed) {
             None => return false,
-            Some(FileChange::Gone) => {
+            Some(FileChange::Removed) => {
                 info!("{} is gone", place.display());
                 self.update(AppEvent::FileThere(false));
             }

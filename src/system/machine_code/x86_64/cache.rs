@@ -8,7 +8,7 @@ use super::compile::{Compiled, SeriesExtent, compile};
 use crate::system::jet::JetPlan;
 
 /// A function is compiled when it is wanted for so many orbits: short motions end before it pays.
-const PATIENCE: usize = 64;
+const COMPILE_THRESHOLD: usize = 64;
 
 /// The functions for one program; clones share them.
 #[derive(Clone, Debug, Default)]
@@ -57,7 +57,7 @@ impl CodeCache {
         });
         let entry = &mut known[place];
         entry.wanted += extent.orbits.numbers();
-        if matches!(entry.code, Availability::NotYet) && entry.wanted >= PATIENCE {
+        if matches!(entry.code, Availability::NotYet) && entry.wanted >= COMPILE_THRESHOLD {
             let compiled = compile(plan, exact, extent).map(Arc::new);
             entry.code = compiled.map_or(Availability::Never, Availability::Compiled);
         }

@@ -17,7 +17,7 @@ use crate::system::parts::PartwiseEvaluation;
 use crate::system::program::{Op, Program, Register};
 
 /// A program is compiled when its values are wanted so often: short motions end before it pays.
-const PATIENCE: usize = 64;
+const COMPILE_THRESHOLD: usize = 64;
 
 /// Fewer operations than this in a row are left to the interpreter.
 const FEWEST: usize = 3;
@@ -82,7 +82,7 @@ impl PartwiseEvaluation for CompiledValues {
 impl CompiledValues {
     #[cold]
     fn ask(&mut self, program: &Program) {
-        self.parts = program.values.get(PATIENCE, || parts_of(program));
+        self.parts = program.values.get(COMPILE_THRESHOLD, || parts_of(program));
         let parts = self.parts.iter().flat_map(|parts| parts.iter());
         let works = parts.filter_map(|part| match part {
             Part::Compiled { work, .. } => Some(work.clone()),
