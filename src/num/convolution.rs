@@ -124,6 +124,7 @@ impl<const N: usize> DoubleLanes<N> {
 /// J. Sci. Comput. 26 (2005) 1955, algorithm 5.3), which leaves an error of n² 2⁻¹⁰⁴ of the sum of
 /// the absolute terms.
 impl<const N: usize> Kernel for InnerProducts<'_, DoubleLanes<N>> {
+    /// Sums that are not renormalized.
     type Output = [DoubleDouble; N];
 
     #[inline(always)]
@@ -145,7 +146,7 @@ impl<const N: usize> Kernel for InnerProducts<'_, DoubleLanes<N>> {
         }
         let mut sums = [DoubleDouble::ZERO; N];
         for lane in 0..N {
-            sums[lane] = DoubleDouble::sum(sum.0[lane], errors.0[lane]);
+            sums[lane] = DoubleDouble { high: sum.0[lane], low: errors.0[lane] };
         }
         sums
     }

@@ -305,6 +305,33 @@ mod tests {
     }
 
     #[test]
+    fn what_is_not_renormalized_loses_no_digits_of_its_terms() {
+        let number =
+            |k: i64| DoubleDouble::integer(k * k - 40 * k + 3) / DoubleDouble::integer(7 * k + 1);
+        let bits = |x: DoubleDouble| (x.high.to_bits(), x.low.to_bits());
+        for k in 0..100 {
+            // the second and the third nearly cancel
+            let (a, b) = (number(k), number(k + 17));
+            let c = DoubleDouble::ZERO - b * DoubleDouble { high: 1.0, low: 1e-20 };
+            let product = a.times_unnormalized::<true>(b);
+            assert_eq!(bits(product), bits(a.times_unnormalized::<false>(b)));
+            assert_eq!(bits(a.multiple::<true>(7)), bits(a.multiple::<false>(7)));
+            assert_eq!(bits(a.over::<true>(7)), bits(a.over::<false>(7)));
+            let terms = [a.multiple::<true>(7), a.over::<true>(7), product, b, c];
+            let exact = [a * 7.0, a / 7.0, a * b, b, c];
+            let (mut sum, mut size) = (DoubleDouble::ZERO, 0.0);
+            for n in 0..terms.len() {
+                sum = sum.plus_unnormalized(terms[n]);
+                size += terms[n].high.abs();
+                let right = exact[..=n].iter().fold(DoubleDouble::ZERO, |sum, &x| sum + x);
+                let found = sum.renormalized();
+                assert!((found - right).high.abs() <= 1e-31 * size, "{found:?} {right:?}");
+                assert_eq!(found.high, found.high + found.low);
+            }
+        }
+    }
+
+    #[test]
     fn a_reciprocal_has_all_digits_within_two_hundred_and_fifty_powers_of_ten() {
         for (x, has) in [
             (0.99e250, true),

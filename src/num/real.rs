@@ -44,14 +44,14 @@ pub trait Analytic:
     /// The number nearest to a [`DoubleDouble`].
     fn of(x: DoubleDouble) -> Self;
 
-    /// Division by an integer from 1 to 64, with a fused multiply-add where that gives the same bits; so are the
-    /// products and quotients below.
+    /// Division by an integer from 1 to 64, not renormalized, with a fused multiply-add where that gives the same bits; so are
+    /// the products and quotients below.
     #[must_use]
     #[inline(always)]
     fn over<const FUSED: bool>(self, n: usize) -> Self {
         self / n as f64
     }
-    /// An integer multiple.
+    /// An integer multiple, not renormalized.
     #[must_use]
     #[inline(always)]
     fn multiple<const FUSED: bool>(self, n: usize) -> Self {
@@ -64,13 +64,31 @@ pub trait Analytic:
     #[must_use]
     #[inline(always)]
     fn integrated<const FUSED: bool>(self, unit: Self::Unit, n: usize) -> Self {
-        self.scaled(unit).over::<FUSED>(n)
+        self.scaled(unit).over::<FUSED>(n).renormalized()
     }
     /// The product.
     #[must_use]
     #[inline(always)]
     fn times<const FUSED: bool>(self, other: Self) -> Self {
         self * other
+    }
+    /// The product as a term of a sum that is [renormalized](Analytic::renormalized) in the end.
+    #[must_use]
+    #[inline(always)]
+    fn times_unnormalized<const FUSED: bool>(self, other: Self) -> Self {
+        self.times::<FUSED>(other)
+    }
+    /// The same of a sum.
+    #[must_use]
+    #[inline(always)]
+    fn plus_unnormalized(self, other: Self) -> Self {
+        self + other
+    }
+    /// A number whose parts are as small beside one another as they can be.
+    #[must_use]
+    #[inline(always)]
+    fn renormalized(self) -> Self {
+        self
     }
     /// The quotient.
     #[must_use]
@@ -79,7 +97,7 @@ pub trait Analytic:
         self / other
     }
     /// The quotient by a number that others are divided by as well: where a quotient costs much more than a product, the
-    /// product with its reciprocal, which has twice the error.
+    /// product with its reciprocal, which has twice the error and is not renormalized.
     #[must_use]
     #[inline(always)]
     fn divided_by_shared<const FUSED: bool>(self, divisor: Self) -> Self {

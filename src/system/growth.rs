@@ -183,19 +183,16 @@ impl<R: Real> SeriesBuilder<R> {
 
     /// Copies the origin and what was evaluated at it in another precision.
     #[cfg(target_arch = "x86_64")]
-    pub(super) fn take_origin<S: Real>(
-        &mut self,
-        other: &SeriesBuilder<S>,
-    ) -> Result<(), Singular> {
+    pub(super) fn take_origin<S: Real>(&mut self, other: &SeriesBuilder<S>) {
         for i in 0..self.len() {
             self.set_origin(i, R::of(other.series(i)[0].double()));
         }
         self.kept.clone_from(&other.kept);
-        self.jet.take_over(&other.jet, 1)
+        self.jet.take_over(&other.jet, 1);
     }
 
     /// Copies all orders known in another precision.
-    pub(super) fn take_over<S: Real>(&mut self, other: &SeriesBuilder<S>) -> Result<(), Singular> {
+    pub(super) fn take_over<S: Real>(&mut self, other: &SeriesBuilder<S>) {
         let series = self.state.chunks_exact_mut(self.order + 1);
         for (own, other) in series.zip(other.state.chunks_exact(other.order + 1)) {
             own.iter_mut().zip(other).for_each(|(x, y)| *x = R::of(y.double()));
@@ -203,7 +200,7 @@ impl<R: Real> SeriesBuilder<R> {
         self.kept.clone_from(&other.kept);
         self.steered.clone_from(&other.steered);
         self.depth = other.depth;
-        self.jet.take_over(&other.jet, other.order)
+        self.jet.take_over(&other.jet, other.order);
     }
 
     /// Copies all orders known in a wider range, those of each number of the state in a unit of its own, for

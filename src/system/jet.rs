@@ -294,14 +294,12 @@ impl<R: Coefficient> Jet<R> {
 
 impl<R: Real> Jet<R> {
     /// Copies the orders below `orders` from a jet of the same program in another precision, and
-    /// factors the matrices that it has factored.
-    ///
-    /// # Errors
-    /// Returns the block of equations whose matrix is singular.
-    pub fn take_over<S: Real>(&mut self, other: &Jet<S>, orders: usize) -> Result<(), Singular> {
+    /// the matrices that it has factored.
+    pub fn take_over<S: Real>(&mut self, other: &Jet<S>, orders: usize) {
         self.copy(other, orders);
-        let (program, tables) = (&*self.program, &mut self.tables);
-        (0..program.blocks.len()).try_for_each(|block| tables.factor(program, block))
+        for (own, other) in self.tables.blocks.iter_mut().zip(&other.tables.blocks) {
+            own.take_over(other);
+        }
     }
 
     /// Copies the orders below `orders`.

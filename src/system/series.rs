@@ -257,7 +257,7 @@ impl Series {
         if let Some(low) = &mut self.low {
             low.grow(0, SeriesClock::new(time, scale), cancel)?;
             first = if low.kept.is_empty() { low.order } else { low.order + 1 - low.depth };
-            self.high.take_over(low)?;
+            self.high.take_over(low);
         }
         self.high.grow(first, clock, cancel)?;
         if !self.sides.is_empty() {

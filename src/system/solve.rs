@@ -108,6 +108,13 @@ impl<R: Real> Factored<R> {
         true
     }
 
+    /// Takes the factors of a matrix in another precision.
+    pub(super) fn take_over<S: Real>(&mut self, other: &Factored<S>) {
+        self.is_scaled = false;
+        self.rows.copy_from_slice(&other.rows);
+        self.entries.iter_mut().zip(&other.entries).for_each(|(x, y)| *x = R::of(y.double()));
+    }
+
     #[cfg(target_arch = "x86_64")]
     pub(super) fn size(&self) -> usize {
         self.size
@@ -190,9 +197,10 @@ impl<R: Real> Factored<R> {
             let mut sum = right[k];
             // the one that was found last comes last
             for j in (k + 1..n).rev() {
-                sum = sum - upper[k * n + j].times::<FUSED>(right[j]);
+                let product = upper[k * n + j].times_unnormalized::<FUSED>(right[j]);
+                sum = sum.plus_unnormalized(-product);
             }
-            right[k] = sum;
+            right[k] = sum.renormalized();
         }
     }
 
@@ -206,9 +214,10 @@ impl<R: Real> Factored<R> {
             let row = rows[k];
             let mut sum = right[row];
             for j in 0..k {
-                sum = sum - entries[row * n + j].times::<FUSED>(scratch[j]);
+                let product = entries[row * n + j].times_unnormalized::<FUSED>(scratch[j]);
+                sum = sum.plus_unnormalized(-product);
             }
-            scratch[k] = sum;
+            scratch[k] = sum.renormalized();
         }
     }
 }

@@ -167,11 +167,12 @@ impl Analytic for DoubleDouble {
 
     #[inline(always)]
     fn over<const FUSED: bool>(self, n: usize) -> DoubleDouble {
-        self.times::<FUSED>(RECIPROCALS[n])
+        self.times_unnormalized::<FUSED>(RECIPROCALS[n])
     }
     #[inline(always)]
     fn multiple<const FUSED: bool>(self, n: usize) -> DoubleDouble {
-        self.times_f64::<FUSED>(n as f64)
+        let product = DoubleDouble::product_by::<FUSED>(self.high, n as f64);
+        DoubleDouble { high: product.high, low: product.low + self.low * n as f64 }
     }
     #[inline]
     fn scaled(self, power_of_two: f64) -> DoubleDouble {
@@ -182,13 +183,28 @@ impl Analytic for DoubleDouble {
         self.times_double::<FUSED>(other)
     }
     #[inline(always)]
+    fn times_unnormalized<const FUSED: bool>(self, other: DoubleDouble) -> DoubleDouble {
+        let product = DoubleDouble::product_by::<FUSED>(self.high, other.high);
+        let mixed = self.high * other.low + self.low * other.high;
+        DoubleDouble { high: product.high, low: product.low + mixed }
+    }
+    #[inline(always)]
+    fn plus_unnormalized(self, other: DoubleDouble) -> DoubleDouble {
+        let sum = DoubleDouble::sum(self.high, other.high);
+        DoubleDouble { high: sum.high, low: (self.low + other.low) + sum.low }
+    }
+    #[inline(always)]
+    fn renormalized(self) -> DoubleDouble {
+        DoubleDouble::ordered_sum(self.high, self.low)
+    }
+    #[inline(always)]
     fn divided_by<const FUSED: bool>(self, other: DoubleDouble) -> DoubleDouble {
         self.quotient::<FUSED>(other)
     }
     #[inline(always)]
     fn divided_by_shared<const FUSED: bool>(self, divisor: DoubleDouble) -> DoubleDouble {
         if divisor.has_reciprocal() {
-            self.times::<FUSED>(DoubleDouble::ONE.quotient::<FUSED>(divisor))
+            self.times_unnormalized::<FUSED>(DoubleDouble::ONE.quotient::<FUSED>(divisor))
         } else {
             self.quotient::<FUSED>(divisor)
         }

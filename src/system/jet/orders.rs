@@ -140,14 +140,17 @@ impl<R: Coefficient> Orders<'_, R> {
                 OperationRun::Time(register) => now[at(*register)] = rate,
                 OperationRun::Scales(run) => {
                     for &Scaling { register, fixed, varying } in run {
-                        now[at(register)] = values[at(fixed)].times::<FUSED>(now[at(varying)]);
+                        now[at(register)] =
+                            values[at(fixed)].times_unnormalized::<FUSED>(now[at(varying)]);
                     }
                 }
                 OperationRun::Products(run) => {
                     for &Product { register, left, right, inner } in run {
-                        let ends = values[at(left)].times::<FUSED>(now[at(right)])
-                            + now[at(left)].times::<FUSED>(values[at(right)]);
-                        now[at(register)] = products[at(inner)] + ends;
+                        let first = values[at(left)].times_unnormalized::<FUSED>(now[at(right)]);
+                        let last = now[at(left)].times_unnormalized::<FUSED>(values[at(right)]);
+                        let ends = first.plus_unnormalized(last);
+                        now[at(register)] =
+                            products[at(inner)].plus_unnormalized(ends).renormalized();
                     }
                 }
                 OperationRun::Related(run) => {
@@ -165,24 +168,24 @@ impl<R: Coefficient> Orders<'_, R> {
                 }
                 OperationRun::Integrals(run) => {
                     for &Integral { register, sign, slope, factor, inner } in run {
-                        let last =
-                            now[at(slope)].times::<FUSED>(values[at(factor)]).multiple::<FUSED>(k);
-                        let sum = products[at(inner)] + last;
+                        let last = now[at(slope)].times_unnormalized::<FUSED>(values[at(factor)]);
+                        let sum = products[at(inner)].plus_unnormalized(last.multiple::<FUSED>(k));
                         let sum = if sign == TermSign::Minus { -sum } else { sum };
-                        now[at(register)] = sum.over::<FUSED>(k);
+                        now[at(register)] = sum.over::<FUSED>(k).renormalized();
                     }
                 }
                 OperationRun::Sums(run) => {
                     for &LinearSum { register, first, count } in run {
                         let terms = &terms[first as usize..][..count as usize];
-                        let multiple =
-                            |&(term, factor): &(Register, R)| now[at(term)].times::<FUSED>(factor);
+                        let multiple = |&(term, factor): &(Register, R)| {
+                            now[at(term)].times_unnormalized::<FUSED>(factor)
+                        };
                         let Some((first, others)) = terms.split_first() else { continue };
                         let mut sum = multiple(first);
                         for term in others {
-                            sum = sum + multiple(term);
+                            sum = sum.plus_unnormalized(multiple(term));
                         }
-                        now[at(register)] = sum;
+                        now[at(register)] = sum.renormalized();
                     }
                 }
                 OperationRun::Solution(_) | OperationRun::Alone(_) => return Some(run),
@@ -212,9 +215,10 @@ impl<R: Coefficient> Orders<'_, R> {
         let entries = &schedule.entries[first as usize..][..count as usize];
         let products = &self.operands.products[inner as usize..][..entries.len()];
         for (entry, &product) in entries.iter().zip(products) {
-            let last = now[entry.register as usize].times::<FUSED>(unknowns[entry.column as usize]);
+            let last = now[entry.register as usize]
+                .times_unnormalized::<FUSED>(unknowns[entry.column as usize]);
             let sum = &mut sums[entry.row as usize];
-            *sum = *sum - (product + last);
+            *sum = sum.plus_unnormalized(-product.plus_unnormalized(last));
         }
         self.blocks[block].solve_again::<FUSED>(sums);
         now[register as usize..][..sums.len()].copy_from_slice(sums);
@@ -347,8 +351,9 @@ fn related<R: Analytic, const FUSED: bool>(
     let times = |factor: ConvolutionFactor, x: R| match factor {
         ConvolutionFactor::Plus => x,
         ConvolutionFactor::Minus => -x,
-        ConvolutionFactor::Times(factor) => x.times::<FUSED>(R::of(factor)),
+        ConvolutionFactor::Times(factor) => x.times_unnormalized::<FUSED>(R::of(factor)),
     };
+    let last = |a: Register, b: Register| now[at(a)].times_unnormalized::<FUSED>(values[at(b)]);
     let mut sum = match relation.direct {
         Direct::None => None,
         Direct::Coefficient(a) => Some(now[at(a)]),
@@ -359,21 +364,18 @@ fn related<R: Analytic, const FUSED: bool>(
         let product = summand.product.map_or(R::ZERO, |i| products[i as usize]);
         let whole = match summand.ends {
             Ends::None => product,
-            Ends::Last(a, b) => product + now[at(a)].times::<FUSED>(values[at(b)]),
-            Ends::LastSlope(a, b) => {
-                product + now[at(a)].times::<FUSED>(values[at(b)]).multiple::<FUSED>(k)
-            }
+            Ends::Last(a, b) => product.plus_unnormalized(last(a, b)),
+            Ends::LastSlope(a, b) => product.plus_unnormalized(last(a, b).multiple::<FUSED>(k)),
             Ends::Both(a, b) => {
-                product
-                    + (values[at(a)].times::<FUSED>(now[at(b)])
-                        + now[at(a)].times::<FUSED>(values[at(b)]))
+                let first = values[at(a)].times_unnormalized::<FUSED>(now[at(b)]);
+                product.plus_unnormalized(first.plus_unnormalized(last(a, b)))
             }
         };
         let whole = times(summand.factor, whole);
-        sum = Some(sum.map_or(whole, |sum| sum + whole));
+        sum = Some(sum.map_or(whole, |sum: R| sum.plus_unnormalized(whole)));
     }
     let sum = sum.unwrap_or(R::ZERO);
-    match relation.denominator {
+    let coefficient = match relation.denominator {
         Denominator::One => sum,
         Denominator::Order => sum.over::<FUSED>(k),
         Denominator::Value(a) => sum.divided_by_shared::<FUSED>(values[at(a)]),
@@ -381,5 +383,6 @@ fn related<R: Analytic, const FUSED: bool>(
             sum.divided_by_shared::<FUSED>(values[at(a)]).over::<FUSED>(k)
         }
         Denominator::Twice(a) => sum.divided_by_shared::<FUSED>(values[at(a)].multiple::<FUSED>(2)),
-    }
+    };
+    coefficient.renormalized()
 }

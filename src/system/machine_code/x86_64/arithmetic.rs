@@ -193,9 +193,12 @@ pub(super) trait Arithmetic {
     /// What lies in memory.
     fn at(address: Address) -> Self::Number;
     fn constant(code: &mut Code, number: DoubleDouble) -> Self::Number;
+    /// A sum that is not [renormalized](crate::num::Analytic::renormalized), as differences, products and multiples are not either.
     fn sum(code: &mut Code, a: Self::Number, b: Self::Number) -> Self::Number;
     fn difference(code: &mut Code, a: Self::Number, b: Self::Number) -> Self::Number;
     fn product(code: &mut Code, a: Self::Number, b: Self::Number) -> Self::Number;
+    /// [`Analytic::renormalized`](crate::num::Analytic::renormalized).
+    fn renormalized(code: &mut Code, a: Self::Number) -> Self::Number;
     /// An integer multiple.
     fn multiple(code: &mut Code, a: Self::Number, n: usize) -> Self::Number;
     /// The product with a unit of time, a power of two.
@@ -215,7 +218,8 @@ pub(super) trait Arithmetic {
     fn integrated(code: &mut Code, a: Self::Number, n: usize) -> Self::Number {
         let unit = Operand::At(code.layout.scale);
         let scaled = Self::scaled(code, a, unit);
-        Self::over(code, scaled, n)
+        let integrated = Self::over(code, scaled, n);
+        Self::renormalized(code, integrated)
     }
     /// The quotient by an integer.
     fn over(code: &mut Code, a: Self::Number, n: usize) -> Self::Number;

@@ -16,8 +16,9 @@ use crate::system::jet::JetPlan;
 use crate::system::program::{Op, Register};
 use crate::system::schedule::Denominator;
 
-/// No more instructions are generated than about this many: more would be slower to read than the loops of a jet.
-const LARGEST: usize = 60_000;
+/// No more instructions are generated than about this many, half a megabyte: more than a core's second-level cache holds would be
+/// slower to read than the loops of a jet.
+const LARGEST: usize = 75_000;
 
 /// How many numbers of how many orbits are computed.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

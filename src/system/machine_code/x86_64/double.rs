@@ -52,11 +52,26 @@ impl Code {
         (high.into(), low.into())
     }
 
-    /// The product with an `f64`.
-    fn exact_multiple(&mut self, a: DoubleOperand, factor: Operand) -> DoubleOperand {
+    /// The product with an `f64`, not renormalized.
+    fn multiple(&mut self, a: DoubleOperand, factor: Operand) -> DoubleOperand {
         let (high, low) = self.exact_product(Width::One, a.0, factor);
         let mixed = Plain::product(self, a.1, factor);
-        let low = Plain::sum(self, low, mixed);
+        (high, Plain::sum(self, low, mixed))
+    }
+
+    fn exact_multiple(&mut self, a: DoubleOperand, factor: Operand) -> DoubleOperand {
+        let (high, low) = self.multiple(a, factor);
+        self.ordered_sum(high, low)
+    }
+
+    /// The difference of two numbers, with no error but that of its last digits.
+    fn accurate_difference(&mut self, a: DoubleOperand, b: DoubleOperand) -> DoubleOperand {
+        let (a, b) = (Double::in_register(self, a), Double::in_register(self, b));
+        let highs = self.exact_difference(a.0, b.0);
+        let lows = self.exact_difference(a.1, b.1);
+        let low = Plain::sum(self, highs.1, lows.0);
+        let (high, low) = self.ordered_sum(highs.0, low);
+        let low = Plain::sum(self, lows.1, low);
         self.ordered_sum(high, low)
     }
 
@@ -64,10 +79,10 @@ impl Code {
         let (a, b) = (Double::in_register(self, a), Double::in_register(self, b));
         let first = Plain::over_shared(self, a.0, b.0);
         let part = self.exact_multiple(b, first);
-        let rest = Double::difference(self, a, part);
+        let rest = self.accurate_difference(a, part);
         let second = Plain::over_shared(self, rest.0, b.0);
         let part = self.exact_multiple(b, second);
-        let rest = Double::difference(self, rest, part);
+        let rest = self.accurate_difference(rest, part);
         let third = Plain::over_shared(self, rest.0, b.0);
         let (high, low) = self.ordered_sum(first, second);
         let low = Plain::sum(self, low, third);
@@ -80,14 +95,6 @@ impl Code {
         let (high, low) = Double::scaled(self, a, factor);
         let zero = self.constant(0.0);
         (Plain::sum(self, high, zero), low)
-    }
-
-    /// The sum of two numbers from the sums of their parts.
-    fn renormalized(&mut self, highs: DoubleOperand, lows: DoubleOperand) -> DoubleOperand {
-        let low = Plain::sum(self, highs.1, lows.0);
-        let (high, low) = self.ordered_sum(highs.0, low);
-        let low = Plain::sum(self, lows.1, low);
-        self.ordered_sum(high, low)
     }
 }
 
@@ -111,16 +118,20 @@ impl Arithmetic for Double {
 
     fn sum(code: &mut Code, a: DoubleOperand, b: DoubleOperand) -> DoubleOperand {
         let (a, b) = (Double::in_register(code, a), Double::in_register(code, b));
-        let highs = code.exact_sum(Width::One, a.0, b.0);
-        let lows = code.exact_sum(Width::One, a.1, b.1);
-        code.renormalized(highs, lows)
+        let (high, low) = code.exact_sum(Width::One, a.0, b.0);
+        let lows = Plain::sum(code, a.1, b.1);
+        (high, Plain::sum(code, lows, low))
     }
 
     fn difference(code: &mut Code, a: DoubleOperand, b: DoubleOperand) -> DoubleOperand {
         let (a, b) = (Double::in_register(code, a), Double::in_register(code, b));
-        let highs = code.exact_difference(a.0, b.0);
-        let lows = code.exact_difference(a.1, b.1);
-        code.renormalized(highs, lows)
+        let (high, low) = code.exact_difference(a.0, b.0);
+        let lows = Plain::difference(code, a.1, b.1);
+        (high, Plain::sum(code, lows, low))
+    }
+
+    fn renormalized(code: &mut Code, (high, low): DoubleOperand) -> DoubleOperand {
+        code.ordered_sum(high, low)
     }
 
     fn product(code: &mut Code, a: DoubleOperand, b: DoubleOperand) -> DoubleOperand {
@@ -128,8 +139,7 @@ impl Arithmetic for Double {
         let (high, low) = code.exact_product(Width::One, a.0, b.0);
         let (first, second) = (Plain::product(code, a.0, b.1), Plain::product(code, a.1, b.0));
         let mixed = Plain::sum(code, first, second);
-        let low = Plain::sum(code, low, mixed);
-        code.ordered_sum(high, low)
+        (high, Plain::sum(code, low, mixed))
     }
 
     fn multiple(code: &mut Code, a: DoubleOperand, n: usize) -> DoubleOperand {
@@ -137,7 +147,7 @@ impl Arithmetic for Double {
             return code.by_power_of_two(a, n as f64);
         }
         let factor = code.constant(n as f64);
-        code.exact_multiple(a, factor)
+        code.multiple(a, factor)
     }
 
     fn scaled(code: &mut Code, a: DoubleOperand, power_of_two: Operand) -> DoubleOperand {
@@ -219,7 +229,7 @@ impl Arithmetic for Double {
             errors = code.binary(Operation::Add, four, errors, low);
             sum = next;
         }
-        code.exact_sum(four, sum, errors)
+        (sum, errors)
     }
 
     fn store_inner_products(code: &mut Code, (high, low): DoubleOperand, to: Address) {

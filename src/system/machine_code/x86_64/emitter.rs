@@ -143,6 +143,7 @@ impl<'a, A: Arithmetic> Emitter<'a, A> {
                         let ends = self.both_ends(step.left, step.right)?;
                         let inner = self.product(step.inner);
                         let coefficient = A::sum(self.code, inner, ends);
+                        let coefficient = A::renormalized(self.code, coefficient);
                         self.set(step.register, coefficient);
                     }
                 }
@@ -162,6 +163,7 @@ impl<'a, A: Arithmetic> Emitter<'a, A> {
                         let negative = step.sign == TermSign::Minus;
                         let sum = if negative { A::opposite(self.code, sum) } else { sum };
                         let coefficient = A::over(self.code, sum, k);
+                        let coefficient = A::renormalized(self.code, coefficient);
                         self.set(step.register, coefficient);
                     }
                 }
@@ -296,7 +298,7 @@ impl<'a, A: Arithmetic> Emitter<'a, A> {
             });
         }
         let sum = sum.unwrap_or_else(|| self.zero());
-        Ok(match relation.denominator {
+        let coefficient = match relation.denominator {
             Denominator::One => sum,
             Denominator::Order => A::over(self.code, sum, k),
             Denominator::Value(a) => {
@@ -312,7 +314,8 @@ impl<'a, A: Arithmetic> Emitter<'a, A> {
                 let divisor = self.shared(SharedDivisor::Twice(a), self.value(a));
                 A::over_shared(self.code, sum, divisor)
             }
-        })
+        };
+        Ok(A::renormalized(self.code, coefficient))
     }
 
     /// What is divided by, as [`Arithmetic::over_shared`] takes it; computed once, from a number that lies in memory.
@@ -354,7 +357,8 @@ impl<'a, A: Arithmetic> Emitter<'a, A> {
                 None => A::times(self.code, number, factor),
             });
         }
-        Ok(total.unwrap_or_else(|| self.zero()))
+        let total = total.unwrap_or_else(|| self.zero());
+        Ok(A::renormalized(self.code, total))
     }
 
     /// An inner product of this order.

@@ -131,7 +131,7 @@ impl CodeInUse {
         if self.vanishes(values) || self.divides_badly(values) {
             return Ok(false);
         }
-        high.take_origin(low)?;
+        high.take_origin(low);
         self.work.copy(self.compiled.values.offset, high.jet.values());
         take_matrices(high.jet.factored(), &self.compiled.factored, &mut self.work);
         let places = &self.compiled.exactly_factored;

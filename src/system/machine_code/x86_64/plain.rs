@@ -48,6 +48,10 @@ impl<const ORBITS: usize> Arithmetic for Floats<ORBITS> {
         code.binary(Operation::Multiply, code.lanes, a, b)
     }
 
+    fn renormalized(_: &mut Code, a: Operand) -> Operand {
+        a
+    }
+
     fn multiple(code: &mut Code, a: Operand, n: usize) -> Operand {
         let n = Self::splat(code, n as f64);
         Self::product(code, a, n)

@@ -47,7 +47,7 @@ impl<A: Arithmetic> Emitter<'_, A> {
             for (j, &known) in partial.iter().enumerate() {
                 sum = self.less_product(sum, entry(i, j), known);
             }
-            partial.push(sum);
+            partial.push(A::renormalized(self.code, sum));
         }
         let upper = |i: usize, j: usize| work(place.upper + (i * n + j) * A::SIZE);
         let scales = !std::mem::replace(&mut self.scaled[block as usize], true);
@@ -69,7 +69,7 @@ impl<A: Arithmetic> Emitter<'_, A> {
             for j in (i + 1..n).rev() {
                 sum = self.less_product(sum, A::at(upper(i, j)), partial[j]);
             }
-            partial[i] = sum;
+            partial[i] = A::renormalized(self.code, sum);
         }
         for (i, x) in (0..).zip(partial) {
             self.set(register + i, x);
