@@ -41,7 +41,7 @@ use decimal_limit::DecimalLimit;
 use kinks::Kinks;
 use static_friction::RestUnderFriction;
 use step_history::StepHistory;
-use step_size::{EXACT_BELOW, StepSize};
+use step_size::{EXACT_BELOW, SeriesOrders, StepSize};
 
 use super::dense_output::DenseOutput;
 use super::method::{Method, MethodError, Preserves, Settings, Stepping};
@@ -55,10 +55,6 @@ use crate::system::{
 /// of one rounding at the end and not of all on the way.
 const TOLERANCE: f64 = 1e-18;
 
-/// The number of orders built in double-double: the part left to `f64` is a ten-thousandth of a
-/// step.
-const EXACT_ORDERS: usize = 8;
-
 pub(super) const METHOD: Method = Method {
     name: "taylor",
     title: "Taylor series",
@@ -68,7 +64,7 @@ pub(super) const METHOD: Method = Method {
     locates_kinks: true,
     stays_within_steps: true,
     needs: "",
-    about: "Power series in time, of an order that follows the tolerance (28 where none is given), \
+    about: "Power series in time, of an order that follows the tolerance (28 or 36 if not given), \
             the lowest terms carried in double-double. Errors stay at the last digit shown, kinks \
             are located. Jorba & Zou, Experimental Mathematics 14 (2005) 99.",
     fits: |_| Ok(()),
@@ -117,10 +113,9 @@ impl Taylor {
             let reason = format!("the tolerance {tolerance:e} is not between 1e-30 and 1");
             return Err(MethodError { method: METHOD.name, reason });
         }
-        let order = step_size::order_for(tolerance, system.degrees());
-        let exact = if tolerance < EXACT_BELOW { EXACT_ORDERS } else { 0 };
+        let orders = SeriesOrders::of(tolerance, system);
         let state = State::new(0.0, system.form(), vec![0.0; system.state_len()]);
-        let series = system.series(order, exact);
+        let series = system.series(orders.highest, orders.exact);
         let (rates, bridge) =
             (system.exact_rates(), CollocationStep::new(system.state_len(), system.moving()));
         let enclosure = system.enclosure();
@@ -130,8 +125,8 @@ impl Taylor {
             series,
             plain: None,
             tolerance,
-            exact: exact > 0,
-            step_size: StepSize::new(tolerance, order),
+            exact: orders.exact > 0,
+            step_size: StepSize::new(tolerance, orders),
             state,
             begin: 0.0,
             history: StepHistory::default(),

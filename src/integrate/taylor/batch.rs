@@ -9,9 +9,10 @@ use super::batch_step_size::BatchStepSize;
 use super::decimal_limit::DecimalLimit;
 use super::expansion::{NEARBY_UNITS, UnitTrial, UnitTrials};
 use super::step_end::{SOON_STALLED, VANISHING_IN_F64};
+use super::step_size::SeriesOrders;
 use super::unit_of_time::UnitOfTime;
 use super::verification::may_hide_in_lane;
-use super::{EXACT_BELOW, METHOD, part_of_step, step_size};
+use super::{EXACT_BELOW, METHOD, part_of_step};
 use crate::integrate::lane_status::LaneStatus;
 use crate::integrate::method::{Method, Settings};
 use crate::num::{BATCH, DoubleDouble};
@@ -46,8 +47,8 @@ impl TaylorBatch {
         if method.name != METHOD.name || !(EXACT_BELOW..1.0).contains(&tolerance) {
             return None;
         }
-        let order = step_size::order_for(tolerance, system.degrees());
-        let series = system.batch_series(order)?;
+        let orders = SeriesOrders::of(tolerance, system);
+        let series = system.batch_series(orders.highest)?;
         let lane = TaylorLane {
             status: LaneStatus::Empty,
             state: State::new(0.0, system.form(), vec![0.0; system.state_len()]),
@@ -58,7 +59,7 @@ impl TaylorBatch {
         Some(TaylorBatch {
             system: system.clone(),
             series,
-            rule: BatchStepSize::new(tolerance, order),
+            rule: BatchStepSize::new(tolerance, orders),
             lanes: std::array::from_fn(|_| lane.clone()),
         })
     }

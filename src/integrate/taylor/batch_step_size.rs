@@ -10,7 +10,7 @@ use super::argument_step::{
     FARTHEST_ARGUMENT, before_pole, may_pass_pole, of_argument, of_steep_pole,
 };
 use super::last_orders::LANES;
-use super::step_size::{SeriesCounts, StepSize};
+use super::step_size::{SeriesCounts, SeriesOrders, StepSize};
 use crate::num::{BATCH, Batch, FourLaneKernel, FourLanes, in_four_lanes};
 use crate::system::BatchSeries;
 
@@ -25,8 +25,8 @@ pub(super) struct BatchStepSize {
 }
 
 impl BatchStepSize {
-    pub(super) fn new(tolerance: f64, order: usize) -> BatchStepSize {
-        let rule = StepSize::new(tolerance, order);
+    pub(super) fn new(tolerance: f64, orders: SeriesOrders) -> BatchStepSize {
+        let rule = StepSize::new(tolerance, orders);
         BatchStepSize { rule, least: [0; BATCH], gathered: Vec::new() }
     }
 

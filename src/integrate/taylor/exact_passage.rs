@@ -3,7 +3,8 @@
 //! In: a step that could not be taken. Out: the series with its lowest orders in double-double, until the motion is out of that place.
 //! Never here: steps.
 
-use super::{EXACT_ORDERS, Taylor, step_size};
+use super::Taylor;
+use super::step_size::{EXACT_ORDERS, SeriesOrders};
 use crate::system::{MotionError, MotionErrorKind};
 
 impl Taylor {
@@ -15,8 +16,8 @@ impl Taylor {
 
     /// Goes on with the lowest orders in double-double.
     pub(super) fn begin_passage(&mut self) -> Result<(), MotionError> {
-        let order = step_size::order_for(self.tolerance, self.system.degrees());
-        let mut series = self.system.series(order, EXACT_ORDERS);
+        let orders = SeriesOrders::of(self.tolerance, &self.system);
+        let mut series = self.system.series(orders.highest, EXACT_ORDERS);
         series.set_parameters(&self.system.inputs(&self.parameters));
         series.set_scale(self.series.scale());
         self.plain = Some(Box::new(std::mem::replace(&mut self.series, series)));

@@ -17,13 +17,15 @@ use super::order_bounds::{LowestBounds, OrderBounds};
 use super::rough_logarithms::{logarithms, rough_exponential};
 use super::step_screen::{StepScreen, set_powers};
 use crate::num::{FourLaneKernel, FourLanes, in_four_lanes, math};
-use crate::system::Series;
+use crate::system::{Series, System};
 
 /// Below this tolerance the lowest orders are built in double-double.
 pub(super) const EXACT_BELOW: f64 = 1e-16;
 
-/// The part of the tolerance allowed for the last terms, which represent everything truncated.
-/// Truncation errs in the same direction step by step, while rounding does not.
+/// The number of orders in double-double.
+pub(super) const EXACT_ORDERS: usize = 8;
+
+/// The part of the tolerance allowed for the last terms.
 const SHARE: f64 = 0.01;
 
 /// The largest step as a part of the radius of convergence.
@@ -33,16 +35,34 @@ const PART_OF_RADIUS: f64 = 0.6;
 /// its errors have no effect on the motion.
 const SPARED: f64 = 1e3;
 
-/// The order at which a tolerance costs least, for a motion of so many degrees of freedom. The step
-/// grows with the order. In large systems the work grows with its square (Jorba & Zou, proposition
-/// 3.2, find −½ ln ε + 1 if each order costs the same work); in small ones an order in `f64` costs
-/// nearly the same whatever it is, and a step has a cost of its own. In double-double it pays no more:
-/// in the longer steps of motions without singularities terms of high order, which are in `f64`, are
-/// larger than their sum.
-pub(super) fn order_for(tolerance: f64, degrees: usize) -> usize {
-    let long = (EXACT_BELOW..LOOSE).contains(&tolerance) && degrees <= SMALL;
-    let part = if long { 0.8 } else { 0.66 };
-    ((-math::ln(tolerance) * part).ceil() as usize).clamp(WIDTH, 44)
+/// The orders of a series.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SeriesOrders {
+    pub(super) highest: usize,
+    /// The number of orders in double-double: the part left to `f64` is a ten-thousandth of a step.
+    pub(super) exact: usize,
+    /// The part of the tolerance allowed for the last terms, which represent everything truncated.
+    /// Truncation errs in the same direction step by step, while rounding does not.
+    share: f64,
+}
+
+impl SeriesOrders {
+    /// Those at which a tolerance costs least, for the motion of a system. The step grows with the order. In large
+    /// systems the work grows with its square (Jorba & Zou, proposition 3.2, find −½ ln ε + 1 if each order costs the
+    /// same work); in small ones an order costs nearly the same whatever it is, and a step has a cost of its own. In the
+    /// longer steps more orders are exact, as terms of high order may be larger than their sum, and a smaller part of
+    /// the tolerance keeps the error of a unit of time.
+    pub(super) fn of(tolerance: f64, system: &System) -> SeriesOrders {
+        let degrees = system.degrees();
+        let (part, exact, share) = match tolerance < EXACT_BELOW {
+            true if degrees <= SMALL_EXACT && !system.has_kinks() => (0.86, 12, 0.03 * SHARE),
+            true => (0.66, EXACT_ORDERS, SHARE),
+            false if degrees <= SMALL && tolerance < LOOSE => (0.8, 0, SHARE),
+            false => (0.66, 0, SHARE),
+        };
+        let highest = ((-math::ln(tolerance) * part).ceil() as usize).clamp(WIDTH, 44);
+        SeriesOrders { highest, exact, share }
+    }
 }
 
 /// From this tolerance on it is loose; time scales of motions are measured with it.
@@ -51,6 +71,9 @@ const LOOSE: f64 = 1e-9;
 /// With no more degrees of freedom than this the products of series are not most of the work
 /// (measured on chains of pendulums).
 const SMALL: usize = 6;
+
+/// The same where the lowest orders are in double-double.
+const SMALL_EXACT: usize = 3;
 
 /// Whether all rates of change are finite.
 pub(super) fn has_velocity(series: &Series) -> bool {
@@ -67,10 +90,11 @@ pub(super) struct StepSize {
 }
 
 impl StepSize {
-    pub(super) fn new(tolerance: f64, order: usize) -> StepSize {
+    pub(super) fn new(tolerance: f64, orders: SeriesOrders) -> StepSize {
+        let SeriesOrders { highest, share, .. } = orders;
         StepSize {
-            motion: Shares::of_motion(tolerance, order),
-            integrals: Shares::of_integrals(tolerance, order),
+            motion: Shares::of_motion(tolerance * share, highest),
+            integrals: Shares::of_integrals(tolerance * share, highest),
             least: 0,
         }
     }
@@ -227,14 +251,14 @@ struct Shares {
 }
 
 impl Shares {
-    /// Those of the coordinates and rates, at the tolerance of a method.
+    /// Those of the coordinates and rates, at the tolerance of the last terms.
     fn of_motion(tolerance: f64, order: usize) -> Shares {
-        Shares::new(tolerance * SHARE, order)
+        Shares::new(tolerance, order)
     }
 
     /// Those of what does not act on the motion.
     fn of_integrals(tolerance: f64, order: usize) -> Shares {
-        Shares::new(tolerance * SHARE * SPARED, order)
+        Shares::new(tolerance * SPARED, order)
     }
 
     /// The logarithm of the step that all orders allow, or `before` where that is less; the lowest allow as much as is said.
