@@ -437,7 +437,10 @@ impl ScenePainter<'_> {
         }
         let pen = Pen::new(theme[Role::Text], SOLID);
         for (extents, edges) in edges {
-            self.edge(extents, |painter| edges.iter().for_each(|line| painter.curve(line, &pen)));
+            let lines: Vec<&[[f64; 3]]> = edges.iter().map(Vec::as_slice).collect();
+            self.edge(extents, &lines, &pen, |painter, pen| {
+                lines.iter().for_each(|line| painter.curve(line, pen));
+            });
         }
         for point in points {
             if let Some(pen) = self.seen_at(point, &Pen::new(theme.curve(0), BODY)) {

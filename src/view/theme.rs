@@ -164,6 +164,17 @@ impl Theme {
         self.tones.iter().find(|(own, _)| Some(*own) == style.fg).map(|(_, tones)| tones)
     }
 
+    /// The style of dots that fill what is too thin for tones: its own colour or its brightest tone, whichever stands out more from
+    /// the page, because dots are sparser than a background. `None` where colours are too few to shade with.
+    pub fn dots(&self, style: Style) -> Option<Style> {
+        let own = style.fg.into_iter().chain(self.tones(style)?.last().copied());
+        let contrast = |colour: &Color| {
+            Rgb::of(*colour).map_or(0.0, |colour| colour.contrast(self.palette.background))
+        };
+        let boldest = own.max_by(|a, b| contrast(a).total_cmp(&contrast(b)));
+        boldest.map(|colour| style.fg(colour))
+    }
+
     /// A style whose colour stands out from this background: its own, one nearer to the foreground, or where neither is, whichever
     /// of the foreground and the palette's own background differs more.
     pub fn legible(&self, style: Style, background: Color) -> Style {

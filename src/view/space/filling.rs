@@ -1,6 +1,6 @@
 //! What is filled: the surfaces of a piece, with the style that its size on the screen gives it.
 //!
-//! In: extents, the width of a column. Out: a style. Never here: attitudes, or which dots are covered.
+//! In: extents, the width of a column. Out: a style. Never here: which dots are covered.
 
 use super::solid::Occluder;
 use crate::view::plot::Pen;
@@ -8,12 +8,15 @@ use crate::view::plot::Pen;
 /// The thickness, in columns, from which on a piece is drawn in blocks: two quarters of a cell across, however it turns.
 const THICK: f64 = 2.0;
 
-/// How a piece is drawn with tones. It follows from its size on the screen and not from its attitude, so that it does not change
-/// while it turns.
+/// The extent, in columns, below which a sheet is all edge: lines around so few cells would hide what is between them.
+const SMALL_FACE: f64 = 16.0;
+
+/// How a piece is drawn with tones. It follows from its size on the screen and, but for small sheets, not from its attitude, so that
+/// it does not change while it turns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum PieceStyle {
-    /// Too thin for blocks: lines along its edges, and dots between them.
-    Lines,
+    /// Too thin for blocks: all of its dots.
+    Dots,
     /// Thin from one side: blocks between lines along its edges.
     Sheet,
     Solid,
@@ -25,14 +28,24 @@ impl PieceStyle {
         match (least / column >= THICK, other / column >= THICK) {
             (true, _) => Self::Solid,
             (false, true) => Self::Sheet,
-            (false, false) => Self::Lines,
+            (false, false) => Self::Dots,
+        }
+    }
+
+    /// The style of such a piece where it is seen with this least width: the edges of a small sheet are blocks, unless it is seen
+    /// from its edge.
+    pub(super) fn seen(extents: [f64; 2], width: f64, column: f64) -> Self {
+        let is_small = extents[1] / column < SMALL_FACE;
+        match Self::of(extents, column) {
+            Self::Sheet if is_small && width / column >= THICK => Self::Solid,
+            style => style,
         }
     }
 }
 
 /// The extent, in columns, below which a piece is drawn in ASCII as one mass of characters: with fewer of them, edges and shading
 /// cannot be told apart.
-const SMALL: f64 = 6.0;
+const SMALL: f64 = 16.0;
 
 /// The same for one that is flat, of fewer columns than this from one side, where its two rims run into each other, such as a wheel.
 const SMALL_SHEET: f64 = 22.0;
@@ -63,7 +76,7 @@ mod tests {
     #[test]
     fn a_wheel_is_a_mass_of_characters_where_a_thick_piece_of_its_size_has_edges() {
         let of = |extents: [f64; 2]| is_small(extents.map(|x| x * 0.5), 0.5);
-        assert_eq!([[5.9, 5.9], [6.1, 6.1], [3.1, 6.1]].map(of), [true, false, false]);
+        assert_eq!([[15.9, 15.9], [16.1, 16.1], [3.1, 16.1]].map(of), [true, false, false]);
         assert_eq!([[2.9, 21.9], [0.0, 21.9], [0.0, 22.1]].map(of), [true, true, false]);
     }
 
@@ -71,10 +84,17 @@ mod tests {
     fn what_is_thinner_than_two_columns_is_not_filled_from_that_side() {
         for column in [0.01, 5.0] {
             let of = |extents: [f64; 2]| PieceStyle::of(extents.map(|x| x * column), column);
-            assert_eq!(of([0.0, 1.9]), PieceStyle::Lines);
-            assert_eq!(of([1.9, 1.9]), PieceStyle::Lines);
+            assert_eq!(of([0.0, 1.9]), PieceStyle::Dots);
+            assert_eq!(of([1.9, 1.9]), PieceStyle::Dots);
             assert_eq!(of([1.9, 2.1]), PieceStyle::Sheet);
             assert_eq!(of([2.1, 2.1]), PieceStyle::Solid);
         }
+    }
+
+    #[test]
+    fn a_small_disc_has_blocks_for_edges_unless_it_is_seen_from_its_edge() {
+        let of = |diameter: f64, width: f64| PieceStyle::seen([0.0, diameter], width, 1.0);
+        assert_eq!([of(15.9, 2.1), of(15.9, 1.9)], [PieceStyle::Solid, PieceStyle::Sheet]);
+        assert_eq!([of(16.1, 9.0), of(1.9, 1.9)], [PieceStyle::Sheet, PieceStyle::Dots]);
     }
 }

@@ -16,14 +16,16 @@ impl ScenePainter<'_> {
                 let (centre, normal) = (self.point(centre), self.direction(normal));
                 let radius = self.q.number(*radius);
                 let rim = self.rim(centre, radius, normal);
-                self.edge(solid::disc(radius), |painter| painter.curve(&rim, pen));
+                self.edge(solid::disc(radius), &[&rim], pen, |painter, pen| {
+                    painter.curve(&rim, pen);
+                });
             }
             Shape::Cone { tip, base, radius } => {
                 let (tip, base) = (self.point(tip), self.point(base));
                 let axis = [0, 1, 2].map(|k| base[k] - tip[k]);
                 let radius = self.q.number(*radius);
                 let rim = self.rim(base, radius, axis);
-                self.edge(solid::along(tip, base, radius), |painter| {
+                self.edge(solid::along(tip, base, radius), &[&[tip], &rim], pen, |painter, pen| {
                     painter.curve(&rim, pen);
                     painter.silhouette(&vec![tip; rim.len()], &rim, pen);
                 });
@@ -32,7 +34,8 @@ impl ScenePainter<'_> {
                 let ends = [self.point(from), self.point(to)];
                 let radius = self.q.number(*radius);
                 let [low, high] = solid::rims(ends, radius, self.spacing(radius));
-                self.edge(solid::along(ends[0], ends[1], radius), |painter| {
+                let extents = solid::along(ends[0], ends[1], radius);
+                self.edge(extents, &[&low, &high], pen, |painter, pen| {
                     painter.curve(&low, pen);
                     painter.curve(&high, pen);
                     painter.silhouette(&low, &high, pen);

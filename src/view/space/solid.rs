@@ -119,6 +119,25 @@ impl Occluder {
     }
 }
 
+/// The least width of what the eye sees of some surfaces, among eight directions across its view; that of balls is not counted.
+pub(super) fn least_width(seen: &[Occluder]) -> f64 {
+    let corners = || {
+        seen.iter().flat_map(|one| match one {
+            Occluder::Face(corners) => corners.as_slice(),
+            Occluder::Ball(..) => &[],
+        })
+    };
+    let width = |direction: u32| {
+        let (sin, cos) = math::sin_cos(f64::from(direction) * std::f64::consts::PI / 8.0);
+        let ends = corners().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], [x, y, _]| {
+            let along = x * cos + y * sin;
+            [low.min(along), high.max(along)]
+        });
+        (ends[1] - ends[0]).max(0.0)
+    };
+    (0..8).map(width).fold(f64::INFINITY, f64::min)
+}
+
 /// The surface of a cone, its base first, with every so many corners of its rim.
 fn cone(tip: [f64; 3], base: [f64; 3], radius: f64, spacing: usize) -> Vec<Occluder> {
     let axis = [0, 1, 2].map(|k| base[k] - tip[k]);
@@ -160,7 +179,19 @@ pub(super) fn tube(low: &[[f64; 3]], high: &[[f64; 3]], closed: bool) -> Vec<Occ
 
 #[cfg(test)]
 mod tests {
-    use super::{rims, silhouette};
+    use super::{Occluder, least_width, rims, silhouette};
+
+    /// A disc of radius 1 whose normal is at 60° to the line of sight is half as wide as it is long, whichever way it lies.
+    #[test]
+    fn a_tilted_disc_is_narrower_by_the_cosine_of_its_tilt() {
+        let (sin, cos) = (0.75_f64.sqrt(), 0.5);
+        for (a, b) in [(0.0, 1.0), (0.6, 0.8), (1.0, 0.0)] {
+            let [rim, _] = rims([[0.0; 3], [sin * a, sin * b, cos]], 1.0, 1);
+            let width = least_width(&[Occluder::Face(rim)]);
+            assert!((1.0..1.13).contains(&width), "{width}");
+        }
+        assert!(least_width(&[Occluder::Ball([0.0; 3], 1.0)]) < 1e-12);
+    }
 
     /// The eye looks along the third axis, so that a cylinder across it has two edges at its radius.
     #[test]

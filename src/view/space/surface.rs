@@ -101,11 +101,14 @@ impl ScenePainter<'_> {
         let see_through = matches!(shape, Shape::Sphere { .. });
         let (column, projection) = (self.column(), self.camera.projection());
         for piece in pieces {
-            let style = PieceStyle::of(piece.extents, column);
-            let is_mass = !see_through && self.is_mass(piece.extents);
             let surfaces = piece.surfaces.into_iter();
             let solids = surfaces.flat_map(|surface| surface.occluders(|r| self.spacing(r)));
-            let solids = solids.map(|solid| solid.moved(|point| projection.of(point))).collect();
+            let solids: Vec<_> =
+                solids.map(|solid| solid.moved(|point| projection.of(point))).collect();
+            let style = PieceStyle::seen(piece.extents, solid::least_width(&solids), column);
+            let is_thin = style == PieceStyle::Dots && !self.q.style.glyphs.is_ascii();
+            let is_mass = !see_through && (is_thin || self.is_mass(piece.extents));
+            let pen = if is_thin { self.dots(&pen) } else { pen };
             self.surfaces.push(Filling { pen, shares, style, solids, is_mass, see_through });
         }
     }
@@ -120,7 +123,7 @@ impl ScenePainter<'_> {
             .map(|surface| {
                 let tones =
                     style.theme.tones(surface.pen.style).filter(|_| !style.glyphs.is_ascii());
-                let tones = tones.filter(|_| surface.style != PieceStyle::Lines)?;
+                let tones = tones.filter(|_| surface.style != PieceStyle::Dots)?;
                 Some(self.shading.add(*tones, surface.style == PieceStyle::Sheet))
             })
             .collect();
@@ -183,21 +186,49 @@ impl ScenePainter<'_> {
         self.q.style.glyphs.is_ascii() && is_small(extents, self.column())
     }
 
-    /// Draws edges of a piece with these extents: those of a solid are lines only where they are no blocks, and those of a mass of
-    /// characters are a part of it.
-    pub(super) fn edge(&mut self, extents: [f64; 2], draw: impl FnOnce(&mut Self)) {
+    /// The pen of a surface that is filled with dots.
+    fn dots(&self, pen: &Pen) -> Pen {
+        let theme = &self.q.style.theme;
+        let is_level = pen.style == theme[Role::Level];
+        let otherwise = if is_level { theme[Role::Text] } else { pen.style };
+        Pen { style: theme.dots(pen.style).unwrap_or(otherwise), ..*pen }
+    }
+
+    /// Draws edges of a piece with these extents along some lines: those of a solid are lines only where they are no blocks, and
+    /// those of one that is all dots, or a mass of characters, are a part of it.
+    pub(super) fn edge(
+        &mut self,
+        extents: [f64; 2],
+        lines: &[&[[f64; 3]]],
+        pen: &Pen,
+        draw: impl FnOnce(&mut Self, &Pen),
+    ) {
         if self.is_mass(extents) {
             self.letters = Some(Letters::Height);
-            draw(self);
+            draw(self, pen);
             self.letters = None;
             return;
         }
-        if !self.shading.is_on() || PieceStyle::of(extents, self.column()) != PieceStyle::Solid {
-            return draw(self);
+        let projection = self.camera.projection();
+        let place = |line: &&[[f64; 3]]| {
+            Occluder::Face(line.iter().map(|point| projection.of(*point)).collect())
+        };
+        let width = solid::least_width(&lines.iter().map(place).collect::<Vec<_>>());
+        match PieceStyle::seen(extents, width, self.column()) {
+            PieceStyle::Dots => {
+                let theme = &self.q.style.theme;
+                let is_text = pen.style == theme[Role::Text];
+                let style = if is_text { theme[Role::Level] } else { pen.style };
+                let pen = self.dots(&Pen { style, ..*pen });
+                draw(self, &pen);
+            }
+            PieceStyle::Solid if self.shading.is_on() => {
+                std::mem::swap(&mut self.raster, &mut self.edges);
+                draw(self, pen);
+                std::mem::swap(&mut self.raster, &mut self.edges);
+            }
+            PieceStyle::Sheet | PieceStyle::Solid => draw(self, pen),
         }
-        std::mem::swap(&mut self.raster, &mut self.edges);
-        draw(self);
-        std::mem::swap(&mut self.raster, &mut self.edges);
     }
 
     /// Whether a mass of this radius is a ball among the surfaces: in space if it has its size on the screen, and in a plane

@@ -165,7 +165,7 @@ fn the_faces_of_a_top_are_told_apart() {
     assert!(tones[tones.len() - 1] > tones[0] + 100, "{tones:?}");
 }
 
-/// A piece is drawn in one style while it turns: thin ones as lines and dots in every frame.
+/// A piece is drawn in one style while it turns: thin ones as dots in every frame.
 #[test]
 fn the_style_of_a_body_does_not_change_while_it_turns() {
     for (name, size) in [("t-handle", (60, 15)), ("t-handle", (40, 10))] {
@@ -182,6 +182,22 @@ fn the_style_of_a_body_does_not_change_while_it_turns() {
         }
         assert!((painted, dotted) == (0, 40), "{name} {size:?}: {painted} {dotted}");
     }
+}
+
+/// Thin pieces are no wires: what they cover is full of dots.
+#[test]
+fn a_thin_body_is_full_of_dots() {
+    let mut real = Real::of("t-handle");
+    let mut counts = Vec::new();
+    for _ in 0..20 {
+        real.run(8);
+        let buffer = screen(&real.app, &rich(), (80, 24));
+        let cells = (2..13).flat_map(|y| (1..38).map(move |x| (x, y)));
+        let is_braille = |c: &char| ('\u{2800}'..='\u{28ff}').contains(c);
+        let dots = |at| buffer[at].symbol().chars().find(is_braille).map_or(0, |c| c as u32 & 0xff);
+        counts.push(cells.filter(|&at| dots(at).count_ones() >= 6).count());
+    }
+    assert!(counts.iter().sum::<usize>() >= 120, "{counts:?}");
 }
 
 /// Thick ones are filled in every frame.
@@ -204,6 +220,23 @@ fn no_tone_is_lost_in_the_background() {
         let ratio = Rgb::of(tone).expect("a colour").contrast(palette.background);
         assert!(ratio >= 1.45, "{}: {tone:?} {ratio}", palette.name);
     }
+}
+
+/// Dots that fill a thin piece stand out from the page in every palette.
+#[test]
+fn thin_pieces_stand_out_from_the_page() {
+    let palettes: &'static [Palette] = &PALETTES;
+    let mut count = 0;
+    for palette in palettes {
+        let theme = Theme::new(palette, ColourDepth::True);
+        for style in styles(&theme).into_iter().filter_map(|style| theme.dots(style)) {
+            let colour = style.fg.and_then(Rgb::of).expect("a colour");
+            let contrast = colour.contrast(palette.background);
+            assert!(contrast >= 3.0, "{}: {colour:?} {contrast}", palette.name);
+            count += 1;
+        }
+    }
+    assert!(count > 20, "{count}");
 }
 
 /// The styles of level curves and series.
@@ -292,8 +325,8 @@ fn in_space(shapes: &str) -> App {
     ))
 }
 
-/// A piece is a solid without lines at its edge if the smaller one of its extents is two columns or more, a sheet between lines
-/// if another one is, and else lines: each with a body just below and just above.
+/// A piece is a solid without lines at its edge if the smaller one of its extents is two columns or more, or if it is small and
+/// seen so wide; a sheet between lines if another one is, and else dots: each with a body just below and just above.
 #[test]
 fn two_columns_are_thick() {
     let is_braille =
@@ -311,19 +344,20 @@ fn two_columns_are_thick() {
     let floor = (1..30).max_by_key(|&y| count(&buffer, y..y + 1, &is_braille)).expect("rows");
     let column = 10.0 / count(&buffer, floor..floor + 1, &is_braille) as f64;
     for (length, wide, style) in [
-        (20.0, 1.9, "lines"),
+        (20.0, 1.9, "dots"),
         (20.0, 2.1, "solid"),
         (1.9, 20.0, "sheet"),
         (2.1, 20.0, "solid"),
-        (1.6, 1.9, "lines"),
-        (1.6, 2.1, "sheet"),
+        (1.6, 1.9, "dots"),
+        (1.0, 2.1, "sheet"),
+        (1.6, 2.1, "solid"),
     ] {
         let (half, radius) = (length / 2.0 * column, wide / 2.0 * column);
         let ends = format!("[\"0\", \"0\", \"{}\"], to = [\"0\", \"0\", \"{half}\"]", -half);
         let buffer = picture(&format!(", {{ cylinder = {ends}, radius = \"{radius}\" }}"));
         let painted = count(&buffer, 2..30, &|cell| Rgb::of(cell.bg).is_some() || is_block(cell));
         let drawn = match (painted, count(&buffer, 2..floor, &is_line)) {
-            (0, _) => "lines",
+            (0, _) => "dots",
             (_, 0) => "solid",
             (_, _) => "sheet",
         };
