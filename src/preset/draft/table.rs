@@ -1,7 +1,7 @@
 //! A reader of one table of the file. Keys are requested by name, and a key that was never requested is an error.
 
 use toml::Spanned;
-use toml::de::{DeArray, DeTable, DeValue};
+use toml::de::{DeArray, DeString, DeTable, DeValue};
 
 use super::value::Value;
 use super::{Formula, TOP_LEVEL, value};
@@ -96,8 +96,27 @@ impl<'d> Table<'d> {
     }
 
     /// Whether the key exists, whatever its value.
-    pub(super) fn has(&self, key: &str) -> bool {
-        self.entries.get(key).is_some()
+    pub(super) fn has(&self, key: &'static str) -> bool {
+        self.entries.get(key).is_some() || self.misspelt(key).is_some()
+    }
+
+    /// The table whose unknown name is reported as a misspelling of this key. It is read as the one that is meant, so that its
+    /// names are not unknown as well.
+    fn misspelt(&self, key: &'static str) -> Option<(&'d Spanned<DeString<'d>>, &'d Value<'d>)> {
+        let known = || self.section.into_iter().flat_map(|section| section.keys.iter());
+        let is_meant = |name: &str| {
+            known().all(|row| row.name != name)
+                && nearest(name, known().map(|row| row.name)) == Some(key)
+        };
+        let fits = |value: &Value<'_>| match self.row(key).map(|row| row.kind) {
+            Some(ValueKind::Tables(_)) => is_table(value) && !value.get_ref().is_table(),
+            Some(ValueKind::Table(_) | ValueKind::Named(_) | ValueKind::Names) => {
+                value.get_ref().is_table()
+            }
+            _ => false,
+        };
+        let mut entries = self.entries.iter();
+        entries.find(|(name, value)| fits(value) && is_meant(name.get_ref()))
     }
 
     /// The range of a key and its value. A key that the schema requires is reported if it is missing.
@@ -107,7 +126,7 @@ impl<'d> Table<'d> {
     ) -> Option<(SourceRange, &'d Value<'d>)> {
         debug_assert!(self.agrees(key, |_| true), "the format has no `{key}` in {}", self.called);
         self.asked.push(key);
-        let found = self.entries.get_key_value(key);
+        let found = self.entries.get_key_value(key).or_else(|| self.misspelt(key));
         if found.is_none()
             && let Some(help) = self.row(key).and_then(|row| row.missing)
         {
@@ -291,12 +310,7 @@ impl<'d> Table<'d> {
             if known.contains(&name) || self.passed.contains(&name) {
                 continue;
             }
-            let tables = match value.get_ref() {
-                DeValue::Table(_) => true,
-                DeValue::Array(items) => items.iter().any(|item| item.get_ref().is_table()),
-                _ => false,
-            };
-            let what = if tables { "table" } else { "key" };
+            let what = if is_table(value) { "table" } else { "key" };
             let message = format!("unknown {what} `{name}` in {}", self.called);
             let help = if name.bytes().all(|b| b.is_ascii_digit()) {
                 "a decimal fraction is written with a point, as 1.5".to_owned()
@@ -318,5 +332,14 @@ impl<'d> Table<'d> {
         for (key, diagnostic) in self.absent {
             self.diagnostics.missing(key, diagnostic);
         }
+    }
+}
+
+/// Whether a value is a table or a list of some.
+fn is_table(value: &Value<'_>) -> bool {
+    match value.get_ref() {
+        DeValue::Table(_) => true,
+        DeValue::Array(items) => items.iter().any(|item| item.get_ref().is_table()),
+        _ => false,
     }
 }
