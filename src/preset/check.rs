@@ -8,6 +8,7 @@
 mod body;
 mod comparison;
 mod constraint;
+mod degrees;
 mod equilibrium;
 mod expect;
 mod frame;
@@ -28,7 +29,7 @@ use std::collections::BTreeSet;
 use super::draft::{Draft, Formula, LawTable};
 use crate::cancel::Cancel;
 use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::expr::Expr;
+use crate::expr::{Expr, Symbol};
 use crate::model::{Allowed, Model, Scope};
 use names::Names;
 
@@ -61,7 +62,9 @@ fn check_once(
     let mut model = Model::new(&draft.info.title);
     model.pool.set_cancel(cancel.clone());
     model.info = draft.info.clone();
-    let mut check = ModelBuilder { file, diagnostics, model, used: BTreeSet::new(), keeps_ramps };
+    let used = BTreeSet::new();
+    let degrees = Vec::new();
+    let mut check = ModelBuilder { file, diagnostics, model, used, keeps_ramps, degrees };
     if check.beyond_limits(draft) {
         return None;
     }
@@ -118,6 +121,8 @@ struct ModelBuilder<'c> {
     used: BTreeSet<String>,
     /// Whether parameters that change with the time keep their names.
     keeps_ramps: bool,
+    /// The coordinates and parameters whose unit is the degree.
+    degrees: Vec<Symbol>,
 }
 
 impl ModelBuilder<'_> {
@@ -136,6 +141,9 @@ impl ModelBuilder<'_> {
             self.diagnostics.push(diagnostic);
         }
         self.used.append(&mut scope.used);
+        if let Some(e) = e {
+            self.in_radians(e, formula);
+        }
         e
     }
 

@@ -19,6 +19,7 @@ impl ModelBuilder<'_> {
             let (name, pool) = (written.name.get_ref(), &mut self.model.pool);
             let mut coordinate = introduce(pool, name, &written.symbol, &written.unit);
             coordinate.place = written.name.span();
+            self.note_degrees(coordinate.position, &written.unit);
             self.model.coordinates.push(coordinate);
         }
         self.model.mechanics = law.unwrap_or(LawTable::Lagrangian).unread();

@@ -17,6 +17,7 @@ impl ModelBuilder<'_> {
             if written.symbol.is_empty() { unicode_name(name) } else { written.symbol.clone() };
         let symbol = self.model.pool.symbol(name);
         self.model.pool.describe(symbol, &shown, &latex_of_unicode(&shown), Rank::Constant);
+        self.note_degrees(symbol, &written.unit);
         let scale = written.scale.as_ref().map_or(RangeSpacing::Linear, |scale| self.scale(scale));
         let value = written.value.as_ref().map_or(1.0, |v| *v.get_ref());
         let (min, max) = self.range(written, value, scale);
