@@ -196,6 +196,12 @@ impl App {
         self.awaited.system.as_ref().map(|request| request.name.as_str())
     }
 
+    /// Returns the name of the system being loaded, if the lab opens with it.
+    pub fn opening(&self) -> Option<&str> {
+        let request = self.awaited.system.as_ref().filter(|request| request.opens);
+        request.map(|request| request.name.as_str())
+    }
+
     /// Whether an action has an effect on the loaded system; most actions always do.
     pub fn offers(&self, action: Action) -> bool {
         self.lack(action).is_none()

@@ -327,7 +327,12 @@ pub(super) fn shown_value(gauge: &Gauge, residual: bool) -> f64 {
 
 /// Draws the value at the right. Returns the number of columns used.
 fn value(canvas: &mut Canvas<'_>, area: Rect, value: f64, digits: usize) -> u16 {
-    let text = fitted(value, digits, area.width.into(), canvas.style.glyphs);
+    let glyphs = canvas.style.glyphs;
+    let text = if value.is_nan() {
+        glyphs.pick("–", "-").to_owned()
+    } else {
+        fitted(value, digits, area.width.into(), glyphs)
+    };
     canvas.right(area, Role::Accent, text.trim_start())
 }
 

@@ -8,7 +8,7 @@ use unicode_width::UnicodeWidthStr;
 use super::canvas::{Canvas, StyledText, columns, row, wide};
 use super::layout::{Slot, is_single, panes, view_of_motion};
 use super::list_tabs::{ListTabs, add_key, add_targets, name};
-use super::number::brief;
+use super::number::{brief, with_minus_signs};
 use super::quantity::Quantities;
 use super::region::ScreenRegion;
 use super::text_page::draw_rows;
@@ -237,7 +237,8 @@ fn stopped(canvas: &mut Canvas<'_>, area: Rect, (lab, error): (&Lab, &RunError))
         ("The motion cannot continue", "r back to the start   u undo the last change")
     };
     let width = area.width.saturating_sub(4).min(70);
-    let text = canvas.text(&capitalised(&error.message));
+    let text = with_minus_signs(&capitalised(&error.message), canvas.style.glyphs);
+    let text = canvas.text(&text);
     let lines = words(&text, usize::from(width.saturating_sub(4)));
     let height = (lines.len() as u16 + 4).min(area.height);
     let title = canvas.span(Role::Bad, title);

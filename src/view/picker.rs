@@ -27,6 +27,9 @@ const BESIDE: u16 = 33;
 /// The height from which a narrow screen has room for the preview below the list.
 const TALL: u16 = 20;
 
+/// What is said of a system while it is loaded.
+const DERIVING: &str = "Deriving its equations of motion; Esc cancels.";
+
 /// Draws the list and the preview.
 pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
     if area.width < 64 {
@@ -43,7 +46,13 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
     }
     let (left, right) = split_columns(area, width_of_list(canvas, area.width, &app.picker));
     list(canvas, left, &app.picker);
-    let Some(entry) = app.picker.current() else {
+    let current = app.picker.current();
+    if let Some(name) = app.opening().filter(|name| current.is_none_or(|one| one.name != *name)) {
+        let inner = canvas.pane(right, &[canvas.span(Role::Title, name)], false);
+        sentence(canvas, columns(inner, 1, inner.width.saturating_sub(2)), DERIVING);
+        return;
+    }
+    let Some(entry) = current else {
         let title = match app.picker.selected_above() {
             Some(Above::Guides) => Some("Lessons and demos"),
             Some(Above::NewSystem) => Some("New system"),
@@ -52,7 +61,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
         };
         let title = title.map(|title| canvas.span(Role::Title, title));
         let inner = canvas.pane(right, title.as_slice(), false);
-        let sentence = match app.picker.selected_above() {
+        let text = match app.picker.selected_above() {
             Some(Above::Session) => {
                 let open = app.picker.session().map_or("it", |session| session.open.as_str());
                 format!("Enter continues {open} where you left off.")
@@ -71,12 +80,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
                 .to_owned(),
             None => "No system fits this search.".to_owned(),
         };
-        let text = columns(inner, 1, inner.width.saturating_sub(2));
-        for (index, line) in words(&canvas.text(&sentence), text.width.into()).iter().enumerate() {
-            if index < text.height.into() {
-                canvas.left(row(text, index), Role::Dim, line);
-            }
-        }
+        sentence(canvas, columns(inner, 1, inner.width.saturating_sub(2)), &text);
         return;
     };
     let title = [canvas.span(Role::Title, &entry.info.title)];
@@ -85,6 +89,15 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
     let used = summary(canvas, text, entry);
     let (_, below) = split_rows(inner, used + 1);
     preview(canvas, below, app, entry);
+}
+
+/// Writes a sentence at the top of an area.
+fn sentence(canvas: &mut Canvas<'_>, area: Rect, sentence: &str) {
+    for (index, line) in words(&canvas.text(sentence), area.width.into()).iter().enumerate() {
+        if index < area.height.into() {
+            canvas.left(row(area, index), Role::Dim, line);
+        }
+    }
 }
 
 /// The width of the list: that of its longest row, or what there is beside the preview.
@@ -303,16 +316,11 @@ fn preview(canvas: &mut Canvas<'_>, area: Rect, app: &App, entry: &CatalogEntry)
     let lab = app.lab.as_ref().filter(|lab| lab.loaded.name == entry.name);
     let Some((q, lab)) = lab.and_then(|lab| Some((Quantities::of(lab, canvas.style)?, lab))) else {
         let message = match app.loading() {
-            Some(name) if name == entry.name => "Loading; Esc cancels.".to_owned(),
+            Some(name) if name == entry.name => DERIVING.to_owned(),
             Some(name) => format!("Loading {name}; Esc cancels."),
             None => "…".to_owned(),
         };
-        let message = canvas.text(&message);
-        for (index, line) in words(&message, text.width.into()).iter().enumerate() {
-            if index < text.height.into() {
-                canvas.left(row(text, index), Role::Dim, line);
-            }
-        }
+        sentence(canvas, text, &message);
         return;
     };
     let space = lab.plots.iter().find(|plot| plot.kind.is_scene());

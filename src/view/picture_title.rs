@@ -45,11 +45,8 @@ pub(super) fn title(
 /// An entry of a heading other than a curve.
 fn piece(canvas: &Canvas<'_>, q: &Quantities<'_>, entry: &Entry) -> Vec<StyledText> {
     let valued = |name: &str, value: f64| {
-        let value = readable(value, 4, canvas.style.glyphs);
-        vec![
-            canvas.span(Role::Dim, format!("  {name}")),
-            canvas.span(Role::Accent, format!(" {value:<8}")),
-        ]
+        let name = canvas.span(Role::Dim, format!("  {name}"));
+        [name].into_iter().chain(current(canvas, value)).collect()
     };
     match entry {
         Entry::Channel(channel) => valued(&q.name(*channel), q.value(*channel)),
@@ -73,6 +70,12 @@ fn piece(canvas: &Canvas<'_>, q: &Quantities<'_>, entry: &Entry) -> Vec<StyledTe
         Entry::Curve(index, channel) => key(canvas, q, *index, *channel),
         Entry::Line(index, words) => sampled(canvas, *index, words),
     }
+}
+
+/// A current value; nothing while it has none, as where a motion cannot begin.
+fn current(canvas: &Canvas<'_>, value: f64) -> Option<StyledText> {
+    let shown = || format!(" {:<8}", readable(value, 4, canvas.style.glyphs));
+    (!value.is_nan()).then(|| canvas.span(Role::Accent, shown()))
 }
 
 /// The curves of a heading: their indices and channels.
@@ -117,8 +120,7 @@ fn keys(
     let head = vec![canvas.span(Role::Title, &heading.title)];
     let named = || curves.iter().map(|(index, channel)| key(canvas, q, *index, *channel));
     let valued = named().zip(curves).map(|(mut key, (_, channel))| {
-        let value = readable(q.value(*channel), 4, canvas.style.glyphs);
-        key.push(canvas.span(Role::Accent, format!(" {value:<8}")));
+        key.extend(current(canvas, q.value(*channel)));
         key
     });
     let (valued, mut named): (Vec<_>, Vec<_>) = (valued.collect(), named().collect());
