@@ -5,6 +5,7 @@
 
 use super::value::{nice_step, step};
 use super::{Lab, ValueId, ValueInfo};
+use crate::expr::Expr;
 use crate::mechanics::Valuation;
 use crate::model::RangeSpacing;
 use crate::num::rounded;
@@ -60,23 +61,21 @@ impl Lab {
                     }
                     _ => c.unit.clone(),
                 };
-                let follows = self.followed_by(index);
-                let of_file = follows.as_ref().map_or_else(String::new, |e| format!(", {e}"));
                 Some(ValueInfo {
                     ramped: false,
                     name: info.name.clone(),
                     shown: info.unicode.clone(),
                     unit,
-                    about: format!("initial {what}{of_file}; a change restarts the motion"),
+                    about: format!("initial {what}; a change restarts the motion"),
                     range: None,
-                    follows,
+                    follows: self.followed_by(index),
                 })
             }
         }
     }
 
-    /// What an initial value is in the file, in mathematical notation, if parameters stand in it and nobody has changed it.
-    fn followed_by(&self, index: usize) -> Option<String> {
+    /// What an initial value is in the file, if parameters stand in it and nobody has changed it.
+    fn followed_by(&self, index: usize) -> Option<Expr> {
         let model = &self.loaded.model;
         let count = model.coordinates.len();
         let coordinate = model.coordinates.get(index % count.max(1))?;
@@ -90,7 +89,7 @@ impl Lab {
         };
         let given =
             self.snapshot.as_ref().is_some_and(|seen| seen.setup.overrides.iter().any(is_changed));
-        (follows && !given).then(|| model.pool.unicode(of_file))
+        (follows && !given).then_some(of_file)
     }
 
     /// The initial values as the lab lists them: of a Lagrangian system velocities in place of momenta, so that what was

@@ -3,6 +3,7 @@
 //! In: a value and its range. Out: the value one step further. Never here: the lab, the list on the screen, or the
 //! command that sets a value.
 
+use crate::expr::Expr;
 use crate::model::RangeSpacing;
 use crate::num::{math, rounded};
 
@@ -31,7 +32,7 @@ pub struct ValueInfo {
     /// Whether it changes with the time by itself.
     pub ramped: bool,
     /// What an initial value is in the file, where it follows parameters and was not changed.
-    pub follows: Option<String>,
+    pub follows: Option<Expr>,
 }
 
 /// Moves a value by `sign · times` fine steps. About 200 of them make up the range or, without one, the value's

@@ -48,8 +48,7 @@ pub(super) fn found(lab: &Lab, style: &RenderStyle, page: &mut TextPage) {
             weight if weight > MOST => {
                 format!("… ({weight} pieces: phaselab invariants prints them)")
             }
-            _ if style.glyphs.is_ascii() => pool.ascii(e),
-            _ => pool.unicode(e),
+            _ => style.glyphs.formula(pool, e),
         }
     };
     page.heading(CONSTANTS);

@@ -90,7 +90,7 @@ impl EquationRows<'_> {
         if pool.weight(e) > MOST {
             return format!("… ({} pieces: phaselab derive prints them)", pool.weight(e));
         }
-        if self.style.glyphs.is_ascii() { pool.ascii(e) } else { pool.unicode(e) }
+        self.style.glyphs.formula(pool, e)
     }
 
     /// A time, that of a key to as many digits as one reads.

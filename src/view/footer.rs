@@ -213,7 +213,7 @@ fn meaning(canvas: &Canvas<'_>, lab: &Lab) -> Vec<String> {
     }
     let selected = lab.selected().and_then(|target| Some((target, lab.value_info(target)?)));
     let Some((target, info)) = selected else { return Vec::new() };
-    let text = value_meaning(lab, target, &info);
+    let text = value_meaning(lab, target, &info, canvas.style.glyphs);
     let name = glyphs.pick(&info.shown, &info.name);
     // the keys have precedence over what the list itself says
     let explained = text.is_empty() || canvas.explained;

@@ -38,7 +38,7 @@ impl FurtherRows<'_> {
         if pool.weight(e) > MOST {
             return format!("… ({} pieces: phaselab derive prints them)", pool.weight(e));
         }
-        if self.style.glyphs.is_ascii() { pool.ascii(e) } else { pool.unicode(e) }
+        self.style.glyphs.formula(pool, e)
     }
 
     fn symbol(&self, symbol: Symbol) -> String {

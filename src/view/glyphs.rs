@@ -8,7 +8,7 @@ use std::borrow::Cow;
 use ratatui::symbols::border;
 use unicode_width::UnicodeWidthChar;
 
-use crate::expr::{spell, subscript};
+use crate::expr::{Expr, Pool, spell, subscript};
 
 /// The characters used for dots, lines and letters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -134,6 +134,11 @@ impl Glyphs {
         } else {
             single(text)
         }
+    }
+
+    /// Returns an expression in mathematical notation, or in ASCII as it can be typed.
+    pub(super) fn formula(self, pool: &Pool, e: Expr) -> String {
+        if self.is_ascii() { pool.ascii(e) } else { pool.unicode(e) }
     }
 }
 

@@ -8,6 +8,7 @@ use super::header::status_words;
 use super::number::{brief, drift, readable};
 use super::quantity::Quantities;
 use super::text_page::TextPage;
+use super::values::of_file;
 use super::verdict::in_full;
 use crate::app::keymap::{KEYS, KeyContext};
 use crate::app::{Lab, Pane, ValueId, ValueInfo};
@@ -127,7 +128,9 @@ fn value(q: &Quantities<'_>, target: ValueId) -> String {
     };
     let is = number.map_or_else(|| "not known".to_owned(), |v| brief(v, 6, q.style.glyphs));
     let is = if info.ramped { format!("now {is}, ramped") } else { is };
-    let about = if info.about.is_empty() { String::new() } else { format!(", {}", info.about) };
+    let parts = of_file(q.lab, &info, q.style.glyphs).into_iter().chain([info.about.clone()]);
+    let parts = parts.filter(|part| !part.is_empty());
+    let about: String = parts.map(|part| format!(", {part}")).collect();
     let range = info.range.map_or_else(String::new, |(min, max, _)| {
         format!(", from {} to {}", brief(min, 4, q.style.glyphs), brief(max, 4, q.style.glyphs))
     });

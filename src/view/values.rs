@@ -6,7 +6,7 @@ use ratatui::layout::{Position, Rect};
 use ratatui::widgets::Widget;
 
 use super::canvas::{Canvas, columns, row};
-use super::glyphs::TextWidth;
+use super::glyphs::{Glyphs, TextWidth};
 use super::number::brief_in;
 use super::plot::Scale;
 use super::region::ScreenRegion;
@@ -48,7 +48,7 @@ impl ValueList<'_> {
             canvas.left(row(area, 0), Role::Dim, "  none");
             return;
         }
-        let about = self.about(area, count);
+        let about = self.about(area, count, canvas.style.glyphs);
         canvas.explained |= self.focused && !about.is_empty();
         let grid = self.columns(canvas, count, area.width);
         let rows = usize::from(area.height).saturating_sub(about.len());
@@ -64,11 +64,11 @@ impl ValueList<'_> {
     }
 
     /// The meaning of the selected value, whole or not at all: the line below the panes has it too.
-    fn about(&self, area: Rect, count: usize) -> Vec<String> {
+    fn about(&self, area: Rect, count: usize, glyphs: Glyphs) -> Vec<String> {
         let spare = usize::from(area.height).saturating_sub(count);
         let target = (self.kind)(self.selected);
         let info = self.lab.value_info(target);
-        let text = info.map_or_else(String::new, |info| meaning(self.lab, target, &info));
+        let text = info.map_or_else(String::new, |info| meaning(self.lab, target, &info, glyphs));
         let width = usize::from(area.width.saturating_sub(3));
         let mut lines = words(&text, width);
         lines.retain(|line| !line.is_empty());
@@ -115,8 +115,7 @@ impl ValueList<'_> {
             }
         }
         canvas.left(columns(area, grid.unit, grid.bar - grid.unit - 2), Role::Dim, &unit(&info));
-        if let Some(of_file) = &info.follows {
-            let text = canvas.text(&format!("= {of_file}"));
+        if let Some(text) = of_file(self.lab, &info, glyphs) {
             let place = columns(area, grid.bar, area.width.saturating_sub(grid.bar + 1));
             if text.width() <= place.width.into() {
                 canvas.left(place, Role::Dim, &text);
@@ -139,12 +138,22 @@ fn unit(info: &ValueInfo) -> String {
         .join(", ")
 }
 
-/// What a value means, and whether it is ramped.
-pub(super) fn meaning(lab: &Lab, target: ValueId, info: &ValueInfo) -> String {
+/// What a value means, what it is in the file if it follows parameters, and whether it is ramped.
+pub(super) fn meaning(lab: &Lab, target: ValueId, info: &ValueInfo, glyphs: Glyphs) -> String {
     match lab.value(target) {
         Some(before) if info.ramped => ramped_in_words(&info.about, before),
-        _ => info.about.clone(),
+        _ => {
+            let of_file = of_file(lab, info, glyphs);
+            let parts = of_file.into_iter().chain([info.about.clone()]);
+            parts.filter(|part| !part.is_empty()).collect::<Vec<_>>().join(", ")
+        }
     }
+}
+
+/// The formula that an initial value follows: `= θ₀`.
+pub(super) fn of_file(lab: &Lab, info: &ValueInfo, glyphs: Glyphs) -> Option<String> {
+    let pool = &lab.loaded.model.pool;
+    info.follows.map(|e| format!("= {}", glyphs.formula(pool, e)))
 }
 
 /// The meaning of a value that changes with the time, and what it was before.

@@ -1,6 +1,6 @@
 //! The last lines: keys of what is hidden, what Space does, a step that is longer than the motion.
 
-use super::{rich, rows, screen};
+use super::{ascii, rich, rows, screen};
 use crate::app::real::Real;
 
 /// The last row of a screen.
@@ -94,8 +94,16 @@ fn an_initial_value_that_follows_a_parameter_says_which() {
     let text = |real: &Real| rows(&screen(&real.app, &rich(), (120, 40))).join("\n");
     assert!(text(&real).contains("= θ₀"), "{}", text(&real));
     real.press("Tab");
-    assert!(text(&real).contains("initial coordinate, θ₀;"), "{}", text(&real));
+    assert!(text(&real).contains("= θ₀, initial coordinate;"), "{}", text(&real));
     real.press("Right");
     let changed = text(&real);
-    assert!(!changed.contains("= θ₀") && !changed.contains("coordinate, θ₀"), "{changed}");
+    assert!(!changed.contains("= θ₀"), "{changed}");
+}
+
+/// In ASCII the formula has the names of the file, which can be typed, and no spelt symbols.
+#[test]
+fn an_initial_value_in_ascii_follows_a_name_that_can_be_typed() {
+    let real = Real::of("heavy-top");
+    let shown = rows(&screen(&real.app, &ascii(), (120, 40))).join("\n");
+    assert!(shown.contains("= dphi0") && !shown.contains("phi0'"), "{shown}");
 }

@@ -5,13 +5,12 @@ use std::sync::Arc;
 use phaselab::app::{App, AppEvent, BufferDiagnostic, BufferState, Caret, Notification};
 use phaselab::view::RenderStyle;
 use phaselab::view::colour::ColourDepth;
-use phaselab::view::glyphs::Glyphs;
 use phaselab::view::theme::Theme;
 use proptest::prelude::*;
 use ratatui::buffer::Buffer;
 use ratatui::style::Modifier;
 
-use super::{drawn, find, rich, rows, screen};
+use super::{ascii, drawn, find, rich, rows, screen};
 use crate::fixtures::{in_lab, press, snapshot};
 
 fn edited() -> App {
@@ -73,7 +72,7 @@ fn an_error_is_underlined_marked_and_reported_below() {
     let (message, help) = ("it is not so".to_owned(), Some("write it so".to_owned()));
     sheet.diagnostics = vec![BufferDiagnostic { from, to, warning: false, message, help }];
     sheet.state = BufferState::Wrong;
-    for (look, mark) in [(rich(), "✗"), (plain(), "x")] {
+    for (look, mark) in [(rich(), "✗"), (ascii(), "x")] {
         let buffer = screen(&app, &look, (80, 24));
         let line: String = sheet_line(&app, 2).chars().skip(10).take(3).collect();
         let (_, y) = find(&buffer, " 3  source").unwrap();
@@ -91,10 +90,6 @@ fn sheet_line(app: &App, row: usize) -> String {
     app.open_buffer().unwrap().editor.lines()[row].clone()
 }
 
-fn plain() -> RenderStyle {
-    RenderStyle { theme: Theme::dark(ColourDepth::None), glyphs: Glyphs::Ascii }
-}
-
 #[test]
 fn a_terminal_of_ascii_gets_ascii() {
     let mut app = edited();
@@ -102,7 +97,7 @@ fn a_terminal_of_ascii_gets_ascii() {
     for keys in ["", "Ctrl-s", "Ctrl-f"] {
         press(&mut app, keys);
         for size in [(40, 10), (80, 24), (200, 60)] {
-            let text = rows(&screen(&app, &plain(), size)).concat();
+            let text = rows(&screen(&app, &ascii(), size)).concat();
             assert!(text.is_ascii(), "{keys} {size:?}: {text}");
         }
         press(&mut app, "Esc E Ctrl-Home");
@@ -162,14 +157,14 @@ proptest! {
         app.update(AppEvent::Paste("θx½漢".repeat(12) + "\n" + &"θ漢".repeat(40) + "\n"));
         press(&mut app, "Ctrl-Home");
         for word in keys {
-            let (_, shown) = drawn(&app, &plain(), (width, height));
+            let (_, shown) = drawn(&app, &ascii(), (width, height));
             app.update(AppEvent::Drawn(shown));
             press(&mut app, word);
         }
         let sheet = app.open_buffer().unwrap();
         let Caret { row, column } = sheet.editor.cursor();
         let under = sheet.editor.lines()[row].chars().nth(column).unwrap_or(' ');
-        let buffer = screen(&app, &plain(), (width, height));
+        let buffer = screen(&app, &ascii(), (width, height));
         prop_assert_eq!(cells(&buffer, Modifier::REVERSED, width).concat(), spelt(under));
     }
 }
@@ -180,7 +175,7 @@ fn what_is_reported_leaves_the_keys_in_sight() {
     let reported =
         "Saved: /home/somebody/a/long/way/to/a/file.toml, with 1 error: 12:3 no such name";
     for size in [(80, 24), (120, 40), (200, 60)] {
-        for look in [rich(), plain()] {
+        for look in [rich(), ascii()] {
             app.notifications.dismiss();
             let before = rows(&screen(&app, &look, size));
             app.notifications.show(Notification::error(reported));
