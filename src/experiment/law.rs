@@ -25,13 +25,13 @@ impl EnergyLaw {
         let terms = match &model.mechanics {
             Mechanics::Lagrangian { lagrangian, dissipation, forces } => [
                 (timed(*lagrangian), "explicit time", "− ∂L/∂t"),
-                (*dissipation != Expr::ZERO, "friction", "− q̇·∂F/∂q̇"),
-                (any(forces), "forces", "+ q̇·Q"),
+                (*dissipation != Expr::ZERO, "friction", "− q′·∂F/∂q′"),
+                (any(forces), "forces", "+ q′·Q"),
                 (moved, "moving constraint", "− Σ λ A₀"),
             ],
             Mechanics::Hamiltonian { hamiltonian, forces } => [
                 (timed(*hamiltonian), "explicit time", "+ ∂H/∂t"),
-                (any(forces), "forces", "+ q̇·Q"),
+                (any(forces), "forces", "+ q′·Q"),
                 (false, "", ""),
                 (false, "", ""),
             ],

@@ -91,7 +91,7 @@ impl Instrument for ActionPlot {
             Principle::PhaseSpace => vec![
                 Entry::Line(0, format!("{name} + ε sin πs")),
                 Entry::Line(1, "p + ε c cos πs".to_owned()),
-                Entry::Line(2, format!("{name}, p = ∂L/∂q̇")),
+                Entry::Line(2, format!("{name}, p = ∂L/∂q′")),
             ],
         });
         let kind = match self.0 {

@@ -88,7 +88,7 @@ pub fn in_phase_space(equations: &mut Equations, e: Expr) -> Result<Expr, NoClos
     let mut replacements = HashMap::new();
     let accelerations: Vec<Symbol> = equations.coordinates.iter().map(|c| c.acceleration).collect();
     if equations.pool.depends_on_any(e, &accelerations) {
-        let solved = equations.solved().clone().map_err(|why| unknown("q̈", "the state", &why))?;
+        let solved = equations.solved().clone().map_err(|why| unknown("q″", "the state", &why))?;
         replacements.extend(accelerations.into_iter().zip(solved));
     }
     let multipliers: Vec<Symbol> = equations.constraints.iter().map(|c| c.multiplier).collect();
@@ -100,7 +100,7 @@ pub fn in_phase_space(equations: &mut Equations, e: Expr) -> Result<Expr, NoClos
     e = equations.pool.substitute(e, &replacements);
     let velocities: Vec<Symbol> = equations.coordinates.iter().map(|c| c.velocity).collect();
     if equations.pool.depends_on_any(e, &velocities) {
-        let known = equations.velocities().clone().map_err(|why| unknown("q̇", "p", &why))?;
+        let known = equations.velocities().clone().map_err(|why| unknown("q′", "p", &why))?;
         e = equations.pool.substitute(e, &velocities.into_iter().zip(known).collect());
     }
     Ok(e)
@@ -206,7 +206,7 @@ fn on_velocities(equations: &mut Equations, e: Expr) -> Result<Expr, NoClosedFor
     let mut e = equations.open(e);
     let accelerations: Vec<Symbol> = equations.coordinates.iter().map(|c| c.acceleration).collect();
     if equations.pool.depends_on_any(e, &accelerations) {
-        let solved = equations.solved().clone().map_err(|why| unknown("q̈", "the state", &why))?;
+        let solved = equations.solved().clone().map_err(|why| unknown("q″", "the state", &why))?;
         e = equations.pool.substitute(e, &accelerations.into_iter().zip(solved).collect());
     }
     let mut others: Vec<Symbol> = equations.constraints.iter().map(|c| c.multiplier).collect();
@@ -215,7 +215,7 @@ fn on_velocities(equations: &mut Equations, e: Expr) -> Result<Expr, NoClosedFor
         equations.supplements.auxiliary.iter().flat_map(|auxiliary| auxiliary.symbols.clone()),
     );
     if equations.pool.depends_on_any(e, &others) {
-        return Err(NoClosedForm("it is not known as a function of q, q̇ and t".to_owned()));
+        return Err(NoClosedForm("it is not known as a function of q, q′ and t".to_owned()));
     }
     Ok(e)
 }

@@ -148,7 +148,7 @@ const SLACK: f64 = 1e-10;
 /// Classifies by the rate's values, and returns why there is no formula for the rate.
 fn at_points(model: &Model, equations: &mut Equations, observable: Expr) -> (Class, NoClosedForm) {
     let why = match equations.solved() {
-        Err(why) => NoClosedForm(format!("q̈ is not known in closed form: {why}")),
+        Err(why) => NoClosedForm(format!("q″ is not known in closed form: {why}")),
         Ok(_) => NoClosedForm("what it is made of is not known in closed form".to_owned()),
     };
     let opened = equations.open(observable);

@@ -64,13 +64,13 @@ impl Coordinate {
         let position = introduce(name.to_owned(), shown.clone(), latex.clone(), Rank::Variable);
         let velocity = introduce(
             format!("{name}'"),
-            dotted(&shown, '\u{307}'),
+            format!("{shown}′"),
             format!("\\dot{{{latex}}}"),
             Rank::Rate,
         );
         let acceleration = introduce(
             format!("{name}''"),
-            dotted(&shown, '\u{308}'),
+            format!("{shown}″"),
             format!("\\ddot{{{latex}}}"),
             Rank::Rate,
         );
@@ -94,27 +94,6 @@ impl Coordinate {
             period: None,
             place: 0..0,
         }
-    }
-}
-
-/// The name with a dot (or two) over its first letter.
-pub(super) fn dotted(shown: &str, mark: char) -> String {
-    let mut messages = shown.chars();
-    let first = messages.next().unwrap_or(' ');
-    let precomposed = match (first, mark) {
-        ('x', '\u{307}') => Some('ẋ'),
-        ('y', '\u{307}') => Some('ẏ'),
-        ('z', '\u{307}') => Some('ż'),
-        ('r', '\u{307}') => Some('ṙ'),
-        ('s', '\u{307}') => Some('ṡ'),
-        ('a', '\u{307}') => Some('ȧ'),
-        ('x', '\u{308}') => Some('ẍ'),
-        ('y', '\u{308}') => Some('ÿ'),
-        _ => None,
-    };
-    match precomposed {
-        Some(c) => format!("{c}{}", messages.as_str()),
-        None => format!("{first}{mark}{}", messages.as_str()),
     }
 }
 

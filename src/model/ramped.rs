@@ -5,7 +5,6 @@
 
 use std::collections::HashMap;
 
-use super::coordinate::dotted;
 use super::parameter::Parameter;
 use crate::expr::{Expr, FunctionId, Node, Pool, Rank, Symbol, latex_of_unicode, subscripts};
 use crate::num::Number;
@@ -206,12 +205,11 @@ impl Ramped {
             pool.describe(symbol, shown, latex, rank);
             symbol
         };
-        let orders =
-            [("'", '\u{307}', "dot"), ("''", '\u{308}', "ddot"), ("'''", '\u{20db}', "dddot")];
-        let derivatives = orders.map(|(dots, mark, command)| {
-            let written = format!("{name}{dots}");
+        let orders = [("'", '′', "dot"), ("''", '″', "ddot"), ("'''", '‴', "dddot")];
+        let derivatives = orders.map(|(primes, mark, command)| {
+            let written = format!("{name}{primes}");
             let latex = format!("\\{command}{{{latex}}}");
-            introduce(&written, &dotted(shown, mark), &latex, Rank::Rate)
+            introduce(&written, &format!("{shown}{mark}"), &latex, Rank::Rate)
         });
         let instant = introduce("the instant", "s", "s", Rank::Variable);
         let any = Parameter::nameless;

@@ -343,7 +343,7 @@ impl fmt::Display for MotionError {
                 ": try a smaller step, unless the momenta lie outside their range"
             }
             MotionErrorKind::BranchLeft => {
-                ": a step led beyond the place where the momenta p = ∂L/∂q̇ turn back"
+                ": a step led beyond the place where the momenta p = ∂L/∂q′ turn back"
             }
             MotionErrorKind::LogarithmLeft => {
                 ": a step led to where the energy has no value, although the forces have one; try a smaller step or \

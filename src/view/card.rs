@@ -37,7 +37,7 @@ pub fn card() -> Vec<String> {
         lines.push(String::new());
     }
     lines.push(format!("{:<NAME$}|● ○ × ◆ ■  ━━━●───  ▁▂▃▄▅▆▇█  ╭─╮|", "signs"));
-    lines.push(format!("{:<NAME$}|θ̇ ψ² p₁ ∂L/∂q̇ ≤ √½ → ∞ ∮ ⊕ ☉    |", "letters"));
+    lines.push(format!("{:<NAME$}|θ′ ψ² p₁ ∂L/∂q′ ≤ √½ → ∞ ∮ ⊕ ☉    |", "letters"));
     lines
 }
 

@@ -174,7 +174,7 @@ fn a_motion_that_leaves_the_range_of_numbers_ends() {
     "#;
     let said = said(text, &["--at", "30"]);
     assert!(
-        said.contains("q̇₁ grows beyond the range of numbers, 1.8e308, after t = 21.9"),
+        said.contains("q₁′ grows beyond the range of numbers, 1.8e308, after t = 21.9"),
         "{said}"
     );
 }

@@ -67,19 +67,19 @@ fn a_hamiltonian_is_transformed_back() {
     // x' = p/2, L = x'² − x²
     near(measure(&app, &plot(&app), "slope"), 0.3);
     near(measure(&app, &plot(&app), "intercept"), -(0.09 - 0.25));
-    assert_eq!(reported(&app), "slope ẋ = 0.3\nintercept −L = 0.16");
+    assert_eq!(reported(&app), "slope x′ = 0.3\nintercept −L = 0.16");
 }
 
 #[test]
 fn a_slope_that_several_velocities_have_is_reported() {
     let app = begun(&law("lagrangian", "L = \"x'^4/4 - x'^2/2\"", "velocity"));
     assert!(
-        reported(&app).contains("not convex: several ẋ may have one p_x"),
+        reported(&app).contains("not convex: several x′ may have one p_x"),
         "{}",
         reported(&app)
     );
     let app = begun(&law("hamiltonian", "H = \"x*p_x\"", "momentum"));
-    assert!(reported(&app).contains("straight: ẋ does not determine p_x"), "{}", reported(&app));
+    assert!(reported(&app).contains("straight: x′ does not determine p_x"), "{}", reported(&app));
 }
 
 #[test]
@@ -92,7 +92,7 @@ fn of_several_velocities_one_is_transformed() {
     near(measure(&app, &plot(&app), "slope"), 1.1);
     let lagrangian = 0.5 * (0.72 + 0.01) - 0.06 - 2.0;
     near(measure(&app, &plot(&app), "intercept"), lagrangian - 1.1 * 0.6);
-    assert_eq!(reported(&app), "slope p_x = 1.1\nintercept L − p_x ẋ = −2.355");
+    assert_eq!(reported(&app), "slope p_x = 1.1\nintercept L − p_x x′ = −2.355");
 }
 
 #[test]

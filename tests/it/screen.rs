@@ -35,6 +35,11 @@ pub(crate) fn rich() -> RenderStyle {
     RenderStyle { theme: Theme::dark(ColourDepth::True), glyphs: Glyphs::Braille }
 }
 
+/// A terminal without colours, and with ASCII alone.
+pub(crate) fn ascii() -> RenderStyle {
+    RenderStyle { theme: Theme::dark(ColourDepth::None), glyphs: Glyphs::Ascii }
+}
+
 /// The screen of an application.
 pub(crate) fn screen(app: &App, look: &RenderStyle, (width, height): (u16, u16)) -> Buffer {
     drawn(app, look, (width, height)).0

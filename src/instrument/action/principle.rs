@@ -49,7 +49,7 @@ impl Principle {
         match self {
             Principle::Hamilton => "∫ L dt",
             Principle::Maupertuis => "∫ Σ p dq",
-            Principle::PhaseSpace => "∫ (Σ p q̇ − H) dt",
+            Principle::PhaseSpace => "∫ (Σ p q′ − H) dt",
         }
     }
 }

@@ -1174,7 +1174,7 @@ fn velocities_that_do_not_fit_are_named() {
         let expected =
             "the velocities at the start do not keep the constraint `c`: its rate is off by";
         assert!(done.stderr.contains(expected), "{}", done.stderr);
-        let shown = done.stderr.replace('ẋ', "x'").replace('ẏ', "y'");
+        let shown = done.stderr.replace('′', "'");
         assert!(shown.contains(place), "{}", done.stderr);
         let answer: Value = serde_json::from_str(&done.stdout).expect("JSON");
         let gauges = answer["invariants"].as_array().expect("a list");

@@ -48,7 +48,7 @@ fn cyclic_momenta_say_why() {
 #[test]
 fn energy_broken_by_the_physics_names_its_law_and_the_ledger_holds() {
     for (preset, cause, law) in [
-        ("damped-pendulum", "friction", "dE/dt = −c θ̇²"),
+        ("damped-pendulum", "friction", "dE/dt = −c θ′²"),
         ("driven-damped-pendulum", "forces", "dE/dt = "),
         ("kapitza", "explicit time", "dE/dt = "),
         ("turning-wire", "moving constraint", "dE/dt = ω λ"),
@@ -75,7 +75,7 @@ fn a_long_law_is_given_in_its_general_form() {
                 dissipation = \"x'^2*y^2 + x'^2*y'^2 + y'^4\"\nforces = { x = \"sin(3*t)\" }\n";
     let system = build(text, |_| ());
     let energy = gauge(&system.snapshot(), "energy");
-    assert_eq!(energy.verdict, Verdict::Broken("dE/dt = −∂L/∂t − q̇·∂F/∂q̇ + q̇·Q".to_owned()));
+    assert_eq!(energy.verdict, Verdict::Broken("dE/dt = −∂L/∂t − q′·∂F/∂q′ + q′·Q".to_owned()));
     assert_eq!(energy.reason, "explicit time, friction, forces");
 }
 

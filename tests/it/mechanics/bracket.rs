@@ -115,7 +115,7 @@ fn a_bracket_needs_velocities_in_terms_of_momenta_or_a_point() {
     let [f, g, h, x, action] =
         ["x*x'", "y'^2*x", "p_x", "x^3", "action"].map(|text| look(&model, &mut e, text));
     let why = bracket(&model, &mut e, f, g).expect_err("no closed form").to_string();
-    assert!(why.starts_with("q̇ is not known in terms of p: "), "{why}");
+    assert!(why.starts_with("q′ is not known in terms of p: "), "{why}");
     // but an expression in q and p has a bracket
     let e_text = bracket(&model, &mut e, x, h).expect("a function of q and p");
     assert_eq!(e.pool.text(e_text), "3*x^2");

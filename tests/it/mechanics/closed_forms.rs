@@ -217,8 +217,8 @@ fn accelerations_have_no_fractions_within_fractions() {
             "-2*r'*a'/r + k*r'*a'/(m*c^2*r^2)*sqrt(1 - (r'^2 + r^2*a'^2)/c^2)",
         ],
         &[
-            "r ȧ² − k √(1 − ṙ²/c² − r² ȧ²/c²) (c² − ṙ²)/(m c² r²)",
-            "ṙ ȧ (k √(1 − ṙ²/c² − r² ȧ²/c²) − 2 m c² r)/(m c² r²)",
+            "r a′² − k √(1 − r′²/c² − r² a′²/c²) (c² − r′²)/(m c² r²)",
+            "r′ a′ (k √(1 − r′²/c² − r² a′²/c²) − 2 m c² r)/(m c² r²)",
         ],
     );
     check(
@@ -235,9 +235,9 @@ fn accelerations_have_no_fractions_within_fractions() {
              + m2*l2*b'^2*sin(a - b)*cos(a - b))/(l2*(m1 + m2*sin(a - b)^2))",
         ],
         &[
-            "−(m₂ l₂ b\u{307}² sin(a − b) + m₂ (l₁ ȧ² sin(a − b) − g sin b) cos(a − b) + (m₁ + m₂) g sin a)\
+            "−(m₂ l₂ b′² sin(a − b) + m₂ (l₁ a′² sin(a − b) − g sin b) cos(a − b) + (m₁ + m₂) g sin a)\
              /(l₁ (m₁ + m₂ sin²(a − b)))",
-            "((m₁ + m₂) l₁ ȧ² sin(a − b) + m₂ l₂ b\u{307}² cos(a − b) sin(a − b) \
+            "((m₁ + m₂) l₁ a′² sin(a − b) + m₂ l₂ b′² cos(a − b) sin(a − b) \
              + (m₁ + m₂) g cos(a − b) sin a − (m₁ + m₂) g sin b)/(l₂ (m₁ + m₂ sin²(a − b)))",
         ],
     );

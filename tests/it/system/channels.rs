@@ -62,7 +62,7 @@ fn columns_stand_in_the_order_of_the_format() {
     );
     let theta = &system.channels()[0];
     assert_eq!((theta.shown.as_str(), theta.unit.as_str(), theta.periodic), ("θ", "rad", false));
-    assert_eq!(system.channels()[4].shown, "φ̇");
+    assert_eq!(system.channels()[4].shown, "φ′");
     assert!(system.channels()[1].periodic);
 }
 
