@@ -129,13 +129,7 @@ pub(super) fn head(
     parameters: &[f64],
     (method, settings): (&'static Method, Settings),
 ) -> Map<String, Value> {
-    let header = run::header(model, system, parameters, method, settings);
-    let mut head = Map::new();
-    head.insert("phaselab".to_owned(), header.phaselab.into());
-    head.insert("title".to_owned(), header.title.into());
-    head.insert("parameters".to_owned(), header.parameters.into());
-    head.insert("method".to_owned(), header.method.into());
-    head
+    run::header(model, system, parameters, method, settings).members()
 }
 
 #[expect(clippy::needless_pass_by_value, reason = "it is handed to map_err")]

@@ -18,22 +18,16 @@ impl Pool {
     /// Takes out of every root of a sum what all its terms have in common, denominators and a leading number included, and
     /// parts roots of products.
     pub fn open_quotients(&mut self, e: Expr) -> Expr {
-        let mut done: FxHashMap<Expr, Expr> = FxHashMap::default();
-        for part in self.reachable(&[e]) {
-            let rebuilt = self.rebuild_from(part, &done);
-            let opened = match &*self.shared(rebuilt) {
-                Node::Product(c, factors) => {
-                    let mut all = Vec::new();
-                    for &factor in factors {
-                        self.open_factor(factor, &mut all);
-                    }
-                    self.monomial(*c, &all)
+        self.each_part(e, |pool, part| match &*pool.shared(part) {
+            Node::Product(c, factors) => {
+                let mut all = Vec::new();
+                for &factor in factors {
+                    pool.open_factor(factor, &mut all);
                 }
-                _ => rebuilt,
-            };
-            done.insert(part, opened);
-        }
-        done[&e]
+                pool.monomial(*c, &all)
+            }
+            _ => part,
+        })
     }
 
     /// c √N, where an expression is that for one of its roots √N; roots have to be opened before.

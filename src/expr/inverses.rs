@@ -27,40 +27,21 @@ impl Pool {
     /// An equal expression in which no function is applied to its own inverse, nor a circular
     /// function to an angle that is given by a ratio: `sin(atan2(y, x)) = y/√(x² + y²)`.
     pub fn open_inverses(&mut self, e: Expr) -> Expr {
-        let mut done: FxHashMap<Expr, Expr> = FxHashMap::default();
-        for node in self.reachable(&[e]) {
-            if self.is_stopped() {
-                return e;
-            }
-            let rebuilt = self.rebuild_from(node, &done);
-            let opened = self.opened(rebuilt).unwrap_or(rebuilt);
-            done.insert(node, opened);
-        }
-        done.get(&e).copied().unwrap_or(e)
+        self.each_part(e, |pool, part| pool.opened(part).unwrap_or(part))
     }
 
     /// An equal expression with sines and cosines in place of tangents and cotangents.
     pub fn open_tangents(&mut self, e: Expr) -> Expr {
-        let mut done: FxHashMap<Expr, Expr> = FxHashMap::default();
-        for node in self.reachable(&[e]) {
-            if self.is_stopped() {
-                return e;
-            }
-            let rebuilt = self.rebuild_from(node, &done);
-            let (above, below) = match self.node(rebuilt) {
+        self.each_part(e, |pool, part| {
+            let (above, below) = match pool.node(part) {
                 Node::Call(FunctionId::Tan, _) => (FunctionId::Sin, FunctionId::Cos),
                 Node::Call(FunctionId::Cot, _) => (FunctionId::Cos, FunctionId::Sin),
-                _ => {
-                    done.insert(node, rebuilt);
-                    continue;
-                }
+                _ => return part,
             };
-            let arguments = self.node(rebuilt).parts();
-            let (above, below) = (self.call(above, &arguments), self.call(below, &arguments));
-            let quotient = self.div(above, below);
-            done.insert(node, quotient);
-        }
-        done.get(&e).copied().unwrap_or(e)
+            let arguments = pool.node(part).parts();
+            let (above, below) = (pool.call(above, &arguments), pool.call(below, &arguments));
+            pool.div(above, below)
+        })
     }
 
     /// The value of a function at an inverse function.

@@ -31,6 +31,20 @@ impl Pool {
         self.memo.get(pass, e).unwrap_or(e)
     }
 
+    /// The same, once: no result is remembered.
+    pub(super) fn each_part(&mut self, e: Expr, change: impl Fn(&mut Pool, Expr) -> Expr) -> Expr {
+        let mut changed: FxHashMap<Expr, Expr> = FxHashMap::default();
+        for part in self.reachable(&[e]) {
+            if self.is_stopped() {
+                return e;
+            }
+            let rebuilt = self.rebuild_from(part, &changed);
+            let new = change(self, rebuilt);
+            changed.insert(part, new);
+        }
+        changed[&e]
+    }
+
     /// Remembers a result, if it is valid.
     pub(super) fn remember(&mut self, pass: Pass, e: Expr, result: Expr) {
         if !self.is_full() && !self.is_stopped() {

@@ -153,17 +153,6 @@ impl Pool {
         copies[&e]
     }
 
-    /// Rewrites an expression from its parts upwards, once.
-    pub(super) fn each_part(&mut self, e: Expr, change: impl Fn(&mut Pool, Expr) -> Expr) -> Expr {
-        let mut changed: FxHashMap<Expr, Expr> = FxHashMap::default();
-        for part in self.reachable(&[e]) {
-            let rebuilt = self.rebuild_from(part, &changed);
-            let new = change(self, rebuilt);
-            changed.insert(part, new);
-        }
-        changed[&e]
-    }
-
     /// A term as what stands above and below its line.
     fn above_and_below(&self, term: Expr) -> (Vec<Factor>, Vec<Factor>) {
         match self.node(term) {

@@ -158,40 +158,32 @@ impl Pool {
 
     /// The expression on the side where a switch is positive, or negative.
     pub(super) fn on_side(&mut self, e: Expr, switch: Expr, positive: bool) -> Expr {
-        let mut done: FxHashMap<Expr, Expr> = FxHashMap::default();
-        for part in self.reachable(&[e]) {
-            let mut rebuilt = self.rebuild_from(part, &done);
-            if let Some((own, turned)) = self.switch_of(rebuilt)
+        self.each_part(e, |pool, part| {
+            if let Some((own, turned)) = pool.switch_of(part)
                 && own == switch
-                && let Node::Call(function, arguments) = &*self.shared(rebuilt)
+                && let Node::Call(function, arguments) = &*pool.shared(part)
                 && let Rule::Branch(branches) = function.row().rule
             {
-                let branches = branches(self, arguments);
-                rebuilt = if positive == turned { branches.negative } else { branches.positive };
+                let branches = branches(pool, arguments);
+                return if positive == turned { branches.negative } else { branches.positive };
             }
-            done.insert(part, rebuilt);
-        }
-        done[&e]
+            part
+        })
     }
 
     /// Rewrites roots of even powers as absolute values, √(u²) = |u|, and exp(ln u) as u.
     pub(super) fn open_roots(&mut self, e: Expr) -> Expr {
-        let mut done: FxHashMap<Expr, Expr> = FxHashMap::default();
-        for part in self.reachable(&[e]) {
-            let rebuilt = self.rebuild_from(part, &done);
-            if let Node::Call(FunctionId::Exp, arguments) = &*self.shared(rebuilt)
-                && let Node::Call(FunctionId::Ln, inner) = &*self.shared(arguments[0])
+        self.each_part(e, |pool, part| {
+            if let Node::Call(FunctionId::Exp, arguments) = &*pool.shared(part)
+                && let Node::Call(FunctionId::Ln, inner) = &*pool.shared(arguments[0])
             {
-                done.insert(part, inner[0]);
-                continue;
+                return inner[0];
             }
-            let Node::Product(c, factors) = &*self.shared(rebuilt) else {
-                done.insert(part, rebuilt);
-                continue;
-            };
+            let shared = pool.shared(part);
+            let Node::Product(c, factors) = &*shared else { return part };
             let mut opened: Vec<(Expr, Number)> = Vec::new();
             for &(base, n) in factors {
-                match &*self.shared(base) {
+                match &*pool.shared(base) {
                     Node::Product(k, inner)
                         if k.is_one()
                             && n.as_integer().is_none()
@@ -200,16 +192,14 @@ impl Pool {
                                 .all(|(_, m)| m.as_integer().is_some_and(|m| m % 2 == 0)) =>
                     {
                         for &(u, m) in inner {
-                            opened.push((self.call(FunctionId::Abs, &[u]), m * n));
+                            opened.push((pool.call(FunctionId::Abs, &[u]), m * n));
                         }
                     }
                     _ => opened.push((base, n)),
                 }
             }
-            let opened = self.monomial(*c, &opened);
-            done.insert(part, opened);
-        }
-        done[&e]
+            pool.monomial(*c, &opened)
+        })
     }
 
     /// A numerator of `e`, multiplied out. It is zero where `e` is, and it is a polynomial in

@@ -9,95 +9,10 @@
 //! In and out: numbers. Never here: other precisions (`double_double`), expressions. Elsewhere
 //! `clippy.toml` and a test forbid the elementary functions of `std`.
 
-/// With the same bits on every machine.
-pub fn sin(x: f64) -> f64 {
-    libm::sin(x)
-}
-
-/// The cosine.
-pub fn cos(x: f64) -> f64 {
-    libm::cos(x)
-}
-
-/// Sine and cosine, as [`sin`] and [`cos`] give them.
-pub fn sin_cos(x: f64) -> (f64, f64) {
-    libm::sincos(x)
-}
-
-/// The tangent.
-pub fn tan(x: f64) -> f64 {
-    libm::tan(x)
-}
-
-/// The inverse sine, in [−π/2, π/2].
-pub fn asin(x: f64) -> f64 {
-    libm::asin(x)
-}
-
-/// The inverse cosine, in [0, π].
-pub fn acos(x: f64) -> f64 {
-    libm::acos(x)
-}
-
-/// The inverse tangent, in [−π/2, π/2].
-pub fn atan(x: f64) -> f64 {
-    libm::atan(x)
-}
-
-/// The angle of the point with ordinate `y` and abscissa `x`, in [−π, π].
-pub fn atan2(y: f64, x: f64) -> f64 {
-    libm::atan2(y, x)
-}
-
-/// The hyperbolic sine.
-pub fn sinh(x: f64) -> f64 {
-    libm::sinh(x)
-}
-
-/// The hyperbolic cosine.
-pub fn cosh(x: f64) -> f64 {
-    libm::cosh(x)
-}
-
-/// The hyperbolic tangent.
-pub fn tanh(x: f64) -> f64 {
-    libm::tanh(x)
-}
-
-/// The exponential function.
-pub fn exp(x: f64) -> f64 {
-    libm::exp(x)
-}
-
-/// 2 raised to this power.
-pub fn exp2(x: f64) -> f64 {
-    libm::exp2(x)
-}
-
-/// The natural logarithm.
-pub fn ln(x: f64) -> f64 {
-    libm::log(x)
-}
-
-/// The natural logarithm of 1 + `x`, accurate for small `x`.
-pub fn ln_1p(x: f64) -> f64 {
-    libm::log1p(x)
-}
-
-/// The logarithm to base 10.
-pub fn log10(x: f64) -> f64 {
-    libm::log10(x)
-}
-
-/// The logarithm to base 2.
-pub fn log2(x: f64) -> f64 {
-    libm::log2(x)
-}
-
-/// `x` raised to a real power.
-pub fn powf(x: f64, n: f64) -> f64 {
-    libm::pow(x, n)
-}
+pub use libm::{
+    acos, asin, atan, atan2, cbrt, cos, cosh, exp, exp2, hypot, log as ln, log1p as ln_1p, log2,
+    log10, pow as powf, sin, sincos as sin_cos, sinh, tan, tanh,
+};
 
 /// `x` raised to an integer power, by squaring; a negative power is the reciprocal of the positive
 /// one.
@@ -115,16 +30,6 @@ pub fn powi(x: f64, n: i32) -> f64 {
         }
         square *= square;
     }
-}
-
-/// The cube root.
-pub fn cbrt(x: f64) -> f64 {
-    libm::cbrt(x)
-}
-
-/// √(x² + y²), without overflow in intermediate results.
-pub fn hypot(x: f64, y: f64) -> f64 {
-    libm::hypot(x, y)
 }
 
 #[cfg(test)]

@@ -72,110 +72,105 @@ pub(in crate::preset) struct DraftValue {
 }
 
 pub(super) fn observables(top: &mut Table<'_>) -> Vec<DraftObservable> {
-    let mut all = Vec::new();
-    for mut table in top.tables("observables", "this observable") {
-        all.push(DraftObservable {
-            name: table.text("name"),
-            expression: table.formula("expression"),
-            conserved: table.flag("conserved"),
-            unit: table.line("unit"),
-        });
-        table.finish();
-    }
-    all
+    top.each("observables", "this observable", |table| DraftObservable {
+        name: table.text("name"),
+        expression: table.formula("expression"),
+        conserved: table.flag("conserved"),
+        unit: table.line("unit"),
+    })
 }
 
 pub(super) fn expect(top: &mut Table<'_>) -> DraftExpect {
-    let Some(mut table) = top.table("expect") else { return DraftExpect::default() };
-    let conserves = table
-        .list("conserves")
-        .iter()
-        .filter_map(|item| value::text(item, "what is conserved", top.diagnostics))
-        .collect();
-    let (value, event) =
-        ("{ expression = \"...\", at = 1.0, is = 2.0 }", "{ name = \"...\", at = 1.0 }");
-    let count = "{ name = \"...\", until = 10.0, is = 3 }";
-    let bracket = "{ f = \"...\", g = \"...\", is = \"...\" }";
-    let values = table.items("values", ("this expected value", value));
-    let events = table.items("events", ("this expected event", event));
-    let counts = table.items("count", ("this expected count", count));
-    let brackets = table.items("brackets", ("this expected bracket", bracket));
-    let step = "{ transformation = \"...\", method = \"symplectic-euler\", step = \"h\" }";
-    let steps = table.items("steps", ("this expected step", step));
-    let invariants = table.number("invariants");
-    let degree = table.number("degree");
-    table.finish();
-    DraftExpect {
-        conserves,
-        values: values.into_iter().map(expected).collect(),
-        events: events.into_iter().map(occurrence).collect(),
-        counts: counts.into_iter().map(self::count).collect(),
-        brackets: brackets.into_iter().map(self::bracket).collect(),
-        steps: steps.into_iter().map(self::step).collect(),
-        invariants,
-        degree,
-    }
+    let Some(table) = top.table("expect") else { return DraftExpect::default() };
+    table.read(|table| DraftExpect {
+        conserves: table
+            .list("conserves")
+            .iter()
+            .filter_map(|item| value::text(item, "what is conserved", table.diagnostics))
+            .collect(),
+        values: table.items(
+            "values",
+            ("this expected value", "{ expression = \"...\", at = 1.0, is = 2.0 }"),
+            expected,
+        ),
+        events: table.items(
+            "events",
+            ("this expected event", "{ name = \"...\", at = 1.0 }"),
+            occurrence,
+        ),
+        counts: table.items(
+            "count",
+            ("this expected count", "{ name = \"...\", until = 10.0, is = 3 }"),
+            count,
+        ),
+        brackets: table.items(
+            "brackets",
+            ("this expected bracket", "{ f = \"...\", g = \"...\", is = \"...\" }"),
+            bracket,
+        ),
+        steps: table.items(
+            "steps",
+            (
+                "this expected step",
+                "{ transformation = \"...\", method = \"symplectic-euler\", step = \"h\" }",
+            ),
+            step,
+        ),
+        invariants: table.number("invariants"),
+        degree: table.number("degree"),
+    })
 }
 
-fn step(mut table: Table<'_>) -> DraftStep {
-    let claim = DraftStep {
+fn step(table: &mut Table<'_>) -> DraftStep {
+    DraftStep {
         transformation: table.text("transformation"),
         method: table.text("method"),
         step: table.formula("step"),
         within: table.number("within"),
         source: table.line("source"),
         place: table.place.clone(),
-    };
-    table.finish();
-    claim
+    }
 }
 
-fn occurrence(mut table: Table<'_>) -> DraftOccurrence {
-    let name = table.name();
-    let claim = DraftOccurrence {
-        name,
+fn occurrence(table: &mut Table<'_>) -> DraftOccurrence {
+    DraftOccurrence {
+        name: table.name(),
         nth: table.number("nth"),
         at: table.number("at"),
         within: table.number("within"),
         source: table.line("source"),
         place: table.place.clone(),
-    };
-    table.finish();
-    claim
+    }
 }
 
-fn count(mut table: Table<'_>) -> DraftCount {
-    let name = table.name();
-    let claim = DraftCount {
-        name,
+fn count(table: &mut Table<'_>) -> DraftCount {
+    DraftCount {
+        name: table.name(),
         until: table.number("until"),
         is: table.number("is"),
         source: table.line("source"),
         place: table.place.clone(),
-    };
-    table.finish();
-    claim
+    }
 }
 
-fn bracket(mut table: Table<'_>) -> DraftBracketClaim {
-    let [f, g, is] = ["f", "g", "is"].map(|key| table.formula(key));
-    let source = table.line("source");
-    let place = table.place.clone();
-    table.finish();
-    DraftBracketClaim { f, g, is, source, place }
+fn bracket(table: &mut Table<'_>) -> DraftBracketClaim {
+    DraftBracketClaim {
+        f: table.formula("f"),
+        g: table.formula("g"),
+        is: table.formula("is"),
+        source: table.line("source"),
+        place: table.place.clone(),
+    }
 }
 
-fn expected(mut table: Table<'_>) -> DraftValue {
-    let name = table.line("name");
-    let value = DraftValue {
-        name,
+fn expected(table: &mut Table<'_>) -> DraftValue {
+    DraftValue {
+        name: table.line("name"),
         expression: table.formula("expression"),
         at: table.number("at"),
         is: table.number("is"),
         within: table.number("within"),
         source: table.line("source"),
         place: table.place.clone(),
-    };
-    table.finish();
-    value
+    }
 }

@@ -15,17 +15,11 @@ pub(in crate::preset) struct DraftConstraint {
 }
 
 pub(super) fn constraints(top: &mut Table<'_>) -> Vec<DraftConstraint> {
-    let mut all = Vec::new();
-    for mut table in top.tables("constraints", "this constraint") {
-        let name = table.name();
-        all.push(DraftConstraint {
-            name,
-            expression: table.formula("expression"),
-            unit: table.line("unit"),
-            about: table.line("about"),
-            place: table.place.clone(),
-        });
-        table.finish();
-    }
-    all
+    top.each("constraints", "this constraint", |table| DraftConstraint {
+        name: table.name(),
+        expression: table.formula("expression"),
+        unit: table.line("unit"),
+        about: table.line("about"),
+        place: table.place.clone(),
+    })
 }

@@ -14,25 +14,22 @@ pub(in crate::preset) struct DraftEquilibrium {
 }
 
 pub(super) fn equilibria(top: &mut Table<'_>) -> Vec<DraftEquilibrium> {
-    let mut all = Vec::new();
-    for mut table in top.tables("equilibria", "this equilibrium") {
+    top.each("equilibria", "this equilibrium", |table| {
         let name = table.name();
         let mut near = Vec::new();
         if let Some((place, found)) = table.take("near") {
             let shape = "near = { x = \"...\" }";
-            let inner = Table::of(found, "`near`".to_owned(), place, shape, top.diagnostics);
+            let inner = Table::of(found, "`near`".to_owned(), place, shape, table.diagnostics);
             near = inner.map_or(near, |inner| {
                 let all = formulas(&inner, "the coordinate");
                 if all.is_empty() {
                     let message = "`near` has no coordinate, so this may be any equilibrium";
                     let error = Diagnostic::error(inner.place.clone(), message);
-                    top.diagnostics.push(error.with_help(format!("write {shape}")));
+                    table.diagnostics.push(error.with_help(format!("write {shape}")));
                 }
                 all
             });
         }
-        all.push(DraftEquilibrium { name, near, place: table.place.clone() });
-        table.finish();
-    }
-    all
+        DraftEquilibrium { name, near, place: table.place.clone() }
+    })
 }

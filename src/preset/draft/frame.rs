@@ -20,15 +20,14 @@ pub(in crate::preset) struct DraftFrame {
 }
 
 pub(super) fn frames(top: &mut Table<'_>) -> Vec<DraftFrame> {
-    let tables = top.tables("frames", "this frame");
-    tables.into_iter().map(frame).collect()
+    top.each("frames", "this frame", frame)
 }
 
-fn frame(mut table: Table<'_>) -> DraftFrame {
+fn frame(table: &mut Table<'_>) -> DraftFrame {
     let name = table.name();
     let attitude = table.flag("attitude").filter(|flag| *flag.get_ref());
     let (axis_key, _) = table.take("axis").unzip();
-    let axis = vector::triple(&mut table, "axis");
+    let axis = vector::triple(table, "axis");
     let (angle_key, found) = match &attitude {
         Some(_) => table.take("angle"),
         None => {
@@ -44,16 +43,10 @@ fn frame(mut table: Table<'_>) -> DraftFrame {
             table.diagnostics.push(Diagnostic::error(key, message));
         }
     }
-    let origin = vector::triple(&mut table, "origin");
-    let mut particles = Vec::new();
+    let origin = vector::triple(table, "origin");
     let particle = ("this particle", "{ at = [\"x\", \"y\", \"0\"], mass = \"m\" }");
-    for mut entry in table.items("particles", particle) {
-        let at = vector::triple(&mut entry, "at");
-        particles.push((at, entry.formula("mass")));
-        entry.finish();
-    }
-    let place = table.place.clone();
-    table.finish();
+    let particles = table
+        .items("particles", particle, |entry| (vector::triple(entry, "at"), entry.formula("mass")));
     let attitude = attitude.map(|flag| flag.span());
-    DraftFrame { name, axis, angle, origin, particles, attitude, place }
+    DraftFrame { name, axis, angle, origin, particles, attitude, place: table.place.clone() }
 }

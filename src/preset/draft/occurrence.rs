@@ -27,11 +27,10 @@ pub(in crate::preset) struct DraftEvent {
 }
 
 pub(super) fn impulses(top: &mut Table<'_>) -> Vec<DraftImpulse> {
-    let tables = top.tables("impulses", "this impulse");
-    tables.into_iter().map(impulse).collect()
+    top.each("impulses", "this impulse", impulse)
 }
 
-fn impulse(mut table: Table<'_>) -> DraftImpulse {
+fn impulse(table: &mut Table<'_>) -> DraftImpulse {
     let name = table.name();
     let at = table.take("at");
     let every = table.take("every");
@@ -64,23 +63,15 @@ fn impulse(mut table: Table<'_>) -> DraftImpulse {
         Some(formulas(&changes, "the change of"))
     });
     let about = table.line("about");
-    let place = table.place.clone();
-    table.finish();
-    DraftImpulse { name, at, every, change, about, place }
+    DraftImpulse { name, at, every, change, about, place: table.place.clone() }
 }
 
 pub(super) fn events(top: &mut Table<'_>) -> Vec<DraftEvent> {
-    let mut all = Vec::new();
-    for mut table in top.tables("events", "this event") {
-        let name = table.name();
-        all.push(DraftEvent {
-            name,
-            when: table.formula("when"),
-            direction: table.text("direction"),
-            action: table.text("action"),
-            place: table.place.clone(),
-        });
-        table.finish();
-    }
-    all
+    top.each("events", "this event", |table| DraftEvent {
+        name: table.name(),
+        when: table.formula("when"),
+        direction: table.text("direction"),
+        action: table.text("action"),
+        place: table.place.clone(),
+    })
 }

@@ -16,15 +16,13 @@ pub(in crate::preset) struct DraftRun {
 }
 
 pub(super) fn read(top: &mut Table<'_>) -> DraftRun {
-    let Some(mut table) = top.table("run") else { return DraftRun::default() };
-    let run = DraftRun {
+    let Some(table) = top.table("run") else { return DraftRun::default() };
+    table.read(|table| DraftRun {
         method: table.text("method"),
         speed: table.number("speed"),
         start: table.number("start"),
         until: table.number("until"),
         step: table.number("step"),
         tolerance: table.number("tolerance"),
-    };
-    table.finish();
-    run
+    })
 }

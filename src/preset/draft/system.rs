@@ -188,18 +188,13 @@ fn parameter<'d>(
 }
 
 pub(super) fn ramps(top: &mut Table<'_>) -> Vec<DraftRamp> {
-    let mut all = Vec::new();
-    for mut table in top.tables("ramps", "this ramp") {
-        all.push(DraftRamp {
-            parameter: table.text("parameter"),
-            to: table.formula("to"),
-            start: table.formula("start"),
-            duration: table.formula("duration"),
-            form: table.text("form"),
-        });
-        table.finish();
-    }
-    all
+    top.each("ramps", "this ramp", |table| DraftRamp {
+        parameter: table.text("parameter"),
+        to: table.formula("to"),
+        start: table.formula("start"),
+        duration: table.formula("duration"),
+        form: table.text("form"),
+    })
 }
 
 pub(super) fn definitions(top: &mut Table<'_>) -> Vec<NamedFormula> {

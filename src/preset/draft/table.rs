@@ -235,17 +235,29 @@ impl<'d> Table<'d> {
         })
     }
 
-    /// The entries of a list of tables. `shape` shows how each is written; messages call it `called`.
-    pub(super) fn items(
+    /// Reads the entries of a list of tables. `shape` shows how each is written; messages call it `called`.
+    pub(super) fn items<T>(
         &mut self,
         key: &'static str,
         (called, shape): (&str, &str),
-    ) -> Vec<Table<'d>> {
+        read: impl Fn(&mut Table<'d>) -> T,
+    ) -> Vec<T> {
         let section = self.row(key).and_then(|row| row.kind.section());
         let items = self.list(key).iter();
         let tables =
             items.filter_map(|item| Table::of(item, called, item.span(), shape, self.diagnostics));
-        tables.map(|table| Table { section, ..table }).collect()
+        let tables: Vec<Table<'d>> = tables.map(|table| Table { section, ..table }).collect();
+        tables.into_iter().map(|table| table.read(&read)).collect()
+    }
+
+    /// Reads the tables of one kind, one `[[key]]` each; messages call each one `called`.
+    pub(super) fn each<T>(
+        &mut self,
+        key: &'static str,
+        called: &str,
+        read: impl Fn(&mut Table<'d>) -> T,
+    ) -> Vec<T> {
+        self.tables(key, called).into_iter().map(|table| table.read(&read)).collect()
     }
 
     /// Tables of one kind, one `[[key]]` each; messages call each one `called`.
@@ -282,6 +294,13 @@ impl<'d> Table<'d> {
         self.entries
             .iter()
             .map(|(key, value)| (Spanned::new(key.span(), key.get_ref().to_string()), value))
+    }
+
+    /// Reads the table to its end.
+    pub(super) fn read<T>(mut self, read: impl FnOnce(&mut Table<'d>) -> T) -> T {
+        let found = read(&mut self);
+        self.finish();
+        found
     }
 
     /// Reports every unknown key and every missing one, once all allowed keys have been read.

@@ -35,33 +35,18 @@ pub(in crate::preset) struct DraftIntegral {
 }
 
 pub(super) fn transformations(top: &mut Table<'_>) -> Vec<DraftTransformation> {
-    let tables = top.tables("transformations", "this transformation");
-    tables.into_iter().map(transformation).collect()
-}
-
-fn transformation(mut table: Table<'_>) -> DraftTransformation {
-    let name = table.name();
-    let kind = table.text("kind");
-    let types = names(&mut table, "types", "a type");
-    let of = names(&mut table, "of", "a transformation");
-    let function = table.formula("F");
-    let [positions, momenta] = ["Q", "P"].map(|key| named(&mut table, key));
-    let new = names(&mut table, "new", "a new variable");
-    let residual = table.text("residual");
-    let place = table.place.clone();
-    table.finish();
-    DraftTransformation {
-        name,
-        kind,
-        types,
-        of,
-        function,
-        positions,
-        momenta,
-        new,
-        residual,
-        place,
-    }
+    top.each("transformations", "this transformation", |table| DraftTransformation {
+        name: table.name(),
+        kind: table.text("kind"),
+        types: names(table, "types", "a type"),
+        of: names(table, "of", "a transformation"),
+        function: table.formula("F"),
+        positions: named(table, "Q"),
+        momenta: named(table, "P"),
+        new: names(table, "new", "a new variable"),
+        residual: table.text("residual"),
+        place: table.place.clone(),
+    })
 }
 
 /// A list of texts.
@@ -79,23 +64,18 @@ fn named(table: &mut Table<'_>, key: &'static str) -> Option<Vec<NamedFormula>> 
 }
 
 pub(super) fn generators(top: &mut Table<'_>) -> Vec<DraftGenerator> {
-    let mut all = Vec::new();
-    for mut table in top.tables("generators", "this generator") {
-        all.push(DraftGenerator {
-            name: table.name(),
-            function: table.formula("G"),
-            place: table.place.clone(),
-        });
-        table.finish();
-    }
-    all
+    top.each("generators", "this generator", |table| DraftGenerator {
+        name: table.name(),
+        function: table.formula("G"),
+        place: table.place.clone(),
+    })
 }
 
 pub(super) fn integral(top: &mut Table<'_>) -> Option<DraftIntegral> {
-    let mut table = top.table("hamilton_jacobi")?;
-    let function = table.formula("S");
-    let constants = names(&mut table, "constants", "a constant");
-    let place = table.place.clone();
-    table.finish();
-    Some(DraftIntegral { function, constants, place })
+    let table = top.table("hamilton_jacobi")?;
+    Some(table.read(|table| DraftIntegral {
+        function: table.formula("S"),
+        constants: names(table, "constants", "a constant"),
+        place: table.place.clone(),
+    }))
 }
