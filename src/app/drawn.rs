@@ -72,5 +72,5 @@ pub enum LawInView {
     /// Its pane has room for all but this many rows.
     Clipped(u16),
     /// It has no pane until it is focused.
-    Aside,
+    Hidden,
 }

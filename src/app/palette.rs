@@ -293,8 +293,8 @@ impl Lab {
     fn picture_lines(&self) -> Vec<Item> {
         let offered = offers(self.loaded.physics());
         let named = |kind: &str, label: &str| {
-            let said = label.to_lowercase().contains(kind);
-            if said { format!("show {label}") } else { format!("show {kind}: {label}") }
+            let is_named = label.to_lowercase().contains(kind);
+            if is_named { format!("show {label}") } else { format!("show {kind}: {label}") }
         };
         let line = |(index, (kind, offer)): (usize, &(&dyn Instrument, Offer))| {
             Item::plain(named(kind.name(), &offer.label), offer.about.clone(), Choice::Show(index))

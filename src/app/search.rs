@@ -30,13 +30,13 @@ impl Lab {
         if known || search_state.under_way.is_some() || search_state.stopped {
             return None;
         }
-        let aside = jobs.in_background;
+        let in_background = jobs.in_background;
         let (model, equations) =
             (Arc::clone(&self.loaded.model), Arc::clone(&self.loaded.equations));
         let (further, at) = (search_state.further, parameters.clone());
         let job = Job::new("searching for constants of the motion", move |progress| {
             let (model, equations) = ((*model).clone(), (*equations).clone());
-            Answer::new(search(model, equations, &at, further, progress, aside))
+            Answer::new(search(model, equations, &at, further, progress, in_background))
         })
         .within(BUDGET * 4_u32.pow(further));
         let computation = jobs.request(Asker::Search, job);

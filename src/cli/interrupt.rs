@@ -51,7 +51,7 @@ struct SignalState {
     /// The function that ends the command; without one it is ended at once.
     finish: Mutex<Option<Finish>>,
     /// Another component handles signals.
-    aside: AtomicBool,
+    stood_down: AtomicBool,
     /// A file is being moved into place, or the rest of the output is written to a reader.
     saving: AtomicBool,
     /// The reader need not be waited for unless it takes what is written.
@@ -148,8 +148,8 @@ impl Interrupt {
     }
 
     /// Declares that another component handles signals from now on.
-    pub(super) fn stand_aside(&self) {
-        self.0.aside.store(true, Ordering::Release);
+    pub(super) fn stand_down(&self) {
+        self.0.stood_down.store(true, Ordering::Release);
     }
 
     fn finish(&self) -> MutexGuard<'_, Option<Finish>> {
@@ -157,7 +157,7 @@ impl Interrupt {
     }
 
     fn came(&self, signal: i32) {
-        if self.0.aside.load(Ordering::Acquire) {
+        if self.0.stood_down.load(Ordering::Acquire) {
             return;
         }
         let first =

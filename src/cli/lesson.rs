@@ -230,7 +230,7 @@ fn take(
         }
     }
     // the terminal must be restored first
-    interrupt.stand_aside();
+    interrupt.stand_down();
     let (ending, outcome) = match shell::take_lesson(&mut lesson, &request) {
         Ok(done) => done,
         Err(error) => return (shared.ended)(Err(error)),

@@ -60,10 +60,10 @@ impl NumberTable {
 
 /// The table of comma-separated values. What else is said stands in lines that begin with `#`.
 fn of_values(text: &str) -> Result<NumberTable, String> {
-    let said = |word: &str| text.lines().find_map(|line| line.strip_prefix(word));
-    let title = said("# phaselab ").and_then(|line| line.split_once(": "));
+    let header = |word: &str| text.lines().find_map(|line| line.strip_prefix(word));
+    let title = header("# phaselab ").and_then(|line| line.split_once(": "));
     // the direction in which it is crossed stands last
-    let surface = said("# section: ").and_then(|line| line.rsplit_once(' '));
+    let surface = header("# section: ").and_then(|line| line.rsplit_once(' '));
     let mut reader = csv::ReaderBuilder::new()
         .comment(Some(b'#'))
         .trim(csv::Trim::All)

@@ -44,7 +44,7 @@ pub(super) fn execute(
     let request = lab::request(None, of_screen, read)?;
     let played = read_played(&arguments.file)?;
     // the terminal must be restored first
-    interrupt.stand_aside();
+    interrupt.stand_down();
     match played {
         Played::Cast(cast) => lab::how_it_ended(shell::show(cast, &request)),
         Played::Script(source) => play_script(&source, &request),

@@ -75,8 +75,8 @@ fn change_of_sign(at: &dyn Fn(f64) -> f64, left: f64, right: f64) -> f64 {
 fn is_straight(at: &dyn Fn(f64) -> f64, place: f64) -> bool {
     [-1.0, 1.0].into_iter().all(|side| {
         let slopes = DISTANCES.map(|distance| {
-            let aside = side * distance * (1.0 + place.abs());
-            at(place + aside) / aside
+            let offset = side * distance * (1.0 + place.abs());
+            at(place + offset) / offset
         });
         slopes.iter().all(|slope| (slope - slopes[0]).abs() <= SETTLED * slopes[0].abs())
     })
@@ -85,8 +85,8 @@ fn is_straight(at: &dyn Fn(f64) -> f64, place: f64) -> bool {
 /// Whether a function has two limits at a place.
 fn jumps(at: &dyn Fn(f64) -> f64, place: f64) -> bool {
     let beside = DISTANCES.map(|distance| {
-        let aside = distance * (1.0 + place.abs());
-        (at(place - aside), at(place + aside))
+        let offset = distance * (1.0 + place.abs());
+        (at(place - offset), at(place + offset))
     });
     let differences = beside.map(|(before, after)| after - before);
     let is_seen =

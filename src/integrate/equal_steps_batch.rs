@@ -28,9 +28,9 @@ pub(super) struct EqualStepsBatch<B, S> {
     system: System,
     many: B,
     /// Takes the shorter steps of dense output.
-    aside: S,
+    inner: S,
     /// The lane whose parameters that has.
-    aside_of: Option<usize>,
+    inner_lane: Option<usize>,
     asked: Option<f64>,
     lanes: [EqualStepsLane; BATCH],
 }
@@ -40,13 +40,13 @@ impl<B: BatchSteps, S: Scheme> EqualStepsBatch<B, S> {
     pub(super) fn new(
         system: &System,
         settings: &Settings,
-        (many, aside): (B, S),
+        (many, inner): (B, S),
     ) -> Option<EqualStepsBatch<B, S>> {
         let asked = settings.step;
         if asked.is_some_and(|h| !(h > 0.0 && h.is_finite())) {
             return None;
         }
-        let blank = State::new(0.0, aside.form(), vec![0.0; system.state_len()]);
+        let blank = State::new(0.0, inner.form(), vec![0.0; system.state_len()]);
         let lane = EqualStepsLane {
             status: LaneStatus::Empty,
             state: blank.clone(),
@@ -57,25 +57,25 @@ impl<B: BatchSteps, S: Scheme> EqualStepsBatch<B, S> {
         Some(EqualStepsBatch {
             system: system.clone(),
             many,
-            aside,
-            aside_of: None,
+            inner,
+            inner_lane: None,
             asked,
             lanes: std::array::from_fn(|_| lane.clone()),
         })
     }
 
     pub(super) fn form(&self) -> Form {
-        self.aside.form()
+        self.inner.form()
     }
 
     pub(super) fn start(&mut self, lane: usize, state: &State, parameters: &[f64]) -> LaneStatus {
         let own = &mut self.lanes[lane];
         let regular = self.many.set_parameters(lane, parameters);
         own.status = LaneStatus::Irregular;
-        if self.aside_of == Some(lane) {
-            self.aside_of = None;
+        if self.inner_lane == Some(lane) {
+            self.inner_lane = None;
         }
-        let form = self.aside.form();
+        let form = self.inner.form();
         if let (true, Ok(begun)) = (regular, self.system.convert(state, form, parameters)) {
             let step = EqualSteps::step_of(self.asked, &self.system, state, parameters);
             own.steps = EqualSteps::new(begun.exact_time(), step);
@@ -157,13 +157,13 @@ impl<B: BatchSteps, S: Scheme> EqualStepsBatch<B, S> {
         if time == own.before.time {
             return;
         }
-        if self.aside_of != Some(lane) {
-            self.aside.begin(&own.parameters);
-            self.aside_of = Some(lane);
+        if self.inner_lane != Some(lane) {
+            self.inner.begin(&own.parameters);
+            self.inner_lane = Some(lane);
         }
-        self.aside.forget();
+        self.inner.forget();
         let step = DoubleDouble::from_decimal(time) - own.before.exact_time();
-        if self.aside.advance(step.high, out).is_err() {
+        if self.inner.advance(step.high, out).is_err() {
             out.values.fill(f64::NAN);
         }
         out.set_time(DoubleDouble::from(time));

@@ -82,7 +82,7 @@ pub(super) struct FixedStep<S> {
     scheme: S,
     /// Takes the shorter steps of dense output, so that `scheme` keeps what it remembers of its
     /// last step.
-    aside: S,
+    inner: S,
     parameters: Vec<f64>,
     asked: Option<f64>,
     steps: EqualSteps,
@@ -114,7 +114,7 @@ impl<S: Scheme> FixedStep<S> {
         let state = State::new(0.0, scheme.form(), vec![0.0; system.state_len()]);
         Ok(FixedStep {
             system: system.clone(),
-            aside: scheme.clone(),
+            inner: scheme.clone(),
             scheme,
             parameters: Vec::new(),
             asked: settings.step,
@@ -135,7 +135,7 @@ impl<S: Scheme> FixedStep<S> {
     fn count_from_here(&mut self, step: DoubleDouble) {
         self.steps = EqualSteps::new(self.state.exact_time(), step);
         self.scheme.begin(&self.parameters);
-        self.aside.begin(&self.parameters);
+        self.inner.begin(&self.parameters);
         self.in_batches = true;
     }
 
@@ -191,7 +191,7 @@ impl<S: Scheme> FixedStep<S> {
         }
         let Some(modes) = self.scheme.modes() else { return };
         let (time, step, moving) = (self.state.time, self.steps.step.high, self.system.moving());
-        let scheme = &mut self.aside;
+        let scheme = &mut self.inner;
         let rates = |numbers: &[f64], out: &mut [f64]| {
             let outcome = scheme.rates(time, numbers, out);
             outcome.is_ok().then(|| scheme.sides())
@@ -361,13 +361,13 @@ impl<S: Scheme> DenseOutput for FixedStep<S> {
         if time == self.before.time {
             return Ok(());
         }
-        self.aside.forget();
-        self.aside.continue_from(&self.scheme);
+        self.inner.forget();
+        self.inner.continue_from(&self.scheme);
         let end = DoubleDouble::from_decimal(time);
         let begin = self.before.exact_time();
         let (clock, step) = self.on_one_side(begin, end, (end - begin).high)?;
         out.set_time(clock);
-        self.aside.advance(step, out)?;
+        self.inner.advance(step, out)?;
         (out.time, out.time_carry) = (time, 0.0);
         self.system.check_finite(out)
     }

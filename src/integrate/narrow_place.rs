@@ -158,11 +158,11 @@ impl FollowedArguments {
         if self.arguments.observe(&self.there, &mut self.here).is_err() {
             return false;
         }
-        let aside = SLOPE_OVER * step;
+        let offset = SLOPE_OVER * step;
         for (x, slope) in self.there.values.iter_mut().zip(slopes) {
-            *x += aside * slope;
+            *x += offset * slope;
         }
-        self.there.time += aside;
+        self.there.time += offset;
         if self.arguments.observe(&self.there, &mut self.beside).is_err() {
             return false;
         }

@@ -35,7 +35,7 @@ const SLOPE_OVER: f64 = 1e-5;
 
 /// The distance beside a change of sign at which a function is sampled again, in multiples of the
 /// distance of the times between which it lies.
-const ASIDE: f64 = 4.0;
+const WIDENING: f64 = 4.0;
 
 /// Values that differ by less than this part of them may be equal but for rounding.
 const ROUNDING: f64 = 1e-13;
@@ -370,10 +370,10 @@ impl Sampling<'_> {
     ) -> Result<bool, MotionError> {
         let (begin, end) = self.motion.interval();
         let (begin, end) = (begin.min(self.whole.0), end.max(self.whole.1));
-        let mut aside = ASIDE * (right - left);
+        let mut offset = WIDENING * (right - left);
         let have_cuts = self.probe.event_functions().have_cuts();
         loop {
-            let (before, after) = ((left - aside).max(begin), (right + aside).min(end));
+            let (before, after) = ((left - offset).max(begin), (right + offset).min(end));
             let earlier = self.probe.exactly(self.motion, event, before)?.high.abs();
             let later = self.probe.exactly(self.motion, event, after)?.high.abs();
             if !have_cuts && before < left && after > right {
@@ -388,7 +388,7 @@ impl Sampling<'_> {
             if is_clear || before == begin || after == end {
                 return Ok(earlier < low.abs() && later < high.abs());
             }
-            aside *= ASIDE;
+            offset *= WIDENING;
         }
     }
 }

@@ -212,7 +212,7 @@ mod tests {
     }
 
     #[test]
-    fn sums_and_rounding_only_widen_as_far_as_said() {
+    fn sums_and_rounding_only_widen_as_far_as_documented() {
         let (mut a, b) = (OrientationPolytope::around([0.1, 0.2, 0.3]), [1.0, -1.0, 0.5]);
         a.include([0.9, 0.2, 0.3]);
         let sum = a.plus(&OrientationPolytope::around(b));

@@ -36,7 +36,7 @@ const OF_THE_METHOD: &[&str] = &["method", "step", "tolerance"];
 pub fn law_digest(text: &str) -> Option<String> {
     let mut file: Table = text.parse().ok()?;
     // the tables have no order in the file, but their entries do
-    let mut said = Table::new();
+    let mut law = Table::new();
     for key in OF_THE_LAW {
         let Some(mut entry) = file.remove(*key) else { continue };
         match (*key, &mut entry) {
@@ -53,18 +53,18 @@ pub fn law_digest(text: &str) -> Option<String> {
             ("run", run) => retain(run, |key| OF_THE_METHOD.contains(&key)),
             _ => {}
         }
-        said.insert((*key).to_owned(), entry);
+        law.insert((*key).to_owned(), entry);
     }
     // what an event waits for may be an observable, and that another one
     let mut others: Vec<Value> = match file.remove("observables") {
         Some(Value::Array(all)) => all,
         _ => Vec::new(),
     };
-    let mut said = said.to_string();
-    while let Some(used) = others.iter().position(|one| is_named(one, &said)) {
-        said += &others.remove(used).to_string();
+    let mut law = law.to_string();
+    while let Some(used) = others.iter().position(|one| is_named(one, &law)) {
+        law += &others.remove(used).to_string();
     }
-    Some(format!("{:016x}", num::digest(said.as_bytes())))
+    Some(format!("{:016x}", num::digest(law.as_bytes())))
 }
 
 fn is_named(observable: &Value, text: &str) -> bool {

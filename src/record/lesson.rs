@@ -36,7 +36,7 @@ pub struct Lesson {
     /// Claims (`Assert`) that were found false; searched for only where nobody watches.
     pub(super) false_claims: Vec<Diagnostic>,
     /// What was said last.
-    pub(super) said: Vec<Paragraph>,
+    pub(super) spoken: Vec<Paragraph>,
     /// The time that may have passed, of the clock of the lab.
     time: Micros,
     /// The step from which a later visit may continue.
@@ -106,7 +106,7 @@ impl Lesson {
             question: None,
             verdicts: Vec::new(),
             false_claims: Vec::new(),
-            said: Vec::new(),
+            spoken: Vec::new(),
             time: 0,
             safe: 0,
             personal: false,
@@ -218,11 +218,11 @@ impl Lesson {
     pub(super) fn next_event(&mut self) -> Result<(), Diagnostic> {
         // what is said of a task is said of what the person did
         let next = self.runner.script.steps.get(self.runner.next).map(|(_, step)| step);
-        let is_said = matches!(
+        let is_about_the_task = matches!(
             next,
             None | Some(ScriptStep::Lesson(LessonStep::Say(_) | LessonStep::Solution(_)))
         );
-        if self.personal && !is_said {
+        if self.personal && !is_about_the_task {
             self.begin_anew();
         }
         match self.runner.next_event()? {
@@ -273,7 +273,7 @@ impl Lesson {
         }
         match step {
             LessonStep::Say(text) => {
-                self.said = vec![paragraph(ParagraphKind::Text, text)];
+                self.spoken = vec![paragraph(ParagraphKind::Text, text)];
                 self.enter(LessonStage::Reading);
             }
             LessonStep::Ask(text) => {
@@ -284,7 +284,7 @@ impl Lesson {
                 self.enter(LessonStage::Choosing(0));
             }
             LessonStep::Predict { text, asked: Asked::Value { value, within } } => {
-                let kind = QuestionKind::Number { value, within, said: None };
+                let kind = QuestionKind::Number { value, within, typed: None };
                 self.question = Some(Question { place, text, kind });
                 self.enter(LessonStage::Typing(String::new(), None));
             }
@@ -299,12 +299,12 @@ impl Lesson {
                 self.safe = self.runner.next;
             }
             LessonStep::Task { text, hint, claim } => {
-                self.said = vec![paragraph(ParagraphKind::Text, text)];
+                self.spoken = vec![paragraph(ParagraphKind::Text, text)];
                 self.runner.lab.app.show_parameters();
                 self.enter(LessonStage::Task { place, hint, claim, hinted: false });
             }
             LessonStep::Free(text) => {
-                self.said = vec![paragraph(ParagraphKind::Text, text)];
+                self.spoken = vec![paragraph(ParagraphKind::Text, text)];
                 self.enter(LessonStage::Free);
             }
             // read with the question or the task above
@@ -331,21 +331,21 @@ impl Lesson {
     /// Holds the answer against what the engine says now.
     fn judge(&mut self) -> Result<(), Diagnostic> {
         let Some(question) = self.question.take() else { return Ok(()) };
-        let (said, verdict) = match &question.kind {
+        let (spoken, verdict) = match &question.kind {
             QuestionKind::Choice { options, chosen } => self.judge_choice(options, *chosen)?,
-            QuestionKind::Number { value, within, said } => {
-                self.judge_number(value, within, *said)?
+            QuestionKind::Number { value, within, typed } => {
+                self.judge_number(value, within, *typed)?
             }
             QuestionKind::Place { prediction, since } => {
-                let (said, verdict, outcome) = self.judge_place(prediction, *since);
+                let (spoken, verdict, outcome) = self.judge_place(prediction, *since);
                 let lab = self.runner.lab.app.lab.as_mut();
                 if let Some(shown) = lab.and_then(|lab| lab.prediction.as_mut()) {
                     shown.outcome = outcome;
                 }
-                (said, verdict)
+                (spoken, verdict)
             }
         };
-        self.said = said;
+        self.spoken = spoken;
         let (right, truth) = verdict;
         self.verdicts.push(AnswerVerdict { question, right, truth });
         self.enter(LessonStage::Reading);
@@ -364,7 +364,7 @@ impl Lesson {
         if finding.holds {
             let found = in_words(claim, &self.runner.lab.app);
             let done = found.map_or_else(|| "Done.".to_owned(), |found| format!("Done: {found}."));
-            self.said.push(paragraph(ParagraphKind::Right, done));
+            self.spoken.push(paragraph(ParagraphKind::Right, done));
             self.runner.suspend(true);
             self.enter(LessonStage::Reading);
         }
@@ -386,7 +386,7 @@ impl Lesson {
             0 => "This is the end.".to_owned(),
             _ => format!("This is the end. Right predictions: {right} of {all}."),
         };
-        self.said = vec![paragraph(ParagraphKind::Text, text)];
+        self.spoken = vec![paragraph(ParagraphKind::Text, text)];
         self.enter(LessonStage::Ended);
     }
 
@@ -416,8 +416,8 @@ impl Lesson {
             (Some(QuestionKind::Choice { chosen, options }), GivenAnswer::Option(option)) => {
                 *chosen = Some(option.min(options.len().saturating_sub(1)));
             }
-            (Some(QuestionKind::Number { said, .. }), GivenAnswer::Number(number)) => {
-                *said = Some(number);
+            (Some(QuestionKind::Number { typed, .. }), GivenAnswer::Number(number)) => {
+                *typed = Some(number);
             }
             (Some(QuestionKind::Place { prediction, since }), GivenAnswer::Points(points)) => {
                 prediction.points = points;
@@ -429,7 +429,7 @@ impl Lesson {
             }
             _ => {}
         }
-        self.said.clear();
+        self.spoken.clear();
         self.proceed();
     }
 }

@@ -32,34 +32,34 @@ impl Lesson {
         let chosen = chosen.unwrap_or(0);
         let right = holds[chosen];
         let own = letter(chosen, &options[chosen].text);
-        let mut said = vec![match (right, &options[chosen].why) {
+        let mut spoken = vec![match (right, &options[chosen].why) {
             (true, _) => paragraph(ParagraphKind::Right, format!("Right: {own}")),
             (false, None) => paragraph(ParagraphKind::Wrong, format!("Wrong: {own}")),
             (false, Some(why)) => paragraph(ParagraphKind::Wrong, format!("Wrong: {own}. {why}")),
         }];
         if let (false, Some(other)) = (right, holds.iter().position(|holds| *holds)) {
             let other = letter(other, &options[other].text);
-            said.push(paragraph(ParagraphKind::Text, format!("The answer is {other}")));
+            spoken.push(paragraph(ParagraphKind::Text, format!("The answer is {other}")));
         }
         let holding =
             options.iter().zip(&holds).find_map(|(option, holds)| holds.then_some(option));
         if let Some(found) =
             holding.and_then(|option| in_words(&option.claim, &self.runner.lab.app))
         {
-            said.push(paragraph(ParagraphKind::Quiet, format!("Measured: {found}.")));
+            spoken.push(paragraph(ParagraphKind::Quiet, format!("Measured: {found}.")));
         }
-        Ok((said, (right, Truth::Options(holds))))
+        Ok((spoken, (right, Truth::Options(holds))))
     }
 
     pub(super) fn judge_number(
         &self,
         value: &LineText,
         within: &LineText,
-        said: Option<f64>,
+        typed: Option<f64>,
     ) -> Result<JudgedAnswer, Diagnostic> {
         let app = &self.runner.lab.app;
         let (value, within) = (assertion::value(app, value)?, assertion::value(app, within)?);
-        let number = said.unwrap_or(f64::NAN);
+        let number = typed.unwrap_or(f64::NAN);
         let right = (number - value).abs() <= within;
         let (kind, word) = spoken(right);
         let (number, found, near) = (short(number), short(value), short(within));

@@ -104,7 +104,7 @@ impl Lesson {
                 match hint.take().filter(|_| !*hinted) {
                     Some(hint) => {
                         *hinted = true;
-                        self.said.push(paragraph(ParagraphKind::Quiet, hint));
+                        self.spoken.push(paragraph(ParagraphKind::Quiet, hint));
                     }
                     None => self.proceed(),
                 }

@@ -89,8 +89,8 @@ pub(super) fn errors_in(script: &Script) -> Vec<Diagnostic> {
             "say something with `Say`",
         );
     }
-    for ((place, _), said) in spoken(script) {
-        let rows = rows(&said, 80);
+    for ((place, _), texts) in spoken(script) {
+        let rows = rows(&texts, 80);
         if rows > MOST_ROWS {
             let message = format!(
                 "this takes {} rows on a screen of 80 columns; there are {}",
@@ -105,15 +105,15 @@ pub(super) fn errors_in(script: &Script) -> Vec<Diagnostic> {
 
 /// The paragraphs of each step that speaks, as long as they can become.
 pub(super) fn steps_of_person(script: &Script) -> impl Iterator<Item = Vec<Paragraph>> {
-    spoken(script).map(|(_, said)| said)
+    spoken(script).map(|(_, texts)| texts)
 }
 
 fn spoken(script: &Script) -> impl Iterator<Item = (&(SourceRange, ScriptStep), Vec<Paragraph>)> {
     let text = |text: &str| Paragraph { kind: ParagraphKind::Text, text: text.to_owned() };
     script.steps.iter().enumerate().filter_map(move |(index, line)| {
         let ScriptStep::Lesson(step) = &line.1 else { return None };
-        let said = match step {
-            LessonStep::Say(said) | LessonStep::Free(said) => vec![text(said)],
+        let texts = match step {
+            LessonStep::Say(texts) | LessonStep::Free(texts) => vec![text(texts)],
             LessonStep::Predict { text: asked, .. } => vec![text(asked), text("1"), text("wrong")],
             LessonStep::Task { text: asked, hint, .. } => {
                 let found = text("Done: the number that was found, with all of its digits.");
@@ -128,9 +128,9 @@ fn spoken(script: &Script) -> impl Iterator<Item = (&(SourceRange, ScriptStep), 
                     ScriptStep::Lesson(LessonStep::Option { text, .. }) => Some(format!("a) {text}")),
                     _ => None,
                 });
-                let mut said = vec![text(asked)];
-                said.extend(options.map(|option| text(&option)));
-                said
+                let mut texts = vec![text(asked)];
+                texts.extend(options.map(|option| text(&option)));
+                texts
             }
             // what is said of it once it was chosen wrongly, with the right one of the same length
             LessonStep::Option { text: option, why, .. } => vec![
@@ -140,6 +140,6 @@ fn spoken(script: &Script) -> impl Iterator<Item = (&(SourceRange, ScriptStep), 
             ],
             LessonStep::Outcome | LessonStep::Solution(_) => return None,
         };
-        Some((line, said))
+        Some((line, texts))
     })
 }

@@ -22,7 +22,7 @@ pub(super) enum QuestionKind {
     Number {
         value: LineText,
         within: LineText,
-        said: Option<f64>,
+        typed: Option<f64>,
     },
     /// A point or a curve, and the time since which the motion is compared with it.
     Place {

@@ -46,7 +46,7 @@ impl Lesson {
         }
         let steps = self.runner.script.steps.iter();
         let texts =
-            steps_of_person(&self.runner.script).map(|said| lesson::rows(&said, area.width));
+            steps_of_person(&self.runner.script).map(|spoken| lesson::rows(&spoken, area.width));
         let least = if steps.len() == 0 { 0 } else { LEAST_ROWS };
         let most = (area.height / 2).max(LEAST_ROWS);
         texts.max().unwrap_or(0).max(least).min(most).max(rows).min(area.height)
@@ -54,12 +54,12 @@ impl Lesson {
 
     /// What the lesson says now.
     pub fn speech(&self) -> Speech {
-        let mut said = self.said.clone();
+        let mut spoken = self.spoken.clone();
         let keys = match &self.stage {
             LessonStage::Playing => match &self.question {
                 Some(question) => {
-                    said = vec![paragraph(ParagraphKind::Text, question.text.clone())];
-                    said.push(paragraph(ParagraphKind::Quiet, question.answer()));
+                    spoken = vec![paragraph(ParagraphKind::Text, question.text.clone())];
+                    spoken.push(paragraph(ParagraphKind::Quiet, question.answer()));
                     "watch what happens · q leaves"
                 }
                 None => "watch · q leaves",
@@ -78,15 +78,15 @@ impl Lesson {
                 None => "the lab is yours · F9 skips this · q leaves",
             },
             LessonStage::Choosing(selected) => {
-                said =
+                spoken =
                     self.question.as_ref().map_or(Vec::new(), |question| question.asked(*selected));
                 "↑ ↓ choose · Enter confirms · Tab other panes · q leaves"
             }
             LessonStage::Pointing(wrong) => {
                 let question = self.question.as_ref();
-                said = question.map_or(Vec::new(), |question| question.asked(0));
-                said.push(paragraph(ParagraphKind::Selected, self.pointed()));
-                said.extend(wrong.iter().map(|why| paragraph(ParagraphKind::Wrong, why.clone())));
+                spoken = question.map_or(Vec::new(), |question| question.asked(0));
+                spoken.push(paragraph(ParagraphKind::Selected, self.pointed()));
+                spoken.extend(wrong.iter().map(|why| paragraph(ParagraphKind::Wrong, why.clone())));
                 if question.is_some_and(Question::is_curve) {
                     "arrows or mouse · Space sets, Backspace removes · Enter confirms · q leaves"
                 } else {
@@ -95,9 +95,9 @@ impl Lesson {
             }
             LessonStage::Typing(text, wrong) => {
                 let question = self.question.as_ref().map(|question| question.text.clone());
-                said = vec![paragraph(ParagraphKind::Text, question.unwrap_or_default())];
-                said.push(paragraph(ParagraphKind::Typed, format!("{text}_")));
-                said.extend(wrong.iter().map(|why| paragraph(ParagraphKind::Wrong, why.clone())));
+                spoken = vec![paragraph(ParagraphKind::Text, question.unwrap_or_default())];
+                spoken.push(paragraph(ParagraphKind::Typed, format!("{text}_")));
+                spoken.extend(wrong.iter().map(|why| paragraph(ParagraphKind::Wrong, why.clone())));
                 "type a number · Enter confirms · Tab other panes · q leaves"
             }
         };
@@ -108,7 +108,7 @@ impl Lesson {
             None => keys.to_owned(),
         };
         let focused = !self.has_lab() && !matches!(self.stage, LessonStage::Pointing(_));
-        Speech { title: self.title.clone(), place, paragraphs: said, keys, focused }
+        Speech { title: self.title.clone(), place, paragraphs: spoken, keys, focused }
     }
 }
 
@@ -151,15 +151,15 @@ impl Question {
 
     /// The question with its options.
     pub(super) fn asked(&self, selected: usize) -> Vec<Paragraph> {
-        let mut said = vec![paragraph(ParagraphKind::Text, self.text.clone())];
+        let mut spoken = vec![paragraph(ParagraphKind::Text, self.text.clone())];
         if let QuestionKind::Choice { options, .. } = &self.kind {
-            said.extend(options.iter().enumerate().map(|(index, option)| {
+            spoken.extend(options.iter().enumerate().map(|(index, option)| {
                 let chosen = index == selected;
                 let kind = if chosen { ParagraphKind::Selected } else { ParagraphKind::Option };
                 paragraph(kind, letter(index, &option.text))
             }));
         }
-        said
+        spoken
     }
 
     fn answer(&self) -> String {
@@ -167,7 +167,7 @@ impl Question {
             QuestionKind::Choice { options, chosen: Some(chosen) } => {
                 format!("Your answer: {}", letter(*chosen, &options[*chosen].text))
             }
-            QuestionKind::Number { said: Some(number), .. } => {
+            QuestionKind::Number { typed: Some(number), .. } => {
                 format!("Your prediction: {}", short(*number))
             }
             QuestionKind::Place { prediction, .. } => match prediction.points.last() {

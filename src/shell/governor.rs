@@ -35,7 +35,7 @@ const MEMORY: f64 = 1.0;
 
 /// The interval between frames while the window has no focus: two per second are enough to show that the program
 /// runs.
-const ASIDE: Duration = Duration::from_millis(500);
+const UNWATCHED: Duration = Duration::from_millis(500);
 
 /// Controls the rate and detail of frames.
 #[derive(Debug)]
@@ -105,7 +105,7 @@ impl Governor {
 
     /// Returns when the next frame is due.
     pub fn due(&self) -> Instant {
-        let interval = if self.watched { self.interval() } else { self.interval().max(ASIDE) };
+        let interval = if self.watched { self.interval() } else { self.interval().max(UNWATCHED) };
         self.paid().max(self.at + interval)
     }
 

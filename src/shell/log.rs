@@ -112,11 +112,11 @@ where
         mut writer: Writer<'_>,
         event: &Event<'_>,
     ) -> fmt::Result {
-        let mut said = String::new();
-        context.format_fields(Writer::new(&mut said), event)?;
+        let mut message = String::new();
+        context.format_fields(Writer::new(&mut message), event)?;
         SystemTime.format_time(&mut writer)?;
         let level = event.metadata().level().as_str().to_lowercase();
-        writeln!(writer, " {level:<5} {}", said.trim_end().replace('\n', "\n    "))
+        writeln!(writer, " {level:<5} {}", message.trim_end().replace('\n', "\n    "))
     }
 }
 
@@ -139,9 +139,9 @@ mod tests {
             });
         }
         let text = fs::read_to_string(path).expect("a file");
-        let said: Vec<_> = text.lines().map(|l| l.get(28..).unwrap_or(l)).collect();
-        assert_eq!(said.len(), 2 * (2 + 3) + 2, "{text}");
-        assert_eq!((said[0], said[2], said[4]), ("info  line 0", "info  line 1", "error wrong"));
+        let lines: Vec<_> = text.lines().map(|l| l.get(28..).unwrap_or(l)).collect();
+        assert_eq!(lines.len(), 2 * (2 + 3) + 2, "{text}");
+        assert_eq!((lines[0], lines[2], lines[4]), ("info  line 0", "info  line 1", "error wrong"));
         assert_eq!(text.lines().nth(1), Some("    and \\x1bmore"), "{text}");
         let time = text.get(..27).unwrap_or_default().replace(|c: char| c.is_ascii_digit(), "0");
         assert_eq!(time, "0000-00-00T00:00:00.000000Z");

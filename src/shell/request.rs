@@ -139,7 +139,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_is_taken_for_slow_unless_it_is_said_how_fast_it_is() {
+    fn a_line_is_taken_for_slow_unless_its_rate_is_given() {
         let bytes = |bandwidth: Option<Bandwidth>, set: &str| {
             let request = Request { bandwidth, ..Request::default() };
             request.pace(&|name| (name == set).then(|| "value".to_owned())).bytes

@@ -17,7 +17,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use self::damaged::read_or_put_aside;
+use self::damaged::read_or_quarantine;
 pub(super) use self::error::StoreError;
 use self::lock::{lock, numbered};
 use super::file_writer::{self, FileWriter};
@@ -77,10 +77,10 @@ impl Store {
         let mut troubles = Vec::new();
         let what = "the session will not be saved";
         let readable =
-            read_or_put_aside(session, what, &mut troubles, |path| read_from(path).map(|_| ()));
+            read_or_quarantine(session, what, &mut troubles, |path| read_from(path).map(|_| ()));
         let texts = session.with_file_name("texts.toml");
         let what = "unsaved texts will not be kept";
-        let known = read_or_put_aside(&texts, what, &mut troubles, read_texts);
+        let known = read_or_quarantine(&texts, what, &mut troubles, read_texts);
         let mut store = Self {
             texts: known.is_ok().then_some(texts),
             session: readable.is_ok().then(|| session.to_owned()),
@@ -102,7 +102,7 @@ impl Store {
             "the session will not be saved: another phaselab is running and saves its own";
         let mut troubles = vec![message.to_owned()];
         let what = "unsaved texts will not be kept";
-        let known = read_or_put_aside(&texts, what, &mut troubles, read_texts);
+        let known = read_or_quarantine(&texts, what, &mut troubles, read_texts);
         Self {
             session: None,
             texts: known.is_ok().then_some(texts),
@@ -331,7 +331,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_understood_is_put_aside_and_does_not_stop_saving() {
+    fn what_cannot_be_understood_is_quarantined_and_does_not_stop_saving() {
         for malformed in ["version = ]\n", "", "\0\0\0\0"] {
             let folder = tempfile::tempdir().expect("a folder");
             let path = folder.path().join("session.toml");
@@ -347,8 +347,8 @@ mod tests {
             settled(&mut store);
             assert_eq!(read_from(&path).expect("it is read"), session());
             assert_eq!(read_texts(&texts).expect("they are read"), [text("one", "two")]);
-            for aside in ["session-damaged-1.toml", "texts-damaged-1.toml"] {
-                let found = fs::read_to_string(folder.path().join(aside)).ok();
+            for name in ["session-damaged-1.toml", "texts-damaged-1.toml"] {
+                let found = fs::read_to_string(folder.path().join(name)).ok();
                 assert_eq!(found.as_deref(), Some(malformed).filter(|_| !empty));
             }
         }

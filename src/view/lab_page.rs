@@ -29,7 +29,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App, lab: &Lab) ->
         _ => None,
     };
     let slots = panes(area, lab, canvas.style.glyphs);
-    let mut in_view = LawInView::Aside;
+    let mut in_view = LawInView::Hidden;
     let shown: Vec<usize> = slots.iter().filter_map(|(slot, _)| slot.plot()).collect();
     let in_sight = PanesInView::of(slots.iter().filter_map(|(slot, _)| slot.pane()));
     for (slot, place) in slots {

@@ -63,7 +63,7 @@ const MARK: u16 = 2;
 /// The number of rows that paragraphs take on a screen of this width, with the frame.
 pub fn rows(paragraphs: &[Paragraph], width: u16) -> u16 {
     let room = room(width);
-    let lines: usize = paragraphs.iter().map(|said| words(&said.text, room).len()).sum();
+    let lines: usize = paragraphs.iter().map(|paragraph| words(&paragraph.text, room).len()).sum();
     (lines + 2).min(usize::from(u16::MAX)) as u16
 }
 

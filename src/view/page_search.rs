@@ -84,12 +84,12 @@ pub(super) fn line(canvas: &mut Canvas<'_>, area: Rect, search: &PageSearch) -> 
 
 /// Says at the end of that line which match is in view.
 pub(super) fn count(canvas: &mut Canvas<'_>, area: Rect, (place, count): (usize, usize)) {
-    let said = match count {
+    let found = match count {
         0 => "no match".to_owned(),
         count => format!("{} of {count}", place.min(count - 1) + 1),
     };
     let field = columns(row(area, 0), 1, area.width.saturating_sub(2));
-    canvas.right(field, Role::Dim, &said);
+    canvas.right(field, Role::Dim, &found);
 }
 
 #[cfg(test)]

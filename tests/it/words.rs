@@ -7,7 +7,8 @@ use crate::honest::{plain, sources};
 use crate::nonempty;
 
 /// Words of which no name is made: each has a standard one.
-const PRIVATE: [&str; 50] = [
+const PRIVATE: [&str; 52] = [
+    "aside",
     "beat",
     "blow",
     "calendar",
@@ -39,6 +40,7 @@ const PRIVATE: [&str; 50] = [
     "parted",
     "patience",
     "refusal",
+    "said",
     "seat",
     "shelf",
     "sought",

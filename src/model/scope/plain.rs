@@ -135,8 +135,8 @@ impl Scope {
             let bare = written.trim_end_matches(['\'', '′']);
             let primes = written.chars().count() - bare.chars().count();
             let apart = self.taken_apart(bare, primes)?;
-            let said = error.help.as_ref().is_some_and(|help| help.contains(&apart));
-            said.then_some((error.span, apart))
+            let suggested = error.help.as_ref().is_some_and(|help| help.contains(&apart));
+            suggested.then_some((error.span, apart))
         };
         let run_together = errors.iter().filter(|error| !is_doubt(error));
         let mut pieces: Vec<(Span, String)> = run_together.map(apart).collect::<Option<_>>()?;

@@ -87,7 +87,7 @@ impl Scope {
             None if primes > 0 && self.coordinates_are_open() => error
                 .with_help(format!("{VELOCITIES}: give {shown} an initial value in [coordinates]")),
             None if primes > 0 => error.with_help(VELOCITIES),
-            None if self.coordinates_are_open() && self.is_said_to_move(&error) => {
+            None if self.coordinates_are_open() && self.has_a_rate(&error) => {
                 error.with_help(format!("give {shown} an initial value in [coordinates]"))
             }
             None if name.starts_with("lambda_") => error.with_help(self.multipliers()),
@@ -126,7 +126,7 @@ impl Scope {
     }
 
     /// Whether the same unknown name has a velocity elsewhere in the expression.
-    fn is_said_to_move(&self, error: &SyntaxError) -> bool {
+    fn has_a_rate(&self, error: &SyntaxError) -> bool {
         let of_velocity = |other: &SyntaxError| {
             other.help.as_ref().is_some_and(|help| help.starts_with(VELOCITIES))
         };

@@ -289,14 +289,14 @@ fn ask(line: &mut ScriptLine<'_>) -> Result<ParsedLine, Diagnostic> {
 }
 
 /// A quoted text after a word, if the word comes next.
-fn aside(line: &mut ScriptLine<'_>, word: &str) -> Result<Option<String>, Diagnostic> {
+fn remark(line: &mut ScriptLine<'_>, word: &str) -> Result<Option<String>, Diagnostic> {
     let text = line.take(word).then(|| line.quoted("a text")).transpose()?;
     Ok(text.map(|text| text.text))
 }
 
 fn option(line: &mut ScriptLine<'_>) -> Result<ParsedLine, Diagnostic> {
     let text = line.quoted("an option")?.text;
-    let why = aside(line, "why")?;
+    let why = remark(line, "why")?;
     expect(line, "if")?;
     Ok(lesson(LessonStep::Option { text, why, claim: claim(line)? }))
 }
@@ -345,7 +345,7 @@ fn outcome(_: &mut ScriptLine<'_>) -> Result<ParsedLine, Diagnostic> {
 
 fn task(line: &mut ScriptLine<'_>) -> Result<ParsedLine, Diagnostic> {
     let text = line.quoted("a text")?.text;
-    let hint = aside(line, "hint")?;
+    let hint = remark(line, "hint")?;
     expect(line, "until")?;
     Ok(lesson(LessonStep::Task { text, hint, claim: claim(line)? }))
 }

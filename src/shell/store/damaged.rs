@@ -14,7 +14,7 @@ const DAMAGED: u32 = 64;
 pub(super) struct Untouchable;
 
 /// Reads a file. Returns `None` if it does not exist, or if it was malformed and has been moved aside.
-pub(super) fn read_or_put_aside<T>(
+pub(super) fn read_or_quarantine<T>(
     path: &Path,
     what: &str,
     troubles: &mut Vec<String>,
@@ -26,7 +26,7 @@ pub(super) fn read_or_put_aside<T>(
         Err(why) => why,
     };
     if let SessionError::Malformed { .. } = why
-        && let Some(place) = put_aside(path)
+        && let Some(place) = quarantine(path)
     {
         let (was, place) = (path.display(), place.display());
         troubles.push(format!("{was} cannot be understood; it is now {place}"));
@@ -37,7 +37,7 @@ pub(super) fn read_or_put_aside<T>(
 }
 
 /// Renames a file to an unused name. Returns `None` if that fails.
-fn put_aside(path: &Path) -> Option<PathBuf> {
+fn quarantine(path: &Path) -> Option<PathBuf> {
     let stem = path.file_stem()?.to_str()?;
     let names = (1..=DAMAGED).map(|n| path.with_file_name(format!("{stem}-damaged-{n}.toml")));
     let place = names.into_iter().find(|place| place.symlink_metadata().is_err())?;
