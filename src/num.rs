@@ -55,4 +55,4 @@ pub use power_series::{cosine_of_arctangent, cosine_of_half, square_root};
 pub use prime_field::{PRIMES, PrimeField, Residue, Unreduced, rational};
 pub use quadrature::{gauss, legendre};
 pub use real::{Analytic, Real};
-pub use root::{ALL_HALVINGS, bisect, false_position, golden_section, newton};
+pub use root::{ALL_HALVINGS, GOLDEN, bisect, false_position, golden_section, newton};

@@ -8,7 +8,7 @@ use crate::instrument::Answer;
 use crate::job::{Job, Share};
 
 /// A job that takes longer than this is reported as under way.
-const NOTICE_DELAY: Duration = Duration::from_millis(300);
+pub(super) const NOTICE_DELAY: Duration = Duration::from_millis(300);
 
 /// The requester of a job; each has at most one job at a time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -7,6 +7,7 @@ use std::cell::Cell;
 use std::sync::Arc;
 use std::time::Duration;
 
+use super::computation::NOTICE_DELAY;
 use crate::experiment::FoundConstant;
 use crate::expr::unicode_name;
 use crate::integrability::{
@@ -17,8 +18,6 @@ use crate::job::Progress;
 use crate::mechanics::{Equations, derive};
 use crate::model::Model;
 
-/// A search that takes longer than this is reported as under way.
-const NOTICE_DELAY: Duration = Duration::from_millis(300);
 
 /// The greatest degree of the first search; each further one goes two beyond.
 const DEGREE: u32 = 6;

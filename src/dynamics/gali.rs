@@ -15,14 +15,12 @@ use super::carrier::Carrier;
 use super::direction::basis_of_range;
 use super::displacement_units::{displacement_units, scaled};
 use super::error::DynamicsError;
+use super::lyapunov_course::{GROWN, LEAST_ROUNDS};
 use super::phase_space::PhaseSpace;
 use crate::integrate::{Method, Settings};
 use crate::num::math;
 use crate::system::State;
 
-/// Vectors are made orthonormal where one has grown or shrunk by this factor, and at least so often on the way.
-const GROWN: f64 = 8.0;
-const LEAST_ROUNDS: f64 = 256.0;
 
 /// The indices of a motion.
 #[derive(Clone, Debug)]

@@ -24,7 +24,7 @@ use crate::num::math;
 use crate::system::State;
 
 /// Vectors are made orthonormal where one has grown or shrunk by this factor.
-const GROWN: f64 = 8.0;
+pub(super) const GROWN: f64 = 8.0;
 
 /// Vectors are made orthonormal as well where the part of one across those before it is less than this of its length:
 /// on a limit cycle all keep their lengths and turn into the direction of the flow.
@@ -34,7 +34,7 @@ const FLAT: f64 = 1e-4;
 const CHECKED: u64 = 4;
 
 /// The least number of times that vectors are made orthonormal on the way.
-const LEAST_ROUNDS: f64 = 256.0;
+pub(super) const LEAST_ROUNDS: f64 = 256.0;
 
 /// The parts of a step at which MEGNO is summed.
 const MEGNO_PARTS: u32 = 4;

@@ -20,7 +20,7 @@ use crate::num::{golden_section, math};
 const SECTIONS: u32 = 24;
 
 /// A combination fits within this part of a turn in the whole time.
-const FITS: f64 = 1e-4;
+pub(super) const FITS: f64 = 1e-4;
 
 /// A line that is being fitted, in the time from the middle.
 #[derive(Clone, Copy, Debug)]

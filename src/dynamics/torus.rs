@@ -7,6 +7,7 @@
 
 use std::f64::consts::TAU;
 
+use super::spectral_fit::FITS;
 use super::spectral_line::combination;
 use super::spectrum::{MeanRate, mean_rate, spectrum, straightened};
 use crate::num::{short, to_its_error};
@@ -16,9 +17,6 @@ const LINES: usize = 10;
 
 /// Lines below this part of the size of a coordinate are left out.
 const STRONG: f64 = 1e-3;
-
-/// A combination fits within this part of a turn in the whole time.
-const FITS: f64 = 1e-4;
 
 /// The error of a frequency, as if what is left were noise, is taken this many times.
 const SIGMAS: f64 = 10.0;

@@ -5,11 +5,9 @@
 use super::gathered_states::{GatheredStates, ObservedAt};
 use super::gauges::Gauges;
 use crate::integrate::{StepBlock, spacing};
-use crate::num::BATCH;
+use crate::num::{BATCH, GOLDEN};
 use crate::system::{BatchTerms, Form, Observer, State, System, TermWatch};
 
-/// The fractional part of the golden ratio.
-const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 /// The digits of the clock in a step at whose end a law of the time is resolved to the same part of what it changes in the step.
 const RESOLVED: f64 = 1e8;

@@ -43,7 +43,7 @@ const EXACT: f64 = REST * (1_i128 << 53) as f64;
 const ROUNDED: f64 = 1e-12;
 
 /// 2¹⁰⁰.
-const FAR_UNIT: f64 = (1_i128 << 100) as f64;
+pub(super) const FAR_UNIT: f64 = (1_i128 << 100) as f64;
 
 /// A difference larger than this counts as this.
 const APART: i128 = 1 << 100;

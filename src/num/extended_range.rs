@@ -8,7 +8,7 @@ mod arithmetic;
 
 use super::convolution::LANES;
 use super::double_double::DoubleDouble;
-use super::exponent::Exponent;
+use super::exponent::{Exponent, FAR_UNIT};
 use super::math;
 use super::real::{Analytic, Real};
 
@@ -140,8 +140,6 @@ fn quotient_by_ln_2(x: DoubleDouble) -> DoubleDouble {
     (x.scaled(FAR_UNIT.recip()) / LN_2).scaled(FAR_UNIT)
 }
 
-/// 2¹⁰⁰.
-const FAR_UNIT: f64 = (1_i128 << 100) as f64;
 
 impl Real for ExtendedRange {
     const UNBOUNDED: bool = true;

@@ -64,7 +64,7 @@ pub fn false_position<E>(
 }
 
 /// The reciprocal of the golden ratio.
-const GOLDEN: f64 = 0.618_033_988_749_894_9;
+pub const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 /// The two places to which golden sections shrink an interval around the least value of a function in it (J. Kiefer, Proc. Amer.
 /// Math. Soc. 4 (1953) 502).

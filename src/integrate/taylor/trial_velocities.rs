@@ -7,7 +7,7 @@
 //! motion had come to rest, or what is carried on while it rests.
 
 use super::onset::{self, Onset};
-use crate::num::{Analytic, DoubleDouble, golden_section};
+use crate::num::{Analytic, DoubleDouble, GOLDEN, golden_section};
 use crate::system::{ExactRates, Form, MotionError, MotionErrorKind, State, System};
 
 /// The number of directions between any two velocities.
@@ -32,7 +32,6 @@ const FOLLOWED: f64 = 0.02;
 /// than one halving.
 const HALVINGS: u32 = 60;
 const SECTIONS: u32 = 40;
-const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 /// A state at rest whose small velocities are tested.
 pub(super) struct TrialVelocities<'a> {
