@@ -86,6 +86,7 @@ mod overflow;
 mod parametric_power;
 mod parts;
 mod program;
+mod program_inputs;
 mod projection;
 mod projector;
 mod rates;

@@ -108,7 +108,7 @@ const OTHER_REST: f64 = 1e-3;
 const SLOPE_STEP: f64 = 1e-5;
 
 /// The steps after which a return is given up.
-const IDLE: u64 = 1_000_000;
+const MOST_IDLE_STEPS: u64 = 1_000_000;
 
 /// The rotations to both sides are the same if action and period differ by less than this part.
 pub(super) const SAME: f64 = 1e-9;
@@ -366,7 +366,7 @@ pub(super) fn follow(
     count: u64,
 ) -> Result<Vec<Vec<f64>>, NoAction> {
     let plan =
-        SectionPlan { event, count: Some(count), until: None, idle: IDLE, all_channels: false };
+        SectionPlan { event, count: Some(count), until: None, idle: MOST_IDLE_STEPS, all_channels: false };
     let Crossings { rows, status, message } =
         crossings(system, systems.method, systems.settings, start, &plan);
     if status == OrbitStatus::Completed {

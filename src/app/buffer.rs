@@ -20,7 +20,7 @@ use crate::diagnostic::{Diagnostic, Severity};
 const REST: Duration = Duration::from_millis(150);
 
 /// How long to wait before re-reading a file with errors, since another program may still be writing it.
-const DEBOUNCE: Duration = Duration::from_millis(700);
+const RETRY_DELAY: Duration = Duration::from_millis(700);
 
 /// A check that takes longer than this is one that the user would rather stop than wait for.
 const LONG: Duration = Duration::from_secs(1);
@@ -318,7 +318,7 @@ impl SourceBuffer {
     /// Stores the errors found, unless the text may be an incomplete file that is read once more.
     pub(super) fn is_wrong(&mut self, diagnostics: &[Diagnostic]) {
         if self.may_be_partial {
-            (self.may_be_partial, self.rest) = (false, Some(DEBOUNCE));
+            (self.may_be_partial, self.rest) = (false, Some(RETRY_DELAY));
         } else {
             self.note(diagnostics);
             self.state = BufferState::Wrong;

@@ -1,6 +1,6 @@
-//! The compiled system: its programs, and which of them a stepper or an observer is handed.
+//! The compiled system: its programs, and what steppers and observers ask of them.
 //!
-//! In: a system that was compiled (`compilation`). Out: its programs and channels. Never here: values of a state.
+//! In: programs (`compilation`). Out: channels, inputs, and the programs themselves within this room. Never here: values of a state.
 
 use std::sync::Arc;
 

@@ -329,7 +329,7 @@ mod tests {
     }
 
     #[test]
-    fn no_size_is_too_odd() {
+    fn every_size_is_drawn() {
         let mut screen = Frames::new(false).expect("memory");
         for (width, height) in [(0, 0), (1, 1), (500, 500), (0, 9), (9, 0), (80, 24)] {
             let bytes = screen.next(Size { width, height }, |area, buffer| {

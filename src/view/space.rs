@@ -130,7 +130,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
         }
     }
     painter.halos();
-    painter.name_separated();
+    painter.name_comparison_out_of_view();
     if canvas.regions.is_some() {
         canvas.masses = painter.draggable();
     }

@@ -48,7 +48,7 @@ pub(super) fn written(
                 images.map(|e| point.value(pool, e))
             };
             let line: Vec<[f64; 2]> = (0..POINTS).map(image).collect();
-            all.extend(unbroken(&line));
+            all.extend(pieces(&line));
         }
     }
     all
@@ -92,7 +92,7 @@ pub(super) fn solved(
                     last = image;
                 }
             }
-            all.extend(unbroken(&line));
+            all.extend(pieces(&line));
         }
     }
     (all, nodes)
@@ -122,7 +122,7 @@ fn place([lo, hi]: [f64; 2], k: usize, count: usize) -> f64 {
 }
 
 /// A line without what joins the two sides of a jump, and without places that have no value.
-fn unbroken(line: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
+fn pieces(line: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
     let length = |pair: &[[f64; 2]]| [0, 1].map(|k| (pair[1][k] - pair[0][k]).abs());
     let steps: Vec<[f64; 2]> = line.windows(2).map(length).collect();
     let bound = [0, 1].map(|k| {
@@ -178,7 +178,7 @@ mod tests {
         let up_and_down = |jump: f64| {
             let high = |k: i32| if k < 50 { 0.0 } else { jump };
             let line: Vec<[f64; 2]> = (0..100).map(|k| [0.0, f64::from(k % 2) + high(k)]).collect();
-            unbroken(&line).len()
+            pieces(&line).len()
         };
         // from 1 to the jump
         assert_eq!(up_and_down(1.0 + 27.0), 1);
@@ -188,7 +188,7 @@ mod tests {
             let high = |k: i32| if k < 500 { 0.0 } else { jump };
             let line: Vec<[f64; 2]> =
                 (0..1000).map(|k| [0.0, 0.001 * f64::from(k) + high(k)]).collect();
-            unbroken(&line).len()
+            pieces(&line).len()
         };
         assert_eq!(along(0.22), 1);
         assert_eq!(along(0.28), 2);
@@ -197,11 +197,11 @@ mod tests {
     #[test]
     fn a_line_is_not_joined_across_a_jump() {
         let angle = |k: i32| [f64::from((k + 40) % 100), f64::from(k)];
-        let parts = unbroken(&(0..100).map(angle).collect::<Vec<_>>());
+        let parts = pieces(&(0..100).map(angle).collect::<Vec<_>>());
         assert_eq!(parts.iter().map(Vec::len).collect::<Vec<_>>(), [60, 40]);
-        let whole = unbroken(&(0..100).map(|k| [f64::from(k * k), 1.0]).collect::<Vec<_>>());
+        let whole = pieces(&(0..100).map(|k| [f64::from(k * k), 1.0]).collect::<Vec<_>>());
         assert_eq!(whole.len(), 1);
-        let holes = unbroken(&[[0.0, 0.0], [1.0, 0.0], [f64::NAN, 0.0], [3.0, 0.0], [4.0, 0.0]]);
+        let holes = pieces(&[[0.0, 0.0], [1.0, 0.0], [f64::NAN, 0.0], [3.0, 0.0], [4.0, 0.0]]);
         assert_eq!(holes.iter().map(Vec::len).collect::<Vec<_>>(), [2, 2]);
     }
 }

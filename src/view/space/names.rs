@@ -31,7 +31,7 @@ impl ScenePainter<'_> {
     }
 
     /// Says at the edge where the comparison motion is that the picture no longer follows, and how far away.
-    pub(super) fn name_separated(&mut self) {
+    pub(super) fn name_comparison_out_of_view(&mut self) {
         let follow = self.q.lab.loaded.model.picture.follow.as_ref();
         let Some((follow, both)) = follow.zip(self.mechanics.as_ref()) else { return };
         let Some(beside) = follow.beside else { return };

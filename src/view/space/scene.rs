@@ -250,7 +250,7 @@ fn followed(
     let apart =
         |other: [f64; 3]| (0..3).map(|k| math::powi(other[k] - at[k], 2)).sum::<f64>().sqrt();
     let nearer = |other: [f64; 3]| {
-        let share = (FOLLOWED * radius / apart(other)).min(1.0);
+        let share = (MOST_RADII * radius / apart(other)).min(1.0);
         [0, 1, 2].map(|k| at[k] + share * (other[k] - at[k]))
     };
     let other = beside.map_or(at, nearer);
@@ -265,7 +265,7 @@ fn followed(
 }
 
 /// How far the comparison motion is followed, in radii of what is around the point that the camera follows.
-const FOLLOWED: f64 = 3.0;
+const MOST_RADII: f64 = 3.0;
 
 /// Every how many corners of a circle its place is taken from.
 const CORNERS: usize = 4;
