@@ -31,7 +31,8 @@ impl Pool {
         self.memo.get(pass, e).unwrap_or(e)
     }
 
-    /// The same, once: no result is remembered.
+    /// The same, once: no result is remembered. Where the work is cancelled the expression comes back as it is; nobody waits for
+    /// a result then.
     pub(super) fn each_part(&mut self, e: Expr, change: impl Fn(&mut Pool, Expr) -> Expr) -> Expr {
         let mut changed: FxHashMap<Expr, Expr> = FxHashMap::default();
         for part in self.reachable(&[e]) {

@@ -6,6 +6,9 @@
 //! uses only operations that IEEE 754 defines to the bit. `sqrt`, `mul_add`, `floor`, … of `std`
 //! are defined to the bit as well and are used directly.
 //!
+//! Angles are in radians: `asin` and `atan` lie in [−π/2, π/2], `acos` in [0, π], `atan2(y, x)` in [−π, π]. `ln_1p(x)` is
+//! ln(1 + x), accurate for small x; `hypot(x, y)` is √(x² + y²), without overflow in between.
+//!
 //! In and out: numbers. Never here: other precisions (`double_double`), expressions. Elsewhere
 //! `clippy.toml` and a test forbid the elementary functions of `std`.
 
