@@ -365,8 +365,13 @@ pub(super) fn follow(
     start: &Start,
     count: u64,
 ) -> Result<Vec<Vec<f64>>, NoAction> {
-    let plan =
-        SectionPlan { event, count: Some(count), until: None, idle: MOST_IDLE_STEPS, all_channels: false };
+    let plan = SectionPlan {
+        event,
+        count: Some(count),
+        until: None,
+        idle: MOST_IDLE_STEPS,
+        all_channels: false,
+    };
     let Crossings { rows, status, message } =
         crossings(system, systems.method, systems.settings, start, &plan);
     if status == OrbitStatus::Completed {

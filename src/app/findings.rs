@@ -18,7 +18,6 @@ use crate::job::Progress;
 use crate::mechanics::{Equations, derive};
 use crate::model::Model;
 
-
 /// The greatest degree of the first search; each further one goes two beyond.
 const DEGREE: u32 = 6;
 

@@ -21,7 +21,6 @@ use crate::integrate::{Method, Settings};
 use crate::num::math;
 use crate::system::State;
 
-
 /// The indices of a motion.
 #[derive(Clone, Debug)]
 pub struct Gali {

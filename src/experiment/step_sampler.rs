@@ -8,7 +8,6 @@ use crate::integrate::{StepBlock, spacing};
 use crate::num::{BATCH, GOLDEN};
 use crate::system::{BatchTerms, Form, Observer, State, System, TermWatch};
 
-
 /// The digits of the clock in a step at whose end a law of the time is resolved to the same part of what it changes in the step.
 const RESOLVED: f64 = 1e8;
 

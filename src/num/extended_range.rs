@@ -140,7 +140,6 @@ fn quotient_by_ln_2(x: DoubleDouble) -> DoubleDouble {
     (x.scaled(FAR_UNIT.recip()) / LN_2).scaled(FAR_UNIT)
 }
 
-
 impl Real for ExtendedRange {
     const UNBOUNDED: bool = true;
 
