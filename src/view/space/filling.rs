@@ -45,16 +45,11 @@ impl PieceStyle {
 
 /// The extent, in columns, below which a piece is drawn in ASCII as one mass of characters: with fewer of them, edges and shading
 /// cannot be told apart.
-const SMALL: f64 = 16.0;
+const SMALL: f64 = 22.0;
 
-/// The same for one that is flat, of fewer columns than this from one side, where its two rims run into each other, such as a wheel.
-const SMALL_SHEET: f64 = 22.0;
-const FLAT: f64 = 3.0;
-
-/// Whether a piece with these extents is too small for edges in ASCII, where a column of cells has this width.
-pub(super) fn is_small([least, other]: [f64; 2], column: f64) -> bool {
-    let most = if least / column < FLAT { SMALL_SHEET } else { SMALL };
-    other / column < most
+/// Whether a piece with these extents, the smaller one first, is too small for edges in ASCII, where a column of cells has this width.
+pub(super) fn is_small([_, other]: [f64; 2], column: f64) -> bool {
+    other / column < SMALL
 }
 
 pub(super) struct Filling {
@@ -74,10 +69,9 @@ mod tests {
     use super::{PieceStyle, is_small};
 
     #[test]
-    fn a_wheel_is_a_mass_of_characters_where_a_thick_piece_of_its_size_has_edges() {
+    fn a_piece_of_few_columns_is_a_mass_of_characters() {
         let of = |extents: [f64; 2]| is_small(extents.map(|x| x * 0.5), 0.5);
-        assert_eq!([[15.9, 15.9], [16.1, 16.1], [3.1, 16.1]].map(of), [true, false, false]);
-        assert_eq!([[2.9, 21.9], [0.0, 21.9], [0.0, 22.1]].map(of), [true, true, false]);
+        assert_eq!([[21.9, 21.9], [0.0, 21.9], [0.0, 22.1]].map(of), [true, true, false]);
     }
 
     #[test]
