@@ -105,12 +105,18 @@ impl Allocator {
                 self.bytes.binary(operation, width, to, left, right);
             }
             MachineInstruction::ProductError { width, left, right, product, made } => {
-                let registers = [left, right, product].map(|value| self.read(value));
-                // it is written before the others are read
-                let to = self.make(made, width);
-                self.bytes.copy(width, to, registers[0]);
-                self.bytes.product_error(width, to, registers[1], registers[2]);
-                self.advance(&reads, next);
+                let [left, right, product] = [left, right, product].map(|value| self.read(value));
+                if next[0] == NEVER {
+                    self.advance(&reads, next);
+                    self.make_in(left, made, width);
+                    self.bytes.product_error(width, left, right, product);
+                } else {
+                    // it is written before the others are read
+                    let to = self.make(made, width);
+                    self.bytes.copy(width, to, left);
+                    self.bytes.product_error(width, to, right, product);
+                    self.advance(&reads, next);
+                }
             }
             MachineInstruction::Store { width, value, to, stays } => {
                 let from = self.read(value);
@@ -177,11 +183,15 @@ impl Allocator {
     /// A register for a number that is made.
     fn make(&mut self, value: VirtualRegister, width: Width) -> VectorRegister {
         let register = self.free();
+        self.make_in(register, value, width);
+        register
+    }
+
+    fn make_in(&mut self, register: VectorRegister, value: VirtualRegister, width: Width) {
         self.places[value.0 as usize].width = Some(width);
         if self.places[value.0 as usize].next != NEVER {
             self.take(register, value);
         }
-        register
     }
 
     fn take(&mut self, register: VectorRegister, value: VirtualRegister) {

@@ -170,7 +170,7 @@ impl Code {
 
 /// From so many terms on inner products are a loop. Written out, they would be most of the code, which is read from memory at
 /// every step where it is more than a core's first-level cache holds.
-const LOOPED: usize = 8;
+const LOOPED: usize = 12;
 
 /// The number of sums of an inner product that are kept apart.
 pub(super) const APART: usize = 4;

@@ -54,8 +54,9 @@ impl Code {
 
     /// The product with an `f64`, not renormalized.
     fn multiple(&mut self, a: DoubleOperand, factor: Operand) -> DoubleOperand {
-        let (high, low) = self.exact_product(Width::One, a.0, factor);
+        let a = Double::in_register(self, a);
         let mixed = Plain::product(self, a.1, factor);
+        let (high, low) = self.exact_product(Width::One, a.0, factor);
         (high, Plain::sum(self, low, mixed))
     }
 
@@ -136,9 +137,10 @@ impl Arithmetic for Double {
 
     fn product(code: &mut Code, a: DoubleOperand, b: DoubleOperand) -> DoubleOperand {
         let (a, b) = (Double::in_register(code, a), Double::in_register(code, b));
-        let (high, low) = code.exact_product(Width::One, a.0, b.0);
         let (first, second) = (Plain::product(code, a.0, b.1), Plain::product(code, a.1, b.0));
         let mixed = Plain::sum(code, first, second);
+        // last, when its register may be one of theirs
+        let (high, low) = code.exact_product(Width::One, a.0, b.0);
         (high, Plain::sum(code, low, mixed))
     }
 
@@ -219,11 +221,11 @@ impl Arithmetic for Double {
         for j in 0..terms {
             let [a_high, a_low, b_high, b_low] = [(left, 0), (left, 1), (right, 0), (right, 1)]
                 .map(|(series, part)| code.four(series.plus((2 * j + part) * SIDE)).into());
-            let (product, error) = code.exact_product(four, a_high, b_high);
-            let (next, lost) = code.exact_sum(four, sum, product);
             let first = code.binary(Operation::Multiply, four, a_high, b_low);
             let second = code.binary(Operation::Multiply, four, a_low, b_high);
             let mixed = code.binary(Operation::Add, four, first, second);
+            let (product, error) = code.exact_product(four, a_high, b_high);
+            let (next, lost) = code.exact_sum(four, sum, product);
             let low = code.binary(Operation::Add, four, error, mixed);
             let low = code.binary(Operation::Add, four, lost, low);
             errors = code.binary(Operation::Add, four, errors, low);

@@ -6,7 +6,7 @@
 //! ```text
 //!   code    … point to a_1 and b_{k−1}, count, call ─┐  the sums in the first register …
 //!                                                    ▼
-//!   loop    four sums apart, four terms at a time; what is left over; the sums together; back
+//!   loop    four sums apart: four or eight terms, then eight at a time; what is left over; the sums together; back
 //! ```
 
 use super::arithmetic::APART;
@@ -28,6 +28,8 @@ const COUNT: General = General::R11;
 struct Kind {
     width: Width,
     distance: usize,
+    /// How often four terms come before the loop: once or twice.
+    before: usize,
     /// The number of terms that are left over.
     rest: usize,
 }
@@ -47,8 +49,10 @@ impl ProductLoops {
         let InnerProductOperands { width, left, right, distance, terms } = products;
         bytes.point(LEFT, left);
         bytes.point(RIGHT, right);
-        bytes.count(COUNT, (terms / APART) as u32);
-        self.calls.push((Kind { width, distance, rest: terms % APART }, bytes.call()));
+        let whole = terms / APART;
+        let before = 2 - whole % 2;
+        bytes.count(COUNT, ((whole - before) / 2) as u32);
+        self.calls.push((Kind { width, distance, before, rest: terms % APART }, bytes.call()));
         VectorRegister(0)
     }
 
@@ -69,16 +73,19 @@ impl ProductLoops {
 }
 
 impl Kind {
-    /// Writes the loop, which has at least four terms.
+    /// Writes the loop, which has at least twelve terms.
     fn write(self, bytes: &mut Bytes) {
         let sum = |i: usize| VectorRegister(i as u8);
-        (0..=APART).for_each(|i| bytes.zero(sum(i)));
+        bytes.zero(REST);
+        (0..APART).for_each(|i| self.multiply(bytes, i, sum(i)));
+        let first = APART * self.before;
+        (APART..first).for_each(|i| self.add(bytes, i, sum(i % APART)));
         let from = bytes.0.len();
-        (0..APART).for_each(|i| self.add(bytes, i, sum(i)));
-        bytes.move_on(LEFT, APART * self.distance);
-        bytes.move_on(RIGHT, APART * self.distance);
+        (0..2 * APART).for_each(|i| self.add(bytes, first + i, sum(i % APART)));
+        bytes.move_on(LEFT, 2 * APART * self.distance);
+        bytes.move_on(RIGHT, 2 * APART * self.distance);
         bytes.repeat(COUNT, from);
-        (0..self.rest).for_each(|i| self.add(bytes, i, REST));
+        (0..self.rest).for_each(|i| self.add(bytes, first + i, REST));
         for (to, other) in [(0, 2), (1, 3), (0, 1)] {
             self.plus(bytes, sum(to), sum(other));
         }
@@ -88,11 +95,15 @@ impl Kind {
 
     /// Adds the product of the operands at a place from where the registers point.
     fn add(self, bytes: &mut Bytes, place: usize, to: VectorRegister) {
-        let at = |base| Place::behind(base, place * self.distance);
-        bytes.load(self.width, PRODUCT, at(LEFT));
-        let right = Source::Memory(at(RIGHT));
-        bytes.binary(Operation::Multiply, self.width, PRODUCT, PRODUCT, right);
+        self.multiply(bytes, place, PRODUCT);
         self.plus(bytes, to, PRODUCT);
+    }
+
+    fn multiply(self, bytes: &mut Bytes, place: usize, to: VectorRegister) {
+        let at = |base| Place::behind(base, place * self.distance);
+        bytes.load(self.width, to, at(LEFT));
+        let right = Source::Memory(at(RIGHT));
+        bytes.binary(Operation::Multiply, self.width, to, to, right);
     }
 
     fn plus(self, bytes: &mut Bytes, to: VectorRegister, other: VectorRegister) {
