@@ -46,6 +46,13 @@ pub fn line(text: &str) -> Cow<'_, str> {
     escaped(text, |_| false)
 }
 
+/// Whether a text is printable ASCII in lines, as nearly all text is, of which nothing needs to be escaped.
+pub fn is_plain(text: &[u8]) -> bool {
+    let plain = |&byte: &u8| byte == b'\n' || (0x20..0x7f).contains(&byte);
+    // without an early end, so that many bytes are compared at once
+    text.iter().fold(true, |all, byte| all & plain(byte))
+}
+
 /// Escapes text for several lines; line ends and tabs are preserved as layout.
 pub fn lines(text: &str) -> Cow<'_, str> {
     escaped(text, is_layout)
@@ -121,9 +128,7 @@ pub fn coloured(text: &str) -> Cow<'_, str> {
 /// of its own, so the result parses to the same value.
 pub fn json(text: &str) -> Cow<'_, str> {
     let steers = |c: char| is_steering(c) && !is_layout(c);
-    if text.bytes().all(|byte| byte == b'\n' || (0x20..0x7f).contains(&byte))
-        || !text.chars().any(steers)
-    {
+    if is_plain(text.as_bytes()) || !text.chars().any(steers) {
         return Cow::Borrowed(text);
     }
     let mut out = String::with_capacity(text.len() + 16);

@@ -71,15 +71,22 @@ pub(super) fn csv<'a>(rows: impl IntoIterator<Item = &'a [TableCell]>) -> String
 
 /// One line of comma-separated values, quoted where that is needed.
 pub(super) fn record(fields: impl IntoIterator<Item = String>) -> String {
-    let fields = fields.into_iter().map(|field| {
-        let field = printable::line(&field).into_owned();
-        if field.contains([',', '"', '#']) {
-            format!("\"{}\"", field.replace('"', "\"\""))
-        } else {
-            field
+    let mut out = String::new();
+    for (i, field) in fields.into_iter().enumerate() {
+        if i > 0 {
+            out.push(',');
         }
-    });
-    fields.collect::<Vec<_>>().join(",") + "\n"
+        let field = printable::line(&field);
+        if field.bytes().any(|byte| matches!(byte, b',' | b'"' | b'#')) {
+            out.push('"');
+            out.push_str(&field.replace('"', "\"\""));
+            out.push('"');
+        } else {
+            out.push_str(&field);
+        }
+    }
+    out.push('\n');
+    out
 }
 
 /// Columns of text, numbers to the right.

@@ -159,14 +159,15 @@ enum CliCommand {
 /// Executes the arguments, of which the first is the program's name.
 pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     let words: Vec<OsString> = arguments.into_iter().collect();
-    let (of_screen, words) = match options_first(&words) {
+    let mut whole = command();
+    let (of_screen, words) = match options_first(&whole, &words) {
         Ok(parts) => parts,
         Err(message) => {
             stderr::report(&message);
             return CommandError::WrongUse(message).code();
         }
     };
-    let read = command().try_get_matches_from(&words);
+    let read = whole.try_get_matches_from_mut(&words);
     let read = read.and_then(|m| Ok((Arguments::from_arg_matches(&m)?, options_after(&m))));
     let (arguments, after) = match read {
         Ok(read) => read,
@@ -208,12 +209,15 @@ const OF_LAB_ALONE: [&str; 4] = ["--resume", "--watch", "--log", "--demo"];
 
 /// Takes options of the laboratory before the name of a command apart from the words of the command, or says that they do
 /// not belong there. Words without such a command are left as they are.
-fn options_first(words: &[OsString]) -> Result<(Vec<OsString>, Vec<OsString>), String> {
-    let whole = command();
+fn options_first(
+    whole: &clap::Command,
+    words: &[OsString],
+) -> Result<(Vec<OsString>, Vec<OsString>), String> {
     let names: Vec<&str> = whole.get_subcommands().map(clap::Command::get_name).collect();
     let is_command = |word: &OsString| word.to_str().is_some_and(|word| names.contains(&word));
     let only_options = |at: &usize| {
-        parse(command(), &words[..*at]).is_ok_and(|a| a.command.is_none() && a.lab.name.is_none())
+        let read = parse(whole.clone(), &words[..*at]);
+        read.is_ok_and(|a| a.command.is_none() && a.lab.name.is_none())
     };
     let found = (2..words.len()).find(|at| is_command(&words[*at]));
     let Some(at) = found.filter(only_options) else {

@@ -3,6 +3,7 @@
 //! In: text in a [`OutputForm`]. Out: a file or a stream, without terminal control characters. Never here: what the text
 //! means.
 
+use std::borrow::Cow;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Stdout, Write};
 use std::path::Path;
@@ -229,12 +230,19 @@ fn describes_a_system(path: &Path) -> bool {
 impl Write for Output {
     /// Accepts whole characters, as `write!` and the JSON writers give them.
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        let text = String::from_utf8_lossy(bytes);
-        let safe = match self.form {
-            OutputForm::Text => printable::lines(&text),
-            OutputForm::Coloured => printable::coloured(&text),
-            OutputForm::Json => printable::json(&text),
-            OutputForm::Picture => return self.writer.write(bytes),
+        if matches!(self.form, OutputForm::Picture) {
+            return self.writer.write(bytes);
+        }
+        let safe = if printable::is_plain(bytes) {
+            Cow::Borrowed(bytes)
+        } else {
+            let text = String::from_utf8_lossy(bytes);
+            let escape = match self.form {
+                OutputForm::Json => printable::json,
+                OutputForm::Coloured => printable::coloured,
+                OutputForm::Text | OutputForm::Picture => printable::lines,
+            };
+            Cow::Owned(escape(&text).into_owned().into_bytes())
         };
         if let Some(interrupt) = &self.interrupt
             && interrupt.signal().is_some()
@@ -242,7 +250,7 @@ impl Write for Output {
         {
             interrupt.writes();
         }
-        self.writer.write_all(safe.as_bytes())?;
+        self.writer.write_all(&safe)?;
         if let Some(interrupt) = &self.interrupt {
             interrupt.taken();
         }

@@ -88,7 +88,7 @@ pub(super) struct Arguments {
     output: Option<PathBuf>,
 }
 
-/// The number of times that the gauges are sampled, whatever the rows.
+/// The number of times that the gauges are sampled at most, whatever the rows.
 const OBSERVATIONS: f64 = 1000.0;
 
 pub(super) fn execute(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
@@ -162,6 +162,7 @@ pub(super) fn execute(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         return Err(pole.map_or(refused, CommandError::CouldNot));
     }
     experiment.forget_past();
+    experiment.record_for_gauges_only();
     // where none is given, the step that the method has chosen at the start
     let step = Some(experiment.snapshot().method.step).filter(|step| *step > 0.0);
     let used = Settings { step: settings.step.or(step), ..settings };

@@ -169,6 +169,11 @@ impl Experiment {
         self.only_ends = true;
     }
 
+    /// Only the gauges see the recorded rows from now on, of which there are then fewer.
+    pub fn record_for_gauges_only(&mut self) {
+        self.row_spacing.see_gauges_only();
+    }
+
     /// Remembers no states between steps from now on: the motion cannot be carried back.
     pub fn forget_past(&mut self) {
         self.motion.forget_past();

@@ -67,7 +67,7 @@ impl DriftWatch {
         observed.observe(state)?;
         let now = observed.present(state);
         gauges.refer(&now);
-        gauges.sample(&now, false);
+        gauges.observe(&now);
         Ok(())
     }
 

@@ -10,6 +10,12 @@ use crate::num::math;
 /// A step of a high-order method covers about a sixth of an oscillation.
 const ROWS_PER_LONG_STEP: f64 = 32.0;
 
+/// The number of rows in a step of a series where only the gauges see them: the motion is as accurate within it as at its end.
+const SAMPLES_PER_LONG_STEP: f64 = 4.0;
+
+/// The greatest multiple of the setup's spacing that lies between two rows which only the gauges see.
+const SPARSEST_SAMPLES: f64 = 4.0;
+
 /// The number of rows in a frame, at an unlimited speed, beyond which they are recorded farther apart, and below which
 /// closer together: a quarter of the rows that are kept in full, and an eighth of that.
 const MOST_ROWS: u64 = 2048;
@@ -26,17 +32,24 @@ pub(super) struct RowSpacing {
     rows: u64,
     /// How many times farther apart rows are at an unlimited speed than a smooth curve needs; a power of two.
     sparseness: f64,
+    /// Whether only the gauges see the rows.
+    only_gauges: bool,
 }
 
 impl Default for RowSpacing {
     fn default() -> RowSpacing {
-        RowSpacing { rows: 0, sparseness: 1.0 }
+        RowSpacing { rows: 0, sparseness: 1.0, only_gauges: false }
     }
 }
 
 impl RowSpacing {
     pub(super) fn row_recorded(&mut self) {
         self.rows += 1;
+    }
+
+    /// Only the gauges see the rows from now on.
+    pub(super) fn see_gauges_only(&mut self) {
+        self.only_gauges = true;
     }
 
     /// Adjusts the sparseness to the rows recorded since the last frame, at this speed.
@@ -51,16 +64,20 @@ impl RowSpacing {
     }
 
     /// The time to the next row. It is short enough for a smooth curve, as estimated from the method's step, but not
-    /// shorter than the setup's spacing, and not so long that the trail lags behind at the current speed.
+    /// shorter than the setup's spacing, and not so long that the trail lags behind at the current speed. Where only the gauges
+    /// see the rows, a few in each step of a series suffice.
     pub(super) fn to_next(&self, setup: &Setup, motion: &ObservedMotion) -> f64 {
         let sparseness = if setup.speed.is_finite() { 1.0 } else { self.sparseness };
         let least = setup.spacing * sparseness;
-        let per_step = match motion.method().stepping {
-            Stepping::Adaptive => ROWS_PER_LONG_STEP,
-            Stepping::Fixed => 1.0,
+        let of_series = motion.method().order.is_none();
+        let (per_step, most) = match motion.method().stepping {
+            Stepping::Adaptive if self.only_gauges && of_series => {
+                (SAMPLES_PER_LONG_STEP, least * SPARSEST_SAMPLES)
+            }
+            Stepping::Adaptive => (ROWS_PER_LONG_STEP, least.max(setup.speed * LONGEST_LAG)),
+            Stepping::Fixed => (1.0, least.max(setup.speed * LONGEST_LAG)),
         };
         let smooth = motion.step_size().abs() / per_step * sparseness;
-        let most = least.max(setup.speed * LONGEST_LAG);
         if smooth <= least {
             return least;
         }

@@ -30,6 +30,8 @@ pub struct BatchSeries {
     /// What depends on the parameters of one lane alone is computed here.
     single: Jet<f64>,
     origins: Vec<[DoubleDouble; BATCH]>,
+    /// Whether no number at the origin is so small that products may underflow.
+    keeps_digits: [bool; BATCH],
     times: [DoubleDouble; BATCH],
     scale: Batch,
     /// The coefficients of one number of one lane, gathered.
@@ -58,6 +60,7 @@ impl System {
             builder: SeriesBuilder::new(jet, inputs, len),
             code: CompiledGrowth::new((!self.interpreted).then_some(&self.motion().code)),
             origins: vec![[DoubleDouble::ZERO; BATCH]; len],
+            keeps_digits: [true; BATCH],
             times: [DoubleDouble::ZERO; BATCH],
             scale: Batch::ONE,
             gathered: Vec::with_capacity(order),
@@ -92,6 +95,7 @@ impl BatchSeries {
     }
 
     /// The units of time.
+    #[inline]
     pub fn scale(&self) -> Batch {
         self.scale
     }
@@ -99,9 +103,12 @@ impl BatchSeries {
     /// Sets the state of a lane, of the native form.
     pub fn set_state(&mut self, lane: usize, state: &State) {
         self.times[lane] = state.exact_time();
-        for (i, origin) in self.origins.iter_mut().enumerate() {
-            origin[lane] = state.exact(i);
-            self.builder.origin_mut(i).0[lane] = state.values[i];
+        self.keeps_digits[lane] = true;
+        let values = state.values.iter().zip(&state.carry);
+        for ((i, origin), (&high, &low)) in self.origins.iter_mut().enumerate().zip(values) {
+            origin[lane] = DoubleDouble { high, low };
+            self.builder.origin_mut(i).0[lane] = high;
+            self.keeps_digits[lane] &= !underflow::is_small(high);
         }
     }
 
@@ -116,11 +123,13 @@ impl BatchSeries {
     }
 
     /// Whether no number at the origin of a lane is so small that products may underflow.
+    #[inline]
     pub fn keeps_digits(&self, lane: usize) -> bool {
-        !self.origins.iter().any(|origin| underflow::is_small(origin[lane].high))
+        self.keeps_digits[lane]
     }
 
     /// The time at the origin of a lane.
+    #[inline]
     pub fn time(&self, lane: usize) -> DoubleDouble {
         self.times[lane]
     }
@@ -182,14 +191,15 @@ impl BatchSeries {
         self.builder.jet.tangents()
     }
 
-    /// Writes the states at times after the origins into `out`, in the lanes that have one, by the
+    /// Writes the states at times after the origins into `out`, in the lanes that are moving, by the
     /// polynomials.
     pub fn states_after(
         &mut self,
         after: &[DoubleDouble; BATCH],
-        out: [Option<&mut State>; BATCH],
+        moving: &[bool; BATCH],
+        out: &mut [State; BATCH],
     ) {
-        vectorized(States { series: self, after, out });
+        vectorized(States { series: self, after, moving, out });
     }
 
     /// Writes the state of one lane at a time `after` its origin into `out`.
@@ -235,7 +245,8 @@ fn plus_origin<const FUSED: bool>(
 struct States<'a> {
     series: &'a mut BatchSeries,
     after: &'a [DoubleDouble; BATCH],
-    out: [Option<&'a mut State>; BATCH],
+    moving: &'a [bool; BATCH],
+    out: &'a mut [State; BATCH],
 }
 
 impl Kernel for States<'_> {
@@ -244,7 +255,7 @@ impl Kernel for States<'_> {
 
     #[inline(always)]
     fn run<const FUSED: bool>(self) {
-        let States { series, after, mut out } = self;
+        let States { series, after, moving, out } = self;
         let x: [DoubleDouble; BATCH] =
             std::array::from_fn(|lane| after[lane] * series.scale.0[lane].recip());
         let high = Batch(x.map(|x| x.high));
@@ -252,7 +263,9 @@ impl Kernel for States<'_> {
             let tail = tails(&series.builder.series(i)[1..], high);
             let sums = plus_origin::<FUSED>(tail, high, &series.origins[i]);
             for (lane, out) in out.iter_mut().enumerate() {
-                let Some(out) = out else { continue };
+                if !moving[lane] {
+                    continue;
+                }
                 if x[lane].low == 0.0 {
                     (out.values[i], out.carry[i]) = (sums.0.0[lane], sums.1.0[lane]);
                     continue;
@@ -263,10 +276,8 @@ impl Kernel for States<'_> {
                 out.set(i, polynomial.with_tail::<_, FUSED>(ScalarLanes, tail.0[lane]));
             }
         }
-        for (lane, out) in out.into_iter().enumerate() {
-            let Some(out) = out else { continue };
-            let time = series.times[lane] + after[lane];
-            (out.time, out.time_carry) = (time.high, time.low);
+        for lane in (0..BATCH).filter(|&lane| moving[lane]) {
+            out[lane].set_time(series.times[lane] + after[lane]);
         }
     }
 }

@@ -54,6 +54,13 @@ pub(super) fn eliminate(
         if couplings.iter().any(|&(_, a)| pool.depends_on_any(a, &of_pivot)) {
             continue;
         }
+        // constants are shorter than what varies
+        let mut among = coupled.iter().flat_map(|&i| coupled.iter().map(move |&j| (i, j)));
+        if couplings.iter().any(|&(_, a)| pool.depends_on_any(a, &varying))
+            && !among.any(|(i, j)| pool.depends_on_any(matrix[i][j], &varying))
+        {
+            continue;
+        }
         let Some(rest) = shorter_rest(pool, matrix, place, &couplings) else { continue };
         for (i, j, entry) in rest {
             (matrix[i][j], matrix[j][i]) = (entry, entry);

@@ -82,15 +82,17 @@ impl EventFunctions {
 
     fn expansion(&mut self, order: usize) -> &mut Expansion {
         let (system, parameters) = (&self.system, self.native.parameters());
-        let expansion = self.expansion.take().filter(|known| known.order() == order);
-        self.expansion.insert(expansion.unwrap_or_else(|| {
+        if self.expansion.as_ref().is_some_and(|known| known.order() != order) {
+            self.expansion = None;
+        }
+        self.expansion.get_or_insert_with(|| {
             let discontinuities = system.discontinuities();
             let (program, functions) =
                 (Arc::clone(&discontinuities.variation), discontinuities.events.len());
             let mut new = Expansion::new(system, program, functions, order);
             new.set_parameters(&system.inputs(parameters));
             new
-        }))
+        })
     }
 
     /// The coefficients of an event's function from the last [expansion](EventFunctions::expand).

@@ -68,6 +68,7 @@ impl<R: Coefficient> SeriesBuilder<R> {
         SeriesBuilder { jet, order, inputs, state, kept: Vec::new(), depth: 1, steered }
     }
 
+    #[inline]
     pub(super) fn series(&self, i: usize) -> &[R] {
         &self.state[i * (self.order + 1)..][..=self.order]
     }
@@ -112,6 +113,7 @@ impl<R: Coefficient> SeriesBuilder<R> {
         self.state[i * (self.order + 1)] = x;
     }
 
+    #[inline]
     pub(super) fn origin_mut(&mut self, i: usize) -> &mut R {
         &mut self.state[i * (self.order + 1)]
     }

@@ -51,21 +51,25 @@ impl State {
     }
 
     /// The time, including what was cut off.
+    #[inline]
     pub fn exact_time(&self) -> DoubleDouble {
         DoubleDouble { high: self.time, low: self.time_carry }
     }
 
     /// Takes both parts of a time.
+    #[inline]
     pub fn set_time(&mut self, time: DoubleDouble) {
         (self.time, self.time_carry) = (time.high, time.low);
     }
 
     /// A number of the state, including what was cut off.
+    #[inline]
     pub fn exact(&self, i: usize) -> DoubleDouble {
         DoubleDouble { high: self.values[i], low: self.carry[i] }
     }
 
     /// Sets a number of the state.
+    #[inline]
     pub fn set(&mut self, i: usize, x: DoubleDouble) {
         (self.values[i], self.carry[i]) = (x.high, x.low);
     }
@@ -79,6 +83,7 @@ impl State {
     }
 
     /// Whether every number is finite.
+    #[inline]
     pub fn is_finite(&self) -> bool {
         self.time.is_finite() && self.values.iter().all(|x| x.is_finite())
     }

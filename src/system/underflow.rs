@@ -18,6 +18,7 @@ const ORDINARY: f64 = 1e100;
 pub(super) const LEAST_LEADING: f64 = 1e-246;
 
 /// Whether a number of a state is so small that the law's products may underflow.
+#[inline]
 pub(super) fn is_small(number: f64) -> bool {
     number != 0.0 && number.abs() < 1.0 / ORDINARY
 }

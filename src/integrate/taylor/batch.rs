@@ -21,7 +21,6 @@ use crate::system::{BatchSeries, State, System};
 #[derive(Clone, Debug)]
 struct TaylorLane {
     status: LaneStatus,
-    state: State,
     unit: UnitOfTime,
     /// The longest step.
     stride: f64,
@@ -33,6 +32,7 @@ pub(in crate::integrate) struct TaylorBatch {
     system: System,
     series: BatchSeries,
     rule: BatchStepSize,
+    states: [State; BATCH],
     lanes: [TaylorLane; BATCH],
 }
 
@@ -51,15 +51,16 @@ impl TaylorBatch {
         let series = system.batch_series(orders.highest)?;
         let lane = TaylorLane {
             status: LaneStatus::Empty,
-            state: State::new(0.0, system.form(), vec![0.0; system.state_len()]),
             unit: UnitOfTime::default(),
             stride: 0.0,
             limit: DecimalLimit::NONE,
         };
+        let state = State::new(0.0, system.form(), vec![0.0; system.state_len()]);
         Some(TaylorBatch {
             system: system.clone(),
             series,
             rule: BatchStepSize::new(tolerance, orders),
+            states: std::array::from_fn(|_| state.clone()),
             lanes: std::array::from_fn(|_| lane.clone()),
         })
     }
@@ -74,7 +75,7 @@ impl TaylorBatch {
         let own = &mut self.lanes[lane];
         own.status = match self.system.convert(state, self.system.form(), parameters) {
             Ok(state) if regular => {
-                own.state = state;
+                self.states[lane] = state;
                 LaneStatus::Underway
             }
             _ => LaneStatus::Irregular,
@@ -93,7 +94,7 @@ impl TaylorBatch {
     }
 
     pub(in crate::integrate) fn state(&self, lane: usize) -> &State {
-        &self.lanes[lane].state
+        &self.states[lane]
     }
 
     /// Takes a step in every lane that is under way. Returns false if it was cancelled.
@@ -101,15 +102,14 @@ impl TaylorBatch {
     pub(in crate::integrate) fn step(&mut self, limits: &[f64; BATCH]) -> bool {
         let mut left = [DoubleDouble::ZERO; BATCH];
         let going: [bool; BATCH] = std::array::from_fn(|i| {
-            let TaylorLane { status, state, .. } = &self.lanes[i];
-            *status == LaneStatus::Underway && state.time != limits[i]
+            self.lanes[i].status == LaneStatus::Underway && self.states[i].time != limits[i]
         });
         for (i, lane) in self.lanes.iter_mut().enumerate() {
             if going[i] {
-                left[i] = lane.limit.exact(limits[i]) - lane.state.exact_time();
+                left[i] = lane.limit.exact(limits[i]) - self.states[i].exact_time();
                 let scale = lane.unit.next(self.series.scale().0[i], left[i].high);
                 self.series.set_scale(i, scale);
-                self.series.set_state(i, &lane.state);
+                self.series.set_state(i, &self.states[i]);
             }
         }
         let Some(steps) = self.expand(going, &left) else { return false };
@@ -117,7 +117,7 @@ impl TaylorBatch {
         for (i, lane) in self.lanes.iter_mut().enumerate() {
             if going[i] {
                 let scale = self.series.scale().0[i].abs();
-                match lane.choose(steps[i], scale, left[i]) {
+                match lane.choose(steps[i], scale, (self.states[i].time, left[i])) {
                     Some(chosen)
                         if self.series.keeps_digits(i)
                             && !may_hide_in_lane(&self.series, i, (chosen.high / scale).abs()) =>
@@ -128,16 +128,11 @@ impl TaylorBatch {
                 }
             }
         }
-        let mut i = 0..BATCH;
-        let states = self.lanes.each_mut().map(|lane| {
-            let going = i.next().is_some_and(|i| going[i]) && lane.status == LaneStatus::Underway;
-            going.then_some(&mut lane.state)
-        });
-        self.series.states_after(&after, states);
-        for (i, lane) in self.lanes.iter_mut().enumerate() {
-            if going[i] && lane.status == LaneStatus::Underway {
-                lane.arrive(self.series.time(i), limits[i], left[i]);
-            }
+        let moving =
+            std::array::from_fn(|i| going[i] && self.lanes[i].status == LaneStatus::Underway);
+        self.series.states_after(&after, &moving, &mut self.states);
+        for (i, lane) in self.lanes.iter_mut().enumerate().filter(|(i, _)| moving[*i]) {
+            lane.arrive(&mut self.states[i], self.series.time(i), (limits[i], left[i]));
         }
         true
     }
@@ -180,7 +175,7 @@ impl TaylorBatch {
     }
 
     pub(in crate::integrate) fn interval(&self, lane: usize) -> (f64, f64) {
-        (self.series.time(lane).high, self.lanes[lane].state.time)
+        (self.series.time(lane).high, self.states[lane].time)
     }
 
     /// The series of the last step.
@@ -195,21 +190,21 @@ impl TaylorBatch {
         time: DoubleDouble,
         out: &mut State,
     ) {
-        out.copy_from(&self.lanes[lane].state);
-        if time != self.lanes[lane].state.exact_time() {
+        out.copy_from(&self.states[lane]);
+        if time != self.states[lane].exact_time() {
             self.write_state(lane, time, out);
         }
     }
 
     fn write_state(&mut self, lane: usize, time: DoubleDouble, out: &mut State) {
         let begin = self.series.time(lane);
-        let step = self.lanes[lane].state.exact_time() - begin;
+        let step = self.states[lane].exact_time() - begin;
         self.series.state_after(lane, part_of_step(time - begin, step), out);
     }
 
     /// Writes the state of a lane at a time within its last step into `out`.
     pub(in crate::integrate) fn at(&mut self, lane: usize, time: f64, out: &mut State) {
-        let state = &self.lanes[lane].state;
+        let state = &self.states[lane];
         out.copy_from(state);
         if time != state.time {
             self.write_state(lane, DoubleDouble::from_decimal(time), out);
@@ -219,13 +214,17 @@ impl TaylorBatch {
 }
 
 impl TaylorLane {
-    /// The time to step, where the series allows `step` in its unit `scale`; `None` where that is out
-    /// of the ordinary.
-    fn choose(&mut self, step: f64, scale: f64, left: DoubleDouble) -> Option<DoubleDouble> {
+    /// The time to step from a time with so much `left`, where the series allows `step` in its unit `scale`; `None` where that is
+    /// out of the ordinary.
+    fn choose(
+        &mut self,
+        step: f64,
+        scale: f64,
+        (time, left): (f64, DoubleDouble),
+    ) -> Option<DoubleDouble> {
         let wanted = step.min(left.high.abs());
         let near = (scale * NEARBY_UNITS.0..=scale * NEARBY_UNITS.1).contains(&wanted);
-        let vanishing =
-            step < VANISHING_IN_F64 * self.stride || step < SOON_STALLED * self.state.time.abs();
+        let vanishing = step < VANISHING_IN_F64 * self.stride || step < SOON_STALLED * time.abs();
         if step.is_nan() || !near || vanishing {
             return None;
         }
@@ -238,13 +237,18 @@ impl TaylorLane {
         Some(after)
     }
 
-    /// Ends a step that began at a time.
-    fn arrive(&mut self, begin: DoubleDouble, limit: f64, left: DoubleDouble) {
+    /// Ends a step that began at a time, with so much left to a limit.
+    fn arrive(
+        &mut self,
+        state: &mut State,
+        begin: DoubleDouble,
+        (limit, left): (f64, DoubleDouble),
+    ) {
         if self.unit.taken.is_none() {
-            self.state.time = limit;
+            state.time = limit;
         }
-        let moved = (self.state.exact_time() - begin).high.abs() > 0.0;
-        if !self.state.is_finite() || !(moved || left.high == 0.0) {
+        let moved = (state.exact_time() - begin).high.abs() > 0.0;
+        if !state.is_finite() || !(moved || left.high == 0.0) {
             self.status = LaneStatus::Irregular;
         }
     }

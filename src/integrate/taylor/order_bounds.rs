@@ -94,14 +94,17 @@ impl OrderBounds {
         indulgence: impl Fn(usize) -> f64,
     ) -> OrderBounds {
         let only = |known: bool, x: f64| if known { x } else { f64::NEG_INFINITY };
+        let (roots, part) = (table.map(math::exp), math::exp(log_part));
         let chunk = |k: usize, first: usize| {
             let lanes = |of: &dyn Fn(usize) -> f64| std::array::from_fn(|i| of(first + i));
-            let factor = |j: usize, log: f64| {
-                CLEARLY * math::exp(k.saturating_sub(j).max(1) as f64 * (log + indulgence(k)))
+            let longer = math::exp(indulgence(k));
+            let factor = |j: usize, known: bool, root: f64| match known {
+                true => CLEARLY * math::powi(root * longer, (k - j) as i32),
+                false => 0.0,
             };
             BoundChunk {
-                tolerance_factors: lanes(&|j| factor(j, only(j < k, table[j]))),
-                radius_factors: lanes(&|j| factor(j, only((2..k - 1).contains(&j), log_part))),
+                tolerance_factors: lanes(&|j| factor(j, j < k, roots[j])),
+                radius_factors: lanes(&|j| factor(j, (2..k - 1).contains(&j), part)),
                 reciprocals: lanes(&|j| if j < k { 1.0 / (k - j) as f64 } else { 1.0 }),
                 by_tolerance: lanes(&|j| only(j < k, table[j])),
                 by_radius: lanes(&|j| only((2..k - 1).contains(&j), log_part)),

@@ -84,7 +84,10 @@ pub(super) fn has_velocity(series: &Series) -> bool {
 #[derive(Clone, Debug)]
 pub(super) struct StepSize {
     motion: Shares,
-    integrals: Shares,
+    /// Those of what does not act on the motion, once there is such a number.
+    integrals: Option<Shares>,
+    /// The tolerance of the last terms of the motion.
+    tolerance: f64,
     /// The number whose series allowed the least last time. Taken first, it mostly shows that the others allow more.
     pub(super) least: usize,
 }
@@ -94,7 +97,8 @@ impl StepSize {
         let SeriesOrders { highest, share, .. } = orders;
         StepSize {
             motion: Shares::of_motion(tolerance * share, highest),
-            integrals: Shares::of_integrals(tolerance * share, highest),
+            integrals: None,
+            tolerance: tolerance * share,
             least: 0,
         }
     }
@@ -131,8 +135,12 @@ impl StepSize {
         counts: SeriesCounts,
         coefficients_of: impl Fn(usize) -> &'a [f64],
     ) -> f64 {
-        let StepSize { motion, integrals: spared, least } = self;
         let SeriesCounts { inputs, switches, integrals } = counts;
+        if integrals > 0 && self.integrals.is_none() {
+            self.integrals = Some(Shares::of_integrals(self.tolerance, self.motion.order));
+        }
+        let StepSize { motion, integrals: spared, least, .. } = self;
+        let spared = spared.as_ref().unwrap_or(motion);
         let mut shortest = ShortestStep::new();
         let first = *least;
         // in one loop, so that there is one copy of what it does
@@ -142,7 +150,7 @@ impl StepSize {
                 place if place <= first => place - 1,
                 place => place,
             };
-            let shares = if i < inputs + switches { &*motion } else { &*spared };
+            let shares = if i < inputs + switches { &*motion } else { spared };
             if shortest.take(lanes, coefficients_of(i), shares) && i < inputs {
                 *least = i;
             }

@@ -31,6 +31,33 @@ fn every_preset_has_a_gauge_for_all_that_is_conserved() {
     }
 }
 
+/// Within the long steps of a series a few samples say as much of a gauge as the rows of a smooth curve.
+#[test]
+fn gauges_need_fewer_rows_than_a_curve() {
+    let pendulum = "title = \"T\"\n[coordinates]\nx = { initial = 1 }\n[lagrangian]\nL = \"1/2*x'^2 + cos(x)\"\n";
+    let fall =
+        "title = \"T\"\n[coordinates]\nx = { initial = 1 }\n[lagrangian]\nL = \"1/2*x'^2 - x\"\n";
+    let run = |text: &str, tolerance: Option<f64>, only_gauges: bool| {
+        let mut system = build(text, |setup| {
+            setup.spacing = 0.01;
+            setup.settings.tolerance = tolerance;
+        });
+        if only_gauges {
+            system.record_for_gauges_only();
+        }
+        run(&mut system, 10.0);
+        let snapshot = system.snapshot();
+        (snapshot.trail.len(), gauge(&snapshot, "energy"))
+    };
+    for text in [pendulum, fall] {
+        let ((shown, _), (sampled, energy)) = (run(text, None, false), run(text, None, true));
+        assert!(shown > 500 && (250..=510).contains(&sampled), "{shown} {sampled}");
+        assert!(matches!(energy.verdict, Verdict::Exact(_)), "{energy:?}");
+    }
+    let drifts = [false, true].map(|only| run(pendulum, Some(1e-3), only).1.max_drift);
+    assert!(drifts[1] > 1e-7 && (0.5..=1.0).contains(&(drifts[1] / drifts[0])), "{drifts:?}");
+}
+
 #[test]
 fn cyclic_momenta_say_why() {
     let mut top = shipped("heavy-top");

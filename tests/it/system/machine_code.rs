@@ -23,6 +23,9 @@ const LAWS: &[(&str, &str)] = &[
     ("x'^2 + y'^2 + z'^2 + x'*y'*cos(x - y) + y'*z'*cos(y - z)/2 + x'*z'*sin(z)/3", "cos(x + y)*z"),
 ];
 
+/// So many series are wanted before they are built by machine code.
+const WANTED: usize = 200;
+
 fn file(kinetic: &str, potential: &str) -> String {
     let z = if kinetic.contains('z') { "z = { initial = 0.3, velocity = 0.1 }\n" } else { "" };
     format!(
@@ -58,7 +61,8 @@ fn compare(system: &System, parameters: &[DoubleDouble], (order, exact): (usize,
         series.set_parameters(parameters);
     }
     let mut by_code = 0;
-    for i in 0..70 {
+    (0..WANTED).for_each(|_| compiled.build(&state).expect("regular"));
+    for i in 0..16 {
         state.values.fill_with(|| numbers.next().expect("endless"));
         for series in [&mut compiled, &mut interpreted] {
             series.set_scale(if i % 2 == 0 { 0.25 } else { -0.5 });
@@ -103,7 +107,7 @@ fn every_operation_has_the_bits_of_the_jet_in_all_lanes() {
         let [Some(mut compiled), Some(mut interpreted)] = series else { continue };
         let mut numbers = noise(order as u64);
         let mut by_code = 0;
-        for step in 0..70 {
+        for step in 0..WANTED / BATCH + 10 {
             for lane in 0..BATCH {
                 let values = numbers.by_ref().take(system.state_len()).collect();
                 let state = State::new(0.3 * lane as f64, system.form(), values);
@@ -145,7 +149,7 @@ fn zeros_have_the_sign_that_the_jet_gives_them() {
                 for series in [&mut compiled, &mut interpreted] {
                     series.set_parameters(&parameters);
                     series.set_scale(-0.5);
-                    (0..70).for_each(|_| series.build(&state).expect("regular"));
+                    (0..WANTED).for_each(|_| series.build(&state).expect("regular"));
                 }
                 assert!(compiled.is_compiled());
                 assert_eq!(bits(&compiled), bits(&interpreted), "{potential}: {values:?}");
@@ -161,7 +165,7 @@ fn a_root_of_zero_and_a_kink_are_left_to_the_jet() {
         let mut series = system.series(12, 0);
         series.set_parameters(&system.inputs(&model.parameter_values()));
         let state = State::new(0.0, system.form(), vec![0.0, 0.5, 0.0, 0.0]);
-        (0..70).for_each(|_| series.build(&state).expect("a motion in the plane of symmetry"));
+        (0..WANTED).for_each(|_| series.build(&state).expect("a motion in the plane of symmetry"));
         series.is_compiled()
     };
     assert!(!at_zero("(x^2 + x^2*y^2)^(5/2)"));

@@ -7,8 +7,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 use super::compile::{Compiled, SeriesExtent, compile};
 use crate::system::jet::JetPlan;
 
-/// A function is compiled when it is wanted for so many orbits: short motions end before it pays.
-const COMPILE_THRESHOLD: usize = 64;
+/// A function is compiled when it is wanted for so many orbits: short motions end before it pays. To compile all orders of a series
+/// takes as many instructions as the code then spares in 100 to 300 of them; values alone, whose code is far shorter, pay sooner.
+const COMPILE_THRESHOLD: usize = 192;
 
 /// The functions for one program; clones share them.
 #[derive(Clone, Debug, Default)]
