@@ -37,9 +37,10 @@ impl App {
         });
         let known = lab.loaded.system.channel_of(expression).map(channel_name);
         let known = known.filter(|name| !name.is_empty());
-        // A dot above a letter is no name that anybody types.
+        // An expression with a rate has the name that was typed, which no prime or dot above a letter changes.
         let shown = model.pool.with_shown_names(&typed);
-        let shown = if shown.contains(['\u{307}', '\u{308}']) { typed.clone() } else { shown };
+        let has_rate = shown.contains(['′', '″', '\u{307}', '\u{308}']);
+        let shown = if has_rate { typed.clone() } else { shown };
         let name = known.clone().unwrap_or(shown);
         let axis = TypedAxis { plot, begun, name: name.clone() };
         if known.is_some() {
