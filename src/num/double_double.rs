@@ -10,6 +10,7 @@
 
 mod elementary;
 
+use std::io::Write as _;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// `high + low`, with `low` at most half a unit in the last place of `high`. It is accurate for
@@ -115,8 +116,7 @@ fn decimal(x: f64) -> Option<(i64, i32)> {
     // Of few digits: no other integer is as close to x · 10ᵏ as the rounding of that product and
     // half a unit in the last place of x, which are below 3/16 together, and the quotient of two
     // exact numbers is rounded as a literal is.
-    // From five digits behind the point on the shortest decimal is found faster.
-    for (k, power) in (1..).zip(&POWERS[1..5]) {
+    for (k, power) in (1..).zip(&POWERS[1..16]) {
         let digits = (x * power).round();
         if digits.abs() >= FEW {
             break;
@@ -125,21 +125,25 @@ fn decimal(x: f64) -> Option<(i64, i32)> {
             return Some((digits as i64, -k));
         }
     }
-    let mut buffer = ryu::Buffer::new();
-    let text = buffer.format_finite(x);
-    let (text, exponent) = text.split_once('e').unwrap_or((text, "0"));
+    let mut text = [0_u8; 32];
+    let mut rest = &mut text[..];
+    write!(rest, "{x:e}").ok()?;
+    let left = rest.len();
+    let length = text.len() - left;
     let (mut digits, mut behind_point, mut fraction) = (0_i64, 0, false);
-    for byte in text.bytes() {
+    let mut bytes = text[..length].iter();
+    for byte in bytes.by_ref() {
         match byte {
             b'-' => {}
             b'.' => fraction = true,
+            b'e' => break,
             digit => {
                 digits = 10 * digits + i64::from(digit - b'0');
                 behind_point += i32::from(fraction);
             }
         }
     }
-    let exponent: i32 = exponent.parse().ok()?;
+    let exponent: i32 = std::str::from_utf8(bytes.as_slice()).ok()?.parse().ok()?;
     Some((if x < 0.0 { -digits } else { digits }, exponent - behind_point))
 }
 
