@@ -49,6 +49,21 @@ fn the_oscillator_for_a_thousand_periods() {
     near(&run.to(6283.0), &[6283.0_f64.cos(), -6283.0_f64.sin()], 1.2e-16);
 }
 
+/// To t = 20 a disturbance grows by many powers of ten. The reference is a series in 113 bits (heyoka, `real128`, tolerance 1e-31).
+#[test]
+fn a_chaotic_double_pendulum_beside_a_reference_in_113_bits() {
+    let mut run = Run::new(
+        "title = \"Double pendulum\"\n[coordinates]\na = { initial = 1.5 }\nb = { initial = 2.0 }\n[parameters]\ng = 9.81\n[lagrangian]\nL = \"a'^2 + 1/2*b'^2 + a'*b'*cos(a - b) + 2*g*cos(a) + g*cos(b)\"\n",
+    );
+    let reference = [
+        2.007_929_433_812_212,
+        0.290_543_939_961_414_9,
+        -1.431_714_225_349_443,
+        -2.084_988_182_921_548,
+    ];
+    near(&run.to(20.0), &reference, 1e-14);
+}
+
 #[test]
 fn keplers_ellipse_over_ten_periods() {
     // after whole and half periods it is at its initial position, 0.1 and 1.9 from the centre; in between

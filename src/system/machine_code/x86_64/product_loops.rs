@@ -51,6 +51,7 @@ impl ProductLoops {
         bytes.point(RIGHT, right);
         let whole = terms / APART;
         let before = 2 - whole % 2;
+        debug_assert!(whole > before, "{terms}");
         bytes.count(COUNT, ((whole - before) / 2) as u32);
         self.calls.push((Kind { width, distance, before, rest: terms % APART }, bytes.call()));
         VectorRegister(0)
