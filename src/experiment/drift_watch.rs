@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use super::gauges::{GaugeInputs, Gauges};
+use super::gauges::{GaugeInputs, Gauges, by_rounding_of_state};
 use super::snapshot::Gauge;
 use crate::analysis::Errors;
 use crate::mechanics::{Equations, Valuation};
@@ -88,13 +88,16 @@ impl DriftWatch {
     /// Observes the end of a step, for which the sums over the terms of the quantities at these places were evaluated elsewhere.
     pub(super) fn step_with(
         &mut self,
-        time: f64,
+        state: &State,
         sums: impl Iterator<Item = (usize, TermSums)>,
         work: f64,
     ) {
         let DriftWatch { gauges, observed, .. } = self;
         observed.steps += 1;
-        gauges.step_with((time, observed.steps), sums, work);
+        let terms = &mut observed.terms;
+        let by_state =
+            |quantity| terms.observe(state).then(|| by_rounding_of_state(terms, quantity))?;
+        gauges.step_with((state.time, observed.steps), sums, work, by_state);
     }
 
     /// Ends at a state, and returns the value of every channel and the gauges there.

@@ -90,7 +90,7 @@ impl DriftWatchBatch {
             match self.terms.as_ref().filter(|_| together[lane]) {
                 Some(terms) => {
                     let sums = self.summed.iter().map(|own| (own.place, own.sums[lane]));
-                    self.lanes[lane].step_with(state.time, sums, terms.work(lane));
+                    self.lanes[lane].step_with(state, sums, terms.work(lane));
                 }
                 None => self.lanes[lane].step(state),
             }

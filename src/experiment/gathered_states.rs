@@ -3,7 +3,7 @@
 //! In: the ends of steps and states within them, one by one. Out: what the gauges record of them, to the last bit as if each had
 //! been observed by itself. Never here: which states are observed, the channels.
 
-use super::gauges::Gauges;
+use super::gauges::{Gauges, by_rounding_of_state};
 use crate::num::{Analytic, BATCH, Batch};
 use crate::system::{BatchTerms, Form, State, TermWatch};
 
@@ -66,18 +66,24 @@ impl GatheredStates {
         (batch, single): (&mut BatchTerms, &mut TermWatch),
         gauges: &mut Gauges,
     ) {
-        let several = self.observed.len() >= FEWEST;
+        let GatheredStates { observed, clocks, numbers, state } = self;
+        let mut observe = |lane: usize, terms: &mut TermWatch| {
+            state.set_time(observed[lane].clock.into());
+            state.set_values(numbers.iter().map(|number| number.0[lane]));
+            terms.observe(state)
+        };
+        let several = observed.len() >= FEWEST;
         if several {
-            batch.evaluate_numbers(self.clocks, &self.numbers);
+            batch.evaluate_numbers(*clocks, numbers);
         }
-        if several && batch.are_regular(self.observed.len()) {
-            gauges.steps(self.observed.iter().map(|at| (at.time, at.steps, at.dense)), batch);
+        if several && batch.are_regular(observed.len()) {
+            let ends = observed.iter().map(|at| (at.time, at.steps, at.dense));
+            gauges.steps(ends, batch, &mut |lane, quantity| {
+                observe(lane, single).then(|| by_rounding_of_state(single, quantity))?
+            });
         } else {
-            for (lane, at) in self.observed.iter().enumerate() {
-                self.state.set_time(at.clock.into());
-                let numbers = self.numbers.iter().map(|number| number.0[lane]);
-                self.state.set_values(numbers);
-                if single.observe(&self.state) {
+            for (lane, at) in observed.iter().enumerate() {
+                if observe(lane, single) {
                     gauges.step(at.time, at.steps, single, at.dense);
                 }
             }

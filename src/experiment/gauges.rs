@@ -29,6 +29,7 @@ pub(super) use inputs::GaugeInputs;
 use integration_constants::IntegrationConstants;
 use invariant_monitor::{InvariantMonitor, MonitoredStep};
 use monitors::{monitors, with_energy_opened};
+pub(super) use seen_distances::by_rounding_of_state;
 
 /// Rounding errors are measured once per this many samples.
 const MEASURED: u64 = 16;
@@ -202,8 +203,8 @@ impl Gauges {
 
     /// Records the terms at the end of a step or within it.
     pub(super) fn step(&mut self, time: f64, steps: u64, terms: &TermWatch, dense: bool) {
-        let floor = self.floor(steps);
-        self.monitors.iter_mut().for_each(|monitor| monitor.step(time, terms, floor, dense));
+        let end = MonitoredStep { time, floor: self.floor(steps), dense };
+        self.monitors.iter_mut().for_each(|monitor| monitor.step(end, terms));
     }
 
     /// The monitors of quantities that have terms, by their places: the quantity, and what its terms were at rest.
@@ -215,25 +216,28 @@ impl Gauges {
         self.monitors.iter().enumerate().filter_map(summed)
     }
 
-    /// Records the sums over the terms at the end of a step for the monitors at these places.
+    /// Records the sums over the terms at the end of a step for the monitors at these places. `by_state` says by how much rounding of
+    /// the state changes a quantity.
     pub(super) fn step_with(
         &mut self,
         (time, steps): (f64, u64),
         sums: impl Iterator<Item = (usize, TermSums)>,
         work: f64,
+        mut by_state: impl FnMut(usize) -> Option<(f64, RoundedInput)>,
     ) {
-        let floor = self.floor(steps);
+        let end = MonitoredStep { time, floor: self.floor(steps), dense: true };
         for (place, sums) in sums {
-            self.monitors[place].step_with(time, (sums, work), floor, true);
+            self.monitors[place].step_with(end, (sums, work), &mut by_state);
         }
     }
 
     /// Records the terms at the ends of several steps or within them. Each is given by its time, the number of steps up to it,
-    /// and whether rows lie within the step that it ends.
+    /// and whether rows lie within the step that it ends. `by_state` is as for one, of the state with this number.
     pub(super) fn steps(
         &mut self,
         ends: impl Iterator<Item = (f64, u64, bool)>,
         terms: &BatchTerms,
+        by_state: &mut dyn FnMut(usize, usize) -> Option<(f64, RoundedInput)>,
     ) {
         let mut known = [MonitoredStep { time: 0.0, floor: 0.0, dense: false }; BATCH];
         let mut count = 0;
@@ -241,7 +245,9 @@ impl Gauges {
             *end = MonitoredStep { time, floor: self.floor(steps), dense };
             count += 1;
         }
-        self.monitors.iter_mut().for_each(|monitor| monitor.steps(terms, &known[..count]));
+        self.monitors
+            .iter_mut()
+            .for_each(|monitor| monitor.steps(terms, &known[..count], by_state));
     }
 
     /// The rounding error that a value of size 1 may have gathered since the reference.

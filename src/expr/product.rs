@@ -140,6 +140,9 @@ impl Pool {
                     let opened = inner.iter().map(|&(b, n)| (b, n * exponent)).collect();
                     return Some((c.powi(k), opened));
                 }
+                if let Some(factors) = self.take_out_positive((*c, inner), exponent) {
+                    return Some((Number::ONE, factors));
+                }
                 if let &[(b, n)] = &**inner
                     && c.is_one()
                 {
@@ -156,6 +159,17 @@ impl Pool {
                 None
             }
             Node::Sum(constant, terms) => {
+                if integer.is_none() {
+                    if let Some(factors) =
+                        self.factor_difference_of_squares(*constant, terms, exponent)
+                    {
+                        return Some((Number::ONE, factors));
+                    }
+                    if let Some((factor, root)) = self.perfect_square(*constant, terms) {
+                        let (factor, square) = (self.number(factor), self.powi(root, 2));
+                        return Some((Number::ONE, vec![(factor, exponent), (square, exponent)]));
+                    }
+                }
                 let content = content(*constant, terms, integer.is_some());
                 if content.is_one() {
                     return None;

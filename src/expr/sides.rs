@@ -8,6 +8,7 @@ use super::node::{Expr, Node};
 use super::pool::Pool;
 use super::symbol::Symbol;
 use super::vanishing::on_lines;
+use super::zero_test::Zero;
 use crate::num::Number;
 
 /// A kink: the function that changes its sign there.
@@ -113,6 +114,15 @@ impl Pool {
         let opposite = self.neg(pi);
         let [above, below] = [pi, opposite].map(|value| self.replace(e, angle, value));
         self.sub(above, below)
+    }
+
+    /// Whether an expression is the same one turn on, so that nothing in it shows the cut of an angle, as cos(3 atan2(y, x)).
+    pub fn has_whole_turns(&mut self, e: Expr, angle: Expr) -> bool {
+        let (pi, turn) = (self.pi(), Number::integer(2));
+        let turned = self.linear(Number::ZERO, &[(Number::ONE, angle), (turn, pi)]);
+        let turned = self.replace(e, angle, turned);
+        let change = self.sub(turned, e);
+        matches!(self.is_zero(change), Zero::Proved | Zero::Numerically)
     }
 
     fn some_place(

@@ -1,6 +1,6 @@
-//! Poles of a law, as a thin barrier, that equal steps may pass without having been near them.
+//! Poles of a law, as a thin barrier, that equal steps may pass without having been near them, or end on.
 //!
-//! In: the ends of steps. Out: whether a step has passed a pole. Never here: what is said of it.
+//! In: the ends of steps. Out: whether a step has passed a pole, or ends on one. Never here: what is said of it.
 //!
 //! What the law divides by changes its sign at a pole. Whether there is one, or what is divided vanishes with it, the rates show
 //! ever nearer to the zero on the straight line between the ends of the step: at a pole they change a velocity by half of itself
@@ -11,6 +11,19 @@ use crate::system::{ExactRates, State, SteepArguments, System};
 
 /// The part of a velocity by which the rates change it near a pole.
 const CHANGED: f64 = 0.5;
+
+/// What is divided by has lost its digits at the end of a step where it is this part of what it was at the beginning, and the rates
+/// there are those of a pole where they change a velocity by so many times itself in such a step.
+const LANDED: (f64, f64) = (1e-13, 1e3);
+
+/// A pole at a step.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum PoleOfStep {
+    /// The step has passed it.
+    Passed,
+    /// The step ends on it, to all digits.
+    Reached,
+}
 
 /// The number of bisections, to the last digit of a part of a step, and of distances from the zero, each half of the one before.
 const BISECTIONS: u32 = 54;
@@ -45,19 +58,40 @@ impl PassedPoles {
         })
     }
 
-    /// Records the end of a step. Returns whether it has passed a pole.
-    pub(super) fn has_passed(&mut self, state: &State) -> bool {
+    /// Records the end of a step. Returns the pole that it has passed or reached.
+    pub(super) fn find(&mut self, state: &State) -> Option<PoleOfStep> {
         let mut now = vec![0.0; self.divisors.count()];
         let is_known = self.divisors.observe(state, &mut now).is_ok();
         let before = self.known.take().filter(|_| is_known);
-        let passed = before.is_some_and(|before| {
+        let found = before.and_then(|before| {
+            let is_lost = |i: usize| now[i].abs() < LANDED.0 * before[i].abs();
+            if (0..now.len()).any(is_lost) && self.runs_away(state) {
+                return Some(PoleOfStep::Reached);
+            }
             let has_changed = |i: &usize| before[*i] * now[*i] < 0.0;
             let crossed: Vec<usize> = (0..now.len()).filter(has_changed).collect();
-            crossed.into_iter().any(|i| self.is_pole(i, before[i], state))
+            let passes = crossed.into_iter().any(|i| self.is_pole(i, before[i], state));
+            passes.then_some(PoleOfStep::Passed)
         });
         self.before.copy_from(state);
         self.known = is_known.then_some(now);
-        passed
+        found
+    }
+
+    /// Whether the rates at the end of a step change a velocity by many times itself in another one.
+    fn runs_away(&mut self, state: &State) -> bool {
+        let native = |state| self.system.convert(state, self.system.form(), &self.parameters);
+        let [Ok(first), Ok(last)] = [native(&self.before), native(state)] else { return false };
+        let numbers: Vec<DoubleDouble> = (0..last.values.len()).map(|i| last.exact(i)).collect();
+        if self.rates.evaluate(last.exact_time(), &numbers).is_err() {
+            return false;
+        }
+        let step = (last.exact_time() - first.exact_time()).high;
+        let numbers = self.system.degrees()..self.rates.moving();
+        // the step itself may have ended with what the force does there
+        let fastest = numbers.clone().map(|i| first.values[i].abs()).fold(0.0, f64::max);
+        let largest = numbers.map(|i| (self.rates.rate(i).high * step).abs()).fold(0.0, f64::max);
+        fastest > 0.0 && largest > LANDED.1 * fastest
     }
 
     /// Whether the law has a pole where a divisor with this value at the beginning of a step to a state is zero.

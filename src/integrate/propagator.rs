@@ -270,7 +270,7 @@ impl Propagator {
         self.watch_from_here();
         self.domain = MotionDomain::around(&self.system, &self.state, &self.parameters);
         self.stepper.start(&self.state, &self.parameters)?;
-        self.watch_narrow_places();
+        self.watch_narrow_places()?;
         self.find_vanishing_events()
     }
 

@@ -21,9 +21,15 @@ impl Model {
             }
             _ => false,
         };
-        reached
-            .into_iter()
-            .any(|e| self.is_switch(e) && !is_located(e) && !self.is_constant_between(e, located))
+        let mut pool = self.pool.clone();
+        let is_angle = |e: Expr| matches!(self.pool.node(e), Node::Call(FunctionId::Atan2, _));
+        let mut shows_its_cut = |e: Expr| !roots.iter().all(|&law| pool.has_whole_turns(law, e));
+        reached.into_iter().any(|e| {
+            self.is_switch(e)
+                && !is_located(e)
+                && !self.is_constant_between(e, located)
+                && (!is_angle(e) || shows_its_cut(e))
+        })
     }
 
     /// Whether an expression changes at the zeros of `located` functions only, as max(0, sign(t)) does.

@@ -57,6 +57,10 @@ pub(super) struct SeriesBuilder<R: Coefficient> {
     steered: Vec<bool>,
 }
 
+/// What moves towards a surface, or from it, by no more than this part of what the forces on both sides do to it in the unit of time
+/// is at rest there.
+const STILL: f64 = 1e-12;
+
 /// A coefficient this many roundings from zero, in terms of what the weights balance in it, is zero.
 const BALANCED: f64 = 64.0;
 
@@ -259,6 +263,8 @@ impl<R: Real> SeriesBuilder<R> {
         let mut factored = Factored::new(n);
         let (inputs, place) = (self.inputs, self.order + 1);
         let mut parts = vec![R::ZERO; (n + 1) * inputs];
+        // the rates of the switches, where the weights act on those of these
+        let mut rates: Option<Vec<f64>> = None;
         let rest = loop {
             let rest = self.probe(k, clock, &kept, None)?;
             for (i, part) in parts.iter_mut().take(inputs).enumerate() {
@@ -275,13 +281,20 @@ impl<R: Real> SeriesBuilder<R> {
                 }
             }
             if factored.factor(|i, j| matrix[i * n + j]) {
+                let forces = matrix
+                    .chunks_exact(n)
+                    .map(|row| row.iter().map(|x| x.value().abs()).fold(0.0, f64::max));
+                let is_still = |(rate, force): (&f64, f64)| *rate <= STILL * force;
+                if rates.is_some_and(|rates| !rates.iter().zip(forces).all(is_still)) {
+                    return Err(Halt::Sticks);
+                }
                 break rest;
             }
-            // a body at rest on the surface may be held there by a force
-            let still = rest.iter().all(|x| x.value() == 0.0);
-            if k > 0 || self.depth > 1 || !still {
+            // what is at rest on the surface, but for rounding, may be held there by a force
+            if k > 0 || self.depth > 1 {
                 return Err(Halt::Sticks);
             }
+            rates = Some(rest.iter().map(|x| x.value().abs()).collect());
             self.depth = 2;
         };
         let mut weights: Vec<R> = rest.iter().map(|&x| -x).collect();

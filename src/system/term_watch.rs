@@ -11,7 +11,7 @@ use std::sync::Arc;
 use super::native_states::NativeStates;
 use super::terms::{AtRest, OutputPlace, Terms};
 use super::value::Evaluator;
-use super::{State, System};
+use super::{Form, State, System};
 
 /// Evaluates the quantities of one system's states at one set of parameters. It owns its registers.
 #[derive(Clone, Debug)]
@@ -22,6 +22,9 @@ pub struct TermWatch {
     canonical: Option<Evaluator<f64>>,
     native_states: NativeStates,
     inputs: Vec<f64>,
+    /// The time of the last state, and whether its numbers are canonical variables beside a native form that is not.
+    time: f64,
+    at_canonical: bool,
     /// The terms at the last state, some followed by their values at rest.
     outputs: Vec<f64>,
     work: f64,
@@ -36,6 +39,8 @@ impl TermWatch {
             canonical: terms.canonical.clone().map(Evaluator::new),
             native_states: NativeStates::new(&system),
             inputs: vec![0.0; inputs],
+            time: 0.0,
+            at_canonical: false,
             outputs: Vec::new(),
             work: 0.0,
             system,
@@ -56,21 +61,51 @@ impl TermWatch {
 
     /// Evaluates a state. Returns `false` if that is not possible.
     pub fn observe(&mut self, state: &State) -> bool {
-        let at_canonical = state.form != self.system.form() && self.canonical.is_some();
-        if at_canonical {
+        self.at_canonical = state.form != self.system.form() && self.canonical.is_some();
+        if self.at_canonical {
             self.system.inputs_of(state, &mut self.inputs);
         } else if self.native_states.write(state, &mut self.inputs).is_err() {
             return false;
         }
         self.work = self.inputs[self.inputs.len() - 1];
+        self.time = state.time;
+        self.evaluate()
+    }
+
+    fn evaluate(&mut self) -> bool {
         let terms = match &mut self.canonical {
-            Some(canonical) if at_canonical => canonical,
+            Some(canonical) if self.at_canonical => canonical,
             _ => &mut self.native,
         };
-        let looked = terms.evaluate(state.time, &self.inputs).is_ok();
+        let looked = terms.evaluate(self.time, &self.inputs).is_ok();
         self.outputs.clear();
         self.outputs.extend(terms.outputs());
         looked
+    }
+
+    /// By how much half a digit of each number of the last state changes a quantity, and the number that changes it most, by its
+    /// name, with its value; `None` if the quantity has no value beside the state.
+    pub fn change_by_rounding(&self, quantity: usize) -> Option<(f64, &str, f64)> {
+        let mut beside = self.clone();
+        let value = self.sums(quantity, &[]).value;
+        let (mut sum, mut most) = (0.0, (0.0, 0));
+        for (i, &x) in self.inputs.iter().enumerate().filter(|(_, x)| **x != 0.0) {
+            beside.inputs[i] = x.next_up();
+            if !beside.evaluate() {
+                return None;
+            }
+            beside.inputs[i] = x;
+            let change = 0.5 * (beside.sums(quantity, &[]).value - value).abs();
+            sum += change;
+            if change > most.0 {
+                most = (change, i);
+            }
+        }
+        let (n, place) = (self.system.degrees(), most.1);
+        let has_momenta = self.at_canonical || self.system.form() == Form::Momentum;
+        let channel = if place >= n && has_momenta { place + n } else { place };
+        let name = self.system.channels().get(channel)?.name.as_str();
+        Some((sum, name, self.inputs[place]))
     }
 
     /// The work done on the motion, if the state carries it.

@@ -46,6 +46,27 @@ fn canonical_forms() {
     check("1e-3", "1/1000");
     check("1.00000000000000000001e30", "1e30");
     check("min(2, 3) + max(q, q)", "q + 2");
+    // roots of squares, and of what has positive factors
+    check("sqrt(1 - 2*q + q^2) - sqrt((q - 1)^2)", "0");
+    check("sqrt(q^2 + 2*q*u + u^2) - sqrt((q + u)^2)", "0");
+    check("sqrt(2*q^2 - 4*q + 2) - sqrt(2)*sqrt((q - 1)^2)", "0");
+    check("(1/4 + q + q^2)^(1/3) - ((q + 1/2)^2)^(1/3)", "0");
+    check("sqrt(1 + q^2 + u^2 - 2*q + 2*u - 2*q*u) - sqrt((q - u - 1)^2)", "0");
+
+    check("sqrt(q^2 + 3*q + 1)", "sqrt(3*q + q^2 + 1)");
+    check("sqrt(1 - tanh(q)^2)", "1/cosh(q)");
+    check("1/sqrt(3 - 3*tanh(q)^2) - cosh(q)/sqrt(3)", "0");
+    check("sqrt(1 - (1 - exp(q))^2) - exp(q/2)*sqrt(2 - exp(q))", "0");
+    check("sqrt(u*cosh(q)^2) - cosh(q)*sqrt(u)", "0");
+    check("sqrt(1 - tanh(q)^6)*cosh(q) - sqrt(1 + tanh(q)^2 + tanh(q)^4)", "0");
+    check("sqrt(1 - (1 + exp(q))^-2) - exp(q/2)*sqrt(2 + exp(q))/(1 + exp(q))", "0");
+    check("sqrt(1 - (1 - exp(q))^-2) - sqrt(1 - (exp(q) - 1)^-2)", "0");
+    // powers that are written as exponentials
+    check("exp(ln(q^2)/2)", "sqrt(q^2)");
+    check("exp(0.3*ln(q^2 + u^2) - q) - (q^2 + u^2)^0.3*exp(-q)", "0");
+    check("exp(ln(q)/2)", "sqrt(q)");
+    check("exp(ln(q))", "exp(ln(q))");
+    check("exp(-ln(q^2))", "exp(-ln(q^2))");
 }
 
 #[test]

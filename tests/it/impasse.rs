@@ -825,6 +825,26 @@ fn equal_steps_over_a_pole_are_reported() {
     }
 }
 
+/// Equal steps of which one ends on a pole to all digits: 1 − 10 · 0.1 is 1e-16.
+#[test]
+fn a_step_that_ends_on_a_pole_is_an_error_there() {
+    for method in ["symplectic-euler", "leapfrog", "rk4"] {
+        for (potential, reached) in [("1e-6/x^2", true), ("-1e-3/x", true), ("sin(x)/x", false)] {
+            let text = format!(
+                "[coordinates]\nx = {{ initial = 1.0, velocity = -1.0 }}\n[lagrangian]\nL = \"1/2*x'^2 - 1e-15*({potential})\""
+            );
+            let mut experiment = by(method, Some(0.1), &text);
+            if !reached {
+                run(&mut experiment, 2.0);
+                continue;
+            }
+            let message = error(experiment, 2.0);
+            let place = "a force is no longer finite at t = 1, x = ";
+            assert!(message.contains(place), "{method} {potential}: {message}");
+        }
+    }
+}
+
 /// A velocity that turns while another coordinate passes what is no pole is changed by much of itself, and not by a pole.
 #[test]
 fn a_velocity_that_turns_beside_a_zero_is_no_pole() {

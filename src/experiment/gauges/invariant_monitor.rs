@@ -7,7 +7,7 @@ mod gauge;
 
 use super::drift_record::{Distance, DriftRecord, Early};
 use super::mean::Mean;
-use super::seen_distances::SeenDistances;
+use super::seen_distances::{SeenDistances, by_rounding_of_state};
 use crate::analysis::{LEFT, LOST, RESOLVED, RoundedInput};
 use crate::experiment::Reference;
 use crate::expr::{Expr, Pool, Symbol};
@@ -26,6 +26,9 @@ const LARGE: f64 = 1e3;
 /// What moves by less than this multiple of the error that rounding explains, and all of it away from the reference, is
 /// error and no motion: a quantity each of whose terms is constant.
 const ERROR: f64 = 1e3;
+
+/// A distance is rounding of the state up to this multiple of the change by half a digit of each of its numbers.
+const OF_STATE: f64 = 4.0;
 
 /// So many parameters at most are named where a quantity is constant at their values.
 const MOST_NAMED: usize = 3;
@@ -239,6 +242,31 @@ impl InvariantMonitor {
         if self.jumps { sum } else { sum - work }
     }
 
+    /// Takes it for rounding where a distance, farther than any before, is no more than that of the state, as where two bodies that are
+    /// far from the origin nearly collide. `by_state` says by how much rounding of the state changes the quantity.
+    fn measure_far(
+        &mut self,
+        (time, distance): (f64, f64),
+        TermSums { size, moving, .. }: TermSums,
+        floor: f64,
+        by_state: impl FnOnce(usize) -> Option<(f64, RoundedInput)>,
+    ) {
+        let distance = distance.abs();
+        let is_far = distance > 2.0 * self.drift.farthest
+            && distance > floor * self.rounding.greatest
+            && self.change_law().is_none()
+            && self.drift_of(distance, moving) > RESOLVED;
+        let Some(quantity) = self.invariant.quantity.filter(|_| is_far) else { return };
+        if let Some((change, input)) = by_state(quantity)
+            && distance <= OF_STATE * f64::EPSILON * change
+        {
+            self.widen(change);
+            self.seen.note_rounding(Some((change, input)));
+            self.seen.note(time, distance, size);
+            self.drift.farthest = distance;
+        }
+    }
+
     /// Records an accurate value and returns its distance; `floor` is the rounding error of a value of size 1.
     pub(super) fn observe(
         &mut self,
@@ -252,6 +280,10 @@ impl InvariantMonitor {
         if let Some(sums) = self.summed(terms) {
             // the terms may have grown
             self.widen(sums.size);
+            if !self.reference.offset {
+                let by_state = |quantity| by_rounding_of_state(terms, quantity);
+                self.measure_far((time, distance), sums, floor, by_state);
+            }
             moving = sums.moving;
             size = sums.size;
             self.drift.see_moving(moving);
@@ -278,20 +310,27 @@ impl InvariantMonitor {
     }
 
     /// Records the value at the end of a step or within it.
-    pub(super) fn step(&mut self, time: f64, terms: &TermWatch, floor: f64, dense: bool) {
+    pub(super) fn step(&mut self, end: MonitoredStep, terms: &TermWatch) {
         if let Some(sums) = self.summed(terms) {
-            self.step_with(time, (sums, terms.work()), floor, dense);
+            let by_state = |quantity| by_rounding_of_state(terms, quantity);
+            self.step_with(end, (sums, terms.work()), by_state);
         }
     }
 
-    /// Records the values at the ends of several steps.
-    pub(super) fn steps(&mut self, terms: &BatchTerms, ends: &[MonitoredStep]) {
+    /// Records the values at the ends of several steps. `by_state` says by how much rounding of one of the states changes a
+    /// quantity.
+    pub(super) fn steps(
+        &mut self,
+        terms: &BatchTerms,
+        ends: &[MonitoredStep],
+        by_state: &mut dyn FnMut(usize, usize) -> Option<(f64, RoundedInput)>,
+    ) {
         let Some(quantity) = self.invariant.quantity.filter(|&quantity| terms.has(quantity)) else {
             return;
         };
         let sums = terms.sums(quantity, &self.reference.at_rest);
         for (lane, (end, sums)) in ends.iter().zip(sums).enumerate() {
-            self.step_with(end.time, (sums, terms.work(lane)), end.floor, end.dense);
+            self.step_with(*end, (sums, terms.work(lane)), |quantity| by_state(lane, quantity));
         }
     }
 
@@ -303,13 +342,14 @@ impl InvariantMonitor {
     /// Records the sums over the terms, and the work. A distance that rounding explains is ignored.
     pub(super) fn step_with(
         &mut self,
-        time: f64,
-        (TermSums { value, size, moving }, work): (TermSums, f64),
-        floor: f64,
-        dense: bool,
+        MonitoredStep { time, floor, dense }: MonitoredStep,
+        (sums, work): (TermSums, f64),
+        by_state: impl FnOnce(usize) -> Option<(f64, RoundedInput)>,
     ) {
+        let TermSums { value, size, moving } = sums;
         let distance = self.rough(value, work) - self.reference.rough;
         self.widen(size);
+        self.measure_far((time, distance), sums, floor, by_state);
         if self.drift.begin_if_at_rest(time, distance, moving) {
             self.seen.begin();
         }

@@ -4,9 +4,20 @@
 //! limit, and whether rounding of the state explains them. Never here: whether they count.
 
 use crate::analysis::RoundedInput;
+use crate::system::TermWatch;
 
 /// A change of a value by more than this many ε of its terms is one of the state.
 const LAST_DIGITS: f64 = 4.0;
+
+/// By how much rounding of the state that was observed last changes a quantity, in units of ε, and the variable that changes it most.
+pub(in crate::experiment) fn by_rounding_of_state(
+    terms: &TermWatch,
+    quantity: usize,
+) -> Option<(f64, RoundedInput)> {
+    let (change, name, value) = terms.change_by_rounding(quantity)?;
+    let (name, value) = (name.to_owned(), value.abs());
+    Some((change / f64::EPSILON, RoundedInput { name, digits: value.next_up() - value }))
+}
 
 /// The distances that were seen since the reference was taken.
 #[derive(Clone, Debug, Default)]

@@ -3,7 +3,7 @@
 //! In: a time, a budget of steps. Out: what was reached. Never here: rows.
 
 use super::super::gathered_states::ObservedAt;
-use super::super::gauges::Gauges;
+use super::super::gauges::{Gauges, by_rounding_of_state};
 use super::super::step_sampler::StepSampler;
 use super::{EQUAL_STEPS, ObservedMotion, mark_lost};
 use crate::integrate::{OccurrenceKind, Reached, Stepping};
@@ -101,13 +101,17 @@ impl ObservedMotion {
             let last = block.count - 1;
             let due = !dense(last) && block.times.0[last] >= *next;
             let count = if due { last } else { block.count };
+            let form = self.inner.computed().form;
             terms.evaluate_numbers(block.times, &block.numbers);
             if terms.are_regular(count) {
                 let ends = (0..count).zip(steps + 1..);
                 let ends = ends.map(|(i, steps)| (sign * block.times.0[i], steps, dense(i)));
-                gauges.steps(ends, terms);
+                gauges.steps(ends, terms, &mut |lane, quantity| {
+                    single
+                        .observe(&block.state(lane, form))
+                        .then(|| by_rounding_of_state(single, quantity))?
+                });
             } else {
-                let form = self.inner.computed().form;
                 for (i, steps) in (0..count).zip(steps + 1..) {
                     if single.observe(&block.state(i, form)) {
                         gauges.step(sign * block.times.0[i], steps, single, dense(i));

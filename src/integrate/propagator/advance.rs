@@ -178,7 +178,7 @@ impl Propagator {
         }
         self.steps += 1;
         self.note_side();
-        self.note_narrow_place();
+        self.note_narrow_place()?;
         self.note_departures();
         self.check_branch()?;
         self.watch_corners()?;

@@ -5,7 +5,8 @@
 use super::Propagator;
 use crate::integrate::Stepping;
 use crate::integrate::narrow_place::PassedPlaces;
-use crate::integrate::passed_poles::PassedPoles;
+use crate::integrate::passed_poles::{PassedPoles, PoleOfStep};
+use crate::system::{MotionError, MotionErrorKind};
 
 /// What a step has passed.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -34,7 +35,10 @@ impl Propagator {
     }
 
     /// Begins to watch, by a method whose steps are equal.
-    pub(super) fn watch_narrow_places(&mut self) {
+    ///
+    /// # Errors
+    /// Returns an error if the motion begins on a pole.
+    pub(super) fn watch_narrow_places(&mut self) -> Result<(), MotionError> {
         (self.narrow, self.poles) = match self.method.stepping {
             Stepping::Fixed => (
                 self.system.steep_arguments(&self.parameters).map(PassedPlaces::new),
@@ -42,22 +46,32 @@ impl Propagator {
             ),
             Stepping::Adaptive => (None, None),
         };
-        self.note_narrow_place();
+        self.note_narrow_place()
     }
 
-    pub(super) fn note_narrow_place(&mut self) {
-        if self.narrow_passage.is_some() {
-            return;
-        }
+    /// Records the end of a step.
+    ///
+    /// # Errors
+    /// Returns an error if it is on a pole.
+    pub(super) fn note_narrow_place(&mut self) -> Result<(), MotionError> {
         let state = self.stepper.state();
+        let pole = self.poles.as_mut().and_then(|poles| poles.find(state));
+        if pole == Some(PoleOfStep::Reached) {
+            let kind = MotionErrorKind::NotFiniteInStep("a force".to_owned());
+            return Err(self.system.error(kind, state.time, &state.values));
+        }
+        if self.narrow_passage.is_some() {
+            return Ok(());
+        }
         let place = if self.narrow.as_mut().is_some_and(|places| places.has_passed(state)) {
             NarrowPlace::Exponential
-        } else if self.poles.as_mut().is_some_and(|poles| poles.has_passed(state)) {
+        } else if pole.is_some() {
             NarrowPlace::Pole
         } else {
-            return;
+            return Ok(());
         };
         let (time, step) = (state.time, self.stepper.step_size().abs());
         self.narrow_passage = Some(NarrowPassage { time, step, place });
+        Ok(())
     }
 }

@@ -116,7 +116,10 @@ impl Taylor {
                         let levels = [sides[i], self.series.sides()[i]].contains(&Side::Level);
                         let switch = self.series.switch(i);
                         let is_zero = levels || switch[0] == 0.0;
-                        is_zero && kinks::side_of(switch) == self.series.sides()[i]
+                        let (found, before) = (kinks::side_of(switch), sides[i]);
+                        // what is not level in the mean of both branches may be in one of them
+                        let is_level = before == Side::Level && found == Side::Level;
+                        is_zero && (found == self.series.sides()[i] || is_level)
                     };
                     let is_back = |&i: &usize| !is_exact(i) && !is_off(i);
                     opposite.iter().map(|&(i, _)| i).filter(is_back).collect()

@@ -837,6 +837,26 @@ fn kinks_of_folded_angles_are_reported() {
     }
 }
 
+/// At the cut of an angle nothing is kinked that is the same one turn on.
+#[test]
+fn the_cut_of_an_angle_is_a_kink_where_the_law_shows_it() {
+    for (potential, reported) in [
+        ("cos(3*atan2(y,x))", false),
+        ("(x^2 + y^2)*sin(atan2(2*y,x - 3))^2", false),
+        ("cos(atan2(y,x)/2)", true),
+        ("atan2(y,x)^2", true),
+        ("cos(2.5*atan2(y,x))", true),
+    ] {
+        let text = format!(
+            "title = \"Cut\"\n[coordinates]\nx = {{ initial = 1 }}\ny = {{ initial = 1 }}\n[lagrangian]\n\
+             L = \"1/2*(x'^2 + y'^2) - {potential}\"\n"
+        );
+        let arguments = ["run", "system.toml", "--until", "0.1", "--method", "dop853"];
+        let said = with_file(&text, &arguments).stderr;
+        assert_eq!(said.contains("steps over the kinks"), reported, "{potential}: {said}");
+    }
+}
+
 /// A force that changes smoothly has no kink where it begins or ends to change. What else the law has is none of its concern.
 #[test]
 fn a_smooth_ramp_is_no_kink() {

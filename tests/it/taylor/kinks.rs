@@ -589,3 +589,30 @@ fn what_an_impulse_leaves_by_rounding_does_not_make_it_hop() {
     near(&run.to(10.0), &[0.0, 0.0], 1e-15);
     assert!(run.steps < 10, "{} steps", run.steps);
 }
+
+/// Where the speed has come down to 1 the dissipation max(|sin 3t|, max(1, v)) brakes no more: at the kink of the inner maximum the body
+/// goes on, and that of the outer one is only touched.
+#[test]
+fn a_kink_that_is_touched_on_another_is_passed() {
+    for speed in [1.0, 1.5, 2.0, 3.0] {
+        let mut run =
+            one("0.0", &format!("{speed}"), "1/2*x'^2", "max(abs(sin(3*t)), max(1, x'))", "0");
+        let braked = speed - 1.0;
+        for time in [4.0, 50.0] {
+            near(&run.to(time), &[0.5 * braked * braked + time, 1.0], 1e-13);
+        }
+    }
+}
+
+/// Along the bottom of the valley |x² + y² − 1| a body goes round with the speed that it has, up to any time.
+#[test]
+fn a_curved_valley_is_followed() {
+    let mut run = Run::new(
+        "title = \"Valley\"\n[coordinates]\nx = { initial = 1.0, velocity = 0.0 }\ny = { initial = 0.0, velocity = 0.5 }\n[lagrangian]\nL = \"1/2*(x'^2 + y'^2) - abs(x^2 + y^2 - 1)\"\n",
+    );
+    for time in [4.0_f64, 6.0, 30.0, 100.0] {
+        let (sin, cos) = (0.5 * time).sin_cos();
+        near(&run.to(time), &[cos, sin, -0.5 * sin, 0.5 * cos], 1e-12);
+        assert!(run.steps < 200, "{} steps", run.steps);
+    }
+}

@@ -148,6 +148,15 @@ fn thin_barriers_reflect_in_any_unit() {
     }
 }
 
+/// Of a place 30 the last digit of an `f64` is 3.6e-15.
+#[test]
+fn bodies_that_are_thinner_than_the_last_digit_of_their_place_collide() {
+    let mut run = Run::new(
+        "title = \"Two\"\n[coordinates]\nx = { initial = 30.0, velocity = 1.0 }\ny = { initial = 31.0, velocity = -1.0 }\n[lagrangian]\nL = \"1/2*(x'^2 + y'^2) - 1e-30/(x - y)^2\"\n",
+    );
+    near(&run.to(2.0), &[29.0, 32.0, -1.0, 1.0], 1e-13);
+}
+
 /// A root elsewhere in the law hides no barrier.
 #[test]
 fn a_thin_barrier_beside_a_root_reflects() {
