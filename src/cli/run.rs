@@ -162,7 +162,10 @@ pub(super) fn execute(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         return Err(pole.map_or(refused, CommandError::CouldNot));
     }
     experiment.forget_past();
-    experiment.record_for_gauges_only();
+    // what the file states, and no law proves, is refuted by samples alone
+    if experiment.snapshot().gauges.iter().all(|gauge| gauge.proved) {
+        experiment.record_for_gauges_only();
+    }
     // where none is given, the step that the method has chosen at the start
     let step = Some(experiment.snapshot().method.step).filter(|step| *step > 0.0);
     let used = Settings { step: settings.step.or(step), ..settings };

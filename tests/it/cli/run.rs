@@ -35,6 +35,16 @@ fn csv_says_what_was_run_and_names_its_columns() {
     assert_eq!(head[4], "0.0,0.0,1.0,2.0,-1.0");
 }
 
+/// What a law proves needs few samples within a step; what only the file states is refuted by them alone.
+#[test]
+fn a_stated_invariant_is_sampled_often_enough_to_be_refuted() {
+    let text = "title = \"Spike\"\n[coordinates]\nx = { initial = 1 }\n[lagrangian]\nL = \"1/2*x'^2 - 1/2*x^2\"\n\
+                [[observables]]\nname = \"spike\"\n\
+                expression = \"1/2*x'^2 + 1/2*x^2 + 1e-6*exp(-(x - 0.3)^2*1e6)\"\nconserved = true\n";
+    let done = with_file(text, &["run", "system.toml", "--until", "50"]);
+    assert!(done.stderr.contains("contradicted by the run"), "{}", done.stderr);
+}
+
 /// A number alone is not read as an expression, but is the same number.
 #[test]
 fn an_initial_value_is_the_same_as_a_number_and_in_parentheses() {
