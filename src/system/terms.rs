@@ -54,8 +54,9 @@ fn cancelling(pool: &mut Pool, term: Expr, momenta: &[Symbol]) -> Expr {
     pool.linear(Number::ZERO, &parts)
 }
 
-/// The variables whose own rate of change is zero: energy that depends on them alone does not move, whatever the method.
-fn still(equations: &Equations) -> Vec<Symbol> {
+/// The variables whose own rate of change is zero and which no impulse changes: energy that depends on them alone does not move,
+/// whatever the method.
+fn still(model: &Model, equations: &Equations) -> Vec<Symbol> {
     let coordinates = &equations.coordinates;
     let parameters_alone = |e: Expr| {
         let moves = coordinates.iter().flat_map(|c| [c.position, c.velocity, c.momentum]);
@@ -73,12 +74,14 @@ fn still(equations: &Equations) -> Vec<Symbol> {
     if !equations.constraints.is_empty() {
         return Vec::new();
     }
+    let is_struck = |i: usize| model.impulses.iter().any(|one| one.change[i] != Expr::ZERO);
     let variable = |(_, c): (usize, &CoordinateSymbols)| match equations.flow {
         Flow::Lagrange { .. } => c.velocity,
         Flow::Hamilton { .. } => c.momentum,
         Flow::Poisson { .. } => c.position,
     };
-    coordinates.iter().enumerate().filter(is_still).map(variable).collect()
+    let still = coordinates.iter().enumerate().filter(is_still);
+    still.filter(|&(i, _)| !is_struck(i)).map(variable).collect()
 }
 
 #[derive(Clone, Debug)]
@@ -109,7 +112,7 @@ impl ConservedTerms {
         let rates_at_rest = equations.momenta_at_rest().unwrap_or_else(zeros);
         let cancels = rates_at_rest.iter().any(|&e| e != Expr::ZERO);
         let at_rest: HashMap<Symbol, Expr> = rates.iter().copied().zip(rates_at_rest).collect();
-        let still = still(equations);
+        let still = still(model, equations);
         let unknown: Vec<Symbol> = equations
             .coordinates
             .iter()

@@ -245,6 +245,33 @@ fn an_impulse_moves_the_reference_and_not_the_initial_value() {
     assert!(energy.max_drift < 1e-14, "{energy:?}");
 }
 
+/// A coordinate on which no force acts has an energy that does not move, but for its impulses.
+#[test]
+fn an_impulse_on_what_no_force_moves_is_no_drift() {
+    let lagrangian = "[coordinates]\nx = { initial = 0, velocity = 1 }\nz = { initial = 0, velocity = 3 }\n\
+                      [lagrangian]\nL = \"1/2*(x'^2 + z'^2) - cos(x)\"\n";
+    let hamiltonian = "[coordinates]\nx = { initial = 0, momentum = 1 }\nz = { initial = 0, momentum = 2 }\n\
+                       [hamiltonian]\nH = \"1/2*(p_x^2 + p_z^2) + 1/2*x^2\"\n";
+    let top = "[variables]\nL1 = 1\nL2 = 0.1\nL3 = 2\n[poisson]\nH = \"L1^2/2 + L2^2/2 + L3^2/4\"\n\
+               brackets = [[\"L1\", \"L2\", \"-L3\"], [\"L2\", \"L3\", \"-L1\"], [\"L3\", \"L1\", \"-L2\"]]\n";
+    for (law, struck) in [(lagrangian, "p_z"), (hamiltonian, "p_z"), (top, "L3")] {
+        let impulse = format!(
+            "[[impulses]]\nname = \"kick\"\nat = 1.0\nchange = {{ {struck} = \"-1.5\" }}\n"
+        );
+        let mut motion = build(&format!("title = \"T\"\n{law}{impulse}"), |_| ());
+        run(&mut motion, 5.0);
+        let snapshot = motion.snapshot();
+        for name in ["energy", "energy balance"] {
+            let gauge = gauge(&snapshot, name);
+            assert!(gauge.max_drift < 1e-14, "{struck}: {gauge:?}");
+        }
+        // it has changed, and by the impulse
+        assert!(
+            (gauge(&snapshot, "energy").value - gauge(&snapshot, "energy").initial).abs() > 0.1
+        );
+    }
+}
+
 /// An impulse may change what is conserved between impulses; what is lost has left its value by itself.
 #[test]
 fn no_shipped_motion_loses_what_it_conserves() {
