@@ -7,9 +7,10 @@ use std::sync::Arc;
 use super::observables;
 use super::program::Program;
 use super::rhs::ProgramBuilder;
-use crate::expr::{Expr, FunctionId, Node, Symbol};
+use crate::expr::{Expr, FunctionId, Node, Pool, Symbol};
 use crate::mechanics::Equations;
 use crate::model::{Direction, EventAction, Model};
+use crate::num::Number;
 
 /// The events and impulses of a motion.
 #[derive(Clone, Debug)]
@@ -100,7 +101,8 @@ impl Discontinuities {
         model: &Model,
         builder: &mut ProgramBuilder<'_>,
     ) -> Result<Discontinuities, Symbol> {
-        let steps = builder.equations.steps_in_time();
+        let steps = builder.equations.steps_in_time().into_iter();
+        let steps: Vec<Expr> = steps.map(|e| without_factor(&mut builder.pool, e)).collect();
         let mut lowering = builder.lowering();
         let instants = lowering.lower_all(&steps);
         let instants = lowering.finish(instants)?;
@@ -160,6 +162,16 @@ impl Discontinuities {
 /// The functions of the events and of the surfaces of section.
 fn functions(model: &Model) -> impl Iterator<Item = Expr> + '_ {
     model.located_events().map(|event| event.when)
+}
+
+/// A function with the same zeros as another, whose numbers are not small for a small factor alone.
+fn without_factor(pool: &mut Pool, e: Expr) -> Expr {
+    let factor = match pool.node(e) {
+        Node::Product(factor, _) => *factor,
+        Node::Sum(_, terms) => terms.first().map_or(Number::ONE, |term| term.0),
+        _ => Number::ONE,
+    };
+    pool.linear(Number::ZERO, &[(factor.recip(), e)])
 }
 
 /// The program of the functions that are expanded: those of the events, then the arguments of the

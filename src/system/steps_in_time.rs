@@ -132,6 +132,17 @@ impl StepsInTime {
         Ok(self.beside(time, 0.0)?.map_or(time, |[_, after]| after))
     }
 
+    /// The first of the functions that has another sign at the second time than at the first.
+    ///
+    /// # Errors
+    /// Returns an error if the functions that have a step there have no value.
+    pub fn changed_between(
+        &mut self,
+        beside: [DoubleDouble; 2],
+    ) -> Result<Option<usize>, MotionError> {
+        Ok(self.change_between(beside)?.map(|(k, _)| k))
+    }
+
     /// A function that has another sign at the second time than at the first, with the sign at the first.
     fn change_between(
         &mut self,

@@ -74,6 +74,11 @@ impl Propagator {
                 continue;
             }
             if self.search.clear >= time {
+                if let Some(found) = self.hidden_step_in_time(time)?
+                    && let Some(occurrence) = self.on_event(found)?
+                {
+                    return Ok(Reached::Occurred(occurrence));
+                }
                 let before = self.state.time;
                 self.move_to(time)?;
                 if !self.energy_has_a_value(false) {

@@ -8,6 +8,7 @@
 
 use super::Propagator;
 use crate::integrate::located_event::LocatedEvent;
+use crate::num::DoubleDouble;
 use crate::system::{CompiledAction, MotionError};
 
 /// So little of the time before a step that no motion takes place in it, as a part of the time.
@@ -50,20 +51,46 @@ impl Propagator {
         Ok(())
     }
 
-    /// Dates the current state, if it is exactly at a step in time, on that side of it where the motion is.
+    /// Dates the current state, if its time is that of a step in time, on that side of it where the motion is.
     pub(super) fn date_beside_step_in_time(&mut self) -> Result<(), MotionError> {
         let time = self.state.exact_time();
-        let Some(steps) = &mut self.steps_in_time else { return Ok(()) };
-        if steps.after(time)? == time {
-            return Ok(());
-        }
-        let beside = steps.beside(time, self.stepper.step_size())?;
-        if let Some(crossed) = self.crossed.filter(|crossed| crossed.high == time.high) {
-            self.state.set_time(crossed);
-        } else if let Some([before, _]) = beside {
-            self.state.set_time(before);
-        }
+        let Some((before, _)) = self.step_in_time_at(time)? else { return Ok(()) };
+        self.state.set_time(self.crossed_at(time.high).unwrap_or(before));
         Ok(())
+    }
+
+    /// The step in time at this time of the last step, if rounding has hidden it from the search and the motion has not
+    /// crossed it.
+    pub(super) fn hidden_step_in_time(
+        &mut self,
+        time: f64,
+    ) -> Result<Option<LocatedEvent>, MotionError> {
+        if self.crossed_at(time).is_some() {
+            return Ok(None);
+        }
+        let exact = DoubleDouble::from(time);
+        Ok(self.step_in_time_at(exact)?.map(|(_, event)| LocatedEvent { event, exact }))
+    }
+
+    /// The time after the step in time that was crossed at a time.
+    fn crossed_at(&self, time: f64) -> Option<DoubleDouble> {
+        self.crossed.filter(|crossed| crossed.high == time)
+    }
+
+    /// The time just before the step in time that no number tells from a time, and its event.
+    fn step_in_time_at(
+        &mut self,
+        time: DoubleDouble,
+    ) -> Result<Option<(DoubleDouble, usize)>, MotionError> {
+        let Some(steps) = &mut self.steps_in_time else { return Ok(None) };
+        let Some(beside) = steps.beside(time, self.stepper.step_size())? else { return Ok(None) };
+        if !(beside[0].high..=beside[1].high).contains(&time.high) {
+            return Ok(None);
+        }
+        let events = &self.system.discontinuities().events;
+        let first = events.iter().position(|event| event.action == CompiledAction::StepInTime);
+        let changed = steps.changed_between(beside)?;
+        Ok(first.zip(changed).map(|(first, k)| (beside[0], first + k)))
     }
 
     /// Whether the last step ends at a step in time, on one side or the other.
