@@ -59,9 +59,10 @@ pub(super) fn execute(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     interrupt.ends_by_itself(|| ());
     let (returned, steps) = returned(&laid, until, interrupt)?;
     let rate = rate(&laid, returned.turned);
-    let expected = expected(&laid, &returned);
     let bounded = returned.step.is_some() || laid.method.stepping == Stepping::Adaptive;
-    let found = ReversedRun { bounded, returned, steps, rate, expected };
+    let over_kinks = laid.system.has_kinks() && !laid.method.locates_kinks;
+    let expected = if over_kinks { None } else { expected(&laid, &returned) };
+    let found = ReversedRun { bounded, returned, steps, rate, expected, over_kinks };
     let result = (found.object(&laid), found.text());
     study::write(&arguments.study, result, None, interrupt)
 }
@@ -90,6 +91,8 @@ struct ReversedRun {
     /// The largest exponent of the reversed motion and its uncertainty, or why it is not known.
     rate: Result<(f64, f64), String>,
     expected: Option<f64>,
+    /// Whether the method steps over kinks, whose errors are neither independent nor of one size.
+    over_kinks: bool,
 }
 
 /// Carries the motion there and back.
@@ -208,6 +211,10 @@ impl ReversedRun {
                 "of all steps, carried  "
             };
             text.push_str(&format!("{sum} {expected:.1e}\n"));
+        } else if self.over_kinks {
+            text.push_str(
+                "what is expected is not known: the method steps over the kinks of this motion\n",
+            );
         }
         text
     }

@@ -121,3 +121,17 @@ fn where_there_is_no_way_back_it_is_said_why() {
     let done = phaselab(&["reverse", "pendulum", "--until", "-1"]);
     assert!(done.code == 2 && done.stderr.contains("is not after it"), "{}", done.stderr);
 }
+
+/// The steps that pass a kink err by more than others, and on the way back by something else: nothing is expected of them.
+#[test]
+fn nothing_is_expected_of_a_method_that_steps_over_kinks() {
+    let file = "title = \"T\"\n[coordinates]\nx = { initial = 0.3, velocity = 0.8 }\n\
+                [lagrangian]\nL = \"x'^2/2 - abs(x)\"\n";
+    let reverse = |method: &str| {
+        with_file(file, &["reverse", "system.toml", "--until", "3", "--method", method]).success()
+    };
+    let leapfrog = reverse("leapfrog");
+    assert!(leapfrog.contains("the method steps over the kinks"), "{leapfrog}");
+    assert!(!leapfrog.contains("of all steps"), "{leapfrog}");
+    assert!(!reverse("taylor").contains("the method steps over the kinks"));
+}
