@@ -37,6 +37,10 @@ const SAFETY: f64 = 0.9;
 /// The multiple of the measured rounding of a rate that is tolerated.
 const ROUNDINGS: f64 = 4.0;
 
+/// An error that is always tolerated: rates below the range of normal numbers lose their digits, which changes of their inputs
+/// do not show.
+const UNDERFLOW: f64 = f64::MIN_POSITIVE / f64::EPSILON;
+
 /// The part of that rounding that is kept for the next step, since one measurement may by chance be
 /// too small.
 const FORGETTING: f64 = 0.8;
@@ -190,7 +194,8 @@ impl DormandPrince {
         for i in numbers {
             let size = self.sizes[i];
             count += 1.0;
-            let allowed = self.tolerance * size + ROUNDINGS * step.abs() * self.noise[i];
+            let rounding = ROUNDINGS * step.abs() * self.noise[i] + UNDERFLOW;
+            let allowed = self.tolerance * size + rounding;
             if allowed > 0.0 {
                 let whole = sum(STAGES[METHOD_STAGES].from, &self.slopes, i);
                 fifth += math::powi(sum(FIFTH, &self.slopes, i) / allowed, 2);

@@ -171,6 +171,21 @@ fn a_number_that_is_zero_but_for_rounding_does_not_stop_dop853() {
     assert!(stepper.state().values[1].abs() < 1e-12);
 }
 
+/// A pulse long before its time, where e^u is below the range of normal numbers and has few digits.
+#[test]
+fn a_force_without_digits_does_not_stop_dop853() {
+    let l = "1/2*x'^2 - 1/2*1e6*x^2 + 1e6*x*exp(-((t - 0.03)/0.001)^2)";
+    let case = case(lagrangian(&["x"], &[], l), Form::Velocity, &[0.8, 0.0]);
+    let mut stepper = case.stepper_with(named("dop853"), Settings::default());
+    let mut steps = 0;
+    while stepper.time() < 0.005 {
+        stepper.step(0.005).expect("goes on");
+        steps += 1;
+        assert!(steps < 400, "at {}", stepper.time());
+    }
+    assert!((stepper.state().values[0] - 0.8 * 5.0_f64.cos()).abs() < 1e-11);
+}
+
 #[test]
 fn every_method_stops_where_somebody_asks() {
     for method in METHODS.iter().filter(|method| method.name != "taylor") {
