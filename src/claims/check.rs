@@ -65,7 +65,7 @@ pub fn false_claims_followed(
     }
     for name in system.redundant() {
         let constraint = model.constraints.iter().find(|c| c.name == name);
-        let message = format!("the constraint `{name}` follows at the start from those before it");
+        let message = format!("the constraint `{name}` depends at the start on those before it");
         let warning = Diagnostic::warning(
             constraint.map_or_else(|| model.law_place.clone(), |c| c.place.clone()),
             message,

@@ -89,6 +89,7 @@ fn place_of(model: &Model, error: &MotionError) -> SourceRange {
     let constraint = match &error.kind {
         MotionErrorKind::ConstraintMissed(name, _)
         | MotionErrorKind::VelocitiesMissed(name, _)
+        | MotionErrorKind::ConstraintInconsistent(name, _)
         | MotionErrorKind::ConstraintContradicts(name) => {
             model.constraints.iter().find(|c| c.name == *name)
         }
@@ -170,7 +171,9 @@ impl<'a> ClaimedMotion<'a> {
         };
         let state = system.initial(model.run.start, &parameters, &[]);
         let state = state.map_err(|error| match &error.kind {
-            MotionErrorKind::ConstraintMissed(..) | MotionErrorKind::VelocitiesMissed(..) => {
+            MotionErrorKind::ConstraintMissed(..)
+            | MotionErrorKind::VelocitiesMissed(..)
+            | MotionErrorKind::ConstraintInconsistent(..) => {
                 refused(place_of(model, &error), error.to_string())
             }
             MotionErrorKind::FreeVelocities(names) => {

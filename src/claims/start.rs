@@ -9,7 +9,7 @@ use crate::diagnostic::{Diagnostic, SourceRange};
 use crate::expr::{Expr, FunctionId, Node, Pool, Symbol};
 use crate::mechanics::{Equations, Flow};
 use crate::model::{Coordinate, Model};
-use crate::num::{no_longer_than, short};
+use crate::num::{Number, no_longer_than, short};
 use crate::system::{MotionError, MotionErrorKind};
 
 /// A term of the law longer than this is not reported.
@@ -258,7 +258,12 @@ fn describe(
     // the factor of a product that has no value
     let culprit = match pool.node(e) {
         Node::Product(_, factors) => {
-            factors.iter().map(|&(base, _)| base).find(|&base| pool.evaluate(base, at) <= 0.0)
+            let has_none = |&&(base, power): &&(Expr, Number)| {
+                let value = pool.evaluate(base, at);
+                let is_root = power.as_integer().is_none();
+                value == 0.0 && power.is_negative() || value < 0.0 && is_root
+            };
+            factors.iter().find(has_none).map(|&(base, _)| base)
         }
         _ => None,
     };

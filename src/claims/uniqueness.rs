@@ -3,6 +3,8 @@
 //! In: a model, its system, a state, a method. Out: a sentence that says so, and which motion the method follows. Never here: what
 //! makes a motion one of several.
 
+use std::cmp::Ordering;
+
 use crate::diagnostic::Diagnostic;
 use crate::integrate::{
     Method, Propagator, Settings, SeveralMotions, method_named, several_motions,
@@ -42,15 +44,16 @@ fn sentence(
         [true, false] => format!("to smaller {name}"),
         [false, _] => format!("to larger {name}"),
     };
-    let followed = match followed(model, system, (state, parameters), by, found.coordinate) {
-        Some(y) if y > x => format!(": the one followed here leaves at once to larger {name}"),
-        Some(y) if y < x => format!(": the one followed here leaves at once to smaller {name}"),
-        Some(_) => ": the one followed here stays at rest".to_owned(),
-        None => String::new(),
+    // a motion that is not followed may have no force there
+    let y = followed(model, system, (state, parameters), by, found.coordinate)?;
+    let followed = match y.partial_cmp(&x)? {
+        Ordering::Greater => format!("leaves at once to larger {name}"),
+        Ordering::Less => format!("leaves at once to smaller {name}"),
+        Ordering::Equal => "stays at rest".to_owned(),
     };
     Some(format!(
         "the motion from rest at {name} = {} is not unique: it may stay there for any time, since the force that drives it away \
-         {sides} is not smooth there{followed}",
+         {sides} is not smooth there: the one followed here {followed}",
         short(x)
     ))
 }

@@ -107,9 +107,7 @@ pub(super) fn compile(
         .map_err(|why| CommandError::WrongFile(format!("{}: {why}", document.path)))?;
     refuse_twins(&system)?;
     for name in system.redundant() {
-        stderr::report(&format!(
-            "the constraint `{name}` follows at the start from those before it"
-        ));
+        stderr::report(&format!("the constraint `{name}` depends at the start on those before it"));
     }
     Ok(system)
 }

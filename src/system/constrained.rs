@@ -167,8 +167,12 @@ impl System {
             consistent_initial::begin(&conditions, &mut momenta, time, &mut numbers, &known);
         found.map_err(|why| match why {
             InconsistentStart::Missed(k, part) => {
-                let n = self.degrees();
-                let kind = MotionErrorKind::VelocitiesMissed(constrained.names[k].clone(), part);
+                let (n, name) = (self.degrees(), constrained.names[k].clone());
+                let kind = if self.active_set().enforced[k] {
+                    MotionErrorKind::VelocitiesMissed(name, part)
+                } else {
+                    MotionErrorKind::ConstraintInconsistent(name, part)
+                };
                 let named = self.channels()[n..2 * n].iter().zip(&numbers[n..]);
                 let place = named.map(|(c, x)| (c.shown.clone(), x.high)).take(4).collect();
                 MotionError { time: state.time, kind, place }

@@ -58,6 +58,9 @@ pub enum MotionErrorKind {
     ConstraintMissed(String, f64),
     /// The initial velocities violate this constraint, by this part of the size of its terms.
     VelocitiesMissed(String, f64),
+    /// This constraint has the direction of those before it at the start, and another rate, by this part of the size of its
+    /// terms.
+    ConstraintInconsistent(String, f64),
     /// The given initial velocities and momenta contradict the constraints.
     Contradiction,
     /// The constraints do not determine these initial velocities.
@@ -190,6 +193,10 @@ impl fmt::Display for MotionError {
                 f,
                 "the velocities at the start do not keep the constraint `{name}`: its rate is off by {part:.1e} of its terms"
             )?,
+            MotionErrorKind::ConstraintInconsistent(name, part) => write!(
+                f,
+                "the constraint `{name}` contradicts those before it at the start: its rate is off by {part:.1e} of its terms"
+            )?,
             MotionErrorKind::Contradiction => f.write_str(
                 "the velocities and momenta given at the start contradict the constraints",
             )?,
@@ -309,6 +316,7 @@ impl fmt::Display for MotionError {
             }
             MotionErrorKind::ConstraintMissed(..)
             | MotionErrorKind::VelocitiesMissed(..)
+            | MotionErrorKind::ConstraintInconsistent(..)
             | MotionErrorKind::FreeVelocities(_)
             | MotionErrorKind::SeveralStarts(_)
             | MotionErrorKind::Passable(..)

@@ -167,6 +167,7 @@ fn what_cannot_start_is_said_with_the_coordinate_and_the_reason() {
             l("1/2*(theta'^2 + sin(theta)^2*phi'^2) - cos(theta)"),
             ["the mass matrix is singular", "θ = 0"],
         ),
+        (late, l("1/2*x'^2/(x - 1)^2"), ["x'^2/(x - 1)^2` has no finite value at x = 1", ":3:1"]),
     ] {
         let law = if law.contains("hamiltonian") {
             one(&start.replace("velocity", "momentum"), &law)
@@ -420,8 +421,26 @@ fn constraints_that_touch_are_said_to_repeat_each_other_at_the_start() {
                  [[constraints]]\nname = \"d\"\nexpression = \"y - 1 + x^2/2\"\n";
     let file = one("x = { initial = 0, velocity = 1 }", touch);
     let done = with_file(&file, &["check", "system.toml"]);
-    let said = "the constraint `d` follows at the start from those before it";
+    let said = "the constraint `d` depends at the start on those before it";
     assert!(done.stderr.contains(said), "{}", done.stderr);
+}
+
+/// Constraints on the same velocity, which no velocity meets: it is not what the file gives that is wrong.
+#[test]
+fn constraints_that_contradict_each_other_are_named() {
+    let law = "[lagrangian]\nL = \"1/2*x'^2\"\n[[constraints]]\nname = \"c\"\nexpression = \"x' - 2\"\n\
+               [[constraints]]\nname = \"d\"\nexpression = \"x' - 3\"\n";
+    let done = with_file(&one("x = 0", law), &["check", "system.toml"]);
+    done.fails(65, &["the constraint `d` contradicts those before it at the start", ":11:14"]);
+}
+
+/// At a place where the force is infinite no motion begins, and none of several is chosen.
+#[test]
+fn a_start_without_a_force_is_not_said_to_have_several_motions() {
+    let law = "[lagrangian]\nL = \"1/2*x'^2\"\nforces = { x = \"1/x\" }\n";
+    let done = with_file(&one("x = 0", law), &["run", "system.toml"]);
+    assert!(!done.stderr.contains("not unique"), "{}", done.stderr);
+    assert!(done.stderr.contains("`1/x` has no finite value at x = 0"), "{}", done.stderr);
 }
 
 /// What a law changes along a motion is not conserved, however little of that a run shows: by a force too weak to see, or a
