@@ -14,7 +14,7 @@ use super::open;
 use super::output::Output;
 use super::script::MathScript;
 use crate::experiment::Derived;
-use crate::mechanics::{Further, NamedRamps, Report, latex};
+use crate::mechanics::{Further, NamedRamps, Report, Valuation, latex};
 
 /// Show what follows from L or H: equations of motion, and what is conserved and why.
 ///
@@ -48,6 +48,8 @@ pub(super) fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     let Derived { model, mut equations } = open::derive(&document, model)?;
     equations.find_closed_forms();
     let further = Further::of(&model, &mut equations);
+    let values = Valuation::of_parameters(&model, &model.parameter_values());
+    equations.note_energy_conserved_at(&model, &values);
     let given = arguments.against.as_deref();
     let compared =
         given.map(|given| LagrangianComparison::of(&model, &mut equations, given)).transpose()?;

@@ -100,10 +100,13 @@ pub fn plain_name(shown: &str) -> Option<String> {
     Some(name).filter(|name| [shown, &subscripts(shown)].contains(&unicode_name(name).as_str()))
 }
 
-/// LaTeX for a Unicode symbol from a file (`θ`, `I₁`), with letters by their names.
+/// LaTeX for a Unicode symbol from a file (`θ`, `I₁`), with letters by their names. What would be a command of LaTeX is written out;
+/// a single `_` before a letter remains an index.
 pub fn latex_of_unicode(shown: &str) -> String {
     let mut latex = String::new();
     let mut below = String::new();
+    let has_index =
+        shown.matches('_').count() == 1 && !shown.starts_with('_') && !shown.ends_with('_');
     for c in shown.chars() {
         if let Some(digit) = ('0'..='9').find(|&d| subscript_character(d) == Some(c)) {
             below.push(digit);
@@ -111,8 +114,15 @@ pub fn latex_of_unicode(shown: &str) -> String {
             latex.push('\\');
             latex.push_str(name);
             latex.push(' ');
+        } else if "&%$#{}".contains(c) || c == '_' && !has_index {
+            latex.extend(['\\', c]);
         } else {
-            latex.push(c);
+            match c {
+                '\\' => latex.push_str("\\backslash "),
+                '^' => latex.push_str("\\wedge "),
+                '~' => latex.push_str("\\sim "),
+                _ => latex.push(c),
+            }
         }
     }
     let latex = latex.trim_end().to_owned();

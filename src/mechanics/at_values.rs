@@ -5,9 +5,11 @@
 
 use std::collections::HashMap;
 
-use super::equations::Equations;
+use super::equations::{Conserved, Equations, Reason};
+use super::impulse_change::is_changed_by_impulse;
 use super::valuation::Valuation;
 use crate::expr::{Expr, Pool, Symbol, Zero};
+use crate::model::Model;
 use crate::num::{Number, math};
 
 /// The number of points at which rates are evaluated before a proof is tried.
@@ -16,7 +18,34 @@ const POINTS: u64 = 3;
 /// A rate up to this part of its terms may be zero.
 const ROUNDING: f64 = 1e-9;
 
+/// The greatest number of parameters that are named.
+const MOST_NAMED: usize = 3;
+
+/// Says at which values of these parameters something is constant.
+pub fn constant_at(pool: &Pool, parameters: &[Symbol], values: &Valuation) -> String {
+    if parameters.len() > MOST_NAMED {
+        return "constant at these parameters".to_owned();
+    }
+    let value = |&s: &Symbol| format!("{} = {}", pool.symbol_info(s).unicode, values.at(s));
+    let given: Vec<String> = parameters.iter().map(value).collect();
+    format!("constant at {}", given.join(", "))
+}
+
 impl Equations {
+    /// Adds the energy to what is conserved, if it is at these values of the parameters and not at all of them.
+    pub fn note_energy_conserved_at(&mut self, model: &Model, values: &Valuation) {
+        if self.conserved.iter().any(|known| known.name == "energy") {
+            return;
+        }
+        let Some(parameters) = self.energy_conserved_at(values) else { return };
+        let mut reason = Reason::AtValues(constant_at(&self.pool, &parameters, values));
+        let expression = self.energy;
+        if is_changed_by_impulse(self, model, expression) {
+            reason = Reason::BetweenImpulses(Box::new(reason));
+        }
+        self.conserved.push(Conserved { name: "energy".to_owned(), expression, reason });
+    }
+
     /// The parameters at whose present values the energy is conserved, although it is not at all of their values, and L
     /// (or H) has no step; `None` where that is not proved.
     pub fn energy_conserved_at(&self, values: &Valuation) -> Option<Vec<Symbol>> {

@@ -310,6 +310,8 @@ pub enum Reason {
     /// dG/dt = 0 to rounding at points of all magnitudes. No proof was found, but nothing in the
     /// rate could escape a few points.
     Numerically,
+    /// Its rate vanishes at the present values of the parameters, proved symbolically. Carries the sentence that names them.
+    AtValues(String),
     /// The file declares it; the numerical drift shows how well it holds.
     Declared,
     /// The file declares it of its own motion: its rate is known not to vanish elsewhere.
@@ -423,6 +425,7 @@ impl std::fmt::Display for Reason {
             Reason::Commutes => f.write_str("[G,H] + ∂G/∂t = 0, proved"),
             Reason::ProvedOnConstraints => f.write_str("dG/dt = 0 on the constraints, proved"),
             Reason::Numerically => f.write_str("checked numerically"),
+            Reason::AtValues(given) => f.write_str(given),
             Reason::Declared => f.write_str("stated by the file"),
             Reason::OfThisMotion => f.write_str("stated by the file, along this motion only"),
             Reason::BetweenImpulses(reason) => write!(f, "{reason}, between impulses"),

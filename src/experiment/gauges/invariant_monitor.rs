@@ -11,7 +11,7 @@ use super::seen_distances::{SeenDistances, by_rounding_of_state};
 use crate::analysis::{LEFT, LOST, RESOLVED, RoundedInput};
 use crate::experiment::Reference;
 use crate::expr::{Expr, Pool, Symbol};
-use crate::mechanics::{Valuation, vanishing_at};
+use crate::mechanics::{Valuation, constant_at, vanishing_at};
 use crate::system::{BatchTerms, TermSums, TermWatch};
 
 /// The name of the gauge that is constant by the law of the energy's change.
@@ -29,9 +29,6 @@ const ERROR: f64 = 1e3;
 
 /// A distance is rounding of the state up to this multiple of the change by half a digit of each of its numbers.
 const OF_STATE: f64 = 4.0;
-
-/// So many parameters at most are named where a quantity is constant at their values.
-const MOST_NAMED: usize = 3;
 
 #[derive(Clone, Debug)]
 pub(super) struct InvariantMonitor {
@@ -148,14 +145,7 @@ impl InvariantMonitor {
             ChangeRate::Energy => energy(),
             ChangeRate::All(rates) => vanishing_at(pool, rates, values),
         };
-        self.constant_here = special.map(|parameters| {
-            let value = |&s: &Symbol| format!("{} = {}", pool.symbol_info(s).unicode, values.at(s));
-            if parameters.len() > MOST_NAMED {
-                return "constant at these parameters".to_owned();
-            }
-            let given: Vec<String> = parameters.iter().map(value).collect();
-            format!("constant at {}", given.join(", "))
-        });
+        self.constant_here = special.map(|parameters| constant_at(pool, &parameters, values));
     }
 
     /// The law by which it changes at the values of the parameters, if it does.

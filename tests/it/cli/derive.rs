@@ -126,6 +126,36 @@ fn latex_is_one_aligned_block() {
     assert_eq!(opened, latex.matches('}').count());
 }
 
+/// What would be a command of LaTeX in a symbol is a letter.
+#[test]
+fn symbols_are_no_commands_of_latex() {
+    let file = "title = \"T\"\n[coordinates]\nx = { symbol = \"x&\\\\input{a}\", initial = 1 }\n\
+                y = { symbol = \"v_y\", initial = 1 }\n\
+                [lagrangian]\nL = \"(x'^2 + y'^2)/2\"\n";
+    let latex = with_file(file, &["derive", "system.toml", "--format", "latex"]).success();
+    assert!(latex.contains("\\dot{x\\&\\backslash input\\{a\\}}"), "{latex}");
+    assert!(latex.contains("\\dot{v_y}"), "{latex}");
+}
+
+/// Without a damper the energy is conserved, although the law has one.
+#[test]
+fn an_energy_that_is_conserved_at_the_values_of_the_file_is_listed() {
+    let file = |c: &str| {
+        format!(
+            "title = \"T\"\n[coordinates]\nx = 1\n[parameters]\nc = {c}\n\
+             [lagrangian]\nL = \"(x'^2 - x^2)/2\"\ndissipation = \"c*x'^2/2\"\n"
+        )
+    };
+    let derived = |c: &str| {
+        with_file(&file(c), &["derive", "system.toml", "--format", "json"]).json()["conserved"]
+            .clone()
+    };
+    let known = derived("0");
+    assert_eq!(known[0]["name"], "energy", "{known}");
+    assert_eq!(known[0]["reason"], "constant at c = 0");
+    assert_eq!(derived("0.1"), serde_json::json!([]));
+}
+
 #[test]
 fn every_observable_is_classed() {
     let file = "title = \"T\"\n[coordinates]\nx = { initial = 1, velocity = 0 }\n\
