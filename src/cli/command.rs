@@ -379,13 +379,14 @@ fn fit(message: &str, words: &[OsString]) -> String {
 /// The greatest length of a line about wrong words; help is narrower.
 const LONGEST_LINE: usize = 400;
 
-/// The message if the first of several words is not a command: it resembles one, or is unknown. A single word would be
-/// the name of a preset.
+/// The message if several words begin with no command: with one that resembles it, with an unknown word, or with the name of a
+/// system that another name follows. A single word would be the name of a preset.
 fn misspelt(words: &[OsString]) -> Option<String> {
     let [_, first, second, ..] = words else { return None };
     let first = first.to_str().filter(|first| !first.starts_with('-'))?;
     let command = Arguments::command();
     let names: Vec<&str> = command.get_subcommands().map(clap::Command::get_name).collect();
+    let first = if first == "help" { second.to_str()? } else { first };
     if names.contains(&first) {
         return None;
     }
@@ -394,10 +395,16 @@ fn misspelt(words: &[OsString]) -> Option<String> {
         return Some(format!("unknown command `{shown}`; did you mean `{near}`?"));
     }
     // an option after a preset's name belongs to the lab, and its errors are reported there
-    if is_path(first) || second.as_encoded_bytes().starts_with(b"-") {
+    if second.as_encoded_bytes().starts_with(b"-") {
         return None;
     }
-    unknown(first)
+    if is_path(first) || Catalog::load().entries().iter().any(|entry| entry.name == first) {
+        let second = printable::quoted(&second.to_string_lossy());
+        return Some(format!(
+            "the laboratory opens one system: `{second}` follows `{shown}`; no command is called `{shown}`"
+        ));
+    }
+    Some(format!("unknown command `{shown}`; `phaselab --help` lists the commands"))
 }
 
 /// The message for a word that is neither a command nor a preset, with the nearest that is.

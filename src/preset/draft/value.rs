@@ -71,10 +71,14 @@ pub(super) fn number(
 ) -> Option<Spanned<f64>> {
     let digits = match value.get_ref() {
         DeValue::Integer(_) | DeValue::Float(_) => digits(value, called, diagnostics)?,
-        DeValue::String(_) => {
+        DeValue::String(text) => {
             let message = format!("{called} must be a number, not a text in quotes");
-            diagnostics
-                .push(Diagnostic::error(value.span(), message).with_help("remove the quotes"));
+            let help = if text.parse::<f64>().is_ok() {
+                "remove the quotes"
+            } else {
+                "write its value in digits, without quotes"
+            };
+            diagnostics.push(Diagnostic::error(value.span(), message).with_help(help));
             return None;
         }
         _ => of_kind(None, value, (called, "a number"), diagnostics)?,

@@ -29,6 +29,20 @@ fn a_name_that_is_not_there_is_reported_with_those_that_are() {
     phaselab(&["zzzzzz"]).fails(2, &["unknown command or preset `zzzzzz`", lists]);
 }
 
+/// A second name is not taken for a command of the first, and `help` not for a preset.
+#[test]
+fn words_that_are_no_command_are_called_what_they_are() {
+    phaselab(&["help", "actoins"])
+        .fails(2, &["unknown command `actoins`; did you mean `actions`?"]);
+    let commands = "unknown command `verify`; `phaselab --help` lists the commands";
+    phaselab(&["help", "verify"]).fails(2, &[commands]);
+    phaselab(&["verify", "pendulum"]).fails(2, &[commands]);
+    let second = "the laboratory opens one system: `planet` follows `pendulum`";
+    phaselab(&["pendulum", "planet"]).fails(2, &[second]);
+    let second = "the laboratory opens one system: `b.toml` follows `a.toml`";
+    phaselab(&["a.toml", "b.toml"]).fails(2, &[second]);
+}
+
 /// Before a demo is recorded, which takes a while, and not after it.
 #[test]
 fn a_still_that_cannot_be_drawn_is_reported_at_once() {
