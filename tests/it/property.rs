@@ -107,6 +107,17 @@ fn the_judge_knows_motions_in_closed_form() {
 const BETA: f64 = 2.587_109_559_229_790_5;
 
 #[test]
+fn the_judge_counts_the_turns_of_a_motion() {
+    let oscillator = particle(product([number(0.5), power(variable(0), 2)]), [1.0, 0.0], 20.0);
+    // cos t turns at π, 2π … 6π, and its rate at π/2 … 11π/2
+    let way = follow(&oscillator, &oscillator.start, 1e-13, 100_000).unwrap().way;
+    assert_eq!(judge::turns(&way), 6);
+    let falling = particle(variable(0), [1.0, 0.0], 20.0);
+    let way = follow(&falling, &falling.start, 1e-13, 100_000).unwrap().way;
+    assert_eq!(judge::turns(&way), 0);
+}
+
+#[test]
 fn the_judge_is_accurate_at_powers_between_one_and_two() {
     // from rest at 1 a period is 4/√2 · 2/3 · B(2/3, 1/2)
     let period = 8.0 / 3.0 / 2.0_f64.sqrt() * BETA;

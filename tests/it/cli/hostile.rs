@@ -343,12 +343,40 @@ fn no_cast_script_or_configuration_steers_the_terminal() {
     ] {
         harmless(home.path(), &words(arguments), &[0, 2, 65]);
     }
+}
+
+/// Of a file whose name steers a terminal, and whose texts are markup.
+#[test]
+fn no_recording_or_still_has_what_steers_or_is_markup() {
+    let home = tempfile::tempdir().unwrap();
+    let markup = "<b>&]]>'";
+    let name = format!("a{STEERING}.toml").replace('/', "");
+    let system = PENDULUM.replacen("title = \"", &format!("title = \"{markup}"), 1);
+    fs::write(home.path().join(&name), system).unwrap();
+    let script = format!(
+        "Size 90x28\nFps 10\nTitle \"{markup}\"\nCaption \"{markup}\"\nMarker \"{markup}\"\nWait 0.3s\n"
+    );
+    fs::write(home.path().join("my.demo"), script).unwrap();
+    let name = format!("./{name}");
     for still in ["it.svg", "it.txt"] {
-        let arguments = ["record", "pendulum", "--script", "my.demo", "--still", still];
-        if harmless(home.path(), &words(&arguments), &[0, 65]).status.success() {
-            let text = fs::read_to_string(home.path().join(still)).unwrap();
-            assert!(!text.chars().any(|c| is_steering(c) && c != '\n'), "{still}");
+        let arguments = ["record", &name, "--script", "my.demo", "--still", still, "-o", "it.cast"];
+        harmless(home.path(), &words(&arguments), &[0]);
+        for written in [still, "it.cast"] {
+            let text = fs::read_to_string(home.path().join(written)).unwrap();
+            assert!(!text.chars().any(|c| is_steering(c) && c != '\n'), "{written}");
         }
+    }
+    let drawing = fs::read_to_string(home.path().join("it.svg")).unwrap();
+    let drawing = roxmltree::Document::parse(&drawing).expect("well-formed");
+    assert!(!drawing.descendants().any(|node| node.has_tag_name("b")));
+    let cast = fs::read_to_string(home.path().join("it.cast")).unwrap();
+    let events = cast.lines().skip(1).filter(|line| !line.is_empty());
+    for event in events.map(|line| serde_json::from_str::<serde_json::Value>(line).unwrap()) {
+        let data = event[2].as_str().unwrap().replace('\u{1b}', "");
+        // the lab itself moves the cursor, by sequences that begin with ESC and by single characters
+        let steers = |c: char| is_steering(c) && !matches!(c, '\r' | '\n' | '\u{8}');
+        assert!(!data.chars().any(steers), "{data:?}");
+        assert!(!event[2].as_str().unwrap().contains("\u{1b}]"), "{event}");
     }
 }
 
