@@ -386,7 +386,8 @@ fn misspelt(words: &[OsString]) -> Option<String> {
     let first = first.to_str().filter(|first| !first.starts_with('-'))?;
     let command = Arguments::command();
     let names: Vec<&str> = command.get_subcommands().map(clap::Command::get_name).collect();
-    let first = if first == "help" { second.to_str()? } else { first };
+    let is_question = first == "help";
+    let first = if is_question { second.to_str()? } else { first };
     if names.contains(&first) {
         return None;
     }
@@ -398,7 +399,9 @@ fn misspelt(words: &[OsString]) -> Option<String> {
     if second.as_encoded_bytes().starts_with(b"-") {
         return None;
     }
-    if is_path(first) || Catalog::load().entries().iter().any(|entry| entry.name == first) {
+    let is_system =
+        || is_path(first) || Catalog::load().entries().iter().any(|entry| entry.name == first);
+    if !is_question && is_system() {
         let second = printable::quoted(&second.to_string_lossy());
         return Some(format!(
             "the laboratory opens one system: `{second}` follows `{shown}`; no command is called `{shown}`"

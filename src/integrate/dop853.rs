@@ -37,7 +37,7 @@ const SAFETY: f64 = 0.9;
 /// The multiple of the measured rounding of a rate that is tolerated.
 const ROUNDINGS: f64 = 4.0;
 
-/// An error that is always tolerated: rates below the range of normal numbers lose their digits, which changes of their inputs
+/// The rounding of any rate that is tolerated: rates below the range of normal numbers lose their digits, which changes of their inputs
 /// do not show.
 const UNDERFLOW: f64 = f64::MIN_POSITIVE / f64::EPSILON;
 
@@ -194,7 +194,7 @@ impl DormandPrince {
         for i in numbers {
             let size = self.sizes[i];
             count += 1.0;
-            let rounding = ROUNDINGS * step.abs() * self.noise[i] + UNDERFLOW;
+            let rounding = ROUNDINGS * step.abs() * (self.noise[i] + UNDERFLOW);
             let allowed = self.tolerance * size + rounding;
             if allowed > 0.0 {
                 let whole = sum(STAGES[METHOD_STAGES].from, &self.slopes, i);

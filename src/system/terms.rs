@@ -74,14 +74,14 @@ fn still(model: &Model, equations: &Equations) -> Vec<Symbol> {
     if !equations.constraints.is_empty() {
         return Vec::new();
     }
-    let is_struck = |i: usize| model.impulses.iter().any(|one| one.change[i] != Expr::ZERO);
+    let has_impulse = |i: usize| model.impulses.iter().any(|one| one.change[i] != Expr::ZERO);
     let variable = |(_, c): (usize, &CoordinateSymbols)| match equations.flow {
         Flow::Lagrange { .. } => c.velocity,
         Flow::Hamilton { .. } => c.momentum,
         Flow::Poisson { .. } => c.position,
     };
     let still = coordinates.iter().enumerate().filter(is_still);
-    still.filter(|&(i, _)| !is_struck(i)).map(variable).collect()
+    still.filter(|&(i, _)| !has_impulse(i)).map(variable).collect()
 }
 
 #[derive(Clone, Debug)]

@@ -37,6 +37,7 @@ fn words_that_are_no_command_are_called_what_they_are() {
     let commands = "unknown command `verify`; `phaselab --help` lists the commands";
     phaselab(&["help", "verify"]).fails(2, &[commands]);
     phaselab(&["verify", "pendulum"]).fails(2, &[commands]);
+    phaselab(&["help", "pendulum"]).fails(2, &["unknown command `pendulum`; `phaselab --help`"]);
     let second = "the laboratory opens one system: `planet` follows `pendulum`";
     phaselab(&["pendulum", "planet"]).fails(2, &[second]);
     let second = "the laboratory opens one system: `b.toml` follows `a.toml`";
