@@ -233,28 +233,31 @@ impl InvariantMonitor {
     }
 
     /// Takes it for rounding where a distance, farther than any before, is no more than that of the state, as where two bodies that are
-    /// far from the origin nearly collide. `by_state` says by how much rounding of the state changes the quantity.
+    /// far from the origin nearly collide: such a distance is not recorded, so that what is lost there for good shows later. `by_state`
+    /// says by how much rounding of the state changes the quantity.
     fn measure_far(
         &mut self,
         (time, distance): (f64, f64),
         TermSums { size, moving, .. }: TermSums,
         floor: f64,
         by_state: impl FnOnce(usize) -> Option<(f64, RoundedInput)>,
-    ) {
+    ) -> bool {
         let distance = distance.abs();
         let is_far = distance > 2.0 * self.drift.farthest
             && distance > floor * self.rounding.greatest
             && self.change_law().is_none()
-            && self.drift_of(distance, moving) > RESOLVED;
-        let Some(quantity) = self.invariant.quantity.filter(|_| is_far) else { return };
+            && moving > 0.0;
+        let Some(quantity) = self.invariant.quantity.filter(|_| is_far) else {
+            return false;
+        };
         if let Some((change, input)) = by_state(quantity)
             && distance <= OF_STATE * f64::EPSILON * change
         {
-            self.widen(change);
             self.seen.note_rounding(Some((change, input)));
             self.seen.note(time, distance, size);
-            self.drift.farthest = distance;
+            return true;
         }
+        false
     }
 
     /// Records an accurate value and returns its distance; `floor` is the rounding error of a value of size 1.
@@ -266,13 +269,13 @@ impl InvariantMonitor {
         floor: f64,
     ) -> f64 {
         let mut distance = values[self.invariant.channel] - self.reference.value;
-        let (mut moving, mut size) = (0.0, 0.0_f64);
+        let (mut moving, mut size, mut is_rounding) = (0.0, 0.0_f64, false);
         if let Some(sums) = self.summed(terms) {
             // the terms may have grown
             self.widen(sums.size);
             if !self.reference.offset {
                 let by_state = |quantity| by_rounding_of_state(terms, quantity);
-                self.measure_far((time, distance), sums, floor, by_state);
+                is_rounding = self.measure_far((time, distance), sums, floor, by_state);
             }
             moving = sums.moving;
             size = sums.size;
@@ -289,7 +292,9 @@ impl InvariantMonitor {
             let value = values[self.invariant.channel].abs();
             self.seen.note(time, distance.abs(), size.max(value).max(self.reference.value.abs()));
         }
-        self.note(time, distance, moving, floor);
+        if !is_rounding {
+            self.note(time, distance, moving, floor);
+        }
         distance
     }
 
@@ -339,7 +344,7 @@ impl InvariantMonitor {
         let TermSums { value, size, moving } = sums;
         let distance = self.rough(value, work) - self.reference.rough;
         self.widen(size);
-        self.measure_far((time, distance), sums, floor, by_state);
+        let is_rounding = self.measure_far((time, distance), sums, floor, by_state);
         if self.drift.begin_if_at_rest(time, distance, moving) {
             self.seen.begin();
         }
@@ -348,7 +353,7 @@ impl InvariantMonitor {
         if self.drift.worst <= LOST {
             self.drift.moving.note(time, moving);
         }
-        if distance.abs() > floor * self.rounding.greatest {
+        if !is_rounding && distance.abs() > floor * self.rounding.greatest {
             self.note(time, distance, moving, floor);
             // if there are rows within a step, these make the history
             if !dense {
