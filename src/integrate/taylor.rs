@@ -64,7 +64,7 @@ pub(super) const METHOD: Method = Method {
     locates_kinks: true,
     stays_within_steps: true,
     needs: "",
-    about: "Power series in time, of an order that follows the tolerance (28 or 36 if not given), \
+    about: "Power series in time, of an order that follows the tolerance (28 where none is given), \
             the lowest terms carried in double-double. Errors stay at the last digit shown, kinks \
             are located. Jorba & Zou, Experimental Mathematics 14 (2005) 99.",
     fits: |_| Ok(()),

@@ -266,12 +266,10 @@ impl Propagator {
     /// Whether a number that is not finite, or momenta without velocities, have only grown beyond the range of numbers, far from all
     /// singularities.
     fn out_of_range(&mut self, error: &MotionError) -> Option<MotionErrorKind> {
+        let is_far = |at: &&(String, f64)| at.1.abs() > VAST;
         let name = match &error.kind {
             MotionErrorKind::NotFinite(name) => name,
-            MotionErrorKind::NoVelocities => {
-                let far = |at: &&(String, f64)| at.1.abs() > VAST;
-                &error.place.iter().find(far)?.0
-            }
+            MotionErrorKind::NoVelocities => &error.place.iter().find(is_far)?.0,
             _ => return None,
         };
         if error.time.abs() > VAST {
@@ -285,6 +283,8 @@ impl Propagator {
             .into_iter()
             .flatten()
             .any(|state| is_vast(&state) || state.is_finite() && self.has_run_away(&state));
+        // the series of the last step may have no values
+        let grown = grown || error.place.iter().any(|at| is_far(&at));
         grown.then(|| MotionErrorKind::OutOfRange(Some(name.clone())))
     }
 }

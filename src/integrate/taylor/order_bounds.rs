@@ -98,9 +98,8 @@ impl OrderBounds {
         let chunk = |k: usize, first: usize| {
             let lanes = |of: &dyn Fn(usize) -> f64| std::array::from_fn(|i| of(first + i));
             let longer = math::exp(indulgence(k));
-            let factor = |j: usize, known: bool, root: f64| match known {
-                true => CLEARLY * math::powi(root * longer, (k - j) as i32),
-                false => 0.0,
+            let factor = |j: usize, known: bool, root: f64| {
+                if known { CLEARLY * math::powi(root * longer, (k - j) as i32) } else { 0.0 }
             };
             BoundChunk {
                 tolerance_factors: lanes(&|j| factor(j, j < k, roots[j])),

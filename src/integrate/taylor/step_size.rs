@@ -22,10 +22,11 @@ use crate::system::{Series, System};
 /// Below this tolerance the lowest orders are built in double-double.
 pub(super) const EXACT_BELOW: f64 = 1e-16;
 
-/// The number of orders in double-double.
+/// The number of orders in double-double: the part left to `f64` is a ten-thousandth of a step.
 pub(super) const EXACT_ORDERS: usize = 8;
 
-/// The part of the tolerance allowed for the last terms.
+/// The part of the tolerance allowed for the last terms, which represent everything truncated.
+/// Truncation errs in the same direction step by step, while rounding does not.
 const SHARE: f64 = 0.01;
 
 /// The largest step as a part of the radius of convergence.
@@ -39,29 +40,24 @@ const SPARED: f64 = 1e3;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SeriesOrders {
     pub(super) highest: usize,
-    /// The number of orders in double-double: the part left to `f64` is a ten-thousandth of a step.
+    /// The number of orders in double-double.
     pub(super) exact: usize,
-    /// The part of the tolerance allowed for the last terms, which represent everything truncated.
-    /// Truncation errs in the same direction step by step, while rounding does not.
-    share: f64,
 }
 
 impl SeriesOrders {
     /// Those at which a tolerance costs least, for the motion of a system. The step grows with the order. In large
     /// systems the work grows with its square (Jorba & Zou, proposition 3.2, find −½ ln ε + 1 if each order costs the
-    /// same work); in small ones an order costs nearly the same whatever it is, and a step has a cost of its own. In the
-    /// longer steps more orders are exact, as terms of high order may be larger than their sum, and a smaller part of
-    /// the tolerance keeps the error of a unit of time.
+    /// same work); in small ones an order in `f64` costs nearly the same whatever it is, and a step has a cost of its
+    /// own. In double-double it pays no more: in the longer steps of motions without singularities terms of high order,
+    /// which are in `f64`, are larger than their sum.
     pub(super) fn of(tolerance: f64, system: &System) -> SeriesOrders {
-        let degrees = system.degrees();
-        let (part, exact, share) = match tolerance < EXACT_BELOW {
-            true if degrees <= SMALL_EXACT && !system.has_kinks() => (0.86, 12, 0.03 * SHARE),
-            true => (0.66, EXACT_ORDERS, SHARE),
-            false if degrees <= SMALL && tolerance < LOOSE => (0.8, 0, SHARE),
-            false => (0.66, 0, SHARE),
+        let (part, exact) = match tolerance < EXACT_BELOW {
+            true => (0.66, EXACT_ORDERS),
+            false if system.degrees() <= SMALL && tolerance < LOOSE => (0.8, 0),
+            false => (0.66, 0),
         };
         let highest = ((-math::ln(tolerance) * part).ceil() as usize).clamp(WIDTH, 44);
-        SeriesOrders { highest, exact, share }
+        SeriesOrders { highest, exact }
     }
 }
 
@@ -71,9 +67,6 @@ const LOOSE: f64 = 1e-9;
 /// With no more degrees of freedom than this the products of series are not most of the work
 /// (measured on chains of pendulums).
 const SMALL: usize = 6;
-
-/// The same where the lowest orders are in double-double.
-const SMALL_EXACT: usize = 3;
 
 /// Whether all rates of change are finite.
 pub(super) fn has_velocity(series: &Series) -> bool {
@@ -94,11 +87,10 @@ pub(super) struct StepSize {
 
 impl StepSize {
     pub(super) fn new(tolerance: f64, orders: SeriesOrders) -> StepSize {
-        let SeriesOrders { highest, share, .. } = orders;
         StepSize {
-            motion: Shares::of_motion(tolerance * share, highest),
+            motion: Shares::of_motion(tolerance * SHARE, orders.highest),
             integrals: None,
-            tolerance: tolerance * share,
+            tolerance: tolerance * SHARE,
             least: 0,
         }
     }

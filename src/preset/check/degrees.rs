@@ -1,6 +1,6 @@
 //! Degrees where radians are meant: sine and its like of a quantity whose unit is the degree.
 //!
-//! In: an expression that has been read, the units of the file. Out: errors. Never here: conversion of numbers, as a unit is a label.
+//! In: an expression that has been read, the units of the file. Out: warnings. Never here: conversion of numbers, as a unit is a label.
 
 use super::ModelBuilder;
 use crate::diagnostic::Diagnostic;
@@ -40,8 +40,7 @@ impl ModelBuilder<'_> {
                 let of = &pool.symbol_info(symbol).name;
                 let message = format!("`{of}` is in degrees, but {name} takes radians");
                 let help = format!("write {name}({of}*pi/180), or give `{of}` in radians");
-                let error = Diagnostic::error(formula.span(), message).with_help(help);
-                self.diagnostics.push(error);
+                self.diagnostics.push(Diagnostic::warning(formula.span(), message).with_help(help));
                 return;
             }
         }

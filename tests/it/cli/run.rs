@@ -471,7 +471,7 @@ fn which_constraints_repeat_others_is_judged_where_the_run_begins() {
     "#;
     let at = |init: &str| {
         let done = with_file(file, &["run", "system.toml", "--init", init, "--at", "2"]);
-        (csv(&done.stdout)[0][2], done.stderr.contains("`slope` follows"))
+        (csv(&done.stdout)[0][2], done.stderr.contains("`slope` depends"))
     };
     assert_eq!((at("k=1"), at("k=0")), ((0.0, false), (2.0, true)));
 }

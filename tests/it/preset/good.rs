@@ -269,6 +269,44 @@ fn the_parameter_of_a_path_is_its_own() {
     assert_eq!(warnings[0].message, "the parameter `s` is not used");
 }
 
+/// A unit is a label, so a sine of degrees is allowed, with a warning; ratios and factors of the file's own may convert.
+#[test]
+fn degrees_that_are_taken_for_radians_are_warned_of() {
+    let text = r#"
+title = "Degrees"
+
+[coordinates]
+theta = { initial = 90, unit = "degree" }
+
+[parameters]
+alpha = { value = 30, unit = "°" }
+beta = { value = 30, unit = "°" }
+k = { value = 0.017453292519943295, unit = "rad/deg" }
+
+[lagrangian]
+L = "1/2*theta'^2 + cos(theta) + sin(beta*pi/180)*theta + cos(theta/beta)*cos(k*theta)*tan(0.017453*theta)"
+
+[[observables]]
+name = "slope"
+expression = "tan(1 + alpha/2)"
+
+[[observables]]
+name = "converted"
+expression = "tan(k*(alpha + theta)/2) + sin(theta^2/beta^2)"
+"#;
+    let Checked { warnings, .. } = checked(text);
+    let messages: Vec<&str> = warnings.iter().map(|w| w.message.as_str()).collect();
+    let expected = [
+        "`theta` is in degrees, but cos takes radians",
+        "`alpha` is in degrees, but tan takes radians",
+    ];
+    assert_eq!(messages, expected);
+    assert_eq!(
+        warnings[1].help.as_deref(),
+        Some("write tan(alpha*pi/180), or give `alpha` in radians")
+    );
+}
+
 #[test]
 fn views_of_every_kind() {
     let text = with(

@@ -51,10 +51,10 @@ fn every_step_ends_before_its_limit_and_the_last_one_on_it() {
 
 #[test]
 fn a_step_is_a_good_part_of_the_radius_of_convergence() {
-    // order 36: cos t is entire, and its series allows more than half a period
+    // order 28: cos t is entire, and its series allows about a third of a period
     let mut run = Run::new(OSCILLATOR);
     run.to(200.0 * std::f64::consts::PI);
-    assert!((120..200).contains(&run.steps), "{} steps for 100 periods", run.steps);
+    assert!((200..350).contains(&run.steps), "{} steps for 100 periods", run.steps);
 }
 
 #[test]

@@ -36,7 +36,8 @@ impl InvariantMonitor {
         } else {
             (value - self.reference.value).abs()
         };
-        let farthest = self.drift.farthest;
+        let seen = if self.is_seen() { self.seen.greatest() } else { 0.0 };
+        let farthest = self.drift.farthest.max(seen);
         let is_beyond = farthest > measure.rounding;
         let worst = measure.worst.filter(|_| is_beyond);
         let max_drift = worst.unwrap_or_else(|| measure.drift(farthest.max(distance)));
