@@ -16,32 +16,29 @@ impl Pool {
         constant: Number,
         terms: &[(Number, Expr)],
     ) -> Option<(Number, Expr)> {
-        let two = Number::integer(2);
         let (mut squares, mut products) = (Vec::new(), Vec::new());
         if !constant.is_zero() {
             squares.push((constant, Expr::ONE));
         }
         for &(c, term) in terms {
-            match self.node(term) {
-                Node::Product(one, factors)
-                    if one.is_one() && factors.len() == 1 && factors[0].1 == two =>
-                {
-                    squares.push((c, factors[0].0));
-                }
-                _ => products.push((c, term)),
+            match self.root_of_square(term).filter(|_| !c.is_negative()) {
+                Some(root) => squares.push((c, root)),
+                None => products.push((c, term)),
             }
         }
         let n = squares.len();
-        let may_be = (2..=MOST).contains(&n)
-            && products.len() == n * (n - 1) / 2
-            && squares.iter().all(|(c, _)| !c.is_negative());
+        let may_be =
+            (2..=MOST).contains(&n) && products.len() == n * (n - 1) / 2 && !constant.is_negative();
         if !may_be {
             return None;
         }
         let (a, first) = squares[0];
         let mut coefficient = |u: Expr, v: Expr| {
             let product = self.mul(u, v);
-            products.iter().find(|(_, term)| *term == product).map(|&(c, _)| c * (two * a).recip())
+            products
+                .iter()
+                .find(|(_, term)| *term == product)
+                .map(|&(c, _)| c * (Number::integer(2) * a).recip())
         };
         let mut roots = vec![(Number::ONE, first)];
         for &(c, u) in &squares[1..] {
@@ -59,5 +56,17 @@ impl Pool {
             }
         }
         Some((a, self.linear(Number::ZERO, &roots)))
+    }
+
+    /// What a product without a factor of its own is the square of, where all its powers are even.
+    fn root_of_square(&mut self, term: Expr) -> Option<Expr> {
+        let Node::Product(one, factors) = self.node(term) else { return None };
+        let half = |&(base, power): &(Expr, Number)| {
+            let half = power.as_integer().filter(|n| n % 2 == 0)? / 2;
+            Some((base, Number::integer(half)))
+        };
+        let roots =
+            one.is_one().then(|| factors.iter().map(half).collect::<Option<Vec<_>>>())??;
+        Some(self.monomial(Number::ONE, &roots))
     }
 }

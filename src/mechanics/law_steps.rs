@@ -148,13 +148,11 @@ impl Equations {
         steps
     }
 
-    /// Whether a function of the time may be infinite at some.
+    /// Whether a function of the time may change its sign where it is infinite, which a logarithm does not.
     fn may_have_poles(&self, e: Expr) -> bool {
         let varies = |e: Expr| self.pool.depends_on_any(e, &[self.symbols.time]);
         self.pool.reachable(&[e]).into_iter().any(|part| match self.pool.node(part) {
-            Node::Call(FunctionId::Tan | FunctionId::Cot | FunctionId::Ln, argument) => {
-                varies(argument[0])
-            }
+            Node::Call(FunctionId::Tan | FunctionId::Cot, argument) => varies(argument[0]),
             _ => self.divisors(part).into_iter().any(|(divisor, _)| varies(divisor)),
         })
     }

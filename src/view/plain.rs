@@ -128,9 +128,12 @@ fn value(q: &Quantities<'_>, target: ValueId) -> String {
     };
     let is = number.map_or_else(|| "not known".to_owned(), |v| brief(v, 6, q.style.glyphs));
     let is = if info.ramped { format!("now {is}, ramped") } else { is };
+    let mut about = String::new();
     let parts = of_file(q.lab, &info, q.style.glyphs).into_iter().chain([info.about.clone()]);
-    let parts = parts.filter(|part| !part.is_empty());
-    let about: String = parts.map(|part| format!(", {part}")).collect();
+    for part in parts.filter(|part| !part.is_empty()) {
+        about += ", ";
+        about += &part;
+    }
     let range = info.range.map_or_else(String::new, |(min, max, _)| {
         format!(", from {} to {}", brief(min, 4, q.style.glyphs), brief(max, 4, q.style.glyphs))
     });

@@ -439,7 +439,9 @@ impl ScenePainter<'_> {
         for (extents, edges) in edges {
             let lines: Vec<&[[f64; 3]]> = edges.iter().map(Vec::as_slice).collect();
             self.edge(extents, &lines, &pen, |painter, pen| {
-                lines.iter().for_each(|line| painter.curve(line, pen));
+                for line in &lines {
+                    painter.curve(line, pen);
+                }
             });
         }
         for point in points {

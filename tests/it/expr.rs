@@ -52,6 +52,9 @@ fn canonical_forms() {
     check("sqrt(2*q^2 - 4*q + 2) - sqrt(2)*sqrt((q - 1)^2)", "0");
     check("(1/4 + q + q^2)^(1/3) - ((q + 1/2)^2)^(1/3)", "0");
     check("sqrt(1 + q^2 + u^2 - 2*q + 2*u - 2*q*u) - sqrt((q - u - 1)^2)", "0");
+    check("sqrt(1 - 2*q^2 + q^4) - sqrt((q^2 - 1)^2)", "0");
+    check("sqrt(q^2*u^2 - 2*q*u + 1) - sqrt((q*u - 1)^2)", "0");
+    check("sqrt(1 - 2*q^2 + q^3)", "sqrt(q^3 - 2*q^2 + 1)");
     check("sqrt(1 - 2*q + 2*q^2)", "sqrt(2*q^2 - 2*q + 1)");
     check("sqrt(q^2 + 3*q + 1)", "sqrt(3*q + q^2 + 1)");
     check("sqrt(1 - tanh(q)^2)", "1/cosh(q)");

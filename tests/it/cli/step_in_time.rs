@@ -253,12 +253,14 @@ fn a_row_at_the_instant_is_that_after_it() {
         "0.1*t - 0.1",
         "t^2 - 1",
         "exp(t) - exp(1)",
+        "ln(t)",
     ] {
-        let law = law(&format!("(3 - sign({function}))/2"), "0");
+        // a logarithm has no value at 0
+        let law = law(&format!("(3 - sign({function}))/2"), "0") + "\n[run]\nstart = 0.25";
         for method in [&["taylor"], &["dop853"], &["leapfrog"]] {
             for row in rows(&law, "", method, "0.5,1,2") {
                 let velocity = if row[0] < 1.0 { 0.8 } else { 1.6 };
-                let x = 0.3 + 0.8 * row[0].min(1.0) + 1.6 * (row[0] - 1.0).max(0.0);
+                let x = 0.1 + 0.8 * row[0].min(1.0) + 1.6 * (row[0] - 1.0).max(0.0);
                 assert_close(&row, [x, velocity, 1.6], 1e-14, function);
             }
         }
