@@ -5,7 +5,7 @@
 use serde_json::{Map, Value};
 
 use super::output::OutputForm;
-use crate::num::{short, shortest};
+use crate::num::{push_shortest, short, shortest};
 use crate::printable;
 
 /// How a table is written.
@@ -66,7 +66,27 @@ impl TableCell {
 
 /// Lines of comma-separated values.
 pub(super) fn csv<'a>(rows: impl IntoIterator<Item = &'a [TableCell]>) -> String {
-    rows.into_iter().map(|row| record(row.iter().map(TableCell::plain))).collect()
+    let mut out = String::new();
+    for row in rows {
+        push_row(&mut out, row);
+    }
+    out
+}
+
+/// Appends a line of comma-separated values.
+fn push_row(out: &mut String, row: &[TableCell]) {
+    for (i, cell) in row.iter().enumerate() {
+        if i > 0 {
+            out.push(',');
+        }
+        match cell {
+            // nothing of it needs to be quoted
+            TableCell::Number(x) => push_shortest(out, *x),
+            TableCell::Count(_) => out.push_str(&cell.plain()),
+            TableCell::Word(word) => push_field(out, word),
+        }
+    }
+    out.push('\n');
 }
 
 /// One line of comma-separated values, quoted where that is needed.
@@ -76,17 +96,21 @@ pub(super) fn record(fields: impl IntoIterator<Item = String>) -> String {
         if i > 0 {
             out.push(',');
         }
-        let field = printable::line(&field);
-        if field.bytes().any(|byte| matches!(byte, b',' | b'"' | b'#')) {
-            out.push('"');
-            out.push_str(&field.replace('"', "\"\""));
-            out.push('"');
-        } else {
-            out.push_str(&field);
-        }
+        push_field(&mut out, &field);
     }
     out.push('\n');
     out
+}
+
+fn push_field(out: &mut String, field: &str) {
+    let field = printable::line(field);
+    if field.bytes().any(|byte| matches!(byte, b',' | b'"' | b'#')) {
+        out.push('"');
+        out.push_str(&field.replace('"', "\"\""));
+        out.push('"');
+    } else {
+        out.push_str(&field);
+    }
 }
 
 /// Columns of text, numbers to the right.

@@ -254,7 +254,7 @@ impl Sweep<'_> {
         let take = |place, row: Option<SweepRow>| {
             let Some(row) = row else { return ControlFlow::Break(()) };
             row.remark.iter().for_each(|remark| remarks.note(self.index(place), remark));
-            let line = cells::record(row.plain());
+            let line = row.line();
             if let Err(error) = out.write_all(line.as_bytes()).and_then(|()| out.flush()) {
                 failed = Some(out.failed(&error));
                 return ControlFlow::Break(());
@@ -296,7 +296,7 @@ impl Sweep<'_> {
             .collect();
         // a row is in the journal before anything waits for those before it
         let note = |place: usize, row: SweepRow| {
-            let line = cells::record(row.plain());
+            let line = row.line();
             let noted = journal.note(
                 place,
                 &line,

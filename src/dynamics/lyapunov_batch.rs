@@ -137,7 +137,7 @@ impl Follower for ExponentsTogether<'_> {
         }
         let mut step = CarriedStep { batch: &mut *batch, lane, states: &mut *states };
         let Ok(renewed) = course.observe(space, &mut step) else { return OrbitCourse::Over };
-        if batch.state(lane).time >= *until {
+        if batch.time(lane) >= *until {
             let motion =
                 CarriedMotion { settings: self.settings, fixed: self.fixed, steps: *steps };
             // one that does not keep returning is followed again in all directions

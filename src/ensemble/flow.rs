@@ -298,7 +298,7 @@ impl CarriedTogether<'_> {
             one.end = Some(batch.state(lane).clone());
             return OrbitCourse::Over;
         };
-        let known = batch.state(lane).time;
+        let known = batch.time(lane);
         while let Some(&time) = self.times.get(one.seen.len()) {
             if time > known {
                 return OrbitCourse::Until(last);

@@ -93,7 +93,7 @@ pub(super) fn first_limit(plan: &SectionPlan, start: f64) -> (f64, f64) {
 
 /// The same for an orbit without an end in time that was followed to `target`, by a last step of this size.
 pub(super) fn next_limit(target: f64, step: f64) -> (f64, f64) {
-    let ahead = look_ahead(target, (GROWTH * step.abs()).max(FIRST_SPAN));
+    let ahead = look_ahead(target, (STEPS_AHEAD * step.abs()).max(FIRST_SPAN));
     (target + ahead, target + ahead + ahead)
 }
 
@@ -161,10 +161,10 @@ pub fn section_name(model: &Model) -> String {
 /// The steps between two checks of the token.
 const STEPS_PER_CHECK: u64 = 64;
 
-/// Where no end is given, the time is first advanced so far, and then by so many of the steps taken: the greatest
-/// ratio of a step to the one before.
+/// Where no end is given, the time is first advanced so far, and then by so many of the steps taken: far more than the greatest
+/// ratio of a step to the one before, as the state at each of these times is computed.
 const FIRST_SPAN: f64 = 1.0;
-const GROWTH: f64 = 8.0;
+const STEPS_AHEAD: f64 = 64.0;
 
 /// A step in which a crossing can be located has at least so many times.
 const LEAST_TIMES: f64 = 16.0;

@@ -44,6 +44,8 @@ pub struct Experiment {
     pub(super) scrubbed: Option<Box<ObservedMotion>>,
     pub(super) recorder: Recorder,
     pub(super) gauges: Gauges,
+    /// What the gauges were last given as constants, and the parameters that these follow from.
+    constants: Option<(Vec<f64>, Valuation)>,
     pub(super) run: RunState,
     epoch: u64,
     pub(super) notices: Notices,
@@ -81,6 +83,7 @@ impl Experiment {
             recorder: Recorder::new(system.channels().len(), setup.spacing)
                 .with_hulls(Hulls::of(model, system)),
             gauges: Gauges::new(model, equations, system),
+            constants: None,
             run: RunState { running: true, error: None, ended: None, restored: false },
             epoch: 0,
             notices: Notices::default(),
@@ -362,19 +365,25 @@ impl Experiment {
     /// Passes the current values to the gauges.
     pub(super) fn gauge(&mut self, sample: impl FnOnce(&mut Gauges, &GaugeInputs<'_>)) {
         self.motion.observe_terms();
-        let constants = self.constants();
-        sample(&mut self.gauges, &self.motion.present(&constants));
+        let parameters = &self.setup.parameters;
+        // NaN is never the same
+        let known = self.constants.take().filter(|(known, _)| known == parameters);
+        let (_, constants) = self.constants.insert(known.unwrap_or_else(|| {
+            let constants = Experiment::constants(&self.model, self.motion.system(), parameters);
+            (parameters.clone(), constants)
+        }));
+        sample(&mut self.gauges, &self.motion.present(constants));
     }
 
     /// The parameters, and the constants that follow from a body.
-    fn constants(&self) -> Valuation {
-        let parameters = &self.setup.parameters;
-        let body = self.motion.system().body_values(parameters);
-        Valuation::of_parameters(&self.model, parameters).with(body)
+    fn constants(model: &Model, system: &System, parameters: &[f64]) -> Valuation {
+        Valuation::of_parameters(model, parameters).with(system.body_values(parameters))
     }
 
     fn show_gauges(&self) -> Arc<[Gauge]> {
-        self.gauges.show(&self.seen().present(&self.constants()))
+        let parameters = &self.setup.parameters;
+        let constants = Experiment::constants(&self.model, self.motion.system(), parameters);
+        self.gauges.show(&self.seen().present(&constants))
     }
 
     fn method_fact(&self) -> MethodFact {

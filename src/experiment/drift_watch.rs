@@ -85,19 +85,25 @@ impl DriftWatch {
         self.gauges.summed()
     }
 
-    /// Observes the end of a step, for which the sums over the terms of the quantities at these places were evaluated elsewhere.
-    pub(super) fn step_with(
+    /// Observes the end of a step at a time, for which the sums over the terms of the quantities at these places were evaluated
+    /// elsewhere.
+    pub(super) fn step_with<'a>(
         &mut self,
-        state: &State,
+        time: f64,
+        state: impl FnOnce() -> &'a State,
         sums: impl Iterator<Item = (usize, TermSums)>,
         work: f64,
     ) {
         let DriftWatch { gauges, observed, .. } = self;
         observed.steps += 1;
         let terms = &mut observed.terms;
-        let by_state =
-            |quantity| terms.observe(state).then(|| by_rounding_of_state(terms, quantity))?;
-        gauges.step_with((state.time, observed.steps), sums, work, by_state);
+        // the same for all quantities, of which few ask
+        let mut state = Some(state);
+        let by_state = |quantity| {
+            let known = state.take().is_none_or(|state| terms.observe(state()));
+            known.then(|| by_rounding_of_state(terms, quantity))?
+        };
+        gauges.step_with((time, observed.steps), sums, work, by_state);
     }
 
     /// Ends at a state, and returns the value of every channel and the gauges there.

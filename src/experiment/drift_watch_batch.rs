@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use super::drift_watch::DriftWatch;
 use super::snapshot::Gauge;
+use crate::integrate::{BatchPropagator, LaneStatus};
 use crate::mechanics::Equations;
 use crate::model::Model;
 use crate::num::{BATCH, Batch};
@@ -75,24 +76,29 @@ impl DriftWatchBatch {
         Ok(())
     }
 
-    /// Observes the ends of steps, in the lanes that have one.
-    pub fn step(&mut self, states: [Option<&State>; BATCH]) {
+    /// Observes the ends of steps, in the lanes that are under way.
+    pub fn step(&mut self, batch: &mut BatchPropagator) {
         let mut together = [false; BATCH];
         if let Some(terms) = &mut self.terms {
-            terms.observe(states);
+            let states = batch.states();
+            terms.evaluate_numbers(states.times(), states.numbers());
             together = terms.regular_lanes();
             for own in &mut self.summed {
                 own.sums = terms.sums_of_each(own.quantity, &own.at_rest);
             }
         }
-        for (lane, state) in states.iter().enumerate() {
-            let Some(state) = state else { continue };
+        for lane in 0..BATCH {
+            if batch.status(lane) != LaneStatus::Underway {
+                continue;
+            }
             match self.terms.as_ref().filter(|_| together[lane]) {
                 Some(terms) => {
                     let sums = self.summed.iter().map(|own| (own.place, own.sums[lane]));
-                    self.lanes[lane].step_with(state, sums, terms.work(lane));
+                    let (time, batch) = (batch.time(lane), &mut *batch);
+                    let own = &mut self.lanes[lane];
+                    own.step_with(time, move || batch.state(lane), sums, terms.work(lane));
                 }
-                None => self.lanes[lane].step(state),
+                None => self.lanes[lane].step(batch.state(lane)),
             }
         }
     }

@@ -15,7 +15,7 @@ use super::splitting::Splitting;
 use super::taylor::TaylorBatch;
 use super::{rk4, symplectic_euler};
 use crate::num::BATCH;
-use crate::system::{BatchSplitStep, Composition, Form, MotionError, State, System};
+use crate::system::{BatchSplitStep, BatchStates, Composition, Form, MotionError, State, System};
 
 /// Orbits side by side.
 pub struct BatchPropagator {
@@ -168,8 +168,18 @@ impl BatchPropagator {
     }
 
     /// The state at the end of the last step of a lane.
-    pub fn state(&self, lane: usize) -> &State {
-        of_stepper!(&self.stepper, stepper => stepper.state(lane))
+    pub fn state(&mut self, lane: usize) -> &State {
+        of_stepper!(&mut self.stepper, stepper => stepper.state(lane))
+    }
+
+    /// The time of that state.
+    pub fn time(&self, lane: usize) -> f64 {
+        of_stepper!(&self.stepper, stepper => stepper.time(lane))
+    }
+
+    /// The times and the numbers of these states, those of all lanes side by side.
+    pub fn states(&mut self) -> &BatchStates {
+        of_stepper!(&mut self.stepper, stepper => stepper.states())
     }
 
     /// Writes the state of a lane at a time within its last step into `out`.

@@ -89,7 +89,7 @@ impl BatchEvents {
         let mut time = Batch::ZERO;
         let searches = self.lanes.iter().enumerate();
         for (lane, search) in searches.filter_map(|(lane, search)| Some((lane, search.as_ref()?))) {
-            let end = motion.state(lane).time;
+            let end = motion.time(lane);
             let whole = end - search.clear + 2.0 * spacing(end);
             let begins = search.clear == series.time(lane).high;
             let unit = series.scale().0[lane];
@@ -105,7 +105,7 @@ impl BatchEvents {
                 .filter(|_| motion.status(lane) == LaneStatus::Underway && kept.0[lane] == 1.0)
             {
                 search.locator.pass();
-                search.clear = motion.state(lane).time;
+                search.clear = motion.time(lane);
             }
         }
     }
@@ -118,7 +118,7 @@ impl BatchEvents {
         out: &mut State,
     ) -> Result<Option<LaneEvent>, MotionError> {
         let Some(search) = &mut self.lanes[lane] else { return Ok(None) };
-        let end = motion.state(lane).time;
+        let end = motion.time(lane);
         search.locator.note_departures(motion.state(lane), self.tolerance);
         // what else is at the time of the last event comes before what lies beyond
         let mut waiting = search.locator.next_at(search.clear);
@@ -156,7 +156,7 @@ impl BatchEvents {
 
 impl DenseOutput for EventStep<'_> {
     fn interval(&self) -> (f64, f64) {
-        (self.series.time().high, self.motion.state(self.lane).time)
+        (self.series.time().high, self.motion.time(self.lane))
     }
 
     fn at(&mut self, time: f64, out: &mut State) -> Result<(), MotionError> {
@@ -167,6 +167,10 @@ impl DenseOutput for EventStep<'_> {
     fn at_exactly(&mut self, time: DoubleDouble, out: &mut State) -> Result<(), MotionError> {
         self.motion.at_exactly(self.lane, time, out);
         Ok(())
+    }
+
+    fn exact_end(&self) -> Option<DoubleDouble> {
+        Some(self.motion.states().time(self.lane))
     }
 
     fn series(&self) -> Option<&dyn StepSeries> {

@@ -24,6 +24,11 @@ pub trait DenseOutput {
         self.at(time.high, out)
     }
 
+    /// The time at which the last step ended, if it is known beyond the last digit of an `f64`.
+    fn exact_end(&self) -> Option<DoubleDouble> {
+        None
+    }
+
     /// The power series of the last step, about its beginning. Returns `None` for methods without
     /// series, and if the last step did not use it.
     fn series(&self) -> Option<&dyn StepSeries> {

@@ -9,7 +9,7 @@ use super::fixed::Scheme;
 use super::lane_status::LaneStatus;
 use super::method::Settings;
 use crate::num::{BATCH, Batch, DoubleDouble};
-use crate::system::{BatchSteps, Form, State, System};
+use crate::system::{BatchStates, BatchSteps, Form, State, System};
 
 /// The most steps between two checks of the token.
 const MOST: u64 = 256;
@@ -33,6 +33,7 @@ pub(super) struct EqualStepsBatch<B, S> {
     inner_lane: Option<usize>,
     asked: Option<f64>,
     lanes: [EqualStepsLane; BATCH],
+    together: BatchStates,
 }
 
 impl<B: BatchSteps, S: Scheme> EqualStepsBatch<B, S> {
@@ -47,6 +48,7 @@ impl<B: BatchSteps, S: Scheme> EqualStepsBatch<B, S> {
             return None;
         }
         let blank = State::new(0.0, inner.form(), vec![0.0; system.state_len()]);
+        let together = BatchStates::new(blank.form, system.state_len());
         let lane = EqualStepsLane {
             status: LaneStatus::Empty,
             state: blank.clone(),
@@ -61,6 +63,7 @@ impl<B: BatchSteps, S: Scheme> EqualStepsBatch<B, S> {
             inner_lane: None,
             asked,
             lanes: std::array::from_fn(|_| lane.clone()),
+            together,
         })
     }
 
@@ -98,6 +101,18 @@ impl<B: BatchSteps, S: Scheme> EqualStepsBatch<B, S> {
 
     pub(super) fn state(&self, lane: usize) -> &State {
         &self.lanes[lane].state
+    }
+
+    pub(super) fn time(&self, lane: usize) -> f64 {
+        self.lanes[lane].state.time
+    }
+
+    /// The states of all lanes.
+    pub(super) fn states(&mut self) -> &BatchStates {
+        for (i, lane) in self.lanes.iter().enumerate() {
+            self.together.set(i, &lane.state);
+        }
+        &self.together
     }
 
     pub(super) fn interval(&self, lane: usize) -> (f64, f64) {

@@ -229,10 +229,13 @@ impl EventLocator {
     ) -> Option<(SeriesPiece, f64)> {
         let series = motion.series()?;
         let (origin, unit) = (series.time(), series.scale());
-        let from = self.written(from);
+        // a piece of its own has the digits of the step
+        let from = if from == origin.high { origin } else { self.written(from) };
         let from = self.probe.not_before(from);
         let x = ((from - origin) / unit).high.max(0.0);
-        let whole = ((self.written(to) - from) / unit).high;
+        let end = motion.exact_end().filter(|end| end.high == to);
+        let to = end.unwrap_or_else(|| self.written(to));
+        let whole = ((to - from) / unit).high;
         if unit <= 0.0 || whole <= 0.0 {
             return None;
         }
@@ -354,9 +357,8 @@ impl EventLocator {
                 crossings.push(Crossing::at(exact, -side));
             }
         }
-        let end = self.written(to);
         for crossing in crossings.iter_mut().filter(|c| c.exact.high > to) {
-            crossing.exact = end;
+            crossing.exact = self.written(to);
         }
         Ok(crossings)
     }

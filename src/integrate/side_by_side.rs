@@ -26,7 +26,7 @@ pub trait Follower {
     }
 
     /// Observes all lanes after a step, before each orbit is observed by itself.
-    fn observe_all(&mut self, _batch: &BatchPropagator) {}
+    fn observe_all(&mut self, _batch: &mut BatchPropagator) {}
 
     /// Looks at an orbit after a step.
     fn observe(&mut self, orbit: usize, lane: usize, batch: &mut BatchPropagator) -> OrbitCourse;

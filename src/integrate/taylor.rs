@@ -20,6 +20,7 @@ mod exact_passage;
 mod expansion;
 mod kinks;
 mod last_orders;
+mod lowest_steps;
 mod onset;
 mod order_bounds;
 mod rough_logarithms;
@@ -328,6 +329,10 @@ impl DenseOutput for Taylor {
             self.write_state(time, out)?;
         }
         Ok(())
+    }
+
+    fn exact_end(&self) -> Option<DoubleDouble> {
+        Some(self.state.exact_time())
     }
 
     fn series(&self) -> Option<&dyn StepSeries> {

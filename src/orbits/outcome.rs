@@ -230,15 +230,13 @@ impl<D: FnMut(usize, RunOutcome)> Follower for RunTogether<'_, D> {
         OrbitCourse::Over
     }
 
-    fn observe_all(&mut self, batch: &BatchPropagator) {
-        let underway = |lane| batch.status(lane) == LaneStatus::Underway;
-        let state = |lane| underway(lane).then(|| batch.state(lane));
-        self.watches.step(std::array::from_fn(state));
+    fn observe_all(&mut self, batch: &mut BatchPropagator) {
+        self.watches.step(batch);
     }
 
     fn observe(&mut self, orbit: usize, lane: usize, batch: &mut BatchPropagator) -> OrbitCourse {
         let (_, end) = self.runs[orbit];
-        if batch.state(lane).time < end {
+        if batch.time(lane) < end {
             return OrbitCourse::Until(end);
         }
         // a method of fixed step may have passed the end

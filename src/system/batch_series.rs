@@ -7,6 +7,7 @@
 
 use std::sync::Arc;
 
+use super::batch_states::BatchStates;
 use super::compiled::System;
 use super::growth::{Halt, SeriesBuilder, SeriesClock};
 use super::jet::Jet;
@@ -17,7 +18,8 @@ use super::state::State;
 use super::underflow;
 use crate::expr::FunctionId;
 use crate::num::{
-    Analytic, BATCH, Batch, DoubleDouble, Kernel, Polynomial, ScalarLanes, tail, tails, vectorized,
+    Analytic, BATCH, Batch, BatchDouble, DoubleDouble, Kernel, Polynomial, ScalarLanes, tail,
+    tails, vectorized,
 };
 
 /// The series of all numbers of the states of several orbits.
@@ -29,10 +31,9 @@ pub struct BatchSeries {
     code: CompiledGrowth,
     /// What depends on the parameters of one lane alone is computed here.
     single: Jet<f64>,
-    origins: Vec<[DoubleDouble; BATCH]>,
-    /// Whether no number at the origin is so small that products may underflow.
-    keeps_digits: [bool; BATCH],
-    times: [DoubleDouble; BATCH],
+    origins: BatchStates,
+    /// Zero in the lanes where no number at the origin is so small that products may underflow.
+    small: Batch,
     scale: Batch,
     /// The coefficients of one number of one lane, gathered.
     gathered: Vec<f64>,
@@ -59,9 +60,8 @@ impl System {
             single: Jet::like(&jet, 0),
             builder: SeriesBuilder::new(jet, inputs, len),
             code: CompiledGrowth::new((!self.interpreted).then_some(&self.motion().code)),
-            origins: vec![[DoubleDouble::ZERO; BATCH]; len],
-            keeps_digits: [true; BATCH],
-            times: [DoubleDouble::ZERO; BATCH],
+            origins: BatchStates::new(self.form(), len),
+            small: Batch::ZERO,
             scale: Batch::ONE,
             gathered: Vec::with_capacity(order),
         })
@@ -100,16 +100,9 @@ impl BatchSeries {
         self.scale
     }
 
-    /// Sets the state of a lane, of the native form.
-    pub fn set_state(&mut self, lane: usize, state: &State) {
-        self.times[lane] = state.exact_time();
-        self.keeps_digits[lane] = true;
-        let values = state.values.iter().zip(&state.carry);
-        for ((i, origin), (&high, &low)) in self.origins.iter_mut().enumerate().zip(values) {
-            origin[lane] = DoubleDouble { high, low };
-            self.builder.origin_mut(i).0[lane] = high;
-            self.keeps_digits[lane] &= !underflow::is_small(high);
-        }
+    /// Begins at these states in the lanes that go, and stays as it is in the others.
+    pub fn set_states(&mut self, states: &BatchStates, going: &[bool; BATCH]) {
+        vectorized(Origins { series: self, states, going });
     }
 
     /// The highest order.
@@ -119,19 +112,19 @@ impl BatchSeries {
 
     /// The times at the origins, in `f64`.
     pub(super) fn start(&self) -> Batch {
-        Batch(self.times.map(|time| time.high))
+        self.origins.times()
     }
 
     /// Whether no number at the origin of a lane is so small that products may underflow.
     #[inline]
     pub fn keeps_digits(&self, lane: usize) -> bool {
-        self.keeps_digits[lane]
+        self.small.0[lane] == 0.0
     }
 
     /// The time at the origin of a lane.
     #[inline]
     pub fn time(&self, lane: usize) -> DoubleDouble {
-        self.times[lane]
+        self.origins.time(lane)
     }
 
     /// Builds all series. Returns false if the computation was cancelled.
@@ -158,7 +151,7 @@ impl BatchSeries {
     /// The number of numbers of a state.
     #[expect(clippy::len_without_is_empty, reason = "a state is never empty")]
     pub fn len(&self) -> usize {
-        self.origins.len()
+        self.origins.high.len()
     }
 
     /// The number of coordinates, rates and auxiliary numbers; the integrals follow them.
@@ -197,7 +190,7 @@ impl BatchSeries {
         &mut self,
         after: &[DoubleDouble; BATCH],
         moving: &[bool; BATCH],
-        out: &mut [State; BATCH],
+        out: &mut BatchStates,
     ) {
         vectorized(States { series: self, after, moving, out });
     }
@@ -205,15 +198,20 @@ impl BatchSeries {
     /// Writes the state of one lane at a time `after` its origin into `out`.
     pub fn state_after(&mut self, lane: usize, after: DoubleDouble, out: &mut State) {
         let x = after * self.scale.0[lane].recip();
-        for i in 0..self.origins.len() {
+        for i in 0..self.len() {
             self.gather(i, lane);
-            let low = &self.origins[i][lane..=lane];
+            let low = &[self.origin(i, lane)][..];
             let tail = tail(ScalarLanes, &self.gathered, x.high);
             let polynomial = Polynomial { low, high: &self.gathered, x };
             out.set(i, polynomial.with_tail::<_, false>(ScalarLanes, tail));
         }
-        let time = self.times[lane] + after;
+        let time = self.time(lane) + after;
         (out.time, out.time_carry) = (time.high, time.low);
+    }
+
+    /// A number of a lane at its origin.
+    fn origin(&self, i: usize, lane: usize) -> DoubleDouble {
+        DoubleDouble { high: self.origins.high[i].0[lane], low: self.origins.low[i].0[lane] }
     }
 
     /// Gathers the coefficients above the first of a number of a lane.
@@ -229,16 +227,54 @@ impl BatchSeries {
 fn plus_origin<const FUSED: bool>(
     tail: Batch,
     x: Batch,
-    origin: &[DoubleDouble; BATCH],
+    (high, low): (Batch, Batch),
 ) -> (Batch, Batch) {
-    let (mut high, mut low) = (Batch::ZERO, Batch::ZERO);
-    for lane in 0..BATCH {
-        (high.0[lane], low.0[lane]) = (origin[lane].high, origin[lane].low);
-    }
     let (product, lost) = tail.product_with_error::<FUSED>(x);
     let (sum, left) = product.sum_with_error(high);
     // the errors of the terms above are zero
     sum.sum_with_error(Batch::ZERO * x + (lost + left + low))
+}
+
+/// The origins of all lanes that go.
+struct Origins<'a> {
+    series: &'a mut BatchSeries,
+    states: &'a BatchStates,
+    going: &'a [bool; BATCH],
+}
+
+impl Kernel for Origins<'_> {
+    type Output = ();
+    const OF_SEVERAL: bool = true;
+
+    #[inline(always)]
+    fn run<const FUSED: bool>(self) {
+        let Origins { series, states, going } = self;
+        let mask = mask_of(going);
+        let mut small = Batch::ZERO;
+        for i in 0..series.len() {
+            let high = mask.where_equal(1.0, states.high[i], series.origins.high[i]);
+            series.origins.high[i] = high;
+            series.origins.low[i] = mask.where_equal(1.0, states.low[i], series.origins.low[i]);
+            *series.builder.origin_mut(i) = high;
+            for lane in 0..BATCH {
+                small.0[lane] += if underflow::is_small(high.0[lane]) { 1.0 } else { 0.0 };
+            }
+        }
+        series.small = small;
+        for lane in (0..BATCH).filter(|&lane| going[lane]) {
+            series.origins.times[lane] = states.times[lane];
+        }
+    }
+}
+
+/// One in the lanes where something holds, else zero.
+#[inline(always)]
+fn mask_of(holds: &[bool; BATCH]) -> Batch {
+    let mut mask = Batch::ZERO;
+    for lane in 0..BATCH {
+        mask.0[lane] = if holds[lane] { 1.0 } else { 0.0 };
+    }
+    mask
 }
 
 /// The states of all lanes at times of their own.
@@ -246,7 +282,7 @@ struct States<'a> {
     series: &'a mut BatchSeries,
     after: &'a [DoubleDouble; BATCH],
     moving: &'a [bool; BATCH],
-    out: &'a mut [State; BATCH],
+    out: &'a mut BatchStates,
 }
 
 impl Kernel for States<'_> {
@@ -256,28 +292,33 @@ impl Kernel for States<'_> {
     #[inline(always)]
     fn run<const FUSED: bool>(self) {
         let States { series, after, moving, out } = self;
-        let x: [DoubleDouble; BATCH] =
-            std::array::from_fn(|lane| after[lane] * series.scale.0[lane].recip());
-        let high = Batch(x.map(|x| x.high));
-        for i in 0..series.origins.len() {
-            let tail = tails(&series.builder.series(i)[1..], high);
-            let sums = plus_origin::<FUSED>(tail, high, &series.origins[i]);
-            for (lane, out) in out.iter_mut().enumerate() {
-                if !moving[lane] {
-                    continue;
-                }
-                if x[lane].low == 0.0 {
-                    (out.values[i], out.carry[i]) = (sums.0.0[lane], sums.1.0[lane]);
-                    continue;
-                }
+        let mask = mask_of(moving);
+        let mut x = BatchDouble::ZERO;
+        for lane in 0..BATCH {
+            // a power of two
+            let inverse = series.scale.0[lane].recip();
+            (x.high.0[lane], x.low.0[lane]) =
+                (after[lane].high * inverse, after[lane].low * inverse);
+        }
+        for i in 0..series.len() {
+            let tail = tails(&series.builder.series(i)[1..], x.high);
+            let origin = (series.origins.high[i], series.origins.low[i]);
+            let (high, low) = plus_origin::<FUSED>(tail, x.high, origin);
+            out.high[i] = mask.where_equal(1.0, high, out.high[i]);
+            out.low[i] = mask.where_equal(1.0, low, out.low[i]);
+            if x.low == Batch::ZERO {
+                continue;
+            }
+            for lane in (0..BATCH).filter(|&lane| moving[lane] && x.low.0[lane] != 0.0) {
                 series.gather(i, lane);
-                let low = &series.origins[i][lane..=lane];
-                let polynomial = Polynomial { low, high: &series.gathered, x: x[lane] };
-                out.set(i, polynomial.with_tail::<_, FUSED>(ScalarLanes, tail.0[lane]));
+                let low = &[series.origin(i, lane)][..];
+                let polynomial = Polynomial { low, high: &series.gathered, x: x.lane(lane) };
+                let sum = polynomial.with_tail::<_, FUSED>(ScalarLanes, tail.0[lane]);
+                (out.high[i].0[lane], out.low[i].0[lane]) = (sum.high, sum.low);
             }
         }
         for lane in (0..BATCH).filter(|&lane| moving[lane]) {
-            out[lane].set_time(series.times[lane] + after[lane]);
+            out.times[lane] = series.time(lane) + after[lane];
         }
     }
 }

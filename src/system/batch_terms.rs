@@ -9,7 +9,7 @@ use std::sync::Arc;
 use super::compiled::System;
 use super::operation::value_of;
 use super::program::{Op, Program};
-use super::state::{Form, State};
+use super::state::Form;
 use super::term_watch::TermSums;
 use super::terms::{AtRest, OutputPlace};
 use super::value::Evaluator;
@@ -76,20 +76,6 @@ impl BatchTerms {
         for &r in &self.program.prologue {
             self.registers[r as usize].0[lane] = self.single.register(r);
         }
-    }
-
-    /// Evaluates the states of the lanes that have one.
-    pub fn observe(&mut self, states: [Option<&State>; BATCH]) {
-        let mut time = Batch::ZERO;
-        for (lane, state) in states.iter().enumerate() {
-            let Some(state) = state else { continue };
-            time.0[lane] = state.time;
-            for (&r, place) in self.program.inputs.iter().zip(&self.numbers) {
-                self.registers[r as usize].0[lane] = place.map_or(0.0, |place| state.values[place]);
-            }
-            self.work.0[lane] = self.work_place.map_or(0.0, |place| state.values[place]);
-        }
-        vectorized(TermsKernel { terms: self, time });
     }
 
     /// Evaluates the states that have these numbers at these times, one in each lane.
@@ -204,12 +190,14 @@ impl<W: Fn(usize) -> Option<Batch>> Kernel for SumsKernel<'_, W> {
             size = size + its_size;
             if let Some(were) = were(k) {
                 let (beyond, change) = ((term - rest).abs(), rest - were);
-                for lane in 0..BATCH {
-                    let (beyond, change) = (beyond.0[lane], change.0[lane]);
-                    let finite = (beyond + change.abs()).is_finite();
-                    let own = if as_a_whole { beyond } else { beyond + change.abs() };
-                    moving.0[lane] += if finite { own } else { term.0[lane].abs() };
-                    changed_at_rest.0[lane] += if finite && as_a_whole { change } else { 0.0 };
+                let both = beyond + change.abs();
+                // zero times what is not finite is NaN, and equal to nothing
+                let finite = both * 0.0;
+                let own = if as_a_whole { beyond } else { both };
+                moving = moving + finite.where_equal(0.0, own, term.abs());
+                if as_a_whole {
+                    let change = finite.where_equal(0.0, change, Batch::ZERO);
+                    changed_at_rest = changed_at_rest + change;
                 }
             }
         }

@@ -155,9 +155,12 @@ impl System {
         form: Form,
         parameters: &[f64],
     ) -> Result<State, MotionError> {
+        if state.form == form {
+            return Ok(state.clone());
+        }
         let inputs = self.inputs(parameters);
         let mut legendre = self.legendre(&inputs);
-        let mut found = if state.form != form && self.has_branches() && form == self.form() {
+        let mut found = if self.has_branches() && form == self.form() {
             let values = self.initial_program(&inputs);
             let rates = (self.degrees()..self.moving()).map(|i| values.output(i)).collect();
             self.convert_from(&mut legendre, state, rates)?

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::super::advice::advice;
 use super::super::assignment;
-use super::super::cells::TableCell;
+use super::super::cells::{self, TableCell};
 use super::super::error::CommandError;
 use super::super::interrupt::Interrupt;
 use super::super::motion_options::{Laid, ModelReading, MotionOptions};
@@ -121,9 +121,9 @@ pub(super) struct RowRemark {
 }
 
 impl SweepRow {
-    /// Its cells as comma-separated values have them.
-    pub(super) fn plain(&self) -> impl Iterator<Item = String> {
-        self.cells.iter().map(TableCell::plain)
+    /// As a line of comma-separated values.
+    pub(super) fn line(&self) -> String {
+        cells::csv([&self.cells[..]])
     }
 }
 

@@ -16,7 +16,7 @@ use super::{EXACT_BELOW, METHOD, part_of_step};
 use crate::integrate::lane_status::LaneStatus;
 use crate::integrate::method::{Method, Settings};
 use crate::num::{BATCH, DoubleDouble};
-use crate::system::{BatchSeries, State, System};
+use crate::system::{BatchSeries, BatchStates, State, System};
 
 #[derive(Clone, Debug)]
 struct TaylorLane {
@@ -32,8 +32,10 @@ pub(in crate::integrate) struct TaylorBatch {
     system: System,
     series: BatchSeries,
     rule: BatchStepSize,
-    states: [State; BATCH],
+    states: BatchStates,
     lanes: [TaylorLane; BATCH],
+    /// The state that was asked for last.
+    shown: State,
 }
 
 impl TaylorBatch {
@@ -60,8 +62,9 @@ impl TaylorBatch {
             system: system.clone(),
             series,
             rule: BatchStepSize::new(tolerance, orders),
-            states: std::array::from_fn(|_| state.clone()),
+            states: BatchStates::new(system.form(), system.state_len()),
             lanes: std::array::from_fn(|_| lane.clone()),
+            shown: state,
         })
     }
 
@@ -75,7 +78,7 @@ impl TaylorBatch {
         let own = &mut self.lanes[lane];
         own.status = match self.system.convert(state, self.system.form(), parameters) {
             Ok(state) if regular => {
-                self.states[lane] = state;
+                self.states.set(lane, &state);
                 LaneStatus::Underway
             }
             _ => LaneStatus::Irregular,
@@ -93,46 +96,64 @@ impl TaylorBatch {
         self.lanes[lane].status
     }
 
-    pub(in crate::integrate) fn state(&self, lane: usize) -> &State {
-        &self.states[lane]
+    pub(in crate::integrate) fn state(&mut self, lane: usize) -> &State {
+        self.states.write(lane, &mut self.shown);
+        &self.shown
+    }
+
+    pub(in crate::integrate) fn time(&self, lane: usize) -> f64 {
+        self.states.time(lane).high
+    }
+
+    /// The states of all lanes.
+    pub(in crate::integrate) fn states(&self) -> &BatchStates {
+        &self.states
     }
 
     /// Takes a step in every lane that is under way. Returns false if it was cancelled.
     #[must_use]
     pub(in crate::integrate) fn step(&mut self, limits: &[f64; BATCH]) -> bool {
         let mut left = [DoubleDouble::ZERO; BATCH];
-        let going: [bool; BATCH] = std::array::from_fn(|i| {
-            self.lanes[i].status == LaneStatus::Underway && self.states[i].time != limits[i]
-        });
+        let mut going = [false; BATCH];
         for (i, lane) in self.lanes.iter_mut().enumerate() {
+            let time = self.states.time(i);
+            going[i] = lane.status == LaneStatus::Underway && time.high != limits[i];
             if going[i] {
-                left[i] = lane.limit.exact(limits[i]) - self.states[i].exact_time();
+                left[i] = lane.limit.exact(limits[i]) - time;
                 let scale = lane.unit.next(self.series.scale().0[i], left[i].high);
                 self.series.set_scale(i, scale);
-                self.series.set_state(i, &self.states[i]);
             }
         }
+        self.series.set_states(&self.states, &going);
         let Some(steps) = self.expand(going, &left) else { return false };
         let mut after = [DoubleDouble::ZERO; BATCH];
+        let mut moving = [false; BATCH];
         for (i, lane) in self.lanes.iter_mut().enumerate() {
             if going[i] {
                 let scale = self.series.scale().0[i].abs();
-                match lane.choose(steps[i], scale, (self.states[i].time, left[i])) {
+                match lane.choose(steps[i], scale, (self.states.time(i).high, left[i])) {
                     Some(chosen)
                         if self.series.keeps_digits(i)
                             && !may_hide_in_lane(&self.series, i, (chosen.high / scale).abs()) =>
                     {
-                        after[i] = chosen;
+                        (after[i], moving[i]) = (chosen, true);
                     }
                     _ => lane.status = LaneStatus::Irregular,
                 }
             }
         }
-        let moving =
-            std::array::from_fn(|i| going[i] && self.lanes[i].status == LaneStatus::Underway);
         self.series.states_after(&after, &moving, &mut self.states);
+        let finite = self.states.finite();
         for (i, lane) in self.lanes.iter_mut().enumerate().filter(|(i, _)| moving[*i]) {
-            lane.arrive(&mut self.states[i], self.series.time(i), (limits[i], left[i]));
+            let (begin, mut end) = (self.series.time(i), self.states.time(i));
+            if lane.unit.taken.is_none() {
+                end.high = limits[i];
+                self.states.set_time(i, end);
+            }
+            let moved = (end - begin).high.abs() > 0.0;
+            if finite.0[i] != 0.0 || !(moved || left[i].high == 0.0) {
+                lane.status = LaneStatus::Irregular;
+            }
         }
         true
     }
@@ -151,7 +172,7 @@ impl TaylorBatch {
             if !self.series.build() {
                 return None;
             }
-            let found = self.rule.longest(&self.series);
+            let found = self.rule.longest(&self.series, &searching);
             for (i, searches) in searching.iter_mut().enumerate().filter(|(_, on)| **on) {
                 let scale = self.series.scale().0[i];
                 steps[i] = found.0[i] * scale.abs();
@@ -175,7 +196,7 @@ impl TaylorBatch {
     }
 
     pub(in crate::integrate) fn interval(&self, lane: usize) -> (f64, f64) {
-        (self.series.time(lane).high, self.states[lane].time)
+        (self.series.time(lane).high, self.time(lane))
     }
 
     /// The series of the last step.
@@ -190,23 +211,22 @@ impl TaylorBatch {
         time: DoubleDouble,
         out: &mut State,
     ) {
-        out.copy_from(&self.states[lane]);
-        if time != self.states[lane].exact_time() {
+        self.states.write(lane, out);
+        if time != self.states.time(lane) {
             self.write_state(lane, time, out);
         }
     }
 
     fn write_state(&mut self, lane: usize, time: DoubleDouble, out: &mut State) {
         let begin = self.series.time(lane);
-        let step = self.states[lane].exact_time() - begin;
+        let step = self.states.time(lane) - begin;
         self.series.state_after(lane, part_of_step(time - begin, step), out);
     }
 
     /// Writes the state of a lane at a time within its last step into `out`.
     pub(in crate::integrate) fn at(&mut self, lane: usize, time: f64, out: &mut State) {
-        let state = &self.states[lane];
-        out.copy_from(state);
-        if time != state.time {
+        self.states.write(lane, out);
+        if time != self.time(lane) {
             self.write_state(lane, DoubleDouble::from_decimal(time), out);
             out.time = time;
         }
@@ -235,21 +255,5 @@ impl TaylorLane {
             self.unit.take(after.high.abs(), step, left.high);
         }
         Some(after)
-    }
-
-    /// Ends a step that began at a time, with so much left to a limit.
-    fn arrive(
-        &mut self,
-        state: &mut State,
-        begin: DoubleDouble,
-        (limit, left): (f64, DoubleDouble),
-    ) {
-        if self.unit.taken.is_none() {
-            state.time = limit;
-        }
-        let moved = (state.exact_time() - begin).high.abs() > 0.0;
-        if !state.is_finite() || !(moved || left.high == 0.0) {
-            self.status = LaneStatus::Irregular;
-        }
     }
 }

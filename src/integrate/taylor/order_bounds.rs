@@ -29,16 +29,16 @@ struct OrderBound {
 }
 
 #[derive(Clone, Copy, Debug)]
-struct BoundChunk {
+pub(super) struct BoundChunk {
     /// The reciprocals of the differences of the orders.
-    reciprocals: [f64; LANES],
+    pub(super) reciprocals: [f64; LANES],
     /// What is added for the tolerance; −∞ where the order is none of those below.
-    by_tolerance: [f64; LANES],
+    pub(super) by_tolerance: [f64; LANES],
     /// What is added for the radius of convergence; −∞ where the order gives none.
-    by_radius: [f64; LANES],
+    pub(super) by_radius: [f64; LANES],
     /// With the terms a_j = |c_j| h^j at a step h, the j-th order may allow more than h only where a_j times this is
     /// no less than a_k: by the tolerance.
-    tolerance_factors: [f64; LANES],
+    pub(super) tolerance_factors: [f64; LANES],
     /// The same factor by the radius of convergence.
     radius_factors: [f64; LANES],
 }
@@ -128,6 +128,11 @@ impl OrderBounds {
         });
         let indulgences = lanes_of_last_orders(order, 0.0, indulgence);
         OrderBounds { bounds, lowest, indulgences }
+    }
+
+    /// What the lower orders enter with for the highest order but so many.
+    pub(super) fn chunks_of_last(&self, below: usize) -> &[BoundChunk] {
+        &self.bounds[self.bounds.len() - 1 - below].chunks
     }
 
     /// What the lowest orders of a series allow.

@@ -5,8 +5,8 @@
 //! finds no shorter one; "not surely" decides nothing. Never here: the rule, its constants.
 
 use super::last_orders::{
-    CHUNKS, CLEARLY, FAINT, FIRST, LANES, LastOrders, ROOM, WIDTH, has_radius, indulgence_of,
-    lanes_of_last_orders,
+    BEFORE, CHUNKS, CLEARLY, FAINT, FIRST, LANES, LAST, LastOrders, ROOM, WIDTH, has_radius,
+    indulgence_of, lanes_of_last_orders,
 };
 use crate::num::{FourLanes, math};
 
@@ -50,6 +50,20 @@ impl StepScreen {
             }),
             entering: lanes_of_last_orders(order, 0.0, |_| 1.0),
         }
+    }
+
+    /// The first of the orders before the last that enter, and what the term of each is multiplied by to be compared with those of the
+    /// four lowest orders: where it is no more than one of the first two, these surely allow the step by the tolerance, and no
+    /// more than one of the others by the radius of convergence.
+    pub(super) fn before_last(&self) -> (usize, [[f64; LANES]; BEFORE]) {
+        let lane = WIDTH - LAST - BEFORE;
+        let share =
+            |constants: &LastOrders, lane: usize| 1.0 / constants[lane / LANES][lane % LANES];
+        let of = |lane: usize| {
+            let ([a, b, _], [c, d, _]) = (&self.by_tolerance, &self.by_radius);
+            [a, b, c, d].map(|constants| share(constants, lane))
+        };
+        (self.first + lane, std::array::from_fn(|before| of(lane + before)))
     }
 
     /// Whether all of the last orders of a series surely allow the step whose powers are given.

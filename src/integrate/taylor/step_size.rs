@@ -13,6 +13,7 @@ use super::argument_step::{
     FARTHEST_ARGUMENT, before_pole, may_pass_pole, of_argument, of_steep_pole,
 };
 use super::last_orders::{INDULGENCE, ROOM, WIDTH, indulgence_of};
+use super::lowest_steps::LowestOfAll;
 use super::order_bounds::{LowestBounds, OrderBounds};
 use super::rough_logarithms::{logarithms, rough_exponential};
 use super::step_screen::{StepScreen, set_powers};
@@ -117,6 +118,19 @@ impl StepSize {
             shortest = shortest.min(of_steep_pole(degree, above, u));
         }
         Some(shortest)
+    }
+
+    /// The highest order.
+    pub(super) fn order(&self) -> usize {
+        self.motion.order
+    }
+
+    /// The bounds by the lowest orders, of the motion and of what does not act on it.
+    pub(super) fn lowest_bounds(&mut self) -> [LowestOfAll; 2] {
+        let order = self.motion.order;
+        let spared =
+            self.integrals.get_or_insert_with(|| Shares::of_integrals(self.tolerance, order));
+        [&self.motion, spared].map(|shares| LowestOfAll::new(order, &shares.bounds, &shares.screen))
     }
 
     /// The step that the coefficients allow, which are finite.

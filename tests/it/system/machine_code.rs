@@ -2,7 +2,7 @@
 
 use phaselab::integrate::{METHODS, Settings};
 use phaselab::num::{BATCH, DoubleDouble};
-use phaselab::system::{BatchSeries, Series, State, System};
+use phaselab::system::{BatchSeries, BatchStates, Series, State, System};
 
 use super::compile;
 
@@ -107,17 +107,18 @@ fn every_operation_has_the_bits_of_the_jet_in_all_lanes() {
         let [Some(mut compiled), Some(mut interpreted)] = series else { continue };
         let mut numbers = noise(order as u64);
         let mut by_code = 0;
+        let mut states = BatchStates::new(system.form(), system.state_len());
         for step in 0..WANTED / BATCH + 10 {
             for lane in 0..BATCH {
                 let values = numbers.by_ref().take(system.state_len()).collect();
-                let state = State::new(0.3 * lane as f64, system.form(), values);
+                states.set(lane, &State::new(0.3 * lane as f64, system.form(), values));
                 for series in [&mut compiled, &mut interpreted] {
                     assert!(series.set_parameters(lane, &parameters));
                     series.set_scale(lane, if (step + lane) % 2 == 0 { 0.25 } else { -0.5 });
-                    series.set_state(lane, &state);
                 }
             }
             for series in [&mut compiled, &mut interpreted] {
+                series.set_states(&states, &[true; BATCH]);
                 assert!(series.build());
             }
             by_code += u32::from(compiled.is_compiled());
