@@ -98,9 +98,10 @@ impl DriftWatch {
         observed.steps += 1;
         let terms = &mut observed.terms;
         // the same for all quantities, of which few ask
-        let mut state = Some(state);
+        let (mut state, mut known) = (Some(state), None);
         let by_state = |quantity| {
-            let known = state.take().is_none_or(|state| terms.observe(state()));
+            let observe = || state.take().is_some_and(|state| terms.observe(state()));
+            let known = *known.get_or_insert_with(observe);
             known.then(|| by_rounding_of_state(terms, quantity))?
         };
         gauges.step_with((time, observed.steps), sums, work, by_state);

@@ -229,12 +229,13 @@ impl EventLocator {
     ) -> Option<(SeriesPiece, f64)> {
         let series = motion.series()?;
         let (origin, unit) = (series.time(), series.scale());
-        // a piece of its own has the digits of the step
-        let from = if from == origin.high { origin } else { self.written(from) };
+        // where the ends of the step are known exactly, those of a piece are the same
+        let end = motion.exact_end();
+        let begins = end.is_some() && from == origin.high;
+        let from = if begins { origin } else { self.written(from) };
         let from = self.probe.not_before(from);
         let x = ((from - origin) / unit).high.max(0.0);
-        let end = motion.exact_end().filter(|end| end.high == to);
-        let to = end.unwrap_or_else(|| self.written(to));
+        let to = end.filter(|end| end.high == to).unwrap_or_else(|| self.written(to));
         let whole = ((to - from) / unit).high;
         if unit <= 0.0 || whole <= 0.0 {
             return None;

@@ -156,6 +156,7 @@ impl System {
         parameters: &[f64],
     ) -> Result<State, MotionError> {
         if state.form == form {
+            // without the programs of a conversion
             return Ok(state.clone());
         }
         let inputs = self.inputs(parameters);

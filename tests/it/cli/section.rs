@@ -420,6 +420,28 @@ fn what_never_crosses_is_said() {
     }
 }
 
+/// x = cos(t − t₀) from t₀ on: where times are 1e-10 apart a step of 2 or so has them at its ends, and a crossing is located between.
+#[test]
+fn late_crossings_are_at_the_nearest_times() {
+    for start in [0.0, 1e6, 123_456.789] {
+        let text = OSCILLATOR.to_owned() + &format!("[run]\nstart = {start:?}\n");
+        for tolerance in ["exact", "fast"] {
+            let words = ["section", "system.toml", "--on", "x", "--direction", "either"];
+            let more = ["--count", "40", "--tolerance", tolerance, "--format", "json"];
+            let found = with_file(&text, &[&words[..], &more[..]].concat()).json();
+            let rows = found["rows"].as_array().unwrap();
+            assert_eq!(rows.len(), 40);
+            for (n, row) in rows.iter().enumerate() {
+                let right = start + (n as f64 + 0.5) * std::f64::consts::PI;
+                let apart = (row[2].as_f64().unwrap() - right).abs();
+                let digits = if tolerance == "fast" { 1e-13 } else { 0.0 };
+                let spacing = right.next_up() - right;
+                assert!(apart <= 1.01 * spacing + digits, "{start} {tolerance} {n}: {apart:e}");
+            }
+        }
+    }
+}
+
 /// Without --on the surface is that of the file's own view, with its direction; a file without one has to be told.
 #[test]
 fn a_section_without_a_surface_is_the_one_of_the_file() {
