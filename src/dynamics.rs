@@ -114,7 +114,7 @@ pub use newton::Fixed;
 pub use orbit::{Orbit, nearest_orbit, periodic_orbit};
 pub use orbit_stability::{NOTICED_ROUNDING, OrbitStability};
 pub use path_search::stationary_path_between;
-pub use phase_space::PhaseSpace;
+pub use phase_space::{CompiledLaw, PhaseSpace};
 pub use principle::{Hamiltonian, abbreviated_action, action_at_energy};
 pub use return_growth::{ReturnGrowth, growth_after, return_growth};
 pub use rotation::{NoRotation, Rotation, Turning, angle_rotation, rotation};

@@ -57,7 +57,8 @@ pub use equilibria::{
 };
 pub use field_plane::{NoField, has_field};
 pub use kind::{
-    Axis, Columns, Instrument, Measure, MotionCurve, NoStart, Offer, Plot, PlotContext, StartValues,
+    Axis, Columns, Instrument, Measure, MotionCurve, NoStart, Offer, Plot, PlotContext, Properties,
+    StartValues,
 };
 pub use periodic_points::{PeriodicOrbits, PeriodicPoints};
 pub use picture::{

@@ -44,9 +44,9 @@ pub enum Action {
     /// Reverse time.
     Reverse,
     /// Look at an earlier time of the recorded past.
-    LookEarlier,
+    ShowEarlier,
     /// Look at a later time of the recorded past.
-    LookLater,
+    ShowLater,
     /// Set a mark at the time that is seen, or take it away.
     MarkTime,
     /// Look at the mark before.

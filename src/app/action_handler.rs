@@ -87,8 +87,8 @@ impl App {
                 vec![Effect::Execute(Command::Pause), Effect::Execute(Command::Step(1))]
             }
             Action::Reverse => self.reverse(),
-            Action::LookEarlier => self.look_along(-1.0),
-            Action::LookLater => self.look_along(1.0),
+            Action::ShowEarlier => self.scrub_by(-1.0),
+            Action::ShowLater => self.scrub_by(1.0),
             Action::MarkTime => self.mark_time(),
             Action::GoToMark => self.go_to_mark(true),
             Action::GoToNextMark => self.go_to_mark(false),
@@ -188,7 +188,7 @@ impl App {
             Action::Farther(axes) => self.zoom(0.8, axes.chosen()),
             Action::Log => self.with_viewport(|viewport| viewport.log = !viewport.log),
             Action::Equal => match lab.focused_plot() {
-                Some((_, plot)) if plot.kind.has_equal_axes() => {
+                Some((_, plot)) if plot.kind.properties().has_equal_axes => {
                     self.with_viewport(|viewport| viewport.equal = !viewport.equal)
                 }
                 _ => self.notify("Equal scales need a plot of one quantity against another."),
@@ -196,7 +196,7 @@ impl App {
             Action::Active => self.other_way(),
             Action::VectorField => self.toggle_field(),
             Action::ByChaos => match lab.focused_plot() {
-                Some((_, plot)) if plot.kind.classifies_orbits() => {
+                Some((_, plot)) if plot.kind.properties().classifies_orbits => {
                     self.with_viewport(|viewport| viewport.by_chaos = !viewport.by_chaos)
                 }
                 _ => self.notify("Only a section colours its orbits; v chooses one."),
@@ -265,7 +265,7 @@ impl App {
         }
         let Some(lab) = &mut self.lab else { return Vec::new() };
         let pictures = lab.focused_plot().into_iter().chain(lab.plots.iter().enumerate());
-        let picture = pictures.filter(|(_, plot)| plot.kind.is_scene()).map(|(i, _)| i);
+        let picture = pictures.filter(|(_, plot)| plot.kind.properties().is_scene).map(|(i, _)| i);
         let Some(picture) = picture.min_by_key(|i| lab.focus.pane != Pane::Plot(*i)) else {
             return self
                 .notify("No picture shows the motion in space; v chooses what a pane shows.");

@@ -143,16 +143,16 @@ impl Lab {
     }
 
     pub(super) fn step_by(&mut self, step: f64) -> Vec<Effect> {
-        self.settle(|settings| settings.step = Some(step));
+        self.change_settings(|settings| settings.step = Some(step));
         vec![Effect::Execute(Command::StepSize(step))]
     }
 
     pub(super) fn tolerate(&mut self, tolerance: f64) -> Vec<Effect> {
-        self.settle(|settings| settings.tolerance = Some(tolerance));
+        self.change_settings(|settings| settings.tolerance = Some(tolerance));
         vec![Effect::Execute(Command::Tolerance(tolerance))]
     }
 
-    fn settle(&mut self, change: impl FnOnce(&mut Settings)) {
+    fn change_settings(&mut self, change: impl FnOnce(&mut Settings)) {
         let Some(before) = self.settings() else { return };
         let mut after = before;
         change(&mut after);

@@ -157,7 +157,7 @@ impl App {
             (_, Choice::ActionAt(context, action)) => self.handle_action_in(context, action),
             (_, Choice::System(index)) => self.open_system(index),
             (_, Choice::Value(target)) => self.type_into(target),
-            (_, Choice::Pane(pane)) => self.look_at(pane),
+            (_, Choice::Pane(pane)) => self.show_pane(pane),
             (_, Choice::Show(index)) => self.show_nearest(index),
             (Choosing::Contents { plot }, Choice::Offer(index)) => self.take_offer(plot, index),
             (Choosing::Axis { plot, .. }, Choice::Channel(_)) => {

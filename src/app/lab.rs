@@ -231,7 +231,7 @@ impl Lab {
 
     /// Returns the pane in which the motion is seen: the first one in space, or else the first picture.
     pub fn motion(&self) -> Option<Pane> {
-        let scene = self.plots.iter().position(|plot| plot.kind.is_scene());
+        let scene = self.plots.iter().position(|plot| plot.kind.properties().is_scene);
         let first = (!self.plots.is_empty()).then_some(0);
         scene.or(first).map(Pane::Plot)
     }
@@ -243,8 +243,9 @@ impl Lab {
         let is_place = |axis: usize| {
             plot.column(axis).and_then(|column| channels.get(column)).is_some_and(|c| c.is_place)
         };
-        let is_portrait = plot.kind.curve() == Some(MotionCurve::Portrait);
-        plot.kind.is_scene() || is_portrait && plot.is_plane(physics) && is_place(0) && is_place(1)
+        let is_portrait = plot.kind.properties().curve == Some(MotionCurve::Portrait);
+        plot.kind.properties().is_scene
+            || is_portrait && plot.is_plane(physics) && is_place(0) && is_place(1)
     }
 
     /// Scrolls the law of motion.

@@ -91,8 +91,8 @@ impl App {
                 .notify("Q does nothing here: it is for transformations, actions and diagrams.");
         };
         lab.redraw(index, |plot, _| {
-            if !moves_points(plot) {
-                plot.kind = plot.kind.other().unwrap_or(plot.kind);
+            if !plot.kind.properties().is_transformed() {
+                plot.kind = plot.kind.properties().other.unwrap_or(plot.kind);
             } else if let Some(viewport) = plot.viewport_mut() {
                 viewport.active = !viewport.active;
             }
@@ -107,7 +107,8 @@ impl App {
     /// Shows the vector field of the nearest phase portrait that has one, or hides it; says why the focused one has none.
     pub(super) fn toggle_field(&mut self) -> Vec<Effect> {
         let Some(lab) = &mut self.lab else { return Vec::new() };
-        let focused = lab.focused_plot().filter(|(_, plot)| plot.kind.has_vector_field());
+        let focused =
+            lab.focused_plot().filter(|(_, plot)| plot.kind.properties().has_vector_field);
         let focused = focused.map(|(index, _)| index);
         let Some(index) = focused.or_else(|| lab.with_vector_field()) else {
             return self.notify("No phase portrait here has a vector field; v chooses one.");
@@ -137,22 +138,20 @@ impl App {
     }
 }
 
-/// Whether a picture shows a transformation, which moves the coordinates or the point.
-fn moves_points(plot: &Plot) -> bool {
-    plot.kind.written().iter().any(|axis| axis.transformed)
-}
-
 impl Lab {
     /// The nearest picture of a transformation, of an action, or over a range.
     pub(super) fn with_other_way(&self) -> Option<usize> {
-        self.nearest_fitting(|plot| moves_points(plot) || plot.kind.other().is_some())
+        self.nearest_fitting(|plot| {
+            plot.kind.properties().is_transformed() || plot.kind.properties().other.is_some()
+        })
     }
 
     /// The nearest phase portrait that has a vector field: one in view, if there is one.
     pub(super) fn with_vector_field(&self) -> Option<usize> {
         let physics = self.loaded.physics();
-        let fits =
-            |plot: &Plot| plot.kind.has_vector_field() && plot.lacks_field(physics).is_none();
+        let fits = |plot: &Plot| {
+            plot.kind.properties().has_vector_field && plot.lacks_field(physics).is_none()
+        };
         let is_seen = |index: &usize| self.drawn.in_view.has(Pane::Plot(*index));
         let seen =
             self.plots.iter().enumerate().filter(|(index, plot)| is_seen(index) && fits(plot));
@@ -168,7 +167,7 @@ impl Lab {
 
     /// The nearest picture of the kind.
     fn nearest_plot(&self, scene: bool) -> Option<Pane> {
-        self.nearest_fitting(|plot| plot.kind.is_scene() == scene).map(Pane::Plot)
+        self.nearest_fitting(|plot| plot.kind.properties().is_scene == scene).map(Pane::Plot)
     }
 
     /// The focused picture if it fits, or else the one focused last, or else the first.

@@ -167,7 +167,7 @@ impl App {
         self.handle_action(Action::TypeValue)
     }
 
-    pub(super) fn look_at(&mut self, pane: Pane) -> Vec<Effect> {
+    pub(super) fn show_pane(&mut self, pane: Pane) -> Vec<Effect> {
         self.go(super::Page::Lab);
         if let Some(lab) = &mut self.lab {
             lab.focus.pane = pane;
@@ -324,7 +324,7 @@ impl Lab {
     /// Returns the prefix of a pane's name if the name itself consists only of quantities.
     fn kind_of(&self, pane: Pane) -> &'static str {
         let plot = if let Pane::Plot(index) = pane { self.plots.get(index) } else { None };
-        plot.map_or("", |plot| plot.kind.lead())
+        plot.map_or("", |plot| plot.kind.properties().lead)
     }
 
     /// Returns the name of a pane: its title, or the quantities it shows.

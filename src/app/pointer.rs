@@ -118,7 +118,7 @@ impl App {
             }
             HitTarget::Time(time) => {
                 self.mouse.drag = Some(Grab::Time);
-                return vec![Effect::Execute(Command::LookAt(time))];
+                return vec![Effect::Execute(Command::ScrubTo(time))];
             }
             HitTarget::Mass { index, shape, window, .. } => {
                 lab.focus.pane = Pane::Plot(index);
@@ -147,7 +147,7 @@ impl App {
                 self.pull(target, value)
             }
             (Some(Grab::Time), HitTarget::Time(time)) => {
-                vec![Effect::Execute(Command::LookAt(time))]
+                vec![Effect::Execute(Command::ScrubTo(time))]
             }
             (
                 Some(Grab::Mass { index, shape, window, resumes, moved }),
@@ -308,7 +308,7 @@ impl App {
         let reading = self.drawn.reading;
         let Some(lab) = &mut self.lab else { return Vec::new() };
         let Some((index, plot)) = lab.focused_plot() else { return Vec::new() };
-        if !plot.kind.takes_seeds() {
+        if !plot.kind.properties().takes_seeds {
             return self
                 .notify("n adds orbits to a section, or restarts an ensemble; v chooses one.");
         }
@@ -342,7 +342,7 @@ impl App {
     pub(super) fn fill_section(&mut self) -> Vec<Effect> {
         let Some(lab) = &self.lab else { return Vec::new() };
         let Some((_, plot)) = lab.focused_plot() else { return Vec::new() };
-        if !(plot.kind.is_section() && plot.kind.takes_seeds()) {
+        if !(plot.kind.properties().is_section && plot.kind.properties().takes_seeds) {
             return self.notify("G fills a section with orbits; v chooses one.");
         }
         self.seed(Plot::fill)
@@ -352,10 +352,10 @@ impl App {
     pub(super) fn clear_orbits(&mut self) -> Vec<Effect> {
         let Some(lab) = &mut self.lab else { return Vec::new() };
         let Some((index, plot)) = lab.focused_plot() else { return Vec::new() };
-        if !plot.kind.takes_seeds() {
+        if !plot.kind.properties().takes_seeds {
             return self.notify("Only a section has orbits and crossings to clear.");
         }
-        let section = plot.kind.is_section();
+        let section = plot.kind.properties().is_section;
         lab.redraw(index, |plot, _| plot.seeds.clear());
         if !section {
             return Vec::new();

@@ -40,7 +40,7 @@ impl Prediction {
     /// Whether a plot has these axes.
     pub fn is_on(&self, plot: &Plot) -> bool {
         let [across, upwards] = self.axes.map(|axis| axis.channel);
-        match (plot.kind.curve(), across) {
+        match (plot.kind.properties().curve, across) {
             (Some(MotionCurve::AgainstTime), None) => plot
                 .columns
                 .first()

@@ -271,7 +271,7 @@ impl App {
             }
             (Page::Picker, _) | (_, None) => [KeyContext::Picker, KeyContext::Anywhere],
             (Page::Lab, Some(lab)) => match (lab.focus.pane, lab.focused_plot()) {
-                (_, Some((_, plot))) if plot.kind.is_scene() => {
+                (_, Some((_, plot))) if plot.kind.properties().is_scene => {
                     [KeyContext::Space, KeyContext::Lab]
                 }
                 (Pane::Plot(_), _) => [KeyContext::Plot, KeyContext::Lab],

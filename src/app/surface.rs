@@ -62,7 +62,7 @@ impl App {
         let Some(lab) = &self.lab else { return Vec::new() };
         let Some(shown) = lab.plots.get(plot) else { return Vec::new() };
         let typed = field.input.value().trim().to_owned();
-        let view = match (shown.kind.is_section(), shown.view) {
+        let view = match (shown.kind.properties().is_section, shown.view) {
             (true, Some(view)) => Ok(SurfaceView::Known(view)),
             _ => lab.axes_of_section(shown, &typed).map(SurfaceView::New),
         };
@@ -122,7 +122,9 @@ impl App {
         let Some(lab) = &mut self.lab else { return };
         let last = lab.loaded.model.views.len().saturating_sub(1);
         let Some(section) = Plot::of_view(lab.loaded.physics(), last) else { return };
-        if let Some(shown) = lab.plots.get_mut(plot).filter(|_| section.kind.is_section()) {
+        if let Some(shown) =
+            lab.plots.get_mut(plot).filter(|_| section.kind.properties().is_section)
+        {
             *shown = section;
             lab.focus.pane = Pane::Plot(plot);
             lab.answers.stale = true;
@@ -132,7 +134,7 @@ impl App {
 
 /// The view with the surface of a section, and the direction of its crossings.
 fn surface_of<'a>(plot: &Plot, model: &'a Model) -> Option<(&'a View, Direction)> {
-    let view = model.views.get(plot.view.filter(|_| plot.kind.is_section())?)?;
+    let view = model.views.get(plot.view.filter(|_| plot.kind.properties().is_section)?)?;
     Some((view, model.sections.get(view.section?)?.direction))
 }
 

@@ -41,7 +41,7 @@ pub fn synonyms(action: Action) -> &'static [&'static str] {
         }
         Action::FullReset => &["restart with the original values", "defaults"],
         Action::PlayPause => &["stop", "run", "play", "freeze"],
-        Action::StepBack | Action::LookEarlier => &["rewind", "earlier"],
+        Action::StepBack | Action::ShowEarlier => &["rewind", "earlier"],
         Action::Reverse => &["backwards"],
         Action::Faster => &["speed up", "fast forward"],
         Action::Slower => &["speed", "slow down", "slow motion"],

@@ -38,7 +38,7 @@ impl App {
     }
 
     /// Looks at another time of the recorded past, so many fiftieths of it later.
-    pub(super) fn look_along(&mut self, by: f64) -> Vec<Effect> {
+    pub(super) fn scrub_by(&mut self, by: f64) -> Vec<Effect> {
         let Some(seen) = self.lab.as_ref().and_then(Lab::seen) else { return Vec::new() };
         let Recorded { from, to, .. } = seen.recorded.clone();
         if from == to {
@@ -52,7 +52,7 @@ impl App {
         }
         let time = seen.time + by * (to - from) / STEPS;
         let (low, high) = (from.min(to), from.max(to));
-        vec![Effect::Execute(Command::LookAt(time.clamp(low, high)))]
+        vec![Effect::Execute(Command::ScrubTo(time.clamp(low, high)))]
     }
 
     /// Sets a mark at the time that is seen, or takes the mark there away.
@@ -109,7 +109,7 @@ impl App {
                 times.join(", ")
             ));
         };
-        vec![Effect::Execute(Command::LookAt(mark))]
+        vec![Effect::Execute(Command::ScrubTo(mark))]
     }
 }
 
@@ -122,7 +122,7 @@ impl Lab {
             return None;
         }
         let space =
-            PhaseSpace::of(physics.model, physics.equations, physics.system, &seen.parameters);
+            PhaseSpace::of((physics.model, physics.equations, physics.system), &seen.parameters);
         let rate = space.ok().and_then(|space| {
             let state = space.state(&seen.state).ok()?;
             conformal_rate(&space, seen.time, [space.variables(&state)]).ok()?

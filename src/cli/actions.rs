@@ -12,7 +12,7 @@ use super::assignment::{number, whole};
 use super::cells::{self, TableCell, TableFormat};
 use super::error::CommandError;
 use super::interrupt::Interrupt;
-use super::motion_options::{Laid, ModelReading, MotionOptions};
+use super::motion_options::{CompiledMotion, ModelReading, MotionOptions};
 use super::output::Output;
 use super::section::surface;
 use super::stderr;
@@ -198,10 +198,10 @@ fn partner(
     if reading.model.coordinates.len() == 1 {
         return Ok(None);
     }
-    let laid = motion.compile(reading.clone(), &[], "--coordinate", interrupt)?;
-    let cyclic = &laid.equations.cyclic;
+    let compiled = motion.compile(reading.clone(), &[], "--coordinate", interrupt)?;
+    let cyclic = &compiled.equations.cyclic;
     let others: Vec<usize> =
-        (0..laid.model.coordinates.len()).filter(|i| !cyclic.contains(i)).collect();
+        (0..compiled.model.coordinates.len()).filter(|i| !cyclic.contains(i)).collect();
     Ok(match others[..] {
         [one] if cyclic.contains(&index) => Some(one),
         _ => None,
@@ -211,9 +211,9 @@ fn partner(
 /// A system compiled with the events by which the return of a coordinate is located.
 struct Systems {
     index: usize,
-    turning: Laid,
+    turning: CompiledMotion,
     turns: usize,
-    rotating: Option<(Laid, usize)>,
+    rotating: Option<(CompiledMotion, usize)>,
 }
 
 impl Systems {
@@ -241,8 +241,8 @@ impl Systems {
             let sine = format!("sin(pi*{name}/{period:?})");
             let zero = surface(&mut reading.model, &sine, "--coordinate")?;
             let event = add_section(&mut reading.model, zero, Direction::Either);
-            let laid = motion.compile(reading, &columns, "--coordinate", interrupt)?;
-            systems.rotating = Some((laid, event));
+            let compiled = motion.compile(reading, &columns, "--coordinate", interrupt)?;
+            systems.rotating = Some((compiled, event));
         }
         Ok(systems)
     }
@@ -262,7 +262,7 @@ impl Systems {
         ActionSystems {
             turning: &self.turning.system,
             turns: self.turns,
-            rotating: self.rotating.as_ref().map(|(laid, event)| (&laid.system, *event)),
+            rotating: self.rotating.as_ref().map(|(compiled, event)| (&compiled.system, *event)),
             column: self.column(ChannelKind::Position(self.index)),
             method: self.turning.method,
             settings: self.turning.settings,
@@ -319,9 +319,10 @@ fn coordinate(model: &Model, wanted: Option<&str>) -> Result<usize, CommandError
     }
 }
 
-fn refuse_where_energy_is_not_conserved(laid: &Laid) -> Result<(), CommandError> {
-    let impulses = laid.model.impulses.iter().any(|i| i.period.is_some() || !i.times.is_empty());
-    if laid.equations.energy_rate == Expr::ZERO && !impulses {
+fn refuse_where_energy_is_not_conserved(compiled: &CompiledMotion) -> Result<(), CommandError> {
+    let impulses =
+        compiled.model.impulses.iter().any(|i| i.period.is_some() || !i.times.is_empty());
+    if compiled.equations.energy_rate == Expr::ZERO && !impulses {
         return Ok(());
     }
     let message = "the energy of this system is not conserved, so a motion has no action";
@@ -339,7 +340,7 @@ const STOPPED: &str = "stopped by a signal";
 /// The table in a format, and whether a signal has stopped it.
 fn written(
     format: TableFormat,
-    laid: &Laid,
+    compiled: &CompiledMotion,
     (rows, separatrices): (&[ActionRow], &[Separatrix]),
     stopped: bool,
 ) -> String {
@@ -354,7 +355,7 @@ fn written(
     let action =
         |row: &ActionRow| if row.kind == RegionKind::Unbounded { f64::NAN } else { row.action };
     if format == TableFormat::Json {
-        let mut members = laid.header().members();
+        let mut members = compiled.header().members();
         let rows = rows.iter().map(|row| {
             json!({
                 "energy": row.energy,
@@ -420,7 +421,7 @@ fn written(
     let separatrices = separatrices.iter().map(line).collect::<Vec<_>>().concat();
     let end = if stopped { format!("{lead}stopped: {STOPPED}\n") } else { String::new() };
     if csv {
-        laid.header().lines()
+        compiled.header().lines()
             + &separatrices
             + &cells::record(names)
             + &cells::csv(table.iter().map(Vec::as_slice))

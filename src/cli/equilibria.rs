@@ -7,7 +7,7 @@ use super::error::CommandError;
 use super::interrupt::Interrupt;
 use super::study::{self, Study, StudyArguments, shown, table};
 use crate::dynamics::{
-    Equilibria, Equilibrium, EquilibriumKind, VirtualWork, equilibria, name_equilibria,
+    Equilibria, Equilibrium, EquilibriumKind, PhaseSpace, VirtualWork, equilibria, name_equilibria,
     with_virtual_work,
 };
 use crate::mechanics::ConstraintRow;
@@ -36,7 +36,7 @@ pub(super) struct Arguments {
 }
 
 pub(super) fn execute(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
-    let study = Study::open(&arguments.study, interrupt)?;
+    let study = Study::open(&arguments.study, interrupt, PhaseSpace::without_impulses)?;
     let middle = study.around(&arguments.around)?;
     interrupt.ends_by_itself(|| ());
     let mut found = equilibria(&study.space, &middle).map_err(study::failed)?;

@@ -8,7 +8,7 @@ use super::error::CommandError;
 use super::interrupt::Interrupt;
 use super::run::progress::Bar;
 use super::study::{self, Study, StudyArguments, shown, table};
-use crate::dynamics::{DynamicsError, FlowMap, flow_map};
+use crate::dynamics::{DynamicsError, FlowMap, PhaseSpace, flow_map};
 
 /// Differentiate a motion with respect to its initial values.
 ///
@@ -32,7 +32,7 @@ pub(super) struct Arguments {
 }
 
 pub(super) fn execute(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
-    let study = Study::open_on_constraints(&arguments.study, interrupt)?;
+    let study = Study::open(&arguments.study, interrupt, PhaseSpace::on_constraints)?;
     let until = study.until(arguments.until);
     interrupt.ends_by_itself(|| ());
     let mut bar = Bar::new(study.start.time, until);

@@ -7,7 +7,7 @@ use super::error::CommandError;
 use super::interrupt::Interrupt;
 use super::run::progress::Bar;
 use super::study::{self, Study, StudyArguments, shown, table};
-use crate::dynamics::{Gali, Lyapunov, Removed, gali, lyapunov};
+use crate::dynamics::{Gali, Lyapunov, PhaseSpace, Removed, gali, lyapunov};
 
 /// Measure how fast neighbouring motions separate.
 ///
@@ -57,7 +57,7 @@ fn count(text: &str) -> Result<Count, String> {
 }
 
 pub(super) fn execute(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
-    let study = Study::open_on_constraints(&arguments.study, interrupt)?;
+    let study = Study::open(&arguments.study, interrupt, PhaseSpace::on_constraints)?;
     let until = study.until(arguments.until);
     interrupt.ends_by_itself(|| ());
     let mut bar = Bar::new(study.start.time, until);

@@ -45,7 +45,7 @@ pub(super) struct ModelReading {
 }
 
 /// A compiled system with its start and its method.
-pub(super) struct Laid {
+pub(super) struct CompiledMotion {
     pub(super) model: Arc<Model>,
     pub(super) equations: Arc<Equations>,
     pub(super) system: System,
@@ -78,7 +78,7 @@ impl MotionOptions {
         columns: &[String],
         called: &str,
         interrupt: &Interrupt,
-    ) -> Result<Laid, CommandError> {
+    ) -> Result<CompiledMotion, CommandError> {
         let ModelReading { document, model, start, settings, .. } = reading;
         let mut derived = open::derive(&document, model)?;
         let Derived { model, equations } = &mut derived;
@@ -92,11 +92,11 @@ impl MotionOptions {
         let method = self.changes.integrator.choose(&document, &model, &system)?;
         (method.make)(&system, &settings).map_err(|why| CommandError::WrongUse(why.to_string()))?;
         let (model, equations) = (Arc::new(model), Arc::new(equations));
-        Ok(Laid { model, equations, system, start, method, settings })
+        Ok(CompiledMotion { model, equations, system, start, method, settings })
     }
 }
 
-impl Laid {
+impl CompiledMotion {
     /// The title, parameters, method and columns of a report.
     pub(super) fn header(&self) -> Header {
         header(&self.model, &self.system, &self.start.parameters, self.method, self.settings)

@@ -11,8 +11,8 @@ use super::interrupt::Interrupt;
 use super::slow_notice::with_notice;
 use super::study::{self, Study, StudyArguments, shown, table};
 use crate::dynamics::{
-    Along, Bifurcation, Family, Fixed, NOT_ISOLATED, Orbit, OrbitStability, drive_period,
-    driven_family, driven_orbit, family, periodic_orbit,
+    Along, Bifurcation, Family, Fixed, NOT_ISOLATED, Orbit, OrbitStability, PhaseSpace,
+    drive_period, driven_family, driven_orbit, family, periodic_orbit,
 };
 
 /// Find the periodic orbit near the start.
@@ -77,7 +77,7 @@ impl FromStr for SweptValues {
 }
 
 pub(super) fn execute(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
-    let study = Study::open_on_constraints(&arguments.study, interrupt)?;
+    let study = Study::open(&arguments.study, interrupt, PhaseSpace::on_constraints)?;
     let fixed = fixed(arguments, &study)?;
     let along = arguments.along.as_ref().map(|values| along(values, &study)).transpose()?;
     interrupt.ends_by_itself(|| ());

@@ -13,7 +13,7 @@ use super::cells::{self, TableCell, TableFormat};
 use super::decimal::divisions;
 use super::error::CommandError;
 use super::interrupt::Interrupt;
-use super::motion_options::{Laid, MotionOptions};
+use super::motion_options::{CompiledMotion, MotionOptions};
 use super::output::Output;
 use super::path_function::{is_momentum, of_coordinates};
 use super::stderr;
@@ -99,25 +99,25 @@ pub(super) fn execute(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         return Err(CommandError::WrongUse(why.to_owned()));
     }
     let reading = arguments.motion.read()?;
-    let laid = arguments.motion.compile(reading, &[], "--observe", interrupt)?;
-    let mechanics = &laid.model.mechanics;
+    let compiled = arguments.motion.compile(reading, &[], "--observe", interrupt)?;
+    let mechanics = &compiled.model.mechanics;
     let acts = |force: &&Expr| **force != Expr::ZERO;
     if [mechanics.dissipation()].iter().chain(mechanics.forces()).find(acts).is_some() {
         stderr::report(
             "friction or forces act beside L: a path that makes ∫ L dt stationary is a motion of L alone, not of this file",
         );
     }
-    let found = found(arguments, &laid)?;
+    let found = found(arguments, &compiled)?;
     // until here there is nothing to finish, so that a signal ends the search at once
     interrupt.ends_by_itself(|| ());
     let out = Output::open(arguments.output.as_deref(), arguments.format.form())?;
-    out.write_after_signal(|| found.written(arguments.format, &laid), interrupt)
+    out.write_after_signal(|| found.written(arguments.format, &compiled), interrupt)
 }
 
 /// The path, and what is known of it.
-fn found(arguments: &Arguments, laid: &Laid) -> Result<JudgedPath, CommandError> {
-    let model = &*laid.model;
-    let mut study = PathStudy::new(laid, arguments.duration)?;
+fn found(arguments: &Arguments, compiled: &CompiledMotion) -> Result<JudgedPath, CommandError> {
+    let model = &*compiled.model;
+    let mut study = PathStudy::new(compiled, arguments.duration)?;
     let along = study.read(&arguments.along, "--along")?;
     let near = study.read(&arguments.near, "--near")?;
     let (momenta, positions): (Vec<Assignment>, Vec<Assignment>) =
@@ -125,7 +125,7 @@ fn found(arguments: &Arguments, laid: &Laid) -> Result<JudgedPath, CommandError>
     let variation = study.variation(&positions, &of_coordinates(&momenta))?;
     let path = match along {
         Some(along) => study.along(along),
-        None => study.between(&ends(arguments, laid)?, near.as_ref())?,
+        None => study.between(&ends(arguments, compiled)?, near.as_ref())?,
     };
     let mut judged = study.judge(&path)?;
     if let Some(variation) = variation {
@@ -134,10 +134,12 @@ fn found(arguments: &Arguments, laid: &Laid) -> Result<JudgedPath, CommandError>
     Ok(judged)
 }
 
-fn ends(arguments: &Arguments, laid: &Laid) -> Result<[Vec<f64>; 2], CommandError> {
-    let (model, parameters) = (&*laid.model, &laid.start.parameters);
-    let state =
-        laid.start.state(&laid.system).map_err(|why| CommandError::CouldNot(why.to_string()))?;
+fn ends(arguments: &Arguments, compiled: &CompiledMotion) -> Result<[Vec<f64>; 2], CommandError> {
+    let (model, parameters) = (&*compiled.model, &compiled.start.parameters);
+    let state = compiled
+        .start
+        .state(&compiled.system)
+        .map_err(|why| CommandError::CouldNot(why.to_string()))?;
     let n = model.coordinates.len();
     let own: Vec<f64> = state.values[..n].to_vec();
     let place = |given: &[Assignment], option: &str, before: Option<&[f64]>| {
@@ -181,11 +183,11 @@ impl JudgedPath {
         ["t".to_owned()].into_iter().chain(inner).chain(["energy".to_owned()]).collect()
     }
 
-    fn written(&self, format: TableFormat, laid: &Laid) -> String {
-        let columns = JudgedPath::columns(&laid.model);
+    fn written(&self, format: TableFormat, compiled: &CompiledMotion) -> String {
+        let columns = JudgedPath::columns(&compiled.model);
         let (index, kind) = (self.nature.map(|n| n.0), self.nature.map(|n| word(n.1)));
         if format == TableFormat::Json {
-            let mut members = laid.header().members();
+            let mut members = compiled.header().members();
             let varied = self.varied.iter().map(|varied| {
                 let abbreviated = varied.abbreviated.as_ref().ok();
                 json!({ "epsilon": varied.epsilon, "action": varied.action, "abbreviated": abbreviated })
@@ -243,7 +245,7 @@ impl JudgedPath {
             .collect();
         if csv {
             let rows = cells::csv(table.iter().map(Vec::as_slice));
-            laid.header().lines() + &text + &cells::record(columns) + &rows
+            compiled.header().lines() + &text + &cells::record(columns) + &rows
         } else {
             text + "\n" + &cells::text(&columns, &table)
         }

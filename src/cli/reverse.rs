@@ -8,7 +8,7 @@ use serde_json::{Map, Value, json};
 use super::assignment::number;
 use super::error::CommandError;
 use super::interrupt::Interrupt;
-use super::motion_options::Laid;
+use super::motion_options::CompiledMotion;
 use super::run::progress::Bar;
 use super::study::{self, StudyArguments, shown};
 use crate::dynamics::{DynamicsError, PhaseSpace, lyapunov, return_growth};
@@ -48,33 +48,34 @@ const OBSERVATIONS: f64 = 1000.0;
 
 pub(super) fn execute(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
     let motion = &arguments.study.motion;
-    let laid = motion.compile(motion.read()?, &[], "", interrupt)?;
-    let start = laid.start.time;
-    let until = arguments.until.or(laid.model.run.until).unwrap_or(start + 10.0);
+    let compiled = motion.compile(motion.read()?, &[], "", interrupt)?;
+    let start = compiled.start.time;
+    let until = arguments.until.or(compiled.model.run.until).unwrap_or(start + 10.0);
     if until.partial_cmp(&start) != Some(std::cmp::Ordering::Greater) {
         let [until, start] = [until, start].map(printable::number);
         let message = format!("a motion begins at {start}; --until {until} is not after it");
         return Err(CommandError::WrongUse(message));
     }
     interrupt.ends_by_itself(|| ());
-    let (returned, steps) = returned(&laid, until, interrupt)?;
-    let rate = rate(&laid, returned.turned);
-    let bounded = returned.step.is_some() || laid.method.stepping == Stepping::Adaptive;
-    let over_kinks = laid.system.has_kinks() && !laid.method.locates_kinks;
-    let expected = if over_kinks { None } else { expected(&laid, &returned) };
+    let (returned, steps) = returned(&compiled, until, interrupt)?;
+    let rate = rate(&compiled, returned.turned);
+    let bounded = returned.step.is_some() || compiled.method.stepping == Stepping::Adaptive;
+    let over_kinks = compiled.system.has_kinks() && !compiled.method.locates_kinks;
+    let expected = if over_kinks { None } else { expected(&compiled, &returned) };
     let found = ReversedRun { bounded, returned, steps, rate, expected, over_kinks };
-    let result = (found.object(&laid), found.text());
+    let result = (found.object(&compiled), found.text());
     study::write(&arguments.study, result, None, interrupt)
 }
 
 /// The error that is expected at the start, by the growth of the errors of all steps on the way back. `None` where that is
 /// not known.
-fn expected(laid: &Laid, returned: &Return) -> Option<f64> {
-    let parameters = &laid.start.parameters;
-    let Laid { model, equations, system, .. } = laid;
-    let space = PhaseSpace::on_constraints(model, equations, system, parameters).ok()?;
+fn expected(compiled: &CompiledMotion, returned: &Return) -> Option<f64> {
+    let parameters = &compiled.start.parameters;
+    let CompiledMotion { model, equations, system, .. } = compiled;
+    let space = PhaseSpace::on_constraints((model, equations, system), parameters).ok()?;
     let turned = space.state(&returned.state).ok()?;
-    let growth = return_growth(&space, (laid.method, laid.settings), &turned, returned.start)?;
+    let growth =
+        return_growth(&space, (compiled.method, compiled.settings), &turned, returned.start)?;
     let growth =
         growth.last().filter(|last| last.elapsed == (returned.turned - returned.start).abs())?;
     let expected =
@@ -96,18 +97,23 @@ struct ReversedRun {
 }
 
 /// Carries the motion there and back.
-fn returned(laid: &Laid, until: f64, interrupt: &Interrupt) -> Result<(Return, u64), CommandError> {
-    let start = laid.start.time;
+fn returned(
+    compiled: &CompiledMotion,
+    until: f64,
+    interrupt: &Interrupt,
+) -> Result<(Return, u64), CommandError> {
+    let start = compiled.start.time;
     let setup = Setup {
-        parameters: laid.start.parameters.clone(),
-        overrides: laid.start.overrides.clone(),
-        method: laid.method.name.to_owned(),
-        settings: laid.settings,
+        parameters: compiled.start.parameters.clone(),
+        overrides: compiled.start.overrides.clone(),
+        method: compiled.method.name.to_owned(),
+        settings: compiled.settings,
         spacing: (until - start) / OBSERVATIONS,
-        ..Setup::of(&laid.model)
+        ..Setup::of(&compiled.model)
     };
-    let mut experiment = Experiment::new(&laid.model, &laid.equations, &laid.system, setup)
-        .map_err(|why| CommandError::WrongUse(why.to_string()))?;
+    let mut experiment =
+        Experiment::new(&compiled.model, &compiled.equations, &compiled.system, setup)
+            .map_err(|why| CommandError::WrongUse(why.to_string()))?;
     let (there, back) = (until, 2.0 * until - start);
     let mut bar = Bar::new(start, back);
     advance(&mut experiment, until, interrupt, &mut |clock| bar.show(clock))?;
@@ -149,14 +155,17 @@ fn advance(
 }
 
 /// The largest exponent of the reversed motion, and its uncertainty.
-fn rate(laid: &Laid, until: f64) -> Result<(f64, f64), String> {
+fn rate(compiled: &CompiledMotion, until: f64) -> Result<(f64, f64), String> {
     let in_words = |why: DynamicsError| why.to_string();
-    let parameters = &laid.start.parameters;
-    let space = PhaseSpace::on_constraints(&laid.model, &laid.equations, &laid.system, parameters)
-        .map_err(in_words)?;
-    let start = laid.start.state(&laid.system).and_then(|state| space.state(&state));
+    let parameters = &compiled.start.parameters;
+    let space = PhaseSpace::on_constraints(
+        (&compiled.model, &compiled.equations, &compiled.system),
+        parameters,
+    )
+    .map_err(in_words)?;
+    let start = compiled.start.state(&compiled.system).and_then(|state| space.state(&state));
     let start = start.map_err(|why| why.to_string())?;
-    let method = (laid.method, laid.settings);
+    let method = (compiled.method, compiled.settings);
     let found = lyapunov(&space, method, &start, until, &mut |_| {}).map_err(in_words)?;
     if let Some(error) = found.error {
         return Err(error.to_string());
@@ -168,10 +177,10 @@ fn rate(laid: &Laid, until: f64) -> Result<(f64, f64), String> {
 }
 
 impl ReversedRun {
-    fn object(&self, laid: &Laid) -> Map<String, Value> {
-        let parameters = &laid.start.parameters;
-        let method = (laid.method, laid.settings);
-        let mut object = study::head(&laid.model, &laid.system, parameters, method);
+    fn object(&self, compiled: &CompiledMotion) -> Map<String, Value> {
+        let parameters = &compiled.start.parameters;
+        let method = (compiled.method, compiled.settings);
+        let mut object = study::head(&compiled.model, &compiled.system, parameters, method);
         let mut insert = |name: &str, value: Value| object.insert(name.to_owned(), value);
         let rate = self.rate.as_ref().ok();
         insert("turned", json!(self.returned.turned));

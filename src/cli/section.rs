@@ -15,7 +15,7 @@ use super::assignment::{self, number, whole};
 use super::cells::TableFormat;
 use super::error::CommandError;
 use super::interrupt::Interrupt;
-use super::motion_options::{Laid, MotionOptions};
+use super::motion_options::{CompiledMotion, MotionOptions};
 use super::output::Output;
 use super::starts::Starts;
 use super::threads::{self, ThreadOptions};
@@ -127,12 +127,12 @@ pub(super) fn execute(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let rotation_names = arguments.rotation.as_deref().map(split);
     let named: Vec<String> = wanted.iter().chain(&rotation_names).flatten().cloned().collect();
     let extra = unknown_columns(&reading.model, &named);
-    let laid = arguments.motion.compile(reading, &extra, "--columns", interrupt)?;
+    let compiled = arguments.motion.compile(reading, &extra, "--columns", interrupt)?;
     let starts = match &arguments.orbits {
-        Some(path) => Starts::read(path)?.starts(&laid.model, &laid.start)?,
-        None => vec![laid.start.clone()],
+        Some(path) => Starts::read(path)?.starts(&compiled.model, &compiled.start)?,
+        None => vec![compiled.start.clone()],
     };
-    let shell = shell(arguments, &laid.model)?;
+    let shell = shell(arguments, &compiled.model)?;
     let first = starts.iter().map(|start| start.time).fold(f64::NEG_INFINITY, f64::max);
     if let Some(until) = arguments.until.filter(|&until| until < first) {
         let [until, first] = [until, first].map(printable::number);
@@ -140,29 +140,29 @@ pub(super) fn execute(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         return Err(CommandError::WrongUse(message));
     }
     let count = arguments.count.or(arguments.until.is_none().then_some(COUNT));
-    let idle = if laid.settings.step.is_some() { IDLE_ASKED } else { IDLE };
+    let idle = if compiled.settings.step.is_some() { IDLE_ASKED } else { IDLE };
     let plan = SectionPlan { event, count, until: arguments.until, idle, all_channels: false };
-    let shown = shown_columns(&laid, wanted.as_deref())?;
+    let shown = shown_columns(&compiled, wanted.as_deref())?;
     let rotation_columns =
-        rotation_names.map(|names| RotationColumns::of(&laid, &names)).transpose()?;
+        rotation_names.map(|names| RotationColumns::of(&compiled, &names)).transpose()?;
     let out = Output::open(arguments.output.as_deref(), arguments.format.form())?;
 
     let completed = |start: &Start| {
         let mut start = start.clone();
-        let refused = shell.as_ref().map(|shell| shell.complete(&laid.system, &mut start));
+        let refused = shell.as_ref().map(|shell| shell.complete(&compiled.system, &mut start));
         refused.transpose().map(|_| start).map_err(|why| Crossings::refused(&why))
     };
     let group = |range: Range<usize>| {
         let starts = starts[range].iter().map(completed).collect();
-        crossings_of_all(&laid.system, laid.method, laid.settings, starts, &plan)
+        crossings_of_all(&compiled.system, compiled.method, compiled.settings, starts, &plan)
     };
-    let size = section_group(&laid.system, laid.method, laid.settings);
+    let size = section_group(&compiled.system, compiled.method, compiled.settings);
     let groups = (starts.len(), size);
     let orbits = threads::collect(&arguments.threads, groups, interrupt, group)?;
     // the rest takes time with many crossings, also after a signal
     interrupt.prepares();
     let section = SectionReport {
-        laid: &laid,
+        compiled: &compiled,
         on: &on,
         direction: direction.word(),
         format: arguments.format,
@@ -254,8 +254,11 @@ fn unknown_columns(model: &Model, wanted: &[String]) -> Vec<String> {
     extra
 }
 
-fn shown_columns(laid: &Laid, wanted: Option<&[String]>) -> Result<Vec<ShownColumn>, CommandError> {
-    let names = laid.header().columns;
+fn shown_columns(
+    compiled: &CompiledMotion,
+    wanted: Option<&[String]>,
+) -> Result<Vec<ShownColumn>, CommandError> {
+    let names = compiled.header().columns;
     let Some(wanted) = wanted else { return Ok(names.into_iter().zip(0..).collect()) };
     let mut shown: Vec<ShownColumn> = vec![("t".to_owned(), 0)];
     for name in wanted.iter().filter(|name| *name != "t") {

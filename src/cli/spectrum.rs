@@ -5,7 +5,7 @@ use serde_json::{Map, Value, json};
 use super::assignment::{number, whole};
 use super::error::CommandError;
 use super::interrupt::Interrupt;
-use super::motion_options::Laid;
+use super::motion_options::CompiledMotion;
 use super::slow_notice::with_notice;
 use super::study::{self, StudyArguments, shown, table};
 use crate::dynamics::{
@@ -73,8 +73,8 @@ pub(super) fn execute(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
             None => (ChannelKind::Extra(0), Some(format!("{COLUMN}={of}"))),
         },
     };
-    let laid = motion.compile(reading, column.as_slice(), "--of", interrupt)?;
-    let Laid { model, equations, system, start, method, settings } = &laid;
+    let compiled = motion.compile(reading, column.as_slice(), "--of", interrupt)?;
+    let CompiledMotion { model, equations, system, start, method, settings } = &compiled;
     let channel = system.channels().iter().position(|channel| channel.kind == kind);
     let channel =
         channel.ok_or_else(|| CommandError::CouldNot("there is no such quantity".to_owned()))?;
@@ -96,7 +96,7 @@ pub(super) fn execute(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     };
     let is_angle = system.period(channel, &start.parameters).is_some()
         && matches!(system.channels()[channel].kind, ChannelKind::Position(_));
-    let space = PhaseSpace::on_constraints(model, equations, system, &start.parameters).ok();
+    let space = PhaseSpace::on_constraints((model, equations, system), &start.parameters).ok();
     let drive = space.and_then(|space| space.drive()).map(|period| std::f64::consts::TAU / period);
     let fundamentals = independent_frequencies(model, equations, system);
     let asked = arguments.count.map(|count| [count as usize; 2]);

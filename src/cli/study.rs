@@ -13,10 +13,10 @@ use serde_json::{Map, Value};
 use super::assignment::{self, Assignment};
 use super::error::CommandError;
 use super::interrupt::Interrupt;
-use super::motion_options::{Laid, MotionOptions};
+use super::motion_options::{CompiledMotion, MotionOptions};
 use super::output::{Output, OutputForm};
 use super::run;
-use crate::dynamics::{DynamicsError, PhaseSpace};
+use crate::dynamics::{CompiledLaw, DynamicsError, PhaseSpace};
 use crate::integrate::{Method, Settings};
 use crate::mechanics::Equations;
 use crate::model::Model;
@@ -58,31 +58,16 @@ pub(super) struct Study {
 }
 
 impl Study {
-    /// Reads, derives, compiles, and begins at the initial state. No impulses act on the motion.
+    /// Reads, derives, compiles, and begins at the initial state, in a phase space that allows what may act on the motion.
     pub(super) fn open(
         arguments: &StudyArguments,
         interrupt: &Interrupt,
-    ) -> Result<Study, CommandError> {
-        Study::read(arguments, interrupt, PhaseSpace::without_impulses)
-    }
-
-    /// The same of a motion on which impulses may act, or which constraints may hold.
-    pub(super) fn open_on_constraints(
-        arguments: &StudyArguments,
-        interrupt: &Interrupt,
-    ) -> Result<Study, CommandError> {
-        Study::read(arguments, interrupt, PhaseSpace::on_constraints)
-    }
-
-    fn read(
-        arguments: &StudyArguments,
-        interrupt: &Interrupt,
-        space: impl Fn(&Model, &Equations, &System, &[f64]) -> Result<PhaseSpace, DynamicsError>,
+        space: impl Fn(CompiledLaw<'_>, &[f64]) -> Result<PhaseSpace, DynamicsError>,
     ) -> Result<Study, CommandError> {
         let reading = arguments.motion.read()?;
-        let laid = arguments.motion.compile(reading, &[], "", interrupt)?;
-        let Laid { model, equations, system, start, method, settings } = laid;
-        let space = space(&model, &equations, &system, &start.parameters).map_err(failed)?;
+        let compiled = arguments.motion.compile(reading, &[], "", interrupt)?;
+        let CompiledMotion { model, equations, system, start, method, settings } = compiled;
+        let space = space((&model, &equations, &system), &start.parameters).map_err(failed)?;
         let start = start
             .state(&system)
             .and_then(|state| space.state(&state))

@@ -52,8 +52,8 @@ pub fn conformal_rate<'a>(
     });
     let mut field = space.vector_field();
     let mut rate: Option<f64> = None;
-    let looks = states.into_iter().flat_map(|variables| (0..times).map(move |k| (variables, k)));
-    for (variables, k) in looks {
+    let samples = states.into_iter().flat_map(|variables| (0..times).map(move |k| (variables, k)));
+    for (variables, k) in samples {
         field.evaluate(time + (PART * f64::from(k)).fract() * period, variables)?;
         let derivative = field.derivative();
         let change = derivative.transpose() * &unit + &unit * &derivative;

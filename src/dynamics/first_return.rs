@@ -12,8 +12,8 @@ use crate::num::{DoubleDouble, short};
 use crate::system::State;
 
 /// The steps in which a return to the start is searched for, of a series and of a fixed size.
-const LOOKED: u64 = 600;
-const LOOKED_FIXED: u64 = 20_000;
+const SEARCHED_STEPS: u64 = 600;
+const SEARCHED_FIXED_STEPS: u64 = 20_000;
 
 /// A time later than any return, in any units; the square of a distance covered in it is a number.
 const ENDLESS: f64 = 1e150;
@@ -52,7 +52,7 @@ pub(super) fn return_near(
     let mut carrier = Carrier::new(space, method, settings, 0)?;
     carrier.start(start, &DMatrix::zeros(space.dimension(), 0))?;
     let fixed = method.stepping == Stepping::Fixed;
-    let (steps, parts) = if fixed { (LOOKED_FIXED, 1) } else { (LOOKED, 16) };
+    let (steps, parts) = if fixed { (SEARCHED_FIXED_STEPS, 1) } else { (SEARCHED_STEPS, 16) };
     let mut extent = vec![0.0_f64; space.dimension()];
     let mut seen: Vec<(f64, DVector<f64>)> = vec![(start.time, DVector::zeros(space.dimension()))];
     let mut best: Option<(f64, f64)> = None;

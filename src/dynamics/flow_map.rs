@@ -70,12 +70,12 @@ pub fn flow_map(
     until: f64,
     report: &mut dyn FnMut(f64),
 ) -> Result<FlowMap, DynamicsError> {
-    let mut look_on = |time| {
+    let mut report_time = |time| {
         report(time);
         true
     };
     let divergence = (!space.is_constrained()).then(|| Divergence::of(space, method));
-    followed(space, (method, settings), (start, until), divergence, &mut look_on)
+    followed(space, (method, settings), (start, until), divergence, &mut report_time)
 }
 
 /// The same for as long as `report` returns true, otherwise the result is that of the time reached; and without the

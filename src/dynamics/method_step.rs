@@ -44,7 +44,7 @@ impl MethodStep {
     ) -> Result<MethodStep, DynamicsError> {
         let unsuited = |why: &str| DynamicsError::Unsuited(why.to_owned());
         let parameters = model.parameter_values();
-        let space = PhaseSpace::of(model, equations, system, &parameters)?;
+        let space = PhaseSpace::of((model, equations, system), &parameters)?;
         if space.form() != Form::Momentum {
             return Err(unsuited("brackets of variables have no canonical coordinates"));
         }

@@ -25,6 +25,9 @@ use crate::system::{Form, MotionError, State, System};
 /// Why nothing is asked of a system whose constraints allow no displacement.
 pub(super) const NOTHING_MOVES: &str = "the constraints leave nothing that could move";
 
+/// A model, what was derived from it, and the compiled system.
+pub type CompiledLaw<'a> = (&'a Model, &'a Equations, &'a System);
+
 /// A system in canonical variables.
 #[derive(Clone, Debug)]
 pub struct PhaseSpace {
@@ -57,14 +60,9 @@ impl PhaseSpace {
     /// # Errors
     /// Returns an error if the motion has no derivative everywhere, is subject to constraints, or
     /// impulses act on it.
-    pub fn of(
-        model: &Model,
-        equations: &Equations,
-        system: &System,
-        parameters: &[f64],
-    ) -> Result<PhaseSpace, DynamicsError> {
-        refuse_acts(system)?;
-        PhaseSpace::through_impulses(model, equations, system, parameters)
+    pub fn of(law: CompiledLaw<'_>, parameters: &[f64]) -> Result<PhaseSpace, DynamicsError> {
+        refuse_acts(law.2)?;
+        PhaseSpace::through_impulses(law, parameters)
     }
 
     /// The phase space of a system whose events do nothing but end the motion; here the motion continues past them.
@@ -72,14 +70,12 @@ impl PhaseSpace {
     /// # Errors
     /// Returns an error if the motion has no derivative everywhere, is subject to constraints, or impulses act on it.
     pub fn without_end(
-        model: &Model,
-        equations: &Equations,
-        system: &System,
+        law: CompiledLaw<'_>,
         parameters: &[f64],
     ) -> Result<PhaseSpace, DynamicsError> {
-        refuse_acts_but(system, |action| action == EventAction::Stop)?;
-        refuse_constraints(system)?;
-        PhaseSpace::read(model, equations, system, parameters, false)
+        refuse_acts_but(law.2, |action| action == EventAction::Stop)?;
+        refuse_constraints(law.2)?;
+        PhaseSpace::read(law, parameters, false)
     }
 
     /// The phase space of a system that may be subject to constraints, and on whose motion no impulses act.
@@ -87,13 +83,11 @@ impl PhaseSpace {
     /// # Errors
     /// Returns an error if the motion has no derivative everywhere, or impulses act on it.
     pub fn without_impulses(
-        model: &Model,
-        equations: &Equations,
-        system: &System,
+        law: CompiledLaw<'_>,
         parameters: &[f64],
     ) -> Result<PhaseSpace, DynamicsError> {
-        refuse_acts(system)?;
-        PhaseSpace::read(model, equations, system, parameters, false)
+        refuse_acts(law.2)?;
+        PhaseSpace::read(law, parameters, false)
     }
 
     /// The phase space of a system that may be subject to constraints. Its variables are then not independent: the states
@@ -104,15 +98,13 @@ impl PhaseSpace {
     /// Returns an error if the motion has no derivative everywhere else, or if impulses or events act on a motion that is
     /// subject to constraints.
     pub fn on_constraints(
-        model: &Model,
-        equations: &Equations,
-        system: &System,
+        law: CompiledLaw<'_>,
         parameters: &[f64],
     ) -> Result<PhaseSpace, DynamicsError> {
-        if system.constraints() > 0 {
-            refuse_acts(system)?;
+        if law.2.constraints() > 0 {
+            refuse_acts(law.2)?;
         }
-        PhaseSpace::read(model, equations, system, parameters, refuse_acts(system).is_err())
+        PhaseSpace::read(law, parameters, refuse_acts(law.2).is_err())
     }
 
     /// The phase space of a system on whose motion impulses may act, at their times or caused by
@@ -122,19 +114,15 @@ impl PhaseSpace {
     /// # Errors
     /// Returns an error if the motion has no derivative everywhere else, or is subject to constraints.
     pub fn through_impulses(
-        model: &Model,
-        equations: &Equations,
-        system: &System,
+        law: CompiledLaw<'_>,
         parameters: &[f64],
     ) -> Result<PhaseSpace, DynamicsError> {
-        refuse_constraints(system)?;
-        PhaseSpace::read(model, equations, system, parameters, refuse_acts(system).is_err())
+        refuse_constraints(law.2)?;
+        PhaseSpace::read(law, parameters, refuse_acts(law.2).is_err())
     }
 
     fn read(
-        model: &Model,
-        equations: &Equations,
-        system: &System,
+        (model, equations, system): CompiledLaw<'_>,
         parameters: &[f64],
         jumps: bool,
     ) -> Result<PhaseSpace, DynamicsError> {

@@ -87,18 +87,18 @@ impl SectionPlan {
 /// How far an orbit that begins at a time is followed at first, and a time that no step goes beyond. Where there is no end
 /// in time, no step ends early at one.
 pub(super) fn first_limit(plan: &SectionPlan, start: f64) -> (f64, f64) {
-    let target = plan.until.unwrap_or(start + look_ahead(start, FIRST_SPAN));
-    (target, plan.until.unwrap_or(target + look_ahead(target, FIRST_SPAN)))
+    let target = plan.until.unwrap_or(start + span_ahead(start, FIRST_SPAN));
+    (target, plan.until.unwrap_or(target + span_ahead(target, FIRST_SPAN)))
 }
 
 /// The same for an orbit without an end in time that was followed to `target`, by a last step of this size.
 pub(super) fn next_limit(target: f64, step: f64) -> (f64, f64) {
-    let ahead = look_ahead(target, (STEPS_AHEAD * step.abs()).max(FIRST_SPAN));
+    let ahead = span_ahead(target, (STEPS_AHEAD * step.abs()).max(FIRST_SPAN));
     (target + ahead, target + ahead + ahead)
 }
 
 /// How far to advance from a time on: `wanted`, or where that is lost in the digits of the time the least that is not.
-fn look_ahead(from: f64, wanted: f64) -> f64 {
+fn span_ahead(from: f64, wanted: f64) -> f64 {
     wanted.max(2.0 * spacing(from))
 }
 

@@ -18,7 +18,7 @@ pub enum Command {
     StepBack(u32),
     /// Pauses, and shows a time in the recorded past. The next command that acts on the motion continues it there; a time
     /// not before the current one leads back to it.
-    LookAt(f64),
+    ScrubTo(f64),
     /// Reverses time: from the current state on the motion runs the other way, by the same method.
     Reverse,
     /// Sets the simulated seconds per second of wall time; infinite for as fast as possible.

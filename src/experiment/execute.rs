@@ -26,7 +26,7 @@ impl Experiment {
             return;
         }
         match command {
-            Command::LookAt(time) => self.scrub_to(time),
+            Command::ScrubTo(time) => self.scrub_to(time),
             Command::Reverse => self.reverse(),
             Command::Play => self.run.running = true,
             Command::Pause => self.run.running = false,

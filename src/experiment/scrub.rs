@@ -10,14 +10,14 @@ use crate::num::short;
 impl Experiment {
     /// Pauses, and shows a time in the past, of this motion and of the run before.
     pub(super) fn scrub_to(&mut self, time: f64) {
-        self.look_at_this(time);
+        self.show_recorded(time);
         let now = self.seen().time();
         if let Some(echo) = &mut self.reversal.echo {
             echo.scrub_to(now, HORIZON * self.setup.spacing);
         }
     }
 
-    fn look_at_this(&mut self, time: f64) {
+    fn show_recorded(&mut self, time: f64) {
         self.run.running = false;
         if !self.motion.has_begun() || time.is_nan() {
             return;
@@ -56,7 +56,7 @@ impl Experiment {
         let Some(scrubbed) = &self.scrubbed else { return false };
         let (time, sign) = (scrubbed.time(), self.motion.sign());
         match command {
-            Command::LookAt(_) | Command::Speed(_) | Command::Follow(_) => false,
+            Command::ScrubTo(_) | Command::Speed(_) | Command::Follow(_) => false,
             Command::Pause => true,
             Command::Step(count) => {
                 self.scrub_to(time + sign * f64::from(*count) * self.frame());

@@ -60,7 +60,7 @@ impl Pool {
             // the factors anew, from the first that is rewritten on
             let mut next: Option<Vec<Factor>> = None;
             for (i, &(base, exponent)) in factors.iter().enumerate() {
-                let opened = self.settle(base, exponent).filter(|(c, _)| {
+                let opened = self.rewrite_power(base, exponent).filter(|(c, _)| {
                     exponent.is_one()
                         || !matches!(self.node(base), Node::Product(..) | Node::Sum(..))
                         || !leaves_range(coefficient, *c)
@@ -118,13 +118,13 @@ impl Pool {
 
     /// Rewrites a factor that is not canonical under its exponent: `Some((c, factors))` means
     /// `base^exponent = c · Π factors`, `None` that the factor stays.
-    fn settle(&mut self, base: Expr, exponent: Number) -> Option<(Number, Vec<Factor>)> {
+    fn rewrite_power(&mut self, base: Expr, exponent: Number) -> Option<(Number, Vec<Factor>)> {
         if let Node::Symbol(_) | Node::Pi = self.node(base) {
             return None;
         }
         let integer = exponent.as_integer();
         match &*self.shared(base) {
-            Node::Number(n) => self.settle_number(*n, exponent),
+            Node::Number(n) => self.rewrite_numeric_power(*n, exponent),
             Node::Product(c, inner) => {
                 if let Some(k) = integer {
                     // a coefficient whose power is beyond most other numbers stays where it is
@@ -191,7 +191,11 @@ impl Pool {
     }
 
     /// A numeric base: evaluated if exact, else reduced to an exponent in (0, 1).
-    fn settle_number(&mut self, n: Number, exponent: Number) -> Option<(Number, Vec<Factor>)> {
+    fn rewrite_numeric_power(
+        &mut self,
+        n: Number,
+        exponent: Number,
+    ) -> Option<(Number, Vec<Factor>)> {
         if let Some(exact) = n.exact_power(exponent) {
             return Some((exact, Vec::new()));
         }

@@ -19,7 +19,7 @@ pub(super) use self::principle::Principle;
 use super::path_so_far::{PathSoFar, nothing_yet};
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
-    Need, Offer, Physics, Picture, Plot, PlotContext, Present, Upwards,
+    Need, Offer, Physics, Picture, Plot, PlotContext, Present, Properties, Upwards,
 };
 use crate::dynamics::{PhaseSpace, VARIATIONS, VariedAction};
 use crate::job::{Job, Progress};
@@ -40,25 +40,52 @@ struct ComputedAction {
     outcome: Result<ActionAlongMotion, String>,
 }
 
+const MEASURES: &[Measure] = &[
+    Measure::new("value", "the action of the motion up to now", |context| {
+        Some(varied(context.answer)?.action)
+    }),
+    Measure::new("foci", "how many kinetic foci it has passed", |context| {
+        Some(found(context.answer)?.foci.as_ref()?.len() as f64)
+    }),
+    Measure::new("by_place", "of Hamilton's action: ∂S/∂q at its end, which is p", |context| {
+        Some(varied(context.answer)?.ends?[1].by_position)
+    }),
+    Measure::new(
+        "by_time",
+        "of Hamilton's action: ∂S/∂t at its end, which is −H",
+        |context| Some(varied(context.answer)?.ends?[1].by_time),
+    ),
+    Measure::new(
+        "rise",
+        "how much greater the action is at the greatest ε, for k = 1",
+        |context| Some(varied(context.answer)?.curves.first()?.last()?[1]),
+    ),
+];
+
+/// The constants of one of the three principles.
+const fn properties(name: &'static str, other: &'static dyn Instrument) -> Properties {
+    Properties {
+        name,
+        other: Some(other),
+        written: &[Axis { heading: "Coordinate to vary", coordinate: true, ..Axis::ACROSS }],
+        measures: MEASURES,
+        ..Properties::PLAIN
+    }
+}
+
 impl Instrument for ActionPlot {
-    fn name(&self) -> &'static str {
+    fn properties(&self) -> &'static Properties {
         match self.0 {
-            Principle::Hamilton => "action",
-            Principle::Maupertuis => "abbreviated",
-            Principle::PhaseSpace => "phase-action",
+            Principle::Hamilton => {
+                const { &properties("action", &ActionPlot(Principle::Maupertuis)) }
+            }
+            Principle::Maupertuis => {
+                const { &properties("abbreviated", &ActionPlot(Principle::PhaseSpace)) }
+            }
+            Principle::PhaseSpace => {
+                const { &properties("phase-action", &ActionPlot(Principle::Hamilton)) }
+            }
         }
-    }
-
-    fn other(&self) -> Option<&'static dyn Instrument> {
-        Some(match self.0 {
-            Principle::Hamilton => &ActionPlot(Principle::Maupertuis),
-            Principle::Maupertuis => &ActionPlot(Principle::PhaseSpace),
-            Principle::PhaseSpace => &ActionPlot(Principle::Hamilton),
-        })
-    }
-
-    fn written(&self) -> &'static [Axis] {
-        const { &[Axis { heading: "Coordinate to vary", coordinate: true, ..Axis::ACROSS }] }
     }
 
     fn offers(&self, physics: Physics<'_>) -> Vec<Offer> {
@@ -162,7 +189,7 @@ impl Instrument for ActionPlot {
         Need::Job(Job::new("action", move |progress: &Progress| {
             let system = system.with_cancel(progress.token().clone());
             let parameters = &path.conditions.parameters;
-            let outcome = PhaseSpace::without_end(&model, &equations, &system, parameters)
+            let outcome = PhaseSpace::without_end((&model, &equations, &system), parameters)
                 .map_err(|why| why.to_string())
                 .and_then(|space| {
                     let mut own = (*equations).clone();
@@ -174,36 +201,6 @@ impl Instrument for ActionPlot {
                 });
             Answer::new(ComputedAction { principle, path: path.clone(), outcome })
         }))
-    }
-
-    fn measures(&self) -> &'static [Measure] {
-        &[
-            Measure {
-                word: "value",
-                about: "the action of the motion up to now",
-                value: |context| Some(varied(context.answer)?.action),
-            },
-            Measure {
-                word: "foci",
-                about: "how many kinetic foci it has passed",
-                value: |context| Some(found(context.answer)?.foci.as_ref()?.len() as f64),
-            },
-            Measure {
-                word: "by_place",
-                about: "of Hamilton's action: ∂S/∂q at its end, which is p",
-                value: |context| Some(varied(context.answer)?.ends?[1].by_position),
-            },
-            Measure {
-                word: "by_time",
-                about: "of Hamilton's action: ∂S/∂t at its end, which is −H",
-                value: |context| Some(varied(context.answer)?.ends?[1].by_time),
-            },
-            Measure {
-                word: "rise",
-                about: "how much greater the action is at the greatest ε, for k = 1",
-                value: |context| Some(varied(context.answer)?.curves.first()?.last()?[1]),
-            },
-        ]
     }
 }
 

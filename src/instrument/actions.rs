@@ -13,7 +13,7 @@ use std::sync::Arc;
 use super::motion_state::{self, CoordinateState, FrozenCourse};
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
-    Need, Offer, Physics, Picture, Plot, PlotContext, Present, Upwards,
+    Need, Offer, Physics, Picture, Plot, PlotContext, Present, Properties, Upwards,
 };
 use crate::action_angle::{RegionKind, is_adiabatic};
 use crate::job::{Job, Progress};
@@ -37,13 +37,44 @@ const BEING_COMPUTED: &str = "being computed";
 
 pub(super) struct ActionsPlot;
 
-impl Instrument for ActionsPlot {
-    fn name(&self) -> &'static str {
-        "actions"
-    }
+const PROPERTIES: Properties = Properties {
+    name: "actions",
+    written: &[Axis { heading: "Coordinate", coordinate: true, ..Axis::ACROSS }],
+    measures: &[
+        Measure::new("action", "∮ p dq of the motion", |context| {
+            Some(found(context.answer)?.own.row.as_ref().ok()?.action)
+        }),
+        Measure::new("period", "its period", |context| {
+            found(context.answer)?.own.row.as_ref().ok()?.even_period()
+        }),
+        Measure::new(
+            "separatrix",
+            "∮ p dq of the first lobe of the first separatrix that has an end",
+            |context| {
+                let mut actions = found(context.answer)?.separatrices.first()?.actions.iter();
+                actions.find(|action| action.is_finite()).copied()
+            },
+        ),
+        Measure::new(
+            "last_change",
+            "by what fraction it has changed since the last ramp by a key",
+            |context| {
+                let computed = computed(context.answer)?;
+                computed.changes_since(computed.replaced.last()?).map(|[action, _]| action)
+            },
+        ),
+        Measure::new(
+            "change",
+            "by what fraction the action has changed since the start",
+            |context| computed(context.answer)?.changes().map(|[action, _]| action),
+        ),
+    ],
+    ..Properties::PLAIN
+};
 
-    fn written(&self) -> &'static [Axis] {
-        const { &[Axis { heading: "Coordinate", coordinate: true, ..Axis::ACROSS }] }
+impl Instrument for ActionsPlot {
+    fn properties(&self) -> &'static Properties {
+        &PROPERTIES
     }
 
     fn offers(&self, physics: Physics<'_>) -> Vec<Offer> {
@@ -175,42 +206,6 @@ impl Instrument for ActionsPlot {
             found: Err(BEING_COMPUTED.to_owned()),
             replaced,
         }))
-    }
-
-    fn measures(&self) -> &'static [Measure] {
-        &[
-            Measure {
-                word: "action",
-                about: "∮ p dq of the motion",
-                value: |context| Some(found(context.answer)?.own.row.as_ref().ok()?.action),
-            },
-            Measure {
-                word: "period",
-                about: "its period",
-                value: |context| found(context.answer)?.own.row.as_ref().ok()?.even_period(),
-            },
-            Measure {
-                word: "separatrix",
-                about: "∮ p dq of the first lobe of the first separatrix that has an end",
-                value: |context| {
-                    let mut actions = found(context.answer)?.separatrices.first()?.actions.iter();
-                    actions.find(|action| action.is_finite()).copied()
-                },
-            },
-            Measure {
-                word: "last_change",
-                about: "by what fraction it has changed since the last ramp by a key",
-                value: |context| {
-                    let computed = computed(context.answer)?;
-                    computed.changes_since(computed.replaced.last()?).map(|[action, _]| action)
-                },
-            },
-            Measure {
-                word: "change",
-                about: "by what fraction the action has changed since the start",
-                value: |context| computed(context.answer)?.changes().map(|[action, _]| action),
-            },
-        ]
     }
 }
 

@@ -11,7 +11,7 @@ use std::sync::Arc;
 use super::motion_state::{self, CoordinateState, FrozenCourse};
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
-    Need, Offer, Physics, Picture, Plot, PlotContext, Present, Upwards,
+    Need, Offer, Physics, Picture, Plot, PlotContext, Present, Properties, Upwards,
 };
 use crate::action_angle::AngleAtTime;
 use crate::job::{Job, Progress};
@@ -35,17 +35,34 @@ struct ComputedAngle {
     lost: Option<String>,
 }
 
+const PROPERTIES: Properties = Properties {
+    name: "angle",
+    written: &[Axis { heading: "Coordinate", coordinate: true, ..Axis::ACROSS }],
+    is_over_time: true,
+    measures: &[
+        Measure::new(
+            "angle",
+            "the angle variable of the motion, in turns from 0 to 1",
+            |context| Some(computed(context.answer)?.course.past.last()?.angle.rem_euclid(1.0)),
+        ),
+        Measure::new("frequency", "its frequency ν = dE/dJ", |context| {
+            Some(computed(context.answer)?.course.past.last()?.frequency)
+        }),
+        Measure::new("action", "∮ p dq of the motion", |context| {
+            Some(computed(context.answer)?.course.past.last()?.action)
+        }),
+        Measure::new(
+            "residual",
+            "the largest |w − w₀ − ν (t − t₀)| so far, in turns",
+            |context| computed(context.answer)?.residual().map(|[_, largest]| largest),
+        ),
+    ],
+    ..Properties::PLAIN
+};
+
 impl Instrument for AnglePlot {
-    fn name(&self) -> &'static str {
-        "angle"
-    }
-
-    fn written(&self) -> &'static [Axis] {
-        const { &[Axis { heading: "Coordinate", coordinate: true, ..Axis::ACROSS }] }
-    }
-
-    fn is_over_time(&self) -> bool {
-        true
+    fn properties(&self) -> &'static Properties {
+        &PROPERTIES
     }
 
     fn offers(&self, physics: Physics<'_>) -> Vec<Offer> {
@@ -143,33 +160,6 @@ impl Instrument for AnglePlot {
             }
             Answer::new(ComputedAngle { course, lost })
         }))
-    }
-
-    fn measures(&self) -> &'static [Measure] {
-        &[
-            Measure {
-                word: "angle",
-                about: "the angle variable of the motion, in turns from 0 to 1",
-                value: |context| {
-                    Some(computed(context.answer)?.course.past.last()?.angle.rem_euclid(1.0))
-                },
-            },
-            Measure {
-                word: "frequency",
-                about: "its frequency ν = dE/dJ",
-                value: |context| Some(computed(context.answer)?.course.past.last()?.frequency),
-            },
-            Measure {
-                word: "action",
-                about: "∮ p dq of the motion",
-                value: |context| Some(computed(context.answer)?.course.past.last()?.action),
-            },
-            Measure {
-                word: "residual",
-                about: "the largest |w − w₀ − ν (t − t₀)| so far, in turns",
-                value: |context| computed(context.answer)?.residual().map(|[_, largest]| largest),
-            },
-        ]
     }
 }
 

@@ -27,7 +27,7 @@ pub(super) fn beginning(
 ) -> Result<(PhaseSpace, State), DynamicsError> {
     let (system, parameters) = (physics.system, &start.parameters);
     let (model, equations) = (physics.model, physics.equations);
-    let space = PhaseSpace::on_constraints(model, equations, system, parameters)?;
+    let space = PhaseSpace::on_constraints((model, equations, system), parameters)?;
     let begun = if space.has_jumps() {
         conditions.state(system, model.run.start)?
     } else {

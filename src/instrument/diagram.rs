@@ -19,7 +19,8 @@ use super::straight_line::StraightLine;
 use super::varied::{self, VariedMotions};
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, NoStart,
-    Offer, Physics, Picture, Plot, PlotContext, PlotTable, Present, StartValues, Upwards,
+    Offer, Physics, Picture, Plot, PlotContext, PlotTable, Present, Properties, StartValues,
+    Upwards,
 };
 use crate::job::Job;
 use crate::model::{Variation, View};
@@ -39,41 +40,67 @@ const LEVEL: f64 = 1e-6;
 
 pub(super) struct Diagram(pub(super) DiagramQuantity);
 
+const CROSSINGS: Properties = Properties {
+    name: "diagram",
+    other: Some(&Diagram(DiagramQuantity::Frequency)),
+    written: &[Axis::UPWARDS],
+    chosen: Some(&[]),
+    is_section: true,
+    is_over_a_parameter: true,
+    shows_a_view: true,
+    measures: &[
+        Measure::new(
+            "columns",
+            "how many values of the parameter are there",
+            |PlotContext { plot, answer, .. }| Some(computed(plot, answer)?.columns.len() as f64),
+        ),
+        Measure::new(
+            "branches",
+            "how many different crossings there are at the value next to that of the running motion",
+            |PlotContext { plot, present, answer }| {
+                let found = computed(plot, answer)?;
+                let now = varied::now(present, *plot.over.first()?)?;
+                let [low, high] = heights(plot, present, Some(found));
+                branches(&found.columns, now, SAME * (high - low))
+            },
+        ),
+        Measure::new(
+            "slope",
+            "the slope of the straight line of least squares, where the file asks for it",
+            |PlotContext { plot, present, answer }| {
+                Some(straight_line(plot, present.physics, computed(plot, answer))?.slope)
+            },
+        ),
+        Measure::new(
+            "value",
+            "the last number at that value: a crossing, or the exponent",
+            |PlotContext { plot, present, answer }| {
+                let now = varied::now(present, *plot.over.first()?)?;
+                nearest(&computed(plot, answer)?.columns, now)?.1.last().copied()
+            },
+        ),
+    ],
+    ..Properties::PLAIN
+};
+
+const FREQUENCY: Properties = Properties {
+    name: "frequency",
+    other: Some(&Diagram(DiagramQuantity::Period)),
+    written: &[],
+    is_section: false,
+    ..CROSSINGS
+};
+
+const PERIOD: Properties =
+    Properties { name: "period", other: Some(&Diagram(DiagramQuantity::Crossings)), ..FREQUENCY };
+
 impl Instrument for Diagram {
-    fn name(&self) -> &'static str {
+    fn properties(&self) -> &'static Properties {
         match self.0 {
-            DiagramQuantity::Crossings => "diagram",
-            DiagramQuantity::Frequency => "frequency",
-            DiagramQuantity::Period => "period",
+            DiagramQuantity::Crossings => &CROSSINGS,
+            DiagramQuantity::Frequency => &FREQUENCY,
+            DiagramQuantity::Period => &PERIOD,
         }
-    }
-
-    fn other(&self) -> Option<&'static dyn Instrument> {
-        Some(match self.0 {
-            DiagramQuantity::Crossings => &Diagram(DiagramQuantity::Frequency),
-            DiagramQuantity::Frequency => &Diagram(DiagramQuantity::Period),
-            DiagramQuantity::Period => &Diagram(DiagramQuantity::Crossings),
-        })
-    }
-
-    fn written(&self) -> &'static [Axis] {
-        if self.0 == DiagramQuantity::Crossings { &[Axis::UPWARDS] } else { &[] }
-    }
-
-    fn chosen(&self) -> &'static [Axis] {
-        &[]
-    }
-
-    fn is_section(&self) -> bool {
-        self.0 == DiagramQuantity::Crossings
-    }
-
-    fn is_over_a_parameter(&self) -> bool {
-        true
-    }
-
-    fn takes_seeds(&self) -> bool {
-        false
     }
 
     fn shows(&self, view: Option<&View>) -> bool {
@@ -212,43 +239,6 @@ impl Instrument for Diagram {
         let columns = vec![over, self.quantity(plot, present.physics)];
         Some(PlotTable { columns, counts: 0, rows })
     }
-
-    fn measures(&self) -> &'static [Measure] {
-        &[
-            Measure {
-                word: "columns",
-                about: "how many values of the parameter are there",
-                value: |PlotContext { plot, answer, .. }| {
-                    Some(computed(plot, answer)?.columns.len() as f64)
-                },
-            },
-            Measure {
-                word: "branches",
-                about: "how many different crossings there are at the value next to that of the running motion",
-                value: |PlotContext { plot, present, answer }| {
-                    let found = computed(plot, answer)?;
-                    let now = varied::now(present, *plot.over.first()?)?;
-                    let [low, high] = heights(plot, present, Some(found));
-                    branches(&found.columns, now, SAME * (high - low))
-                },
-            },
-            Measure {
-                word: "slope",
-                about: "the slope of the straight line of least squares, where the file asks for it",
-                value: |PlotContext { plot, present, answer }| {
-                    Some(straight_line(plot, present.physics, computed(plot, answer))?.slope)
-                },
-            },
-            Measure {
-                word: "value",
-                about: "the last number at that value: a crossing, or the exponent",
-                value: |PlotContext { plot, present, answer }| {
-                    let now = varied::now(present, *plot.over.first()?)?;
-                    nearest(&computed(plot, answer)?.columns, now)?.1.last().copied()
-                },
-            },
-        ]
-    }
 }
 
 fn computed<'a>(plot: &Plot, answer: Option<&'a Answer>) -> Option<&'a ComputedDiagram> {
@@ -259,7 +249,7 @@ fn computed<'a>(plot: &Plot, answer: Option<&'a Answer>) -> Option<&'a ComputedD
 /// The view of the file that has the surface, if crossings are shown.
 fn view<'a>(plot: &Plot, physics: Physics<'a>) -> Option<&'a View> {
     let view = physics.model.views.get(plot.view?)?;
-    Some(view).filter(|view| view.section.is_some() && plot.kind.is_section())
+    Some(view).filter(|view| view.section.is_some() && plot.kind.properties().is_section)
 }
 
 /// The curves through the numbers, each up to a value that has none.

@@ -17,7 +17,8 @@ use super::conditions::PlotConditions;
 use super::phase::initial_values;
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
-    Need, NoStart, Offer, Physics, Picture, Plot, PlotContext, Present, Seed, StartValues, Upwards,
+    Need, NoStart, Offer, Physics, Picture, Plot, PlotContext, Present, Properties, Seed,
+    StartValues, Upwards,
 };
 use crate::expr::{Expr, Symbol};
 use crate::integrate::method_named;
@@ -39,17 +40,48 @@ const MARGIN: f64 = 0.08;
 
 pub(super) struct Ensemble;
 
+const PROPERTIES: Properties = Properties {
+    name: "ensemble",
+    written: &[Axis::ACROSS, Axis::UPWARDS],
+    takes_seeds: true,
+    measures: &[
+        Measure::new("points", "how many points of the cloud are there", |context| {
+            let points = &shown(context)?.cloud;
+            Some(points.iter().filter(|at| at[0].is_finite()).count() as f64)
+        }),
+        Measure::new(
+            "outside",
+            "how many points are beyond the window that holds the bulk, or lost",
+            |context| outside(context).map(|n| n as f64),
+        ),
+        Measure::new(
+            "lost",
+            "how many points came to a collision or to infinity and are not followed farther",
+            |context| lost(context).map(|n| n as f64),
+        ),
+        Measure::new(
+            "action",
+            "the action ∫ p dq around the cloud: its area, for one degree of freedom",
+            |context| Some(shown(context)?.action?.value.abs()),
+        ),
+        Measure::new(
+            "expected",
+            "the same as the law of motion predicts it from the beginning",
+            |context| expected(context).map(f64::abs),
+        ),
+        Measure::new("off", "how far the two are apart, as a fraction of the expected value", off),
+        Measure::new(
+            "rate",
+            "the rate at which it is expected to grow: 0 without friction",
+            |context| cloud(context.answer)?.rate,
+        ),
+    ],
+    ..Properties::PLAIN
+};
+
 impl Instrument for Ensemble {
-    fn name(&self) -> &'static str {
-        "ensemble"
-    }
-
-    fn written(&self) -> &'static [Axis] {
-        &[Axis::ACROSS, Axis::UPWARDS]
-    }
-
-    fn takes_seeds(&self) -> bool {
-        true
+    fn properties(&self) -> &'static Properties {
+        &PROPERTIES
     }
 
     fn offers(&self, physics: Physics<'_>) -> Vec<Offer> {
@@ -203,49 +235,6 @@ impl Instrument for Ensemble {
     fn known_until(&self, answer: &Answer) -> Option<f64> {
         let cloud = answer.of::<Cloud>().filter(|cloud| cloud.error.is_none())?;
         cloud.frames.last().map(|frame| frame.time)
-    }
-
-    fn measures(&self) -> &'static [Measure] {
-        &[
-            Measure {
-                word: "points",
-                about: "how many points of the cloud are there",
-                value: |context| {
-                    let points = &shown(context)?.cloud;
-                    Some(points.iter().filter(|at| at[0].is_finite()).count() as f64)
-                },
-            },
-            Measure {
-                word: "outside",
-                about: "how many points are beyond the window that holds the bulk, or lost",
-                value: |context| outside(context).map(|n| n as f64),
-            },
-            Measure {
-                word: "lost",
-                about: "how many points came to a collision or to infinity and are not followed farther",
-                value: |context| lost(context).map(|n| n as f64),
-            },
-            Measure {
-                word: "action",
-                about: "the action ∫ p dq around the cloud: its area, for one degree of freedom",
-                value: |context| Some(shown(context)?.action?.value.abs()),
-            },
-            Measure {
-                word: "expected",
-                about: "the same as the law of motion predicts it from the beginning",
-                value: |context| expected(context).map(f64::abs),
-            },
-            Measure {
-                word: "off",
-                about: "how far the two are apart, as a fraction of the expected value",
-                value: off,
-            },
-            Measure {
-                word: "rate",
-                about: "the rate at which it is expected to grow: 0 without friction",
-                value: |context| cloud(context.answer)?.rate,
-            },
-        ]
     }
 }
 

@@ -46,7 +46,7 @@ pub fn equilibria_search(
     let start = Start { time: present.time, parameters, overrides };
     move |progress| {
         let system = system.with_cancel(progress.token().clone());
-        let space = PhaseSpace::without_impulses(&model, &equations, &system, &start.parameters);
+        let space = PhaseSpace::without_impulses((&model, &equations, &system), &start.parameters);
         let space = space.map_err(|why| why.to_string())?;
         let state = start.state(&system).and_then(|state| space.state(&state));
         let state = state.map_err(|error| error.to_string())?;

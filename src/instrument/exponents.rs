@@ -6,7 +6,7 @@
 use super::conditions::PlotConditions;
 use super::{
     Across, Answer, Columns, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, Offer,
-    Physics, Picture, Plot, PlotContext, Present, Stroke, Upwards,
+    Physics, Picture, Plot, PlotContext, Present, Properties, Stroke, Upwards,
 };
 use crate::dynamics::{Chaos, Lyapunov, PhaseSpace, lyapunov};
 use crate::integrate::{Method, Settings, method_named};
@@ -32,13 +32,36 @@ struct Measured {
     found: Result<Lyapunov, String>,
 }
 
-impl Instrument for Exponents {
-    fn name(&self) -> &'static str {
-        "exponents"
-    }
+const PROPERTIES: Properties = Properties {
+    name: "exponents",
+    measures: &[
+        Measure::new("largest", "the largest Lyapunov exponent", |context| {
+            found(context.answer)?.exponents.first().copied()
+        }),
+        Measure::new("uncertainty", "its uncertainty", |context| {
+            found(context.answer)?.uncertainty.first().copied()
+        }),
+        Measure::new(
+            "megno",
+            "MEGNO: about 2 for regular motion, growing for chaotic",
+            |context| found(context.answer).map(|found| found.megno),
+        ),
+        Measure::new(
+            "chaotic",
+            "1 if the motion is chaotic, 0 if it is regular or unstable; undecided has no value",
+            |context| match found(context.answer)?.verdict {
+                Chaos::Chaotic => Some(1.0),
+                Chaos::Regular | Chaos::Unstable => Some(0.0),
+                Chaos::Undecided => None,
+            },
+        ),
+    ],
+    ..Properties::PLAIN
+};
 
-    fn shows_a_view(&self) -> bool {
-        false
+impl Instrument for Exponents {
+    fn properties(&self) -> &'static Properties {
+        &PROPERTIES
     }
 
     fn offers(&self, _physics: Physics<'_>) -> Vec<Offer> {
@@ -143,7 +166,7 @@ impl Instrument for Exponents {
         let job = Job::new("exponents", move |progress| {
             let system = system.with_cancel(progress.token().clone());
             let space =
-                PhaseSpace::on_constraints(&model, &equations, &system, &conditions.parameters);
+                PhaseSpace::on_constraints((&model, &equations, &system), &conditions.parameters);
             let start = model.run.start;
             let found = space.map_err(|why| why.to_string()).and_then(|space| {
                 let state = state(&space, &conditions, start)?;
@@ -152,35 +175,6 @@ impl Instrument for Exponents {
             Answer::new(Measured { conditions: conditions.clone(), doublings, found })
         });
         if doublings == 0 { Need::Job(job) } else { Need::Addition(job) }
-    }
-
-    fn measures(&self) -> &'static [Measure] {
-        &[
-            Measure {
-                word: "largest",
-                about: "the largest Lyapunov exponent",
-                value: |context| found(context.answer)?.exponents.first().copied(),
-            },
-            Measure {
-                word: "uncertainty",
-                about: "its uncertainty",
-                value: |context| found(context.answer)?.uncertainty.first().copied(),
-            },
-            Measure {
-                word: "megno",
-                about: "MEGNO: about 2 for regular motion, growing for chaotic",
-                value: |context| found(context.answer).map(|found| found.megno),
-            },
-            Measure {
-                word: "chaotic",
-                about: "1 if the motion is chaotic, 0 if it is regular or unstable; undecided has no value",
-                value: |context| match found(context.answer)?.verdict {
-                    Chaos::Chaotic => Some(1.0),
-                    Chaos::Regular | Chaos::Unstable => Some(0.0),
-                    Chaos::Undecided => None,
-                },
-            },
-        ]
     }
 }
 

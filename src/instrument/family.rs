@@ -14,8 +14,8 @@ use super::conditions::PlotConditions;
 use super::equilibria::given;
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
-    Need, Offer, PeriodicOrbits, Physics, Picture, Plot, PlotContext, PlotTable, Present, Seed,
-    Stroke, Upwards, varied,
+    Need, Offer, PeriodicOrbits, Physics, Picture, Plot, PlotContext, PlotTable, Present,
+    Properties, Seed, Stroke, Upwards, varied,
 };
 use crate::dynamics::{Bifurcation, NOT_ISOLATED};
 use crate::ensemble::Start;
@@ -48,17 +48,43 @@ struct ComputedFamily {
     outcome: Result<FollowedFamily, String>,
 }
 
+const PROPERTIES: Properties = Properties {
+    name: "family",
+    written: &[Axis::ACROSS, Axis::UPWARDS],
+    takes_seeds: true,
+    measures: &[
+        Measure::new("members", "how many orbits of the family were found", |context| {
+            Some(followed(context.answer)?.members.len() as f64)
+        }),
+        Measure::new("folds", "how often the family turns back", |context| {
+            count(context.answer, Bifurcation::Fold)
+        }),
+        Measure::new(
+            "doublings",
+            "how often a multiplier passes −1, where orbits of twice the period branch off",
+            |context| count(context.answer, Bifurcation::PeriodDoubling),
+        ),
+        Measure::new("branchings", "how often a multiplier passes 1 without a fold", |context| {
+            count(context.answer, Bifurcation::Branching)
+        }),
+        Measure::new(
+            "first",
+            "the value at the bifurcation of the family next to the motion",
+            |PlotContext { plot, present, answer }| {
+                let now = now(plot, present)?;
+                let all = followed(answer)?.members.iter();
+                let all = all.filter(|member| member.bifurcation.is_some());
+                let all = all.map(|member| member.value);
+                all.min_by(|a, b| (a - now).abs().total_cmp(&(b - now).abs()))
+            },
+        ),
+    ],
+    ..Properties::PLAIN
+};
+
 impl Instrument for FamilyPlot {
-    fn name(&self) -> &'static str {
-        "family"
-    }
-
-    fn written(&self) -> &'static [Axis] {
-        &[Axis::ACROSS, Axis::UPWARDS]
-    }
-
-    fn takes_seeds(&self) -> bool {
-        true
+    fn properties(&self) -> &'static Properties {
+        &PROPERTIES
     }
 
     fn offers(&self, physics: Physics<'_>) -> Vec<Offer> {
@@ -221,42 +247,6 @@ impl Instrument for FamilyPlot {
 
     fn periodic(&self, answer: &Answer) -> Option<Arc<PeriodicOrbits>> {
         Some(Arc::clone(&followed(Some(answer))?.periodic))
-    }
-
-    fn measures(&self) -> &'static [Measure] {
-        &[
-            Measure {
-                word: "members",
-                about: "how many orbits of the family were found",
-                value: |context| Some(followed(context.answer)?.members.len() as f64),
-            },
-            Measure {
-                word: "folds",
-                about: "how often the family turns back",
-                value: |context| count(context.answer, Bifurcation::Fold),
-            },
-            Measure {
-                word: "doublings",
-                about: "how often a multiplier passes −1, where orbits of twice the period branch off",
-                value: |context| count(context.answer, Bifurcation::PeriodDoubling),
-            },
-            Measure {
-                word: "branchings",
-                about: "how often a multiplier passes 1 without a fold",
-                value: |context| count(context.answer, Bifurcation::Branching),
-            },
-            Measure {
-                word: "first",
-                about: "the value at the bifurcation of the family next to the motion",
-                value: |PlotContext { plot, present, answer }| {
-                    let now = now(plot, present)?;
-                    let all = followed(answer)?.members.iter();
-                    let all = all.filter(|member| member.bifurcation.is_some());
-                    let all = all.map(|member| member.value);
-                    all.min_by(|a, b| (a - now).abs().total_cmp(&(b - now).abs()))
-                },
-            },
-        ]
     }
 }
 

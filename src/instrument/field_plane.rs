@@ -76,7 +76,8 @@ pub fn has_field(model: &Model, [x, y]: [&WrittenExpr; 2]) -> Result<(), NoField
 impl Plot {
     /// Whether the vector field of its plane is asked for.
     pub fn shows_field(&self) -> bool {
-        self.kind.has_vector_field() && self.viewport().is_some_and(|viewport| viewport.field)
+        self.kind.properties().has_vector_field
+            && self.viewport().is_some_and(|viewport| viewport.field)
     }
 
     /// Why its plane has no vector field, as a clause; `None` if it has one.

@@ -10,7 +10,7 @@ use nalgebra::DMatrix;
 use super::conditions::PlotConditions;
 use super::{
     Across, Answer, Columns, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, Offer,
-    Physics, Picture, Plot, PlotContext, Present, Upwards,
+    Physics, Picture, Plot, PlotContext, Present, Properties, Upwards,
 };
 use crate::dynamics::{FlowAtTime, PhaseSpace, flow_course};
 use crate::expr::Expr;
@@ -63,13 +63,40 @@ struct Courses {
     errors: Vec<(f64, String)>,
 }
 
-impl Instrument for FlowPlot {
-    fn name(&self) -> &'static str {
-        "flow"
-    }
+const PROPERTIES: Properties = Properties {
+    name: "flow",
+    measures: &[
+        Measure::new(
+            "determinant",
+            "det M of the method's map, now",
+            |PlotContext { present, answer, .. }| determinant(now(present, &courses(answer)?.own)?),
+        ),
+        Measure::new(
+            "expected",
+            "what Liouville's theorem expects of it",
+            |PlotContext { present, answer, .. }| {
+                Some(now(present, &courses(answer)?.own)?.determinant_expected)
+            },
+        ),
+        Measure::new(
+            "residual",
+            "the largest entry of |MJMᵀ − J| of the method's map, now",
+            |PlotContext { present, answer, .. }| residual(now(present, &courses(answer)?.own)?),
+        ),
+        Measure::new(
+            "exact_residual",
+            "the same of the exact flow, where the method is another one",
+            |PlotContext { present, answer, .. }| {
+                residual(now(present, courses(answer)?.exact.as_deref()?)?)
+            },
+        ),
+    ],
+    ..Properties::PLAIN
+};
 
-    fn shows_a_view(&self) -> bool {
-        false
+impl Instrument for FlowPlot {
+    fn properties(&self) -> &'static Properties {
+        &PROPERTIES
     }
 
     fn offers(&self, _physics: Physics<'_>) -> Vec<Offer> {
@@ -172,8 +199,8 @@ impl Instrument for FlowPlot {
         let job = Job::new("flow map", move |progress| {
             let system = system.with_cancel(progress.token().clone());
             let (parameters, of) = (&conditions.parameters, (&*model, &*equations, &system));
-            let space = PhaseSpace::without_end(of.0, of.1, of.2, parameters)
-                .or_else(|_| PhaseSpace::through_impulses(of.0, of.1, of.2, parameters));
+            let space = PhaseSpace::without_end(of, parameters)
+                .or_else(|_| PhaseSpace::through_impulses(of, parameters));
             let outcome = space.map_err(|why| why.to_string()).and_then(|space| {
                 let state = conditions.state(space.system(), start);
                 let state = state.and_then(|state| space.state(&state));
@@ -184,39 +211,6 @@ impl Instrument for FlowPlot {
             Answer::new(ComputedFlow { conditions, doublings, begin: start, end, outcome })
         });
         Need::Job(job)
-    }
-
-    fn measures(&self) -> &'static [Measure] {
-        &[
-            Measure {
-                word: "determinant",
-                about: "det M of the method's map, now",
-                value: |PlotContext { present, answer, .. }| {
-                    determinant(now(present, &courses(answer)?.own)?)
-                },
-            },
-            Measure {
-                word: "expected",
-                about: "what Liouville's theorem expects of it",
-                value: |PlotContext { present, answer, .. }| {
-                    Some(now(present, &courses(answer)?.own)?.determinant_expected)
-                },
-            },
-            Measure {
-                word: "residual",
-                about: "the largest entry of |MJMᵀ − J| of the method's map, now",
-                value: |PlotContext { present, answer, .. }| {
-                    residual(now(present, &courses(answer)?.own)?)
-                },
-            },
-            Measure {
-                word: "exact_residual",
-                about: "the same of the exact flow, where the method is another one",
-                value: |PlotContext { present, answer, .. }| {
-                    residual(now(present, courses(answer)?.exact.as_deref()?)?)
-                },
-            },
-        ]
     }
 }
 

@@ -47,100 +47,36 @@ pub struct PlotContext<'a> {
 
 /// A kind of plot: one row of [`INSTRUMENTS`](super::INSTRUMENTS). Common behaviour has defaults.
 pub trait Instrument: Sync {
-    /// Its name in files, sessions and assertions.
-    fn name(&self) -> &'static str;
+    /// Its constants.
+    fn properties(&self) -> &'static Properties;
 
-    /// The axes that a view of a file specifies.
-    fn written(&self) -> &'static [Axis] {
-        &[]
+    /// Its name in files, sessions and assertions.
+    fn name(&self) -> &'static str {
+        self.properties().name
     }
 
     /// The axes that the user chooses, in order. A kind without them shows a view of the file.
     fn chosen(&self) -> &'static [Axis] {
-        self.written()
+        let properties = self.properties();
+        properties.chosen.unwrap_or(properties.written)
     }
 
-    /// Whether it shows shapes through a camera, so that a file may give it a frame and its own shapes.
-    fn is_scene(&self) -> bool {
-        false
-    }
-
-    /// The curve of the motion itself that it draws over its axes, if that is what it shows.
-    fn curve(&self) -> Option<MotionCurve> {
-        None
-    }
-
-    /// Whether it is a curve over the time, which a wide and flat pane suits.
-    fn is_over_time(&self) -> bool {
-        self.curve() == Some(MotionCurve::AgainstTime)
-    }
-
-    /// Whether its axes are new variables of a transformation.
-    fn is_transformed(&self) -> bool {
-        self.written().iter().any(|axis| axis.transformed)
-    }
-
-    /// Whether it shows a surface of section, which a file specifies beside its axes.
-    fn is_section(&self) -> bool {
-        false
-    }
-
-    /// Whether it runs over the range of a parameter, which a file names in `over`.
-    fn is_over_a_parameter(&self) -> bool {
-        false
-    }
-
-    /// Whether it follows motions for a time, at whose end, or up to whose first crossing of a surface, a number is taken.
-    fn follows_motions(&self) -> bool {
-        false
-    }
-
-    /// Whether a person adds starts to it by a key: through a point, or over what is seen.
-    fn takes_seeds(&self) -> bool {
-        self.is_section()
-    }
-
-    /// The kind that a key shows in its place, with the same axes.
-    fn other(&self) -> Option<&'static dyn Instrument> {
-        None
-    }
-
-    /// Whether it shows a view of the file, besides what is chosen. A kind without choices does.
-    fn shows_a_view(&self) -> bool {
-        self.chosen().is_empty() && !self.is_scene()
+    /// The number that a script asserts by this word.
+    fn measure(&self, word: &str) -> Option<&'static Measure> {
+        self.properties().measures.iter().find(|measure| measure.word == word)
     }
 
     /// Whether it can show this view of the file, or be without one.
     fn shows(&self, view: Option<&View>) -> bool {
         match view {
             Some(view) => view.kind == self.name(),
-            None => !self.shows_a_view(),
+            None => !self.properties().shows_a_view,
         }
-    }
-
-    /// Whether it can colour its orbits by whether they are regular.
-    fn classifies_orbits(&self) -> bool {
-        false
-    }
-
-    /// Whether it draws the vector field of its plane, where that has one.
-    fn has_vector_field(&self) -> bool {
-        false
-    }
-
-    /// Whether its axes share a unit that can be drawn at the same scale on both.
-    fn has_equal_axes(&self) -> bool {
-        false
     }
 
     /// Whether its two quantities are a plane with one scale, where units and places do not say it.
     fn is_plane(&self, _plot: &Plot, _physics: Physics<'_>) -> Option<bool> {
         None
-    }
-
-    /// The horizontal position that stays fixed when zooming, as a fraction of the width.
-    fn anchor(&self) -> f64 {
-        0.5
     }
 
     /// What the lab opens with besides the views of the file, as the columns of its axes.
@@ -153,11 +89,6 @@ pub trait Instrument: Sync {
 
     /// Its name without a picture: in lists and in plain text.
     fn words(&self, plot: &Plot, physics: Physics<'_>) -> String;
-
-    /// The text before those words in a list, if they are only names of quantities.
-    fn lead(&self) -> &'static str {
-        ""
-    }
 
     /// The line above the picture.
     fn heading(&self, plot: &Plot, present: &Present<'_>) -> Option<Heading>;
@@ -221,10 +152,74 @@ pub trait Instrument: Sync {
     fn table(&self, _context: PlotContext<'_>) -> Option<PlotTable> {
         None
     }
+}
 
+/// What is the same for all plots of a kind.
+pub struct Properties {
+    /// Its name in files, sessions and assertions.
+    pub name: &'static str,
+    /// The axes that a view of a file specifies.
+    pub written: &'static [Axis],
+    /// The axes that the user chooses, in order, if they are not those of a view.
+    pub chosen: Option<&'static [Axis]>,
+    /// The curve of the motion itself that it draws over its axes, if that is what it shows.
+    pub curve: Option<MotionCurve>,
+    /// The kind that a key shows in its place, with the same axes.
+    pub other: Option<&'static dyn Instrument>,
+    /// Whether it shows shapes through a camera, so that a file may give it a frame and its own shapes.
+    pub is_scene: bool,
+    /// Whether it is a curve over the time, which a wide and flat pane suits.
+    pub is_over_time: bool,
+    /// Whether it shows a surface of section, which a file specifies beside its axes.
+    pub is_section: bool,
+    /// Whether it runs over the range of a parameter, which a file names in `over`.
+    pub is_over_a_parameter: bool,
+    /// Whether it follows motions for a time, at whose end, or up to whose first crossing of a surface, a number is taken.
+    pub follows_motions: bool,
+    /// Whether a person adds starts to it by a key: through a point, or over what is seen.
+    pub takes_seeds: bool,
+    /// Whether it shows a view of the file, besides what is chosen.
+    pub shows_a_view: bool,
+    /// Whether it can colour its orbits by whether they are regular.
+    pub classifies_orbits: bool,
+    /// Whether it draws the vector field of its plane, where that has one.
+    pub has_vector_field: bool,
+    /// Whether its axes share a unit that can be drawn at the same scale on both.
+    pub has_equal_axes: bool,
+    /// The horizontal position that stays fixed when zooming, as a fraction of the width.
+    pub anchor: f64,
+    /// The text before its words in a list, if these are only names of quantities.
+    pub lead: &'static str,
     /// The numbers that a script can assert about it.
-    fn measures(&self) -> &'static [Measure] {
-        &[]
+    pub measures: &'static [Measure],
+}
+
+impl Properties {
+    /// Those of a kind without axes and without anything special.
+    pub(super) const PLAIN: Self = Self {
+        name: "",
+        written: &[],
+        chosen: None,
+        curve: None,
+        other: None,
+        is_scene: false,
+        is_over_time: false,
+        is_section: false,
+        is_over_a_parameter: false,
+        follows_motions: false,
+        takes_seeds: false,
+        shows_a_view: false,
+        classifies_orbits: false,
+        has_vector_field: false,
+        has_equal_axes: false,
+        anchor: 0.5,
+        lead: "",
+        measures: &[],
+    };
+
+    /// Whether its axes are new variables of a transformation.
+    pub fn is_transformed(&self) -> bool {
+        self.written.iter().any(|axis| axis.transformed)
     }
 }
 
@@ -310,6 +305,16 @@ pub struct Measure {
     pub about: &'static str,
     /// Its value, or `None` if it has none.
     pub value: fn(PlotContext<'_>) -> Option<f64>,
+}
+
+impl Measure {
+    pub(super) const fn new(
+        word: &'static str,
+        about: &'static str,
+        value: fn(PlotContext<'_>) -> Option<f64>,
+    ) -> Self {
+        Self { word, about, value }
+    }
 }
 
 impl fmt::Debug for dyn Instrument {

@@ -5,7 +5,7 @@
 
 use super::{
     Across, Axis, Columns, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
-    Offer, Physics, Picture, Plot, PlotContext, Present, Stroke, Upwards,
+    Offer, Physics, Picture, Plot, PlotContext, Present, Properties, Stroke, Upwards,
 };
 use crate::expr::{Expr, Symbol};
 use crate::model::Mechanics;
@@ -112,13 +112,32 @@ impl TransformedFunction {
     }
 }
 
-impl Instrument for LegendrePlot {
-    fn name(&self) -> &'static str {
-        "legendre"
-    }
+const PROPERTIES: Properties = Properties {
+    name: "legendre",
+    written: &[Axis { heading: "Coordinate", coordinate: true, ..Axis::ACROSS }],
+    measures: &[
+        Measure::new(
+            "slope",
+            "the slope of the tangent, by the momentum (or velocity) of the motion",
+            |PlotContext { plot, present, .. }| {
+                Some(TransformedFunction::of(plot, present.physics)?.now(present)[2])
+            },
+        ),
+        Measure::new(
+            "intercept",
+            "where the tangent meets the vertical axis",
+            |PlotContext { plot, present, .. }| {
+                let [x, y, slope] = TransformedFunction::of(plot, present.physics)?.now(present);
+                Some(y - slope * x)
+            },
+        ),
+    ],
+    ..Properties::PLAIN
+};
 
-    fn written(&self) -> &'static [Axis] {
-        const { &[Axis { heading: "Coordinate", coordinate: true, ..Axis::ACROSS }] }
+impl Instrument for LegendrePlot {
+    fn properties(&self) -> &'static Properties {
+        &PROPERTIES
     }
 
     fn offers(&self, physics: Physics<'_>) -> Vec<Offer> {
@@ -198,27 +217,6 @@ impl Instrument for LegendrePlot {
         ];
         let upwards = Upwards::Named(letter.to_owned(), [low, high]);
         Some(Picture::Axes { upwards, layers, occurrences: None })
-    }
-
-    fn measures(&self) -> &'static [Measure] {
-        &[
-            Measure {
-                word: "slope",
-                about: "the slope of the tangent, by the momentum (or velocity) of the motion",
-                value: |PlotContext { plot, present, .. }| {
-                    Some(TransformedFunction::of(plot, present.physics)?.now(present)[2])
-                },
-            },
-            Measure {
-                word: "intercept",
-                about: "where the tangent meets the vertical axis",
-                value: |PlotContext { plot, present, .. }| {
-                    let [x, y, slope] =
-                        TransformedFunction::of(plot, present.physics)?.now(present);
-                    Some(y - slope * x)
-                },
-            },
-        ]
     }
 }
 

@@ -14,8 +14,8 @@ use super::section::zero;
 use super::varied::{self, VariedMotions};
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
-    Need, NoStart, Offer, Physics, Picture, Plot, PlotContext, PlotTable, Present, StartValues,
-    Upwards,
+    Need, NoStart, Offer, Physics, Picture, Plot, PlotContext, PlotTable, Present, Properties,
+    StartValues, Upwards,
 };
 use crate::job::Job;
 use crate::mechanics::Valuation;
@@ -36,29 +36,36 @@ const OFFERED: usize = 3;
 
 pub(super) struct Map;
 
+const PROPERTIES: Properties = Properties {
+    name: "map",
+    written: &[Axis { varied: true, ..Axis::ACROSS }, Axis { varied: true, ..Axis::UPWARDS }],
+    chosen: Some(&[]),
+    is_section: true,
+    follows_motions: true,
+    shows_a_view: true,
+    measures: &[
+        Measure::new("places", "how many places are there", |context| {
+            Some(computed(context.answer)?.values.len() as f64)
+        }),
+        Measure::new(
+            "value",
+            "the number at the running motion",
+            |PlotContext { plot, present, answer }| {
+                let now = |axis: usize| varied::now(present, *plot.over.get(axis)?);
+                computed(answer)?.field.at([now(0)?, now(1)?])
+            },
+        ),
+        Measure::new("greatest", "the greatest number", |context| {
+            let finite = computed(context.answer)?.values.iter().filter(|x| x.is_finite());
+            finite.copied().reduce(f64::max)
+        }),
+    ],
+    ..Properties::PLAIN
+};
+
 impl Instrument for Map {
-    fn name(&self) -> &'static str {
-        "map"
-    }
-
-    fn written(&self) -> &'static [Axis] {
-        const { &[Axis { varied: true, ..Axis::ACROSS }, Axis { varied: true, ..Axis::UPWARDS }] }
-    }
-
-    fn chosen(&self) -> &'static [Axis] {
-        &[]
-    }
-
-    fn is_section(&self) -> bool {
-        true
-    }
-
-    fn follows_motions(&self) -> bool {
-        true
-    }
-
-    fn takes_seeds(&self) -> bool {
-        false
+    fn properties(&self) -> &'static Properties {
+        &PROPERTIES
     }
 
     fn shows(&self, view: Option<&View>) -> bool {
@@ -195,32 +202,6 @@ impl Instrument for Map {
         rows.sort_by_key(|(place, _)| *place);
         let rows = rows.into_iter().map(|(_, row)| row).collect();
         Some(PlotTable { columns: columns.collect(), counts: 0, rows })
-    }
-
-    fn measures(&self) -> &'static [Measure] {
-        &[
-            Measure {
-                word: "places",
-                about: "how many places are there",
-                value: |context| Some(computed(context.answer)?.values.len() as f64),
-            },
-            Measure {
-                word: "value",
-                about: "the number at the running motion",
-                value: |PlotContext { plot, present, answer }| {
-                    let now = |axis: usize| varied::now(present, *plot.over.get(axis)?);
-                    computed(answer)?.field.at([now(0)?, now(1)?])
-                },
-            },
-            Measure {
-                word: "greatest",
-                about: "the greatest number",
-                value: |context| {
-                    let finite = computed(context.answer)?.values.iter().filter(|x| x.is_finite());
-                    finite.copied().reduce(f64::max)
-                },
-            },
-        ]
     }
 }
 

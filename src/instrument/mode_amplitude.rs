@@ -26,7 +26,7 @@ pub(super) fn mode_amplitude(
     let (model, equations, system) = (physics.model, physics.equations, physics.system);
     let parameters = present.parameters;
     // where nothing can be compared it stays
-    let Ok(space) = PhaseSpace::without_impulses(model, equations, system, parameters) else {
+    let Ok(space) = PhaseSpace::without_impulses((model, equations, system), parameters) else {
         return wanted;
     };
     let mut field = space.vector_field();

@@ -12,8 +12,8 @@ use super::equilibria::given;
 use super::orbit_crossings::periodic_points;
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
-    Need, NoStart, Offer, PeriodicOrbits, Physics, Picture, Plot, PlotContext, Present, Seed,
-    StartValues, Upwards,
+    Need, NoStart, Offer, PeriodicOrbits, Physics, Picture, Plot, PlotContext, Present, Properties,
+    Seed, StartValues, Upwards,
 };
 use crate::dynamics::{DynamicsError, Orbit as Closed, OrbitStability, explained};
 use crate::ensemble::{Start, SystemFlow};
@@ -52,21 +52,49 @@ struct Described {
     periodic: Arc<PeriodicOrbits>,
 }
 
+const PROPERTIES: Properties = Properties {
+    name: "orbit",
+    written: &[Axis::ACROSS, Axis::UPWARDS],
+    takes_seeds: true,
+    has_equal_axes: true,
+    measures: &[
+        Measure::new("period", "the period of the periodic orbit", |context| {
+            Some(described(context.answer)?.orbit.period)
+        }),
+        Measure::new(
+            "multiple",
+            "its period over that of the drive, for a law that depends on time",
+            |context| {
+                let found = described(context.answer)?;
+                Some((found.orbit.period / found.drive?).round())
+            },
+        ),
+        Measure::new("action", "the action ∫ p dq along it", |context| {
+            described(context.answer)?.orbit.action
+        }),
+        Measure::new("energy", "the energy on it", |context| {
+            Some(described(context.answer)?.orbit.energy)
+        }),
+        Measure::new("trace", "the sum of its multipliers without the trivial ones", |context| {
+            Some(described(context.answer)?.orbit.transverse.trace())
+        }),
+        Measure::new(
+            "residue",
+            "Greene's residue (2 − trace)/4, for two degrees of freedom or one with a drive",
+            |context| described(context.answer)?.orbit.residue(),
+        ),
+        Measure::new(
+            "stable",
+            "1 if no multiplier lies outside the unit circle, else 0",
+            |context| Some(f64::from(u8::from(described(context.answer)?.orbit.stable))),
+        ),
+    ],
+    ..Properties::PLAIN
+};
+
 impl Instrument for OrbitPlot {
-    fn name(&self) -> &'static str {
-        "orbit"
-    }
-
-    fn written(&self) -> &'static [Axis] {
-        &[Axis::ACROSS, Axis::UPWARDS]
-    }
-
-    fn takes_seeds(&self) -> bool {
-        true
-    }
-
-    fn has_equal_axes(&self) -> bool {
-        true
+    fn properties(&self) -> &'static Properties {
+        &PROPERTIES
     }
 
     fn offers(&self, physics: Physics<'_>) -> Vec<Offer> {
@@ -173,49 +201,6 @@ impl Instrument for OrbitPlot {
 
     fn periodic(&self, answer: &Answer) -> Option<Arc<PeriodicOrbits>> {
         Some(Arc::clone(&described(Some(answer))?.periodic))
-    }
-
-    fn measures(&self) -> &'static [Measure] {
-        &[
-            Measure {
-                word: "period",
-                about: "the period of the periodic orbit",
-                value: |context| Some(described(context.answer)?.orbit.period),
-            },
-            Measure {
-                word: "multiple",
-                about: "its period over that of the drive, for a law that depends on time",
-                value: |context| {
-                    let found = described(context.answer)?;
-                    Some((found.orbit.period / found.drive?).round())
-                },
-            },
-            Measure {
-                word: "action",
-                about: "the action ∫ p dq along it",
-                value: |context| described(context.answer)?.orbit.action,
-            },
-            Measure {
-                word: "energy",
-                about: "the energy on it",
-                value: |context| Some(described(context.answer)?.orbit.energy),
-            },
-            Measure {
-                word: "trace",
-                about: "the sum of its multipliers without the trivial ones",
-                value: |context| Some(described(context.answer)?.orbit.transverse.trace()),
-            },
-            Measure {
-                word: "residue",
-                about: "Greene's residue (2 − trace)/4, for two degrees of freedom or one with a drive",
-                value: |context| described(context.answer)?.orbit.residue(),
-            },
-            Measure {
-                word: "stable",
-                about: "1 if no multiplier lies outside the unit circle, else 0",
-                value: |context| Some(f64::from(u8::from(described(context.answer)?.orbit.stable))),
-            },
-        ]
     }
 }
 

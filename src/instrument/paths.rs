@@ -9,7 +9,7 @@ use super::conditions::PlotConditions;
 use super::path_so_far::{PathSoFar, duration, nothing_yet};
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
-    Need, Offer, Physics, Picture, Plot, PlotContext, Present, Upwards,
+    Need, Offer, Physics, Picture, Plot, PlotContext, Present, Properties, Upwards,
 };
 use crate::dynamics::{Lagrangian, PathKind, PhaseSpace, StationaryPath, stationary_path};
 use crate::ensemble::SystemFlow;
@@ -56,13 +56,27 @@ struct TruePath {
     points: Vec<[f64; 2]>,
 }
 
-impl Instrument for PathsPlot {
-    fn name(&self) -> &'static str {
-        "paths"
-    }
+const PROPERTIES: Properties = Properties {
+    name: "paths",
+    written: &[Axis { heading: "Coordinate", coordinate: true, ..Axis::ACROSS }],
+    measures: &[
+        Measure::new("count", "how many true paths were found", |context| {
+            let known = computed(context.answer)?.outcome.as_ref().ok()?;
+            Some(known.len() as f64)
+        }),
+        Measure::new("least", "the least action of them", |context| {
+            Some(found(context.answer).first()?.action)
+        }),
+        Measure::new("greatest", "the greatest action of them", |context| {
+            Some(found(context.answer).last()?.action)
+        }),
+    ],
+    ..Properties::PLAIN
+};
 
-    fn written(&self) -> &'static [Axis] {
-        const { &[Axis { heading: "Coordinate", coordinate: true, ..Axis::ACROSS }] }
+impl Instrument for PathsPlot {
+    fn properties(&self) -> &'static Properties {
+        &PROPERTIES
     }
 
     fn offers(&self, physics: Physics<'_>) -> Vec<Offer> {
@@ -148,7 +162,7 @@ impl Instrument for PathsPlot {
             let mut own = (*equations).clone();
             let PathSoFar { conditions, coordinate, begin, duration } = path.clone();
             let parameters = &conditions.parameters;
-            let space = PhaseSpace::without_end(&model, &equations, &system, parameters);
+            let space = PhaseSpace::without_end((&model, &equations, &system), parameters);
             let outcome = space.map_err(|why| why.to_string()).and_then(|space| {
                 if !space.is_hamiltonian() {
                     return Err("not stationary: forces act that have no potential".to_owned());
@@ -165,29 +179,6 @@ impl Instrument for PathsPlot {
             });
             Answer::new(ComputedPaths { path: path.clone(), outcome })
         }))
-    }
-
-    fn measures(&self) -> &'static [Measure] {
-        &[
-            Measure {
-                word: "count",
-                about: "how many true paths were found",
-                value: |context| {
-                    let known = computed(context.answer)?.outcome.as_ref().ok()?;
-                    Some(known.len() as f64)
-                },
-            },
-            Measure {
-                word: "least",
-                about: "the least action of them",
-                value: |context| Some(found(context.answer).first()?.action),
-            },
-            Measure {
-                word: "greatest",
-                about: "the greatest action of them",
-                value: |context| Some(found(context.answer).last()?.action),
-            },
-        ]
     }
 }
 

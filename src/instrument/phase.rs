@@ -11,7 +11,7 @@ use super::field_plane::{NULLCLINES, nullcline_names};
 use super::{
     Across, Answer, Axis, Columns, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape,
     Measure, MotionCurve, Need, NoStart, Offer, Physics, Picture, PlaneField, Plot, PlotContext,
-    Present, StartValues, Upwards, value_at,
+    Present, Properties, StartValues, Upwards, value_at,
 };
 use crate::analysis::{Landscape, Plane};
 use crate::dynamics::Equilibrium;
@@ -40,25 +40,40 @@ struct Survey {
     periodic: bool,
 }
 
+const PROPERTIES: Properties = Properties {
+    name: "phase",
+    written: &[Axis::ACROSS, Axis::UPWARDS],
+    curve: Some(MotionCurve::Portrait),
+    has_vector_field: true,
+    has_equal_axes: true,
+    lead: "phase plane, ",
+    measures: &[
+        Measure::new(
+            "equilibria",
+            "how many equilibria are marked on it",
+            |PlotContext { plot, present, .. }| Some(marked(plot, present).count() as f64),
+        ),
+        Measure::new(
+            "stable",
+            "how many of them are stable",
+            |PlotContext { plot, present, .. }| {
+                let stable = marked(plot, present).filter(|stable| *stable == Some(true));
+                Some(stable.count() as f64)
+            },
+        ),
+        Measure::new("saddles", "how many saddles the energy has in the window", |context| {
+            landscape(context.answer).map(|l| l.saddles.len() as f64)
+        }),
+        Measure::new("separatrices", "how many curves separate kinds of motion there", |context| {
+            landscape(context.answer).map(|l| l.separatrices.len() as f64)
+        }),
+    ],
+    ..Properties::PLAIN
+};
+
 impl Instrument for Phase {
-    fn name(&self) -> &'static str {
-        "phase"
-    }
-
-    fn written(&self) -> &'static [Axis] {
-        &[Axis::ACROSS, Axis::UPWARDS]
-    }
-
-    fn curve(&self) -> Option<MotionCurve> {
-        Some(MotionCurve::Portrait)
-    }
-
-    fn has_equal_axes(&self) -> bool {
-        true
-    }
-
-    fn has_vector_field(&self) -> bool {
-        true
+    fn properties(&self) -> &'static Properties {
+        &PROPERTIES
     }
 
     fn opening(&self, physics: Physics<'_>) -> Vec<Columns> {
@@ -84,10 +99,6 @@ impl Instrument for Phase {
 
     fn words(&self, plot: &Plot, physics: Physics<'_>) -> String {
         plot.against(physics)
-    }
-
-    fn lead(&self) -> &'static str {
-        "phase plane, "
     }
 
     fn heading(&self, plot: &Plot, present: &Present<'_>) -> Option<Heading> {
@@ -179,36 +190,6 @@ impl Instrument for Phase {
                 periodic: period.is_some(),
             })
         }))
-    }
-
-    fn measures(&self) -> &'static [Measure] {
-        &[
-            Measure {
-                word: "equilibria",
-                about: "how many equilibria are marked on it",
-                value: |PlotContext { plot, present, .. }| {
-                    Some(marked(plot, present).count() as f64)
-                },
-            },
-            Measure {
-                word: "stable",
-                about: "how many of them are stable",
-                value: |PlotContext { plot, present, .. }| {
-                    let stable = marked(plot, present).filter(|stable| *stable == Some(true));
-                    Some(stable.count() as f64)
-                },
-            },
-            Measure {
-                word: "saddles",
-                about: "how many saddles the energy has in the window",
-                value: |context| landscape(context.answer).map(|l| l.saddles.len() as f64),
-            },
-            Measure {
-                word: "separatrices",
-                about: "how many curves separate kinds of motion there",
-                value: |context| landscape(context.answer).map(|l| l.separatrices.len() as f64),
-            },
-        ]
     }
 }
 

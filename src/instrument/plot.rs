@@ -21,7 +21,7 @@ impl Plot {
         (columns, view): (Columns, Option<usize>),
         model: &Model,
     ) -> Self {
-        let (view, sight) = if kind.is_scene() {
+        let (view, sight) = if kind.properties().is_scene {
             (None, Sight::Camera(CameraPose::on(model, view)))
         } else {
             (view, Sight::Axes(Viewport::WHOLE))
@@ -45,7 +45,7 @@ impl Plot {
             })
             .collect();
         let whole = columns.iter().all(|column| !column.is_empty());
-        let shown = (chosen.is_empty() || kind.shows_a_view()).then_some(index);
+        let shown = (chosen.is_empty() || kind.properties().shows_a_view).then_some(index);
         let mut plot = Self::new(kind, (columns, shown), physics.model).opened(physics);
         if let Some(viewport) = plot.viewport_mut() {
             viewport.field = view.field;
@@ -71,7 +71,10 @@ impl Plot {
         let channel = |axis: usize| physics.system.channels().get(self.column(axis)?);
         let Some((x, y)) = channel(0).zip(channel(1)) else { return false };
         let alike = if x.unit.is_empty() { x.is_place && y.is_place } else { true };
-        self.kind.has_equal_axes() && self.column(0) != self.column(1) && x.unit == y.unit && alike
+        self.kind.properties().has_equal_axes
+            && self.column(0) != self.column(1)
+            && x.unit == y.unit
+            && alike
     }
 
     /// The only channel, or the first, of an axis.
@@ -189,7 +192,7 @@ impl Plot {
                 eye.zoom = zoom;
             }
             Sight::Axes(viewport) => {
-                let anchor = [self.kind.anchor(), 0.5];
+                let anchor = [self.kind.properties().anchor, 0.5];
                 for k in [0, 1].into_iter().filter(|&k| axes[k]) {
                     let zoom = nearer(viewport.zoom[k]);
                     let ratio = zoom / viewport.zoom[k];
@@ -206,7 +209,7 @@ impl Plot {
     pub fn centre_of_zoom(&self, moving: Option<[f64; 2]>) -> [f64; 2] {
         let is_seen = |place: &[f64; 2]| place.iter().all(|share| (0.0..=1.0).contains(share));
         let cursor = self.viewport().and_then(|viewport| viewport.cursor);
-        cursor.or(moving.filter(is_seen)).unwrap_or([self.kind.anchor(), 0.5])
+        cursor.or(moving.filter(is_seen)).unwrap_or([self.kind.properties().anchor, 0.5])
     }
 
     /// Adds orbits to a section: the one through a point, or some spread over what is seen; or begins a cloud there.
@@ -220,7 +223,7 @@ impl Plot {
         let seen = self.kind.seed(PlotContext { plot: self, present, answer });
         let seed = through.map_or(seen, |at| seen.map(|_| Seed::Through(at)));
         // a cloud has one place, a section many orbits
-        if seed.is_some() && !self.kind.is_section() {
+        if seed.is_some() && !self.kind.properties().is_section {
             self.seeds.clear();
         }
         let added = seed.filter(|_| self.seeds.len() < MOST_SEEDS);

@@ -3,7 +3,7 @@
 
 use super::{
     Across, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Offer, Physics,
-    Picture, Plot, PlotContext, Present, Stroke, Upwards,
+    Picture, Plot, PlotContext, Present, Properties, Stroke, Upwards,
 };
 use crate::expr::{Expr, Pool, Symbol};
 use crate::mechanics::Valuation;
@@ -65,17 +65,17 @@ impl PotentialView {
     }
 }
 
+const PROPERTIES: Properties = Properties {
+    name: "potential",
+    written: &[Axis { coordinate: true, ..Axis::ACROSS }, Axis::UPWARDS],
+    chosen: Some(&[]),
+    shows_a_view: true,
+    ..Properties::PLAIN
+};
+
 impl Instrument for Potential {
-    fn name(&self) -> &'static str {
-        "potential"
-    }
-
-    fn written(&self) -> &'static [Axis] {
-        const { &[Axis { coordinate: true, ..Axis::ACROSS }, Axis::UPWARDS] }
-    }
-
-    fn chosen(&self) -> &'static [Axis] {
-        &[]
+    fn properties(&self) -> &'static Properties {
+        &PROPERTIES
     }
 
     fn offers(&self, physics: Physics<'_>) -> Vec<Offer> {

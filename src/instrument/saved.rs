@@ -155,7 +155,7 @@ impl SavedPlot {
             (!found.is_empty()).then_some(found)
         };
         let columns = kind.chosen().iter().map(|axis| column(axis.key)).collect::<Option<_>>()?;
-        let sight = match (kind.is_scene(), self.eye, self.viewport) {
+        let sight = match (kind.properties().is_scene, self.eye, self.viewport) {
             (true, Some(eye), _) => {
                 let framed = eye.frame.is_none_or(|frame| frame < model.frames.len());
                 let viewed = eye.view.is_none_or(|view| is_view_of(model, view, kind));
@@ -165,7 +165,7 @@ impl SavedPlot {
             (false, _, Some(viewport)) => Sight::Axes(viewport),
             _ => return None,
         };
-        let view = self.view.filter(|_| kind.shows_a_view());
+        let view = self.view.filter(|_| kind.properties().shows_a_view);
         let shown = view.map(|view| model.views.get(view).ok_or(())).transpose().ok()?;
         let over = self.over.place(physics)?;
         if !kind.shows(shown) {

@@ -14,8 +14,8 @@ use std::sync::Arc;
 
 use super::equilibria::{lies_on, marks, value_at};
 use super::{
-    Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
-    Need, NoStart, Offer, Physics, Picture, Plot, PlotContext, PlotTable, Present, Seed,
+    Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Need,
+    NoStart, Offer, Physics, Picture, Plot, PlotContext, PlotTable, Present, Properties, Seed,
     StartValues, Upwards,
 };
 use crate::ensemble::{NotInPlane, PhaseShift, SectionPlan, SectionPlane, Start};
@@ -43,29 +43,21 @@ const SINGLE: [usize; 5] = [2, 3, 4, 5, 6];
 
 pub(super) struct SectionPlot;
 
+const PROPERTIES: Properties = Properties {
+    name: "section",
+    written: &[Axis::ACROSS, Axis::UPWARDS],
+    is_section: true,
+    takes_seeds: true,
+    shows_a_view: true,
+    classifies_orbits: true,
+    has_equal_axes: true,
+    measures: &MEASURES,
+    ..Properties::PLAIN
+};
+
 impl Instrument for SectionPlot {
-    fn name(&self) -> &'static str {
-        "section"
-    }
-
-    fn written(&self) -> &'static [Axis] {
-        &[Axis::ACROSS, Axis::UPWARDS]
-    }
-
-    fn is_section(&self) -> bool {
-        true
-    }
-
-    fn shows_a_view(&self) -> bool {
-        true
-    }
-
-    fn has_equal_axes(&self) -> bool {
-        true
-    }
-
-    fn classifies_orbits(&self) -> bool {
-        true
+    fn properties(&self) -> &'static Properties {
+        &PROPERTIES
     }
 
     fn offers(&self, physics: Physics<'_>) -> Vec<Offer> {
@@ -271,10 +263,6 @@ impl Instrument for SectionPlot {
         let channels = present.physics.system.channels();
         let named = |k| Some(channels.get(plot.column(k)?)?.name.clone());
         Some(Portrait::of(answer)?.table([named(0)?, named(1)?]))
-    }
-
-    fn measures(&self) -> &'static [Measure] {
-        &MEASURES
     }
 }
 

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use super::{
     Across, Columns, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, Offer, Physics,
-    Picture, Plot, PlotContext, Present, Returned, Stroke, Upwards,
+    Picture, Plot, PlotContext, Present, Properties, Returned, Stroke, Upwards,
 };
 use crate::analysis::{DistanceHistory as Distances, Slope};
 use crate::num::significant;
@@ -31,13 +31,48 @@ fn sentences(number: usize, slope: Option<Slope>) -> Vec<String> {
     ]
 }
 
-impl Instrument for SeparationPlot {
-    fn name(&self) -> &'static str {
-        "separation"
-    }
+const PROPERTIES: Properties = Properties {
+    name: "separation",
+    measures: &[
+        Measure::new("motions", "how many motions are beside the main one", |context| {
+            Some(context.present.separations.len() as f64)
+        }),
+        Measure::new(
+            "slope",
+            "the slope of ln d of the newest neighbour while d is small",
+            |context| newest(context.present)?.2.map(|slope| slope.rate),
+        ),
+        Measure::new("grown", "by how much ln d has grown along that line", |context| {
+            newest(context.present)?.2.map(|slope| slope.grown)
+        }),
+        Measure::new(
+            "error",
+            "the return error: how far a motion that was reversed came back to from its start",
+            |context| context.present.returned?.error,
+        ),
+        Measure::new(
+            "expected",
+            "the same as it is expected: the errors of all steps so far, each grown on the way back since",
+            |PlotContext { present, answer, .. }| {
+                let returned = present.returned?;
+                way_back::expected(returned, answer, returned.elapsed[0])
+            },
+        ),
+        Measure::new(
+            "distance",
+            "the distance of the newest motion from the main one",
+            |context| {
+                let last = newest(context.present)?.1.points().last()?;
+                Some(crate::num::math::exp(last[1]))
+            },
+        ),
+    ],
+    ..Properties::PLAIN
+};
 
-    fn shows_a_view(&self) -> bool {
-        false
+impl Instrument for SeparationPlot {
+    fn properties(&self) -> &'static Properties {
+        &PROPERTIES
     }
 
     fn offers(&self, _physics: Physics<'_>) -> Vec<Offer> {
@@ -118,47 +153,6 @@ impl Instrument for SeparationPlot {
 
     fn job(&self, context: PlotContext<'_>) -> Need {
         way_back::job(context)
-    }
-
-    fn measures(&self) -> &'static [Measure] {
-        &[
-            Measure {
-                word: "motions",
-                about: "how many motions are beside the main one",
-                value: |context| Some(context.present.separations.len() as f64),
-            },
-            Measure {
-                word: "slope",
-                about: "the slope of ln d of the newest neighbour while d is small",
-                value: |context| newest(context.present)?.2.map(|slope| slope.rate),
-            },
-            Measure {
-                word: "grown",
-                about: "by how much ln d has grown along that line",
-                value: |context| newest(context.present)?.2.map(|slope| slope.grown),
-            },
-            Measure {
-                word: "error",
-                about: "the return error: how far a motion that was reversed came back to from its start",
-                value: |context| context.present.returned?.error,
-            },
-            Measure {
-                word: "expected",
-                about: "the same as it is expected: the errors of all steps so far, each grown on the way back since",
-                value: |PlotContext { present, answer, .. }| {
-                    let returned = present.returned?;
-                    way_back::expected(returned, answer, returned.elapsed[0])
-                },
-            },
-            Measure {
-                word: "distance",
-                about: "the distance of the newest motion from the main one",
-                value: |context| {
-                    let last = newest(context.present)?.1.points().last()?;
-                    Some(crate::num::math::exp(last[1]))
-                },
-            },
-        ]
     }
 }
 

@@ -2,18 +2,16 @@
 
 use super::{
     Across, Columns, Entry, Heading, Instrument, Offer, Physics, Picture, Plot, PlotContext,
-    Present,
+    Present, Properties,
 };
 
 pub(super) struct Space;
 
-impl Instrument for Space {
-    fn name(&self) -> &'static str {
-        "space"
-    }
+const PROPERTIES: Properties = Properties { name: "space", is_scene: true, ..Properties::PLAIN };
 
-    fn is_scene(&self) -> bool {
-        true
+impl Instrument for Space {
+    fn properties(&self) -> &'static Properties {
+        &PROPERTIES
     }
 
     fn opening(&self, physics: Physics<'_>) -> Vec<Columns> {

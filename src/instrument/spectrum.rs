@@ -7,7 +7,7 @@
 use super::conditions::PlotConditions;
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, Offer,
-    Physics, Picture, Plot, PlotContext, Present, Upwards,
+    Physics, Picture, Plot, PlotContext, Present, Properties, Upwards,
 };
 use crate::dynamics::{
     FrequencyDrift, MeanRate, PhaseSpace, SampledSpectrum, SpectralLine, Spectrum as Lines,
@@ -59,13 +59,47 @@ struct Analysis {
     drift: Option<FrequencyDrift>,
 }
 
-impl Instrument for SpectrumPlot {
-    fn name(&self) -> &'static str {
-        "spectrum"
-    }
+const PROPERTIES: Properties = Properties {
+    name: "spectrum",
+    written: &[Axis::UPWARDS],
+    measures: &[
+        Measure::new("lines", "how many lines were found", |context| {
+            Some(lines(context.answer)?.lines.len() as f64)
+        }),
+        Measure::new("frequency", "ω of the strongest line", |context| {
+            Some(lines(context.answer)?.lines.first()?.frequency)
+        }),
+        Measure::new("amplitude", "the amplitude of the strongest line", |context| {
+            Some(lines(context.answer)?.lines.first()?.amplitude)
+        }),
+        Measure::new(
+            "fundamentals",
+            "how many frequencies the lines are combinations of",
+            |context| Some(lines(context.answer)?.fundamentals.len() as f64),
+        ),
+        Measure::new("second", "the second of those frequencies", |context| {
+            lines(context.answer)?.fundamentals.get(1).copied()
+        }),
+        Measure::new(
+            "left",
+            "the part of the motion that the lines leave: large where it is chaotic",
+            |context| Some(lines(context.answer)?.part_left()),
+        ),
+        Measure::new(
+            "drift",
+            "by which part the strongest ω differs between the halves of the time: large where it is chaotic",
+            |context| Some(drift(context.answer)?.relative()),
+        ),
+        Measure::new("rate", "the mean rate of an angle", |context| {
+            Some(mean(context.answer)?.rate)
+        }),
+    ],
+    ..Properties::PLAIN
+};
 
-    fn written(&self) -> &'static [Axis] {
-        &[Axis::UPWARDS]
+impl Instrument for SpectrumPlot {
+    fn properties(&self) -> &'static Properties {
+        &PROPERTIES
     }
 
     fn offers(&self, physics: Physics<'_>) -> Vec<Offer> {
@@ -146,7 +180,8 @@ impl Instrument for SpectrumPlot {
         };
         let (begin, speed, system) = (model.run.start, model.run.speed, system.clone());
         let fundamentals = independent_frequencies(model, equations, &system);
-        let space = PhaseSpace::on_constraints(model, equations, &system, present.parameters).ok();
+        let space =
+            PhaseSpace::on_constraints((model, equations, &system), present.parameters).ok();
         let drive =
             space.and_then(|space| space.drive()).map(|period| std::f64::consts::TAU / period);
         let is_angle = matches!(system.channels()[channel].kind, ChannelKind::Position(_))
@@ -189,51 +224,6 @@ impl Instrument for SpectrumPlot {
             });
             Answer::new(ComputedSpectrum { conditions: conditions.clone(), drive, outcome })
         }))
-    }
-
-    fn measures(&self) -> &'static [Measure] {
-        &[
-            Measure {
-                word: "lines",
-                about: "how many lines were found",
-                value: |context| Some(lines(context.answer)?.lines.len() as f64),
-            },
-            Measure {
-                word: "frequency",
-                about: "ω of the strongest line",
-                value: |context| Some(lines(context.answer)?.lines.first()?.frequency),
-            },
-            Measure {
-                word: "amplitude",
-                about: "the amplitude of the strongest line",
-                value: |context| Some(lines(context.answer)?.lines.first()?.amplitude),
-            },
-            Measure {
-                word: "fundamentals",
-                about: "how many frequencies the lines are combinations of",
-                value: |context| Some(lines(context.answer)?.fundamentals.len() as f64),
-            },
-            Measure {
-                word: "second",
-                about: "the second of those frequencies",
-                value: |context| lines(context.answer)?.fundamentals.get(1).copied(),
-            },
-            Measure {
-                word: "left",
-                about: "the part of the motion that the lines leave: large where it is chaotic",
-                value: |context| Some(lines(context.answer)?.part_left()),
-            },
-            Measure {
-                word: "drift",
-                about: "by which part the strongest ω differs between the halves of the time: large where it is chaotic",
-                value: |context| Some(drift(context.answer)?.relative()),
-            },
-            Measure {
-                word: "rate",
-                about: "the mean rate of an angle",
-                value: |context| Some(mean(context.answer)?.rate),
-            },
-        ]
     }
 }
 

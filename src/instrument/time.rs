@@ -2,7 +2,7 @@
 
 use super::{
     Across, Axis, Columns, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, MotionCurve,
-    Offer, Physics, Picture, Plot, PlotContext, Present, Upwards,
+    Offer, Physics, Picture, Plot, PlotContext, Present, Properties, Upwards,
 };
 
 /// The levels of the picture: the marks lie over the curves, and the current state over the marks.
@@ -12,22 +12,19 @@ const NOW: Level = 202;
 
 pub(super) struct Time;
 
+const PROPERTIES: Properties = Properties {
+    name: "time",
+    written: &[Axis { several: true, ..Axis::UPWARDS }],
+    curve: Some(MotionCurve::AgainstTime),
+    is_over_time: true,
+    // the window ends at the current time
+    anchor: 1.0,
+    ..Properties::PLAIN
+};
+
 impl Instrument for Time {
-    fn name(&self) -> &'static str {
-        "time"
-    }
-
-    fn written(&self) -> &'static [Axis] {
-        &[Axis { several: true, ..Axis::UPWARDS }]
-    }
-
-    fn curve(&self) -> Option<MotionCurve> {
-        Some(MotionCurve::AgainstTime)
-    }
-
-    /// The window ends at the current time.
-    fn anchor(&self) -> f64 {
-        1.0
+    fn properties(&self) -> &'static Properties {
+        &PROPERTIES
     }
 
     fn opening(&self, physics: Physics<'_>) -> Vec<Columns> {

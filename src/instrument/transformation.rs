@@ -23,7 +23,7 @@ use self::relations::{depends_on_time, implicit};
 use self::window::ShownCoordinates;
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
-    Need, Offer, Physics, Picture, Plot, PlotContext, Present, Stroke, Upwards,
+    Need, Offer, Physics, Picture, Plot, PlotContext, Present, Properties, Stroke, Upwards,
 };
 use crate::expr::{Symbol, with_subscripts};
 use crate::job::Job;
@@ -64,18 +64,35 @@ struct Shown<'a> {
     new: [Symbol; 2],
 }
 
-impl Instrument for TransformationPlot {
-    fn name(&self) -> &'static str {
-        "transformation"
-    }
+const PROPERTIES: Properties = Properties {
+    name: "transformation",
+    written: &[
+        Axis { transformed: true, ..Axis::ACROSS },
+        Axis { transformed: true, ..Axis::UPWARDS },
+    ],
+    has_equal_axes: true,
+    lead: "transformation ",
+    measures: &[
+        Measure::new("canonical", "1 if it is canonical, 0 if it is not", |context| {
+            judged(context.answer).map(|judged| f64::from(u8::from(judged.canonical)))
+        }),
+        Measure::new(
+            "residual",
+            "the largest entry of |M J Mᵀ − J| at points near the start",
+            |context| judged(context.answer)?.residual,
+        ),
+        Measure::new(
+            "off_step",
+            "how far it is from the step of a method that the file says it is",
+            |context| judged(context.answer)?.off_step,
+        ),
+    ],
+    ..Properties::PLAIN
+};
 
-    fn written(&self) -> &'static [Axis] {
-        const {
-            &[
-                Axis { transformed: true, ..Axis::ACROSS },
-                Axis { transformed: true, ..Axis::UPWARDS },
-            ]
-        }
+impl Instrument for TransformationPlot {
+    fn properties(&self) -> &'static Properties {
+        &PROPERTIES
     }
 
     fn offers(&self, physics: Physics<'_>) -> Vec<Offer> {
@@ -98,10 +115,6 @@ impl Instrument for TransformationPlot {
         pairs.collect()
     }
 
-    fn has_equal_axes(&self) -> bool {
-        true
-    }
-
     fn is_plane(&self, plot: &Plot, physics: Physics<'_>) -> Option<bool> {
         Some(point::is_plane(plot, physics))
     }
@@ -111,10 +124,6 @@ impl Instrument for TransformationPlot {
             Some(shown) => format!("{}, {}", shown.law.name, plot.against(physics)),
             None => plot.against(physics),
         }
-    }
-
-    fn lead(&self) -> &'static str {
-        "transformation "
     }
 
     fn heading(&self, plot: &Plot, present: &Present<'_>) -> Option<Heading> {
@@ -292,28 +301,6 @@ impl Instrument for TransformationPlot {
                 verdict: verdict.clone(),
             })
         }))
-    }
-
-    fn measures(&self) -> &'static [Measure] {
-        &[
-            Measure {
-                word: "canonical",
-                about: "1 if it is canonical, 0 if it is not",
-                value: |context| {
-                    judged(context.answer).map(|judged| f64::from(u8::from(judged.canonical)))
-                },
-            },
-            Measure {
-                word: "residual",
-                about: "the largest entry of |M J Mᵀ − J| at points near the start",
-                value: |context| judged(context.answer)?.residual,
-            },
-            Measure {
-                word: "off_step",
-                about: "how far it is from the step of a method that the file says it is",
-                value: |context| judged(context.answer)?.off_step,
-            },
-        ]
     }
 }
 

@@ -118,7 +118,7 @@ impl VariedMotions {
         let in_phase_space = |start: &Start| {
             let parameters = &start.parameters;
             let space =
-                PhaseSpace::on_constraints(&self.model, &self.equations, system, parameters)?;
+                PhaseSpace::on_constraints((&self.model, &self.equations, system), parameters)?;
             let until = start.time + length;
             let start = start.state(system).and_then(|state| space.state(&state))?;
             Ok(LyapunovOrbit { space, start, until })

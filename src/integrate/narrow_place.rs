@@ -136,8 +136,8 @@ impl FollowedArguments {
         rule: fn(End, End) -> f64,
     ) -> f64 {
         let (mut begin, mut end) = (std::mem::take(&mut self.begin), std::mem::take(&mut self.end));
-        let known = self.look(step, before, before.time, slopes, &mut begin)
-            && self.look(step, after, before.time + step, last_slopes, &mut end);
+        let known = self.observe_end(step, before, before.time, slopes, &mut begin)
+            && self.observe_end(step, after, before.time + step, last_slopes, &mut end);
         let ends = begin.iter().zip(&end);
         let part = ends.map(|(&begin, &end)| rule(begin, end)).fold(1.0, f64::min);
         (self.begin, self.end) = (begin, end);
@@ -145,7 +145,7 @@ impl FollowedArguments {
     }
 
     /// The arguments at a state, and their slopes; false where one has no value.
-    fn look(
+    fn observe_end(
         &mut self,
         step: f64,
         state: &State,

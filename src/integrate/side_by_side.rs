@@ -59,9 +59,9 @@ pub fn side_by_side(
         if places.iter().all(Option::is_none) {
             return true;
         }
-        let look =
+        let observed =
             |place: Option<usize>| place.map_or(f64::INFINITY, |i| follower.next_observation(i));
-        if !batch.steps_unobserved(&limits, &places.map(look)) {
+        if !batch.steps_unobserved(&limits, &places.map(observed)) {
             return false;
         }
         follower.observe_all(batch);

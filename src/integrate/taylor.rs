@@ -269,7 +269,7 @@ impl Stepper for Taylor {
         let mut state = self.system.convert(state, self.system.form(), parameters)?;
         let before = self.before(&state)?;
         if self.series.switches() > 0 {
-            start_slope::settle(&mut state, &before);
+            start_slope::clear_rounding(&mut state, &before);
         }
         self.end_passage(true);
         self.sizes = start_slope::sizes(&state, &before);

@@ -23,7 +23,7 @@ use crate::num::Number;
 
 /// The points at which a written solution has to hold, and the points tried for them.
 pub(super) const WITNESSES: usize = 8;
-const LOOKED_AT: u64 = 64;
+const TRIED_POINTS: u64 = 64;
 
 /// A map and its inverse lead back to a value up to this part of it, which may be rounding.
 pub(super) const LEADS_BACK: f64 = 1e-7;
@@ -155,7 +155,7 @@ impl PhaseMap {
 
     fn forwards_by_solving(&self, model: &Model, equations: &mut Equations) -> Option<Solution> {
         let points: Vec<Valuation> =
-            (0..LOOKED_AT).map(|n| Valuation::near_start(model, equations, n)).collect();
+            (0..TRIED_POINTS).map(|n| Valuation::near_start(model, equations, n)).collect();
         let (relations, new) = (self.implicit.relations.clone(), self.implicit.new.clone());
         // the branch that a map near this one leads to comes first
         if let Some(images) = self.nearest_images(&equations.pool, &points) {

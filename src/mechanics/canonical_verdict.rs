@@ -135,7 +135,7 @@ impl PhaseMap {
     }
 
     /// Withdraws the verdict on an explicit map that fails far from the start.
-    fn look_far_away(
+    fn evaluate_far_away(
         &self,
         model: &Model,
         equations: &Equations,
@@ -181,7 +181,7 @@ impl PhaseMap {
             self.by_parts(model, equations, &mut verdict);
         } else if self.is_explicit() {
             if verdict.canonical {
-                self.look_far_away(model, equations, &units, &mut verdict);
+                self.evaluate_far_away(model, equations, &units, &mut verdict);
             }
             self.by_brackets(equations, &mut verdict);
         } else if residual.is_none() {

@@ -23,7 +23,7 @@ use crate::num::Number;
 const HIGHEST: i64 = 12;
 
 /// The points at which what was found without solving must agree with H + ∂F/∂t, and how closely.
-const LOOKED_AT: usize = 20;
+const POINTS: usize = 20;
 const SAME: f64 = 1e-9;
 
 impl PhaseMap {
@@ -74,7 +74,7 @@ impl PhaseMap {
             pool.substitute(e, &map)
         };
         let points: Vec<Valuation> =
-            (0..LOOKED_AT as u64).map(|n| Valuation::near_start(model, equations, n)).collect();
+            (0..POINTS as u64).map(|n| Valuation::near_start(model, equations, n)).collect();
         // the value of the new Hamiltonian, and the size of its terms
         let mut values: Vec<Option<(Valuation, [f64; 2])>> = points
             .iter()
@@ -188,7 +188,7 @@ impl PhaseMap {
         hamiltonian: Expr,
     ) -> Option<Expr> {
         let rate = self.function_rate.filter(|_| self.parts.is_empty())?;
-        let images = self.images(model, equations, LOOKED_AT);
+        let images = self.images(model, equations, POINTS);
         let pool = &mut equations.pool;
         let slopes = self.implicit.relations.iter().zip(&self.implicit.own);
         let mut map = HashMap::new();

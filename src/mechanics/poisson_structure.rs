@@ -124,7 +124,7 @@ impl Structure<'_> {
             let sum = pool.simplify(sum);
             written = (pool.weight(sum) <= LONGEST).then(|| format!("is {}", pool.unicode(sum)));
         }
-        let mut look = |point: &Valuation| {
+        let mut difference_at = |point: &Valuation| {
             let (mut total, mut size) = (0.0, 0.0);
             for &(b, s) in terms {
                 let (b, b_size) = pool.evaluate_with_size(b, &|x| point.at(x));
@@ -135,10 +135,12 @@ impl Structure<'_> {
             let known = f64::is_finite(total) && f64::is_finite(size);
             known.then(|| (f64::abs(total) > TOLERANCE * size).then_some((total, size)))
         };
-        let near = self.points.iter().filter_map(&mut look).take(POINTS).collect::<Vec<_>>();
+        let near =
+            self.points.iter().filter_map(&mut difference_at).take(POINTS).collect::<Vec<_>>();
         let has_values = near.len() == POINTS;
         let refuted = near.into_iter().flatten().map(|found| (found, "near"));
-        let far = self.far.iter().filter_map(look).flatten().map(|found| (found, "far from"));
+        let far =
+            self.far.iter().filter_map(difference_at).flatten().map(|found| (found, "far from"));
         let Some(((total, size), place)) = refuted.chain(far).next() else {
             return (!has_values).then(|| "has no value near the start".to_owned());
         };

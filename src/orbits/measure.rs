@@ -79,7 +79,8 @@ impl MeasuredOrbits<'_> {
     fn in_phase_space(&self, (start, until): (&Start, f64)) -> Option<LyapunovOrbit> {
         let parameters = &start.parameters;
         let space =
-            PhaseSpace::on_constraints(self.model, self.equations, self.system, parameters).ok()?;
+            PhaseSpace::on_constraints((self.model, self.equations, self.system), parameters)
+                .ok()?;
         let start = start.state(self.system).and_then(|state| space.state(&state)).ok()?;
         Some(LyapunovOrbit { space, start, until })
     }

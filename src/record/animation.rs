@@ -15,7 +15,7 @@ use std::io::{self, Write};
 
 use gif::{DisposalMethod, Encoder, EncodingError, Frame, Repeat};
 
-use self::glyph::GlyphSheet;
+use self::glyph::GlyphAtlas;
 use self::inks::{InkCounts, Inks, TRANSPARENT};
 use self::pictures::{CastPictures, changed};
 use self::screen::ScreenCell;
@@ -49,7 +49,7 @@ pub fn write<W: Write>(cast: &RecordedCast, cell_width: u16, mut out: W) -> io::
             format!("{width}×{height} pixels are too many for a GIF; make the cells narrower");
         return Err(io::Error::new(io::ErrorKind::InvalidInput, what));
     };
-    let mut glyphs = GlyphSheet::new(usize::from(cell_width));
+    let mut glyphs = GlyphAtlas::new(usize::from(cell_width));
     let inks = Inks::of(count_inks(cast, &mut glyphs));
     // the encoder keeps what it is given until its end
     let mut encoder = Encoder::new(&mut out, width, height, &inks.palette()).map_err(failed)?;
@@ -77,7 +77,7 @@ pub fn write<W: Write>(cast: &RecordedCast, cell_width: u16, mut out: W) -> io::
 }
 
 /// Counts the colours of the pixels that are drawn.
-fn count_inks(cast: &RecordedCast, glyphs: &mut GlyphSheet) -> InkCounts {
+fn count_inks(cast: &RecordedCast, glyphs: &mut GlyphAtlas) -> InkCounts {
     let mut counts = InkCounts::default();
     let mut shown: Vec<ScreenCell> = Vec::new();
     let mut pictures = CastPictures::new(cast);
@@ -122,12 +122,12 @@ struct GifCanvas {
     width: usize,
     pixels: Vec<u8>,
     shown: Vec<ScreenCell>,
-    glyphs: GlyphSheet,
+    glyphs: GlyphAtlas,
     inks: Inks,
 }
 
 impl GifCanvas {
-    fn new((width, height): (u16, u16), glyphs: GlyphSheet, inks: Inks) -> GifCanvas {
+    fn new((width, height): (u16, u16), glyphs: GlyphAtlas, inks: Inks) -> GifCanvas {
         let width = usize::from(width);
         let pixels = vec![TRANSPARENT; width * usize::from(height)];
         GifCanvas { width, pixels, shown: Vec::new(), glyphs, inks }

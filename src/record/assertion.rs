@@ -278,11 +278,10 @@ fn measured_of_plot(lab: &Lab, written: &LineText) -> Result<Option<f64>, Diagno
         let names = INSTRUMENTS.iter().map(|kind| kind.name());
         missing("kind of plot", &part(kind, 0), names, system)
     })?;
-    let measure =
-        known.measures().iter().find(|measure| measure.word == word).ok_or_else(|| {
-            let words = known.measures().iter().map(|measure| measure.word);
-            missing("number of a plot of this kind", &part(word, kind.len() + 1), words, system)
-        })?;
+    let measure = known.measure(word).ok_or_else(|| {
+        let words = known.properties().measures.iter().map(|measure| measure.word);
+        missing("number of a plot of this kind", &part(word, kind.len() + 1), words, system)
+    })?;
     let refused = |message| Err(Diagnostic::error(written.place.clone(), message));
     let mut plots = lab.plots.iter().filter(|plot| plot.kind == known).peekable();
     let Some(present) = lab.present().filter(|_| plots.peek().is_some()) else {

@@ -14,9 +14,9 @@ use super::assertion::AssertionResult;
 use super::clock::Micros;
 use super::headless_lab::Budget;
 use super::lesson_finding::in_words;
-use super::lesson_look::LessonView;
 use super::lesson_order::errors_in;
 use super::lesson_question::{AnswerChoice, AnswerVerdict, GivenAnswer, Question, QuestionKind};
+use super::lesson_view::LessonView;
 use super::recording::rows;
 use super::script::{Asked, Assert, LessonStep, Script, ScriptStep};
 use super::script_runner::{RunnerEvent, ScriptRunner};
@@ -207,7 +207,7 @@ impl Lesson {
                 while self.runner.lab.clock.left() > 0 {
                     self.runner.frame();
                 }
-                self.look_at_task();
+                self.complete_task();
                 Ok(before != self.runner.now() || !self.is_moving())
             }
             // What is said of a motion that waits expires all the same.
@@ -353,7 +353,7 @@ impl Lesson {
     }
 
     /// Ends a task whose claim holds.
-    pub(super) fn look_at_task(&mut self) {
+    pub(super) fn complete_task(&mut self) {
         let LessonStage::Task { claim, .. } = &self.stage else { return };
         // whoever types has not finished
         if self.runner.lab.app.is_typing() {

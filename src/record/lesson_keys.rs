@@ -5,8 +5,8 @@
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
 use super::lesson::{Lesson, LessonStage, paragraph};
-use super::lesson_look::LessonView;
 use super::lesson_question::{GivenAnswer, QuestionKind};
+use super::lesson_view::LessonView;
 use crate::app::{AppEvent, key as keys};
 use crate::view::lesson::ParagraphKind;
 
@@ -40,7 +40,7 @@ impl Lesson {
         }
         let nothing = format!("{} does nothing here", keys::name(&key));
         let reads = matches!(self.stage, LessonStage::Reading | LessonStage::Choosing(_));
-        if reads && self.looks_around(key) {
+        if reads && self.changes_view(key) {
             return Pressed::Taken;
         }
         let continues = matches!(key.code, KeyCode::Enter | KeyCode::Char(' ') | KeyCode::F(9));
@@ -89,7 +89,7 @@ impl Lesson {
                     None => *wrong = Some("This is not a number; write it as 1.5 or 3/2.".into()),
                 },
                 KeyCode::Tab | KeyCode::BackTab => {
-                    self.looks_around(key);
+                    self.changes_view(key);
                 }
                 _ => self.notice = Some(nothing),
             },
@@ -114,14 +114,14 @@ impl Lesson {
                 if self.is_left() {
                     return Pressed::Leave;
                 }
-                self.look_at_task();
+                self.complete_task();
             }
         }
         Pressed::Taken
     }
 
-    fn looks_around(&mut self, key: KeyEvent) -> bool {
-        LessonView::look_around(&mut self.view, &mut self.runner.lab, key)
+    fn changes_view(&mut self, key: KeyEvent) -> bool {
+        LessonView::handle_key(&mut self.view, &mut self.runner.lab, key)
     }
 }
 

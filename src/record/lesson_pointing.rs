@@ -77,7 +77,7 @@ impl Lesson {
                 }
                 if let Some(hit) = self.runner.hit(style, column, row) {
                     self.runner.lab.update(AppEvent::Mouse(kind, hit));
-                    self.look_at_task();
+                    self.complete_task();
                 }
             }
             LessonStage::Pointing(_) if pressed => {

@@ -122,7 +122,7 @@ pub enum ScriptStep {
     /// Sets the simulated seconds per second.
     Speed(LineText),
     /// Look at a time of the recorded past.
-    Look(LineText),
+    ScrubTo(LineText),
     /// Focuses a pane, and brings it into view.
     Focus(LineText),
     /// Sets the least ranges of quantities in the pictures.

@@ -244,9 +244,9 @@ impl ScriptRunner {
                 self.lab.execute(Command::Speed(speed));
                 done("speed", format!("{speed}"))
             }
-            ScriptStep::Look(written) => {
+            ScriptStep::ScrubTo(written) => {
                 let time = assertion::value(&self.lab.app, &written)?;
-                self.lab.execute(Command::LookAt(time));
+                self.lab.execute(Command::ScrubTo(time));
                 done("look", format!("{time}"))
             }
             ScriptStep::Focus(name) => {

@@ -103,7 +103,7 @@ impl FileWriter {
 
     /// Returns the outcomes of everything queued so far, waiting at most this long. Work not done by then yields an
     /// error of the kind [`ErrorKind::TimedOut`], and may still be done later.
-    pub(super) fn settle(&mut self, time: Duration) -> Vec<(PathBuf, io::Result<()>)> {
+    pub(super) fn wait_for_outcomes(&mut self, time: Duration) -> Vec<(PathBuf, io::Result<()>)> {
         let end = Instant::now() + time;
         let mut outcomes = self.outcomes();
         while !self.open.is_empty() {
@@ -167,7 +167,7 @@ mod tests {
             file_writer.write(&path, move || Ok(text.to_owned()));
         }
         file_writer.write(&nowhere, || Ok(String::new()));
-        let outcomes = file_writer.settle(LONG);
+        let outcomes = file_writer.wait_for_outcomes(LONG);
         assert_eq!(outcomes.len(), 3);
         assert_eq!(fs::read_to_string(&path).expect("it is there"), "two");
         let (_, failed) = &outcomes[2];
@@ -175,7 +175,7 @@ mod tests {
         assert!(message.starts_with("cannot write ") && message.contains("b.toml"), "{message}");
         file_writer.remove(&path);
         file_writer.remove(&path);
-        assert!(file_writer.settle(LONG).iter().all(|(_, done)| done.is_ok()));
+        assert!(file_writer.wait_for_outcomes(LONG).iter().all(|(_, done)| done.is_ok()));
         assert!(!path.exists());
     }
 
@@ -186,11 +186,11 @@ mod tests {
         let mut file_writer = FileWriter::new().expect("a thread");
         file_writer.hurry(true);
         file_writer.write(&path, || Ok("one".to_owned()));
-        assert!(file_writer.settle(LONG).iter().all(|(_, done)| done.is_ok()));
+        assert!(file_writer.wait_for_outcomes(LONG).iter().all(|(_, done)| done.is_ok()));
         assert_eq!(fs::read_to_string(&path).expect("it is there"), "one");
         file_writer.sync(&path);
         file_writer.sync(&folder.path().join("none"));
-        let outcomes = file_writer.settle(LONG);
+        let outcomes = file_writer.wait_for_outcomes(LONG);
         assert!(outcomes[0].1.is_ok() && outcomes[1].1.is_err(), "{outcomes:?}");
         assert_eq!(fs::read_to_string(&path).expect("it is there"), "one");
     }
@@ -206,12 +206,12 @@ mod tests {
             let _ = slow.recv();
             Ok("late".to_owned())
         });
-        let [(_, Err(late))] = &file_writer.settle(Duration::ZERO)[..] else {
+        let [(_, Err(late))] = &file_writer.wait_for_outcomes(Duration::ZERO)[..] else {
             panic!("it is not late")
         };
         assert_eq!(late.kind(), ErrorKind::TimedOut);
         go.send(()).expect("it waits");
-        assert!(file_writer.settle(LONG).iter().all(|(_, done)| done.is_ok()));
+        assert!(file_writer.wait_for_outcomes(LONG).iter().all(|(_, done)| done.is_ok()));
         assert_eq!(fs::read_to_string(&path).expect("it is there"), "late");
     }
 }

@@ -202,7 +202,7 @@ impl Store {
     pub(super) fn sync(&mut self, time: Duration) {
         let files = self.session.iter().chain(&self.texts).filter(|path| path.exists());
         files.for_each(|path| self.file_writer.sync(path));
-        self.file_writer.settle(time);
+        self.file_writer.wait_for_outcomes(time);
     }
 
     /// Returns the errors since the last call; each names its file.
@@ -212,8 +212,8 @@ impl Store {
     }
 
     /// Returns the errors of all queued work, waiting at most this long.
-    pub(super) fn settle(&mut self, time: Duration) -> Vec<io::Error> {
-        let outcomes = self.file_writer.settle(time);
+    pub(super) fn wait_for_errors(&mut self, time: Duration) -> Vec<io::Error> {
+        let outcomes = self.file_writer.wait_for_outcomes(time);
         self.collect_errors(outcomes)
     }
 
@@ -268,7 +268,7 @@ mod tests {
 
     #[track_caller]
     fn settled(store: &mut Store) {
-        let errors = store.settle(LONG);
+        let errors = store.wait_for_errors(LONG);
         assert!(errors.is_empty(), "{errors:?}");
     }
 
@@ -431,7 +431,7 @@ mod tests {
         fs::create_dir(&path).expect("a folder");
         fs::write(path.join("in the way"), "").expect("it is written");
         store.save(Saved { open: "planet".to_owned(), ..session() });
-        let errors = store.settle(LONG);
+        let errors = store.wait_for_errors(LONG);
         let [error] = &errors[..] else { panic!("{errors:?}") };
         let message = error.to_string();
         assert!(

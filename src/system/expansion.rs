@@ -378,7 +378,7 @@ mod tests {
     }
 
     #[test]
-    fn a_look_without_roots_agrees_with_the_length_itself() {
+    fn a_step_without_roots_agrees_with_the_length_itself() {
         let sine: [f64; ORDER + 1] = std::array::from_fn(|k| {
             [0.0, 1.0, 0.0, -1.0][k % 4] * math::powi(3.0, k as i32) / factorial(k)
         });

@@ -77,10 +77,10 @@ impl TermWatch {
             Some(canonical) if self.at_canonical => canonical,
             _ => &mut self.native,
         };
-        let looked = terms.evaluate(self.time, &self.inputs).is_ok();
+        let is_known = terms.evaluate(self.time, &self.inputs).is_ok();
         self.outputs.clear();
         self.outputs.extend(terms.outputs());
-        looked
+        is_known
     }
 
     /// By how much half a digit of each number of the last state changes a quantity, and the number that changes it most, by its

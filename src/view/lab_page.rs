@@ -219,7 +219,7 @@ fn plot(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, (index, sharing): (usize
     let keys = picture_title::keys_beyond(canvas, &q, plot, &title);
     match picture::draw(canvas, inner, (&q, plot), &keys) {
         Some(frame) => canvas.region(frame.area, ScreenRegion::Plot(index, frame)),
-        None if plot.kind.is_scene() => {
+        None if plot.kind.properties().is_scene => {
             canvas.region(inner, ScreenRegion::Space(index));
             for (place, shape, frame) in std::mem::take(&mut canvas.masses) {
                 canvas.region(place, ScreenRegion::Mass(index, shape, frame));

@@ -9,7 +9,7 @@ use super::verdict::reasons_below;
 use super::wrap::words;
 use crate::app::{Lab, Pane, ValueId};
 use crate::expr::{Expr, Rank};
-use crate::instrument::{Instrument, MotionCurve, Plot};
+use crate::instrument::{MotionCurve, Plot, Properties};
 use crate::model::Shape;
 
 /// The smallest usable screen.
@@ -151,7 +151,8 @@ fn plots(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
     }
     let is_square = |index: &usize| {
         let plot = &lab.plots[*index];
-        plot.kind.is_transformed() || plot.kind.is_scene() && !is_level(plot, lab)
+        let properties = plot.kind.properties();
+        properties.is_transformed() || properties.is_scene && !is_level(plot, lab)
     };
     let four = below == 1 && count > 3 && arranged(lab, 3).last().is_some_and(is_square);
     let (room, above) = if four { (4, area.height / 2) } else { (2 + below, area.height * 3 / 5) };
@@ -256,37 +257,37 @@ fn chosen(lab: &Lab, room: usize) -> Vec<Pane> {
 
 /// The same whatever has the focus, or had it.
 fn arranged(lab: &Lab, room: usize) -> Vec<usize> {
-    let kind = |index: &usize| lab.plots[*index].kind;
+    let kind = |index: &usize| lab.plots[*index].kind.properties();
     let mut shown: Vec<usize> = (0..lab.plots.len().min(room)).collect();
-    let against_time = (0..lab.plots.len()).find(|index| kind(index).is_over_time());
+    let against_time = (0..lab.plots.len()).find(|index| kind(index).is_over_time);
     if let (Some(time), Some(last)) = (against_time.filter(|t| *t >= room), shown.get_mut(2..))
         && let Some(last) = last.last_mut().filter(|last| is_portrait(kind(last)))
     {
         *last = time;
     }
-    shown.sort_by_key(|index| kind(index).is_over_time());
+    shown.sort_by_key(|index| kind(index).is_over_time);
     let is_motion = |index: &usize| lab.shows_motion(&lab.plots[*index]);
     if !shown.iter().any(is_motion)
         && let Some(motion) = view_of_motion(lab)
     {
         let last =
-            |is: &dyn Fn(&dyn Instrument) -> bool| shown.iter().rposition(|index| is(kind(index)));
+            |is: &dyn Fn(&Properties) -> bool| shown.iter().rposition(|index| is(kind(index)));
         let maps = shown.iter().filter(|index| kind(index).is_transformed()).count();
         let replaced = match (maps, shown.len()) {
             (0, _) | (_, ..=2) => last(&is_portrait),
-            (1, _) => last(&|kind| kind.is_over_time()),
-            _ => last(&|kind| kind.is_over_time()).or(last(&|kind| kind.is_transformed())),
+            (1, _) => last(&|kind| kind.is_over_time),
+            _ => last(&|kind| kind.is_over_time).or(last(&|kind| kind.is_transformed())),
         };
-        let replaced = replaced.or(last(&|kind| !kind.is_over_time()));
+        let replaced = replaced.or(last(&|kind| !kind.is_over_time));
         if let Some(place) = replaced.or(shown.len().checked_sub(1)) {
             shown[place] = motion;
         }
     }
     // A cloud of points says nothing before what it is of has been seen moving.
     if let [first, second, ..] = &mut shown[..]
-        && kind(first).is_section()
-        && kind(first).takes_seeds()
-        && lab.plots[*second].kind.is_scene()
+        && kind(first).is_section
+        && kind(first).takes_seeds
+        && lab.plots[*second].kind.properties().is_scene
     {
         std::mem::swap(first, second);
     }
@@ -306,20 +307,20 @@ fn is_level(plot: &Plot, lab: &Lab) -> bool {
     eye.frame.is_none() && eye.is_plane(model) && eye.shapes(model).iter().all(is_level)
 }
 
-fn is_portrait(kind: &dyn Instrument) -> bool {
-    kind.curve() == Some(MotionCurve::Portrait)
+fn is_portrait(kind: &Properties) -> bool {
+    kind.curve == Some(MotionCurve::Portrait)
 }
 
 /// The best view of the motion: a scene, or else a plane of places.
 pub(super) fn view_of_motion(lab: &Lab) -> Option<usize> {
-    let scene = lab.plots.iter().position(|plot| plot.kind.is_scene());
+    let scene = lab.plots.iter().position(|plot| plot.kind.properties().is_scene);
     scene.or_else(|| lab.plots.iter().position(|plot| lab.shows_motion(plot)))
 }
 
 fn plot_slot(lab: &Lab) -> Slot {
     let focused = matches!(lab.focus.pane, Pane::Plot(_)).then_some(lab.focus.pane);
     // If there is room for one picture only, it is the scene.
-    let motion = lab.plots.iter().position(|plot| plot.kind.is_scene());
+    let motion = lab.plots.iter().position(|plot| plot.kind.properties().is_scene);
     // What was predicted stays beside its outcome.
     let predicted = lab
         .prediction

@@ -323,7 +323,7 @@ fn preview(canvas: &mut Canvas<'_>, area: Rect, app: &App, entry: &CatalogEntry)
         sentence(canvas, text, &message);
         return;
     };
-    let space = lab.plots.iter().find(|plot| plot.kind.is_scene());
+    let space = lab.plots.iter().find(|plot| plot.kind.properties().is_scene);
     if let Some(plot) = space.or(lab.plots.first()) {
         picture::draw(canvas, area, (&q, plot), &[]);
     }

@@ -45,7 +45,7 @@ impl Course {
 
     pub(crate) fn measure(&self, word: &str) -> Option<f64> {
         let (lab, plot) = (self.app.lab.as_ref().unwrap(), self.plot());
-        let measure = plot.kind.measures().iter().find(|measure| measure.word == word);
+        let measure = plot.kind.measure(word);
         let value = measure.expect("it is measured").value;
         value(lab.context(&plot, &lab.present().expect("a motion")))
     }

@@ -20,11 +20,9 @@ mod rotation;
 mod spectrum;
 mod spectrum_images;
 
-use phaselab::dynamics::{DynamicsError, PhaseSpace};
+use phaselab::dynamics::{CompiledLaw, DynamicsError, PhaseSpace};
 use phaselab::integrate::{Method, Settings, method_named};
-use phaselab::mechanics::Equations;
-use phaselab::model::Model;
-use phaselab::system::{InitialOverride, State, System};
+use phaselab::system::{InitialOverride, State};
 
 use crate::fixtures::{loaded, lowered};
 
@@ -54,14 +52,14 @@ fn case_in(
     loaded: &phaselab::app::Loaded,
     set: &[(&str, f64)],
     start: &[f64],
-    space: impl Fn(&Model, &Equations, &System, &[f64]) -> Result<PhaseSpace, DynamicsError>,
+    space: impl Fn(CompiledLaw<'_>, &[f64]) -> Result<PhaseSpace, DynamicsError>,
 ) -> Case {
     let mut parameters = loaded.model.parameter_values();
     for (name, value) in set {
         parameters[loaded.model.parameter(name).expect("a parameter")] = *value;
     }
     let (model, equations) = (&loaded.model, &loaded.equations);
-    let space = space(model, equations, &loaded.system, &parameters).unwrap();
+    let space = space((model, equations, &loaded.system), &parameters).unwrap();
     let n = loaded.system.degrees();
     let given: Vec<InitialOverride> = start
         .iter()

@@ -198,7 +198,8 @@ fn points_too_far_apart_are_not_joined() {
 fn rate(text: &str) -> Option<f64> {
     let ready = prepared(text);
     let parameters = ready.model.parameter_values();
-    let space = PhaseSpace::of(&ready.model, &ready.equations, &ready.system, &parameters).unwrap();
+    let space =
+        PhaseSpace::of((&ready.model, &ready.equations, &ready.system), &parameters).unwrap();
     let n = space.dimension();
     let states: Vec<Vec<f64>> = (0..7)
         .map(|k| (0..n).map(|i| (0.3 + 0.7 * f64::from(k) + 0.4 * i as f64).sin()).collect())

@@ -18,9 +18,10 @@ use crate::screen::{rich, rows};
 /// The kinds that the pendulum has: all but sections, whose surface a file names (`section` tests those), and
 /// transformations, which a file defines (`transformation`).
 fn kinds() -> impl Iterator<Item = &'static dyn Instrument> {
-    INSTRUMENTS
-        .into_iter()
-        .filter(|kind| !kind.is_section() && !kind.written().iter().any(|axis| axis.transformed))
+    INSTRUMENTS.into_iter().filter(|kind| {
+        !kind.properties().is_section
+            && !kind.properties().written.iter().any(|axis| axis.transformed)
+    })
 }
 
 /// The pendulum in the lab with a plot of each kind: those that it opens with, and those that are asked for.
@@ -65,8 +66,8 @@ fn every_kind_has_a_name_of_its_own() {
         let plain = |word: &str| !word.is_empty() && word.chars().all(|c| c.is_ascii_lowercase());
         assert!(words.all(plain), "{kind:?}");
         assert!(named(kind.name()).is_some_and(|found| found == kind));
-        let keys: BTreeSet<&str> = kind.written().iter().map(|axis| axis.key).collect();
-        assert_eq!(keys.len(), kind.written().len(), "{kind:?} has an axis twice");
+        let keys: BTreeSet<&str> = kind.properties().written.iter().map(|axis| axis.key).collect();
+        assert_eq!(keys.len(), kind.properties().written.len(), "{kind:?} has an axis twice");
         for taken in ["kind", "title", "view", "eye", "lens", "frame", "shapes"] {
             assert!(!keys.contains(taken), "{kind:?} has an axis called {taken}");
         }
@@ -407,7 +408,7 @@ fn a_key_finds_the_frequency_of_the_pendulum() {
     let (_, plot) = lab.focused_plot().unwrap();
     assert_eq!(plot.kind.name(), "spectrum");
     let measure = |word: &str| {
-        let measure = plot.kind.measures().iter().find(|measure| measure.word == word).unwrap();
+        let measure = plot.kind.measure(word).unwrap();
         (measure.value)(lab.context(plot, &lab.present().unwrap())).unwrap()
     };
     // ω = √(g/l) agm(1, cos ½θ₀), θ₀ = 2
@@ -436,7 +437,7 @@ fn the_spectrum_of_an_expression() {
     );
     let lab = app.lab.as_ref().unwrap();
     let plot = lab.plots.iter().find(|plot| plot.kind.name() == "spectrum").unwrap();
-    let measure = plot.kind.measures().iter().find(|m| m.word == "frequency").unwrap();
+    let measure = plot.kind.measure("frequency").unwrap();
     let frequency = (measure.value)(lab.context(plot, &lab.present().unwrap()));
     assert!(frequency.is_some_and(|f| (f - 2.0).abs() < 1e-10), "{frequency:?}");
 }
@@ -453,7 +454,7 @@ fn orbits_of_kicked_systems_are_closed_from_the_initial_values() {
     let (_, plot) = lab.focused_plot().unwrap();
     assert_eq!(plot.kind.name(), "orbit");
     let measure = |word: &str| {
-        let measure = plot.kind.measures().iter().find(|measure| measure.word == word).unwrap();
+        let measure = plot.kind.measure(word).unwrap();
         (measure.value)(lab.context(plot, &lab.present().unwrap()))
     };
     assert!(measure("period").is_some_and(|period| (period - 1.0).abs() < 1e-12));

@@ -58,7 +58,7 @@ pub(crate) fn see(app: &mut App, experiment: &mut Experiment, time: f64) {
 /// What a picture measures.
 pub(crate) fn measured(app: &App, plot: &Plot, word: &str) -> Option<f64> {
     let lab = app.lab.as_ref().unwrap();
-    let measure = plot.kind.measures().iter().find(|measure| measure.word == word).unwrap();
+    let measure = plot.kind.measure(word).unwrap();
     (measure.value)(lab.context(plot, &lab.present().unwrap()))
 }
 

@@ -71,7 +71,7 @@ fn a_paused_cloud_is_at_the_time_of_the_motion() {
     }
     // looked at in the past
     experiment.execute(Command::Pause);
-    experiment.execute(Command::LookAt(2.3456));
+    experiment.execute(Command::ScrubTo(2.3456));
     see(&mut app, &mut experiment, 7.777);
     let (sin, cos) = (2.3456_f64 - 0.01).sin_cos();
     let turned = |[q, p]: [f64; 2]| [q * cos + p * sin, p * cos - q * sin];

@@ -21,7 +21,8 @@ fn opened(text: &str, beside: &[(&str, &str)]) -> App {
         plot.over = offer.over;
         plot
     };
-    let section = Plot::opening(physics).into_iter().find(|plot| plot.kind.is_section()).unwrap();
+    let section =
+        Plot::opening(physics).into_iter().find(|plot| plot.kind.properties().is_section).unwrap();
     lab.plots = [section].into_iter().chain(beside.iter().map(picture)).collect();
     see(&mut app, &mut experiment, 0.01);
     app

@@ -196,7 +196,7 @@ pub(crate) fn opened(ready: Prepared, time: f64) -> (App, usize) {
     let (mut app, mut experiment) = open(ready);
     see(&mut app, &mut experiment, time);
     let plots = &app.lab.as_ref().unwrap().plots;
-    let index = plots.iter().position(|plot| plot.kind.is_section()).unwrap();
+    let index = plots.iter().position(|plot| plot.kind.properties().is_section).unwrap();
     (app, index)
 }
 
@@ -279,7 +279,7 @@ fn the_running_motion_has_its_rotation_number_in_the_title() {
         ["rising", "regular orbits in several colours", "amber: chaotic"]
     );
     let lab = app.lab.as_ref().unwrap();
-    let own = lab.plots[index].kind.measures().iter().find(|m| m.word == "own_rotation").unwrap();
+    let own = lab.plots[index].kind.measure("own_rotation").unwrap();
     let present = lab.present().unwrap();
     let context = PlotContext { plot: &lab.plots[index], present: &present, answer: None };
     assert_eq!((own.value)(context), None);
@@ -550,8 +550,8 @@ fn sections_open_the_systems_that_are_known_by_them() {
             equations: &ready.equations,
             system: &ready.system,
         });
-        assert!(loaded[0].kind.is_section(), "{name}");
+        assert!(loaded[0].kind.properties().is_section, "{name}");
     }
     let app = lab("pendulum", 1.0);
-    assert!(app.lab.unwrap().plots.iter().all(|plot| !plot.kind.is_section()));
+    assert!(app.lab.unwrap().plots.iter().all(|plot| !plot.kind.properties().is_section));
 }

@@ -38,7 +38,7 @@ fn shown(app: &App, plot: &Plot) -> (Vec<Vec<[f64; 2]>>, Vec<String>) {
 
 fn measure(app: &App, plot: &Plot, word: &str) -> f64 {
     let lab = app.lab.as_ref().expect("a lab");
-    let all = plot.kind.measures();
+    let all = plot.kind.properties().measures;
     let measure = all.iter().find(|measure| measure.word == word).expect("it is measured");
     (measure.value)(lab.context(plot, &lab.present().expect("a motion"))).expect("a value")
 }

@@ -7,7 +7,7 @@ use crate::honest::{plain, sources};
 use crate::nonempty;
 
 /// Words of which no name is made: each has a standard one.
-const PRIVATE: [&str; 52] = [
+const PRIVATE: [&str; 58] = [
     "aside",
     "beat",
     "blow",
@@ -28,8 +28,12 @@ const PRIVATE: [&str; 52] = [
     "keeper",
     "kin",
     "laboratory",
+    "laid",
     "likeness",
     "listen",
+    "look",
+    "looked",
+    "looks",
     "mistake",
     "needle",
     "news",
@@ -42,6 +46,8 @@ const PRIVATE: [&str; 52] = [
     "refusal",
     "said",
     "seat",
+    "settle",
+    "sheet",
     "shelf",
     "sought",
     "spot",

@@ -13,7 +13,7 @@ use crate::cli::count_bar::CountBar;
 use crate::cli::decimal::divisions;
 use crate::cli::error::CommandError;
 use crate::cli::interrupt::Interrupt;
-use crate::cli::motion_options::{Laid, ModelReading};
+use crate::cli::motion_options::{CompiledMotion, ModelReading};
 use crate::cli::output::Output;
 use crate::ensemble::SystemFlow;
 use crate::printable;
@@ -36,14 +36,14 @@ pub(super) fn execute(
     (index, until): (usize, f64),
     interrupt: &Interrupt,
 ) -> Result<(), CommandError> {
-    let laid = arguments.motion.compile(reading, &[], "", interrupt)?;
-    if until <= laid.start.time {
-        let [until, start] = [until, laid.start.time].map(printable::number);
+    let compiled = arguments.motion.compile(reading, &[], "", interrupt)?;
+    if until <= compiled.start.time {
+        let [until, start] = [until, compiled.start.time].map(printable::number);
         let message = format!("the motion begins at {start}; --until {until} is not after it");
         return Err(CommandError::WrongUse(message));
     }
     interrupt.ends_by_itself(|| ());
-    let along = followed(&laid, (index, until, arguments.count), interrupt)?;
+    let along = followed(&compiled, (index, until, arguments.count), interrupt)?;
     if along.moments.is_empty() {
         return Err(match (interrupt.signal(), along.why) {
             (Some(signal), _) => CommandError::Signal(signal),
@@ -52,7 +52,7 @@ pub(super) fn execute(
     }
     let out = Output::open(arguments.output.as_deref(), arguments.format.form())?;
     let stopped = interrupt.signal().is_some();
-    out.write_after_signal(|| along.written(arguments.format, &laid, stopped), interrupt)?;
+    out.write_after_signal(|| along.written(arguments.format, &compiled, stopped), interrupt)?;
     match (interrupt.signal(), along.why) {
         (Some(signal), _) => Err(CommandError::Signal(signal)),
         (None, Some(why)) => Err(CommandError::CouldNot(why)),
@@ -61,15 +61,16 @@ pub(super) fn execute(
 }
 
 fn followed(
-    laid: &Laid,
+    compiled: &CompiledMotion,
     (index, until, count): (usize, f64, u32),
     interrupt: &Interrupt,
 ) -> Result<ActionsAlong, CommandError> {
     let could_not = |why: String| CommandError::CouldNot(why);
-    let (system, start) = (&laid.system, &laid.start);
-    let frozen = FrozenSystem::of(&laid.model, index, FrozenSystem::PRECISE, interrupt.cancel())
-        .map_err(|why| could_not(why.to_string()))?;
-    let degrees = laid.model.coordinates.len();
+    let (system, start) = (&compiled.system, &compiled.start);
+    let frozen =
+        FrozenSystem::of(&compiled.model, index, FrozenSystem::PRECISE, interrupt.cancel())
+            .map_err(|why| could_not(why.to_string()))?;
+    let degrees = compiled.model.coordinates.len();
     let kinds =
         (0..degrees).map(ChannelKind::Position).chain((0..degrees).map(ChannelKind::Momentum));
     let channels: Option<Vec<usize>> =
@@ -78,7 +79,7 @@ fn followed(
     let state = start.state(system).map_err(|why| could_not(why.to_string()))?;
     let flow = SystemFlow {
         system: system.clone(),
-        method: (laid.method, laid.settings),
+        method: (compiled.method, compiled.settings),
         parameters: start.parameters.clone(),
         start: start.time,
         effort: None,
@@ -86,7 +87,7 @@ fn followed(
     let times: Vec<f64> = divisions(start.time, until, count).collect();
     let seen = flow.carry(&state, &times, &channels).seen;
     let mut along = ActionsAlong {
-        coordinate: laid.model.coordinates[index].name.clone(),
+        coordinate: compiled.model.coordinates[index].name.clone(),
         places: Vec::new(),
         moments: Vec::new(),
         depends_on_time: frozen.depends_on_time(),
@@ -125,7 +126,7 @@ impl ActionsAlong {
         Some(self.moments.iter().map(|moment| moment.angle - first.even(moment.time)).collect())
     }
 
-    fn written(&self, format: TableFormat, laid: &Laid, stopped: bool) -> String {
+    fn written(&self, format: TableFormat, compiled: &CompiledMotion, stopped: bool) -> String {
         let residuals = self.residuals();
         let mut names = vec!["t", &self.coordinate, "energy", "action", "frequency", "angle"];
         if residuals.is_some() {
@@ -140,7 +141,7 @@ impl ActionsAlong {
         let rows: Vec<Vec<f64>> = (0..self.moments.len()).map(row).collect();
         let largest = residuals.as_ref().map(|all| all.iter().fold(0.0_f64, |m, x| m.max(x.abs())));
         if format == TableFormat::Json {
-            let mut members = laid.header().members();
+            let mut members = compiled.header().members();
             let along = json!({
                 "columns": names,
                 "rows": rows,
@@ -161,7 +162,7 @@ impl ActionsAlong {
         let table: Vec<Vec<TableCell>> =
             rows.into_iter().map(|row| row.into_iter().map(TableCell::Number).collect()).collect();
         if format == TableFormat::Csv {
-            return laid.header().lines()
+            return compiled.header().lines()
                 + &cells::record(names)
                 + &cells::csv(table.iter().map(Vec::as_slice));
         }

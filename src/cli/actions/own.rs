@@ -3,7 +3,7 @@
 //! In: a compiled system. Out: the same as numbers, the region among those of an energy. Never here: actions.
 
 use crate::action_angle::AllowedInterval;
-use crate::cli::motion_options::Laid;
+use crate::cli::motion_options::CompiledMotion;
 use crate::ensemble::Root;
 use crate::system::ChannelKind;
 
@@ -14,13 +14,13 @@ pub(super) struct Own {
     pub(super) way: Root,
 }
 
-pub(super) fn own_start(laid: &Laid, index: usize) -> Result<Own, String> {
-    let state = laid.start.state(&laid.system).map_err(|why| why.to_string())?;
-    let mut values = vec![0.0; laid.system.columns()];
-    let mut observer = laid.system.observer(&laid.start.parameters);
+pub(super) fn own_start(compiled: &CompiledMotion, index: usize) -> Result<Own, String> {
+    let state = compiled.start.state(&compiled.system).map_err(|why| why.to_string())?;
+    let mut values = vec![0.0; compiled.system.columns()];
+    let mut observer = compiled.system.observer(&compiled.start.parameters);
     observer.observe_columns(&state, &mut values).map_err(|why| why.to_string())?;
     let value = |kind| {
-        let place = laid.system.channels().iter().position(|c| c.kind == kind);
+        let place = compiled.system.channels().iter().position(|c| c.kind == kind);
         place.map_or(f64::NAN, |place| values[place])
     };
     let place = value(ChannelKind::Position(index));

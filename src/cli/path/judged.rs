@@ -5,7 +5,7 @@
 use crate::cli::assignment::Assignment;
 use crate::cli::decimal::divisions;
 use crate::cli::error::CommandError;
-use crate::cli::motion_options::Laid;
+use crate::cli::motion_options::CompiledMotion;
 use crate::cli::path_function::PathFunctions;
 use crate::cli::{stderr, study};
 use crate::dynamics::{
@@ -76,7 +76,7 @@ struct MomentumVariation {
 
 /// Paths of one system that take the same time.
 pub(super) struct PathStudy<'a> {
-    laid: &'a Laid,
+    compiled: &'a CompiledMotion,
     equations: Equations,
     /// The parameters, and the constants that follow from a body.
     constants: Valuation,
@@ -85,14 +85,17 @@ pub(super) struct PathStudy<'a> {
 }
 
 impl<'a> PathStudy<'a> {
-    pub(super) fn new(laid: &'a Laid, duration: f64) -> Result<PathStudy<'a>, CommandError> {
-        let (model, parameters) = (&*laid.model, &laid.start.parameters);
-        let mut equations = (*laid.equations).clone();
+    pub(super) fn new(
+        compiled: &'a CompiledMotion,
+        duration: f64,
+    ) -> Result<PathStudy<'a>, CommandError> {
+        let (model, parameters) = (&*compiled.model, &compiled.start.parameters);
+        let mut equations = (*compiled.equations).clone();
         let constants =
             Valuation::of_parameters(model, parameters).with(body_constants(model, parameters));
         let lagrangian =
             Lagrangian::of(model, &mut equations, parameters).map_err(study::failed)?;
-        Ok(PathStudy { laid, equations, constants, lagrangian, duration })
+        Ok(PathStudy { compiled, equations, constants, lagrangian, duration })
     }
 
     /// Reads functions of the time; `None` if none are given.
@@ -101,7 +104,7 @@ impl<'a> PathStudy<'a> {
         given: &[Assignment],
         option: &str,
     ) -> Result<Option<PathFunctions>, CommandError> {
-        PathFunctions::read(&self.laid.model, &mut self.equations, given, option)
+        PathFunctions::read(&self.compiled.model, &mut self.equations, given, option)
     }
 
     /// Reads a variation of coordinates and momenta; `None` if there is none.
@@ -114,7 +117,7 @@ impl<'a> PathStudy<'a> {
         let momenta = match self.read(momenta, "--vary")? {
             None => None,
             Some(momenta) => {
-                let (model, parameters) = (&self.laid.model, &self.laid.start.parameters);
+                let (model, parameters) = (&self.compiled.model, &self.compiled.start.parameters);
                 let equations = &mut self.equations;
                 Some(MomentumVariation {
                     momenta,
@@ -130,7 +133,7 @@ impl<'a> PathStudy<'a> {
     }
 
     pub(super) fn along(&mut self, along: PathFunctions) -> BasePath {
-        let (model, equations) = (&self.laid.model, &mut self.equations);
+        let (model, equations) = (&self.compiled.model, &mut self.equations);
         let is_stationary = stationary(model, equations, &along, &self.constants, self.duration);
         BasePath::Written(along, is_stationary)
     }
@@ -182,7 +185,7 @@ impl<'a> PathStudy<'a> {
             let state = base(0.0);
             let momenta = lagrangian.momenta(0.0, &state);
             let variables = [&state[..momenta.len()], &momenta].concat();
-            let times = conjugates(self.laid, equations, &variables, duration);
+            let times = conjugates(self.compiled, equations, &variables, duration);
             times
                 .inspect_err(|why| {
                     stderr::report(&format!("conjugate points are not known: {why}"));
@@ -307,17 +310,20 @@ fn stationary(
 
 /// The conjugate points of the motion from these canonical variables.
 fn conjugates(
-    laid: &Laid,
+    compiled: &CompiledMotion,
     equations: &Equations,
     variables: &[f64],
     duration: f64,
 ) -> Result<Vec<f64>, DynamicsError> {
-    let parameters = &laid.start.parameters;
-    let space = PhaseSpace::without_end(&laid.model, equations, &laid.system, parameters)?;
-    let state =
-        laid.start.state(&laid.system).map_err(|why| DynamicsError::Unsuited(why.to_string()))?;
+    let parameters = &compiled.start.parameters;
+    let space =
+        PhaseSpace::without_end((&compiled.model, equations, &compiled.system), parameters)?;
+    let state = compiled
+        .start
+        .state(&compiled.system)
+        .map_err(|why| DynamicsError::Unsuited(why.to_string()))?;
     let start = space.state_at(&space.state(&state)?, variables);
-    conjugate_points(&space, (laid.method, laid.settings), &start, duration)
+    conjugate_points(&space, (compiled.method, compiled.settings), &start, duration)
 }
 
 #[cfg(test)]

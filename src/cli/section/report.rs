@@ -10,7 +10,7 @@ use serde_json::{Map, Value, json};
 use super::super::cells::{self, TableCell, TableFormat};
 use super::super::error::CommandError;
 use super::super::interrupt::Interrupt;
-use super::super::motion_options::Laid;
+use super::super::motion_options::CompiledMotion;
 use super::super::output::Output;
 use super::super::stderr;
 use crate::dynamics::{NoRotation, Rotation};
@@ -22,7 +22,7 @@ pub(super) type ShownColumn = (String, usize);
 
 /// All orbits, ready to be written.
 pub(super) struct SectionReport<'a> {
-    pub(super) laid: &'a Laid,
+    pub(super) compiled: &'a CompiledMotion,
     /// The expression of the surface as it was given, and the word for the direction.
     pub(super) on: &'a str,
     pub(super) direction: &'static str,
@@ -48,7 +48,7 @@ impl SectionReport<'_> {
             }
             TableFormat::Csv => {
                 let on = format!("# section: {} {}\n", printable::line(self.on), self.direction);
-                let head = self.laid.header().lines() + &on + &cells::record(columns);
+                let head = self.compiled.header().lines() + &on + &cells::record(columns);
                 let rows = self.rows().map(|row| cells::csv([row.as_slice()]));
                 let pieces = once(head).chain(rows).chain(once_with(|| self.remarks("# ")));
                 out.write_pieces(pieces, interrupt)
@@ -72,7 +72,7 @@ impl SectionReport<'_> {
 
     /// The members of the JSON object before the rows.
     fn head(&self, columns: &[String]) -> Map<String, Value> {
-        let mut members = self.laid.header().members();
+        let mut members = self.compiled.header().members();
         members.insert("on".to_owned(), self.on.into());
         members.insert("direction".to_owned(), self.direction.into());
         members.insert("columns".to_owned(), json!(columns));

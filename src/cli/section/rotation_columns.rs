@@ -3,7 +3,7 @@
 //! In: the names of one or two columns, rows. Out: the rotation number. Never here: how crossings are found.
 
 use super::super::error::CommandError;
-use super::super::motion_options::Laid;
+use super::super::motion_options::CompiledMotion;
 use crate::dynamics::{NoRotation, Rotation, angle_rotation, rotation};
 use crate::printable;
 
@@ -14,12 +14,15 @@ pub(super) struct RotationColumns {
 }
 
 impl RotationColumns {
-    pub(super) fn of(laid: &Laid, names: &[String]) -> Result<RotationColumns, CommandError> {
+    pub(super) fn of(
+        compiled: &CompiledMotion,
+        names: &[String],
+    ) -> Result<RotationColumns, CommandError> {
         let wrong = |why: String| Err(CommandError::WrongUse(format!("--rotation: {why}")));
         if names.is_empty() || names.len() > 2 {
             return wrong("name one column that is an angle, or two columns".to_owned());
         }
-        let columns = laid.header().columns;
+        let columns = compiled.header().columns;
         let mut turning = RotationColumns { places: Vec::new(), periods: [None; 2] };
         for (i, name) in names.iter().enumerate() {
             let called = name.split_once('=').map_or(name.as_str(), |(name, _)| name).trim();
@@ -28,7 +31,7 @@ impl RotationColumns {
                 return wrong(format!("unknown column `{}`", printable::quoted(called)));
             };
             turning.places.push(place);
-            turning.periods[i] = laid.system.period(place - 1, &laid.start.parameters);
+            turning.periods[i] = compiled.system.period(place - 1, &compiled.start.parameters);
         }
         if names.len() == 1 && turning.periods[0].is_none() {
             return wrong(format!(

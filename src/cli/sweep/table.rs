@@ -11,7 +11,7 @@ use super::super::assignment;
 use super::super::cells::{self, TableCell};
 use super::super::error::CommandError;
 use super::super::interrupt::Interrupt;
-use super::super::motion_options::{Laid, ModelReading, MotionOptions};
+use super::super::motion_options::{CompiledMotion, ModelReading, MotionOptions};
 use super::super::report::Header;
 use super::super::section::surface;
 use super::super::starts::Starts;
@@ -93,7 +93,7 @@ enum Set {
 
 /// All rows of a sweep.
 pub(super) struct SweepTable {
-    laid: Laid,
+    compiled: CompiledMotion,
     plan: RunPlan,
     names: Vec<String>,
     set: Vec<Set>,
@@ -149,8 +149,8 @@ impl SweepTable {
         let set = starts.names.iter().map(set).collect::<Result<Vec<Set>, _>>()?;
         let taken = |name: &MeasureName| taken(motion, reading.clone(), name, interrupt);
         let measures = measures.iter().map(taken).collect::<Result<Vec<Taken>, _>>()?;
-        let laid = motion.compile(reading, &[], "--observe", interrupt)?;
-        let until = until.or(laid.model.run.until);
+        let compiled = motion.compile(reading, &[], "--observe", interrupt)?;
+        let until = until.or(compiled.model.run.until);
         if let Some((row, start)) =
             all.iter().enumerate().find(|(_, s)| until.is_some_and(|until| until < s.time))
         {
@@ -159,14 +159,14 @@ impl SweepTable {
             return Err(CommandError::WrongUse(message));
         }
         let plan = RunPlan {
-            model: laid.model.clone(),
-            equations: laid.equations.clone(),
-            system: laid.system.clone(),
-            method: laid.method.name.to_owned(),
-            settings: laid.settings,
+            model: compiled.model.clone(),
+            equations: compiled.equations.clone(),
+            system: compiled.system.clone(),
+            method: compiled.method.name.to_owned(),
+            settings: compiled.settings,
         };
         let names = starts.names.clone();
-        Ok(SweepTable { laid, plan, names, set, starts: all, until, measures, text })
+        Ok(SweepTable { compiled, plan, names, set, starts: all, until, measures, text })
     }
 
     pub(super) fn count(&self) -> usize {
@@ -175,12 +175,12 @@ impl SweepTable {
 
     /// The report before the rows.
     pub(super) fn header(&self) -> Header {
-        self.laid.header()
+        self.compiled.header()
     }
 
     /// What to try where a conserved quantity has left its value.
     pub(super) fn advice(&self) -> String {
-        let (settings, method) = (self.laid.settings, self.laid.method);
+        let (settings, method) = (self.compiled.settings, self.compiled.method);
         advice(method.name, settings.step, settings.tolerance)
     }
 
@@ -253,12 +253,12 @@ impl SweepTable {
         let mut all = vec![Some(Vec::new()); ended.len()];
         for taken in &self.measures {
             let orbits = MeasuredOrbits {
-                model: &self.laid.model,
-                equations: &self.laid.equations,
+                model: &self.compiled.model,
+                equations: &self.compiled.equations,
                 system: &taken.system,
                 event: taken.event,
-                method: self.laid.method,
-                settings: self.laid.settings,
+                method: self.compiled.method,
+                settings: self.compiled.settings,
                 orbits: &orbits,
             };
             let mut found = (taken.name.measure.measure)(&orbits).into_iter();
@@ -315,10 +315,10 @@ fn taken(
     interrupt: &Interrupt,
 ) -> Result<Taken, CommandError> {
     if name.measure.of == Zeros::None {
-        let laid = motion.compile(reading, &[], "--observe", interrupt)?;
-        let Laid { model, equations, system, start, .. } = laid;
+        let compiled = motion.compile(reading, &[], "--observe", interrupt)?;
+        let CompiledMotion { model, equations, system, start, .. } = compiled;
         // said once, and not in every row
-        PhaseSpace::on_constraints(&model, &equations, &system, &start.parameters).map_err(
+        PhaseSpace::on_constraints((&model, &equations, &system), &start.parameters).map_err(
             |why| CommandError::WrongUse(format!("--measure {}: {why}", name.measure.name)),
         )?;
         return Ok(Taken { name: name.clone(), system, event: None });
@@ -336,6 +336,6 @@ fn taken(
     };
     let zeros = surface(&mut reading.model, &written, "--measure")?;
     let event = add_section(&mut reading.model, zeros, Direction::Rising);
-    let laid = motion.compile(reading, &[], "--observe", interrupt)?;
-    Ok(Taken { name: name.clone(), system: laid.system, event: Some(event) })
+    let compiled = motion.compile(reading, &[], "--observe", interrupt)?;
+    Ok(Taken { name: name.clone(), system: compiled.system, event: Some(event) })
 }

@@ -27,9 +27,6 @@ const LARGE: f64 = 1e3;
 /// error and no motion: a quantity each of whose terms is constant.
 const ERROR: f64 = 1e3;
 
-/// A distance is rounding of the state up to this multiple of the change by half a digit of each of its numbers.
-const OF_STATE: f64 = 4.0;
-
 #[derive(Clone, Debug)]
 pub(super) struct InvariantMonitor {
     pub(super) invariant: MonitoredInvariant,
@@ -247,17 +244,8 @@ impl InvariantMonitor {
             && distance > floor * self.rounding.greatest
             && self.change_law().is_none()
             && moving > 0.0;
-        let Some(quantity) = self.invariant.quantity.filter(|_| is_far) else {
-            return false;
-        };
-        if let Some((change, input)) = by_state(quantity)
-            && distance <= OF_STATE * f64::EPSILON * change
-        {
-            self.seen.note_rounding(Some((change, input)));
-            self.seen.note(time, distance, size);
-            return true;
-        }
-        false
+        let change = self.invariant.quantity.filter(|_| is_far).and_then(by_state);
+        self.seen.note_if_rounding((time, distance), size, change)
     }
 
     /// Records an accurate value and returns its distance; `floor` is the rounding error of a value of size 1.

@@ -9,6 +9,9 @@ use crate::system::TermWatch;
 /// A change of a value by more than this many ε of its terms is one of the state.
 const LAST_DIGITS: f64 = 4.0;
 
+/// A distance is rounding of the state up to this multiple of the change by half a digit of each of its numbers.
+const OF_STATE: f64 = 4.0;
+
 /// By how much rounding of the state that was observed last changes a quantity, in units of ε, and the variable that changes it most.
 pub(in crate::experiment) fn by_rounding_of_state(
     terms: &TermWatch,
@@ -40,6 +43,22 @@ impl SeenDistances {
         if is_far && distance > Self::hidden(size) {
             self.distances.push((time, distance));
         }
+    }
+
+    /// Records a distance, with what made it, if it is no more than rounding of the state; `change` is that of the value.
+    pub(super) fn note_if_rounding(
+        &mut self,
+        (time, distance): (f64, f64),
+        size: f64,
+        change: Option<(f64, RoundedInput)>,
+    ) -> bool {
+        let limit = change.as_ref().map_or(0.0, |(change, _)| OF_STATE * f64::EPSILON * change);
+        let is_rounding = change.is_some() && distance <= limit;
+        if is_rounding {
+            self.note_rounding(change);
+            self.note(time, distance, size);
+        }
+        is_rounding
     }
 
     /// Continues from the greatest distance of a motion that was saved, seen at this time.
@@ -95,6 +114,7 @@ fn greater(
 #[cfg(test)]
 mod tests {
     use super::SeenDistances;
+    use crate::analysis::RoundedInput;
 
     #[test]
     fn a_change_is_one_of_the_state_beyond_four_units_in_the_last_place_of_its_terms() {
@@ -106,5 +126,17 @@ mod tests {
         for size in [1e-300, 3.0, 1e200] {
             assert!(!seen(3.9, size) && seen(4.1, size), "{size}");
         }
+    }
+
+    #[test]
+    fn rounding_of_the_state_explains_four_times_the_change_by_half_a_digit() {
+        let is_rounding = |units: f64| {
+            let mut seen = SeenDistances::default();
+            let input = RoundedInput { name: "x".to_owned(), digits: f64::EPSILON };
+            seen.note_if_rounding((1.0, units * f64::EPSILON), 0.0, Some((1.0, input)))
+        };
+        assert!(is_rounding(3.9) && !is_rounding(4.1));
+        let unknown = SeenDistances::default().note_if_rounding((1.0, 0.0), 0.0, None);
+        assert!(!unknown, "where no change is known nothing is explained");
     }
 }

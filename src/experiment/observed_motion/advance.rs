@@ -10,7 +10,7 @@ use crate::integrate::{OccurrenceKind, Reached, Stepping};
 use crate::system::MotionError;
 
 /// A method whose dense output is as accurate as its steps is observed inside one of so many steps.
-const LOOKED_INSIDE: u64 = 4;
+const OBSERVED_INSIDE: u64 = 4;
 
 impl ObservedMotion {
     /// Advances to `time`, or to the first occurrence before it, in at most `budget` steps, which are subtracted from
@@ -160,8 +160,8 @@ impl ObservedMotion {
         let at = |clock: f64, dense| ObservedAt { clock, time: *sign * clock, steps, dense };
         let of_series = inner.method().order.is_none();
         // the state of a series is as accurate within a step as at its end
-        let looks_inside = new && sparse && (due || steps.is_multiple_of(LOOKED_INSIDE));
-        if looks_inside && of_series {
+        let observes_inside = new && sparse && (due || steps.is_multiple_of(OBSERVED_INSIDE));
+        if observes_inside && of_series {
             let time = begin + watch.next_weyl() * (end - begin);
             if inner.anywhere_inside(time, inside).is_ok() {
                 if due && watch.observe_channels(inside, at(time, false), observer, gauges) {

@@ -395,7 +395,7 @@ impl CloudTask {
     /// The rate at which the integral changes, where it is one number.
     fn rate(&self, points: &[Option<State>]) -> Option<f64> {
         let parameters = &self.conditions.parameters;
-        let space = PhaseSpace::of(&self.model, &self.equations, &self.system, parameters);
+        let space = PhaseSpace::of((&self.model, &self.equations, &self.system), parameters);
         let space = space.ok()?;
         let states: Vec<State> = points
             .iter()

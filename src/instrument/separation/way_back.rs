@@ -56,7 +56,7 @@ pub(super) fn job(PlotContext { present, answer, .. }: PlotContext<'_>) -> Need 
     Need::Job(Job::new("return error", move |progress| {
         let system = system.with_cancel(progress.token().clone());
         let WayConditions { parameters, turned, start, settings, .. } = &conditions;
-        let space = PhaseSpace::on_constraints(&model, &equations, &system, parameters).ok();
+        let space = PhaseSpace::on_constraints((&model, &equations, &system), parameters).ok();
         let growth = space.and_then(|space| {
             let turned = space.state(turned).ok()?;
             return_growth(&space, (method, *settings), &turned, *start)

@@ -70,7 +70,7 @@ impl Propagator {
                 && *budget > 0
             {
                 *budget -= 1;
-                self.settle(limit)?;
+                self.step_past_impulse(limit)?;
                 continue;
             }
             if self.search.clear >= time {
@@ -110,7 +110,7 @@ impl Propagator {
 
     /// Takes the next step after an impulse, which shows what else happens at its time: the state there is that after all of it.
     /// A step that cannot be taken shows nothing, and is an error once the motion is to be continued.
-    fn settle(&mut self, limit: f64) -> Result<(), MotionError> {
+    fn step_past_impulse(&mut self, limit: f64) -> Result<(), MotionError> {
         self.search.unsettled = false;
         if self.stepper.time() <= self.search.clear && self.step(limit).is_err() {
             return Ok(());

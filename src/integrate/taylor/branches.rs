@@ -223,7 +223,7 @@ mod tests {
     }
 
     #[test]
-    fn a_root_that_stays_above_a_fifth_of_its_largest_is_not_looked_at() {
+    fn a_root_that_stays_above_a_fifth_of_its_largest_is_not_searched() {
         // 1 − 4 d t (1 − t) has its least value 1 − d at ½, where one of the samples is; a root
         // just beside a sample is found where the values fall below a fifth
         let dips = |d: f64| passes(&[1.0, -4.0 * d, 4.0 * d], 1.0).is_some();

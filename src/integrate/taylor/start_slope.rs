@@ -24,7 +24,7 @@ pub(super) fn sizes(start: &State, before: &State) -> Vec<f64> {
 }
 
 /// Sets numbers to zero of which an impulse has left nothing but rounding.
-pub(super) fn settle(start: &mut State, before: &State) {
+pub(super) fn clear_rounding(start: &mut State, before: &State) {
     for (i, &earlier) in before.values.iter().enumerate() {
         if start.values[i].abs() <= LAST_DIGITS * earlier.abs() {
             start.set(i, DoubleDouble::ZERO);

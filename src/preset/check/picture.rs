@@ -30,7 +30,7 @@ impl ModelBuilder<'_> {
         for view in written {
             let (mut axes, mut over) = (Vec::new(), Vec::new());
             for (place, formulas) in view.axes.iter().enumerate() {
-                let axis = view.kind.written().get(place);
+                let axis = view.kind.properties().written.get(place);
                 let mut channels = Vec::new();
                 for formula in formulas {
                     let Some(expression) = self.formula(&mut scope, "a view", formula) else {
@@ -62,7 +62,9 @@ impl ModelBuilder<'_> {
             });
             let section = match &view.section {
                 None => None,
-                Some(written) if written.on.is_none() && view.kind.follows_motions() => None,
+                Some(written) if written.on.is_none() && view.kind.properties().follows_motions => {
+                    None
+                }
                 Some(written) => {
                     let Some((on, section)) = self.section(written, &view.place) else { continue };
                     axes.push(vec![on]);

@@ -115,7 +115,7 @@ pub(super) fn views(top: &mut Table<'_>) -> Vec<DraftView> {
 fn view(mut table: Table<'_>) -> Option<DraftView> {
     let help = format!("write kind = {}", listed("\"", "or"));
     let Some((_, found)) = table.require("kind", &help) else {
-        let axes = INSTRUMENTS.into_iter().flat_map(Instrument::written);
+        let axes = INSTRUMENTS.into_iter().flat_map(|kind| kind.properties().written);
         for key in axes
             .map(|axis| axis.key)
             .chain(["title", "frame", "shapes", "over", "of", "until", "slope", "field"])
@@ -131,15 +131,16 @@ fn view(mut table: Table<'_>) -> Option<DraftView> {
     table.called = format!("this view of kind {}", written.get_ref());
     let title = table.line("title");
     let place = table.place.clone();
+    let properties = kind.properties();
     let mut axes: Vec<Vec<Formula>> =
-        kind.written().iter().map(|axis| several(&mut table, axis)).collect();
+        properties.written.iter().map(|axis| several(&mut table, axis)).collect();
     let (mut frame, mut shapes) = (None, None);
-    if kind.is_scene() {
+    if properties.is_scene {
         frame = table.text("frame");
         shapes = table.has("shapes").then(|| shapes_of(&mut table));
     }
     let mut until = None;
-    if kind.follows_motions() {
+    if properties.follows_motions {
         let of = table.take("of");
         axes.extend(of.map(|(_, found)| {
             value::formula(found, "`of`", table.diagnostics).into_iter().collect::<Vec<_>>()
@@ -147,16 +148,16 @@ fn view(mut table: Table<'_>) -> Option<DraftView> {
         let found = table.take("until");
         until = found.and_then(|(_, found)| value::formula(found, "`until`", table.diagnostics));
     }
-    let section = kind.is_section().then(|| section(&mut table, !kind.follows_motions()));
+    let section = properties.is_section.then(|| section(&mut table, !properties.follows_motions));
     let (mut over, mut slope) = (None, false);
-    if kind.is_over_a_parameter() {
+    if properties.is_over_a_parameter {
         over = table.text("over");
         if over.is_none() {
             table.require("over", "write over = \"...\", a parameter");
         }
         slope = table.flag("slope").is_some_and(|flag| *flag.get_ref());
     }
-    let field = if kind.has_vector_field() { table.flag("field") } else { None };
+    let field = if properties.has_vector_field { table.flag("field") } else { None };
     table.finish();
     Some(DraftView { place, kind, title, axes, frame, shapes, section, over, until, slope, field })
 }

@@ -7,7 +7,7 @@ use ValueKind::{
     Point, Table, Tables, Text, Texts, Triple,
 };
 
-use crate::instrument::{INSTRUMENTS, Instrument, listed};
+use crate::instrument::{INSTRUMENTS, Instrument, Properties, listed};
 
 /// A table of the file, or of a list in it.
 #[derive(Debug)]
@@ -40,7 +40,7 @@ pub(in crate::preset) enum Only {
     /// Only entries of these kinds.
     Of(&'static [&'static str]),
     /// The views whose kind of plot has this property.
-    Plots(fn(&dyn Instrument) -> bool),
+    Plots(fn(&Properties) -> bool),
 }
 
 impl Only {
@@ -55,7 +55,7 @@ impl Only {
             Self::All => Vec::new(),
             Self::Of(kinds) => kinds.to_vec(),
             Self::Plots(has) => {
-                let kinds = INSTRUMENTS.into_iter().filter(|kind| has(*kind));
+                let kinds = INSTRUMENTS.into_iter().filter(|kind| has(kind.properties()));
                 kinds.map(Instrument::name).collect()
             }
         }
@@ -108,7 +108,7 @@ impl Key {
         Key { only: Only::Of(only), ..self }
     }
 
-    pub(super) const fn of_plots(self, has: fn(&dyn Instrument) -> bool) -> Key {
+    pub(super) const fn of_plots(self, has: fn(&Properties) -> bool) -> Key {
         Key { only: Only::Plots(has), ..self }
     }
 

@@ -4,7 +4,7 @@
 
 use super::key::ValueKind::{Flag, Formula, Formulas, List, Number, PlotKind, Point, Text, Triple};
 use super::key::{NAME, SchemaTable, key};
-use crate::instrument::Instrument;
+use crate::instrument::Properties;
 
 pub(super) const FRAME: SchemaTable = SchemaTable {
     head: "[[frames]]",
@@ -40,36 +40,36 @@ pub(super) const VIEW: SchemaTable = SchemaTable {
             .of_plots(|plot| has_axis(plot, "y")),
         key("over", Text, "the parameter over whose range it runs")
             .needed("write over = \"...\", a parameter")
-            .of_plots(|plot| plot.is_over_a_parameter()),
+            .of_plots(|plot| plot.is_over_a_parameter),
         key("on", Formula, "vanishes on the surface of section")
             .needed("write on = \"...\", which vanishes on the surface")
-            .of_plots(|plot| plot.is_section()),
+            .of_plots(|plot| plot.is_section),
         key("direction", Text, "of the crossings: `rising`, `falling` or `either`; `rising`")
-            .of_plots(|plot| plot.is_section()),
+            .of_plots(|plot| plot.is_section),
         key("x_range", Formulas, "the two ends of the horizontal axis")
-            .of_plots(|plot| plot.is_section()),
+            .of_plots(|plot| plot.is_section),
         key("y_range", Formulas, "the two ends of the vertical axis")
-            .of_plots(|plot| plot.is_section()),
+            .of_plots(|plot| plot.is_section),
         key(
             "of",
             Formula,
             "the quantity at the end of the motions; without it and `on` the largest exponent",
         )
-        .of_plots(|plot| plot.follows_motions()),
+        .of_plots(|plot| plot.follows_motions),
         key("until", Formula, "the time at which the motions end")
-            .of_plots(|plot| plot.follows_motions()),
+            .of_plots(|plot| plot.follows_motions),
         key("slope", Flag, "`true` draws the straight line of least squares, with its slope")
-            .of_plots(|plot| plot.is_over_a_parameter()),
+            .of_plots(|plot| plot.is_over_a_parameter),
         key("field", Flag, "`true` draws the vector field of the plane, with its nullclines")
-            .of_plots(|plot| plot.has_vector_field()),
-        key("frame", Text, "the frame it is seen from").of_plots(|plot| plot.is_scene()),
+            .of_plots(|plot| plot.has_vector_field),
+        key("frame", Text, "the frame it is seen from").of_plots(|plot| plot.is_scene),
         key("shapes", List(&SHAPE), "what is drawn in place of the shapes of [space]")
-            .of_plots(|plot| plot.is_scene()),
+            .of_plots(|plot| plot.is_scene),
     ],
 };
 
-fn has_axis(plot: &dyn Instrument, key: &str) -> bool {
-    plot.written().iter().any(|axis| axis.key == key)
+fn has_axis(plot: &Properties, key: &str) -> bool {
+    plot.written.iter().any(|axis| axis.key == key)
 }
 
 pub(super) const SPACE: SchemaTable = SchemaTable {

@@ -35,17 +35,17 @@ impl Glyph {
 type Weight = [bool; 4];
 
 /// The characters that were drawn.
-pub(super) struct GlyphSheet {
+pub(super) struct GlyphAtlas {
     cell: (usize, usize),
     font: Font,
     known: HashMap<(char, Weight), Glyph>,
 }
 
-impl GlyphSheet {
+impl GlyphAtlas {
     /// For cells of a width in pixels, which are twice as high.
-    pub(super) fn new(width: usize) -> GlyphSheet {
+    pub(super) fn new(width: usize) -> GlyphAtlas {
         let cell = (width, 2 * width);
-        GlyphSheet { cell, font: Font::new(cell), known: HashMap::new() }
+        GlyphAtlas { cell, font: Font::new(cell), known: HashMap::new() }
     }
 
     /// The width and height of a cell in pixels.

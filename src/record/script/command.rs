@@ -58,7 +58,7 @@ pub const COMMANDS: &[CommandRow] = &[
     row("Set", "Set NAME = EXPR", "set a parameter, or an initial value (which restarts the motion)", set),
     row("Sweep", "Sweep NAME [from EXPR] to EXPR [and NAME …] in 3s", "change parameters or initial values linearly to other values while time passes; together they are undone as one change", sweep),
     row("Speed", "Speed EXPR", "simulated seconds in a second", speed),
-    row("Look", "Look at EXPR", "pause and look at a time of the recorded past; what acts on the motion continues it from there", look),
+    row("Look", "Look at EXPR", "pause and look at a time of the recorded past; what acts on the motion continues it from there", scrub_to),
     row("Focus", "Focus PANE", "focus a pane and bring it into view: a picture by its kind, as `phase`, or `parameters`, `initial`, `gauges`, `law`", focus),
     row("Extent", "Extent [NAME from EXPR to EXPR [and NAME …]]", "the least range of quantities in the pictures, so that their scale does not change with the motion; without a name, as the motion has it", extent),
     row("Caption", "Caption \"TEXT\"", "write a line below the screen; without a text, remove it", caption),
@@ -235,9 +235,9 @@ fn speed(line: &mut ScriptLine<'_>) -> Result<ParsedLine, Diagnostic> {
     Ok(ParsedLine::Step(ScriptStep::Speed(line.until(&[], "a speed")?)))
 }
 
-fn look(line: &mut ScriptLine<'_>) -> Result<ParsedLine, Diagnostic> {
+fn scrub_to(line: &mut ScriptLine<'_>) -> Result<ParsedLine, Diagnostic> {
     expect(line, "at")?;
-    Ok(ParsedLine::Step(ScriptStep::Look(line.until(&[], "a time")?)))
+    Ok(ParsedLine::Step(ScriptStep::ScrubTo(line.until(&[], "a time")?)))
 }
 
 fn focus(line: &mut ScriptLine<'_>) -> Result<ParsedLine, Diagnostic> {

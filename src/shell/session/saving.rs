@@ -97,7 +97,7 @@ impl Session {
     pub(super) fn keep_within(&mut self, time: Duration) -> io::Result<()> {
         self.keep(true)?;
         let Some(store) = &mut self.saving.store else { return Ok(()) };
-        let first = store.settle(time).into_iter().next();
+        let first = store.wait_for_errors(time).into_iter().next();
         self.app.workbench.keeps = store.keeps_texts();
         first.map_or(Ok(()), Err)
     }

@@ -13,7 +13,7 @@ use crate::record::played;
 fn named(text: &str) -> Vec<Equilibrium> {
     let case = lowered(text);
     let parameters = case.model.parameter_values();
-    let space = PhaseSpace::of(&case.model, &case.equations, &case.system, &parameters).unwrap();
+    let space = PhaseSpace::of((&case.model, &case.equations, &case.system), &parameters).unwrap();
     let start = case.system.initial(0.0, &parameters, &[]).unwrap();
     let mut found = equilibria(&space, &space.state(&start).unwrap()).unwrap().found;
     name_equilibria(&case.model, &parameters, &mut found);

@@ -15,7 +15,7 @@ fn looked_at(seen: f64, key: &str) -> Option<f64> {
     app.update(AppEvent::Snapshot(Arc::new(at)));
     app.lab.as_mut().expect("a lab").marks = vec![0.5, 1.0, 1.5, 7.0];
     match press(&mut app, key)[..] {
-        [Effect::Execute(Command::LookAt(time))] => Some(time),
+        [Effect::Execute(Command::ScrubTo(time))] => Some(time),
         _ => None,
     }
 }

@@ -157,7 +157,7 @@ fn a_plot_without_a_section_becomes_one() {
     );
     let lab = app.lab.as_ref().unwrap();
     let (_, plot) = lab.focused_plot().unwrap();
-    assert!(plot.kind.is_section());
+    assert!(plot.kind.properties().is_section);
     assert_eq!(shown(&app), ("sin(phi)".to_owned(), Direction::Rising));
 }
 

@@ -56,10 +56,10 @@ fn a_parameter_undone_brings_back_the_motion_and_its_past() {
         let mut never = undisturbed(name, &[90, 60]);
         assert_eq!(bits(&real.experiment), bits(&never), "{name}");
         for experiment in [&mut real.experiment, &mut never] {
-            experiment.execute(Command::LookAt(0.4 * recorded.to));
+            experiment.execute(Command::ScrubTo(0.4 * recorded.to));
         }
         assert_eq!(bits(&real.experiment), bits(&never), "{name}");
-        never.execute(Command::LookAt(f64::MAX));
+        never.execute(Command::ScrubTo(f64::MAX));
         // redone, the motion is where it was when it was undone
         let mut real = Real::of(name);
         real.run(90);

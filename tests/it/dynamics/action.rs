@@ -156,7 +156,7 @@ fn picture_of(text: &str, time: f64, kind: &'static str) -> (String, impl Fn(&st
         let lab = app.lab.as_ref().unwrap();
         let plots = &mut lab.plots.iter();
         let plot: &Plot = plots.find(|plot| Some(plot.kind) == named(kind)).unwrap();
-        let measure = plot.kind.measures().iter().find(|measure| measure.word == word).unwrap();
+        let measure = plot.kind.measure(word).unwrap();
         (measure.value)(lab.context(plot, &lab.present().unwrap()))
     };
     (rows(&buffer).join("\n"), measure)

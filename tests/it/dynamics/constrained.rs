@@ -285,7 +285,7 @@ fn fixed_steps_and_impulses_under_constraints_are_refused() {
     let loaded = lowered(&pushed);
     let parameters = loaded.model.parameter_values();
     let (model, equations) = (&loaded.model, &loaded.equations);
-    let space = PhaseSpace::on_constraints(model, equations, &loaded.system, &parameters);
+    let space = PhaseSpace::on_constraints((model, equations, &loaded.system), &parameters);
     assert!(matches!(space, Err(DynamicsError::Unsuited(_))));
 }
 

@@ -118,7 +118,7 @@ fn what_has_no_derivative_somewhere_is_refused() {
     {
         let loaded = loaded(name, 1);
         let (model, equations) = (&loaded.model, &loaded.equations);
-        let space = PhaseSpace::of(model, equations, &loaded.system, &model.parameter_values());
+        let space = PhaseSpace::of((model, equations, &loaded.system), &model.parameter_values());
         let Err(DynamicsError::Unsuited(said)) = space else { panic!("{name} is let pass") };
         assert!(said.contains(why), "{name}: {said}");
     }

@@ -12,7 +12,7 @@ fn henon_heiles(given: &[InitialOverride]) -> (PhaseSpace, State) {
     let loaded = loaded("henon-heiles", 1);
     let parameters = loaded.model.parameter_values();
     let space =
-        PhaseSpace::of(&loaded.model, &loaded.equations, &loaded.system, &parameters).unwrap();
+        PhaseSpace::of((&loaded.model, &loaded.equations, &loaded.system), &parameters).unwrap();
     let state = loaded.system.initial(0.0, &parameters, given).unwrap();
     let state = space.state(&state).unwrap();
     (space, state)

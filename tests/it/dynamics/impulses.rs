@@ -16,7 +16,7 @@ use crate::fixtures::{loaded, lowered};
 pub(super) fn case(loaded: &Loaded, start: &[f64]) -> Case {
     let parameters = loaded.model.parameter_values();
     let (model, equations) = (&loaded.model, &loaded.equations);
-    let space = PhaseSpace::through_impulses(model, equations, &loaded.system, &parameters);
+    let space = PhaseSpace::through_impulses((model, equations, &loaded.system), &parameters);
     let space = space.unwrap();
     let state = loaded.system.initial(model.run.start, &parameters, &[]).unwrap();
     let mut start = (space.state(&state).unwrap(), start);
@@ -324,7 +324,7 @@ fn what_is_not_computed_is_refused() {
     // questions that take the motion to be smooth still refuse impulses
     let loaded = lowered(BALL);
     let (model, equations) = (&loaded.model, &loaded.equations);
-    let refused = PhaseSpace::of(model, equations, &loaded.system, &[]).unwrap_err();
+    let refused = PhaseSpace::of((model, equations, &loaded.system), &[]).unwrap_err();
     assert!(matches!(refused, DynamicsError::Unsuited(_)));
 }
 

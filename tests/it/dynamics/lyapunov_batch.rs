@@ -66,7 +66,7 @@ fn exponents_side_by_side_have_the_bits_that_they_have_alone() {
         let loaded = loaded(name, 1);
         let parameters = loaded.model.parameter_values();
         let (model, equations) = (&loaded.model, &loaded.equations);
-        let space = PhaseSpace::of(model, equations, &loaded.system, &parameters).unwrap();
+        let space = PhaseSpace::of((model, equations, &loaded.system), &parameters).unwrap();
         let start = loaded.system.initial(model.run.start, &parameters, &[]).unwrap();
         let case = Case { start: space.state(&start).unwrap(), space };
         assert!(goes_side_by_side(&case.space, fast(1e-15)), "{name}");

@@ -125,8 +125,7 @@ fn the_plane_shows_the_step_beside_the_map() {
     press(&mut app, "Wait Wait");
     let lab = app.lab.as_ref().expect("a lab");
     let plot = lab.plots.iter().find(|plot| plot.kind.name() == "transformation").expect("a plot");
-    let measure =
-        plot.kind.measures().iter().find(|m| m.word == "off_step").expect("it is measured");
+    let measure = plot.kind.measure("off_step").expect("it is measured");
     let off = (measure.value)(lab.context(plot, &lab.present().expect("a motion")));
     assert!(off.is_some_and(|off| off < 1e-15), "{off:?}");
     let page = |width, height| {

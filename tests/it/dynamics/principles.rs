@@ -146,7 +146,8 @@ fn a_thrown_ball_passes_a_focus_of_its_way_and_none_of_its_path() {
             .replacen("initial = 0.0", &format!("initial = 0.0, velocity = {vx}"), 1)
             .replacen("initial = 0.0 }", &format!("initial = 0.0, velocity = {vy} }}"), 1);
         let loaded = lowered(&text);
-        let space = PhaseSpace::of(&loaded.model, &loaded.equations, &loaded.system, &[]).unwrap();
+        let space =
+            PhaseSpace::of((&loaded.model, &loaded.equations, &loaded.system), &[]).unwrap();
         let start = space.state(&loaded.system.initial(0.0, &[], &[]).unwrap()).unwrap();
         let method = (&METHODS[0], Settings { step: None, tolerance: None });
         let touched = (vx * vx + vy * vy) / vy;
@@ -165,7 +166,8 @@ fn foci_at_equal_energy_are_those_of_geodesics() {
     let method = (&METHODS[0], Settings { step: None, tolerance: None });
     let found = |text: &str, duration: f64| {
         let loaded = lowered(text);
-        let space = PhaseSpace::of(&loaded.model, &loaded.equations, &loaded.system, &[]).unwrap();
+        let space =
+            PhaseSpace::of((&loaded.model, &loaded.equations, &loaded.system), &[]).unwrap();
         let start = space.state(&loaded.system.initial(0.0, &[], &[]).unwrap()).unwrap();
         conjugate_points_at_energy(&space, method, &start, duration)
     };
@@ -210,7 +212,7 @@ fn a_key_shows_the_next_principle() {
     let measure = |app: &App, kind: &str, word: &str| {
         let lab = app.lab.as_ref().unwrap();
         let plot: &Plot = lab.plots.iter().find(|p| Some(p.kind) == named(kind)).unwrap();
-        let measure = plot.kind.measures().iter().find(|measure| measure.word == word).unwrap();
+        let measure = plot.kind.measure(word).unwrap();
         (measure.value)(lab.context(plot, &lab.present().unwrap()))
     };
     let hamilton = shown(&mut app);

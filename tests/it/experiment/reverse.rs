@@ -181,13 +181,13 @@ fn the_run_before_is_shown_where_it_was_and_another_law_makes_an_end_of_it() {
     let newest = before.trail.rows().next_back().unwrap()[0];
     assert!(newest <= before.time && before.time - newest < 0.1, "{newest} {}", before.time);
     // where the way back is looked at again, so is the run before
-    experiment.execute(Command::LookAt(5.5));
+    experiment.execute(Command::ScrubTo(5.5));
     let seen = experiment.snapshot();
     let before = &seen.companions[0];
     assert_eq!((seen.time, before.time), (5.5, 5.5));
     let mut pairs = seen.values.iter().zip(before.values.iter()).filter(|(a, _)| a.is_finite());
     assert!(pairs.all(|(a, b)| (a - b).abs() < 1e-10));
-    experiment.execute(Command::LookAt(f64::NEG_INFINITY));
+    experiment.execute(Command::ScrubTo(f64::NEG_INFINITY));
     experiment.execute(Command::Parameter { index: 0, value: 1.5 });
     assert!(experiment.snapshot().returned.is_none() && experiment.is_backwards());
     experiment.execute(Command::AddNeighbour);

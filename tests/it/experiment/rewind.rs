@@ -125,9 +125,9 @@ fn before_an_impulse_the_steps_are_those_that_were_taken_there() {
         let (there, step) = (alone.snapshot().state, alone.snapshot().method.step);
         run(&mut back, 4.125);
         assert!(back.snapshot().method.step != step, "{method}: no other step after the impulse");
-        back.execute(Command::LookAt(2.125));
+        back.execute(Command::ScrubTo(2.125));
         assert_eq!(back.snapshot().state.values, there.values, "{method}, looked at");
-        back.execute(Command::LookAt(f64::INFINITY));
+        back.execute(Command::ScrubTo(f64::INFINITY));
         // a frame of one second
         back.execute(Command::Speed(60.0));
         back.execute(Command::StepBack(2));
@@ -163,10 +163,10 @@ fn a_step_in_time_is_gone_back_over_and_taken_again() {
             }
         };
         for time in [1.25, 0.75, 1.0, 2.0] {
-            back.execute(Command::LookAt(time));
+            back.execute(Command::ScrubTo(time));
             same(&back.snapshot().state.values, time, "looked at");
         }
-        back.execute(Command::LookAt(f64::INFINITY));
+        back.execute(Command::ScrubTo(f64::INFINITY));
         for time in [2.5, 2.0, 1.5, 1.0, 0.5] {
             back.execute(Command::StepBack(1));
             assert_eq!(back.time(), time);

@@ -10,7 +10,7 @@ fn what_is_seen_of_the_past_is_what_a_run_to_that_time_gives() {
         let mut experiment = shipped(name);
         run(&mut experiment, 4.0);
         for time in [0.0, 0.7, 3.1, 1.9, 2.0] {
-            experiment.execute(Command::LookAt(time));
+            experiment.execute(Command::ScrubTo(time));
             let seen = experiment.snapshot();
             assert_eq!((seen.time, &seen.status), (time, &Status::Paused));
             assert!(seen.recorded.scrubbed);
@@ -48,10 +48,10 @@ fn looking_changes_nothing_to_the_last_bit() {
     run(&mut looked, 20.0);
     run(&mut alone, 20.0);
     for time in [3.0, 17.5, 0.0] {
-        looked.execute(Command::LookAt(time));
+        looked.execute(Command::ScrubTo(time));
         assert_eq!(looked.snapshot().time, time);
     }
-    looked.execute(Command::LookAt(99.0));
+    looked.execute(Command::ScrubTo(99.0));
     let (seen, there) = (looked.snapshot(), alone.snapshot());
     assert!(!seen.recorded.scrubbed);
     assert_eq!((seen.time, &seen.values), (20.0, &there.values));
@@ -66,13 +66,13 @@ fn looking_changes_nothing_to_the_last_bit() {
 fn an_action_takes_the_motion_up_where_it_is_looked_at() {
     let mut experiment = shipped("henon-heiles");
     run(&mut experiment, 20.0);
-    experiment.execute(Command::LookAt(5.0));
+    experiment.execute(Command::ScrubTo(5.0));
     experiment.execute(Command::Step(1));
     let seen = experiment.snapshot();
     assert!(seen.recorded.scrubbed && seen.time > 5.0 && seen.recorded.to == 20.0);
     experiment.execute(Command::StepBack(1));
     assert!((experiment.snapshot().time - 5.0).abs() < 1e-14);
-    experiment.execute(Command::LookAt(5.0));
+    experiment.execute(Command::ScrubTo(5.0));
     experiment.execute(Command::Play);
     let seen = experiment.snapshot();
     assert_eq!((seen.time, seen.status, seen.recorded.to), (5.0, Status::Running, 5.0));
@@ -89,7 +89,7 @@ fn what_is_not_known_any_more_is_said_and_the_first_time_that_is_shown() {
     run(&mut experiment, 2.0);
     experiment.execute(Command::Parameter { index: 0, value: 2.0 });
     run(&mut experiment, 3.0);
-    experiment.execute(Command::LookAt(1.0));
+    experiment.execute(Command::ScrubTo(1.0));
     let seen = experiment.snapshot();
     assert_eq!((seen.time, seen.recorded.from), (2.0, 2.0));
     assert_eq!(seen.notices.last().unwrap(), "the motion before t = 2 is no longer recorded");
@@ -101,7 +101,7 @@ fn the_way_back_can_be_looked_at_too() {
     run(&mut experiment, 10.0);
     experiment.execute(Command::Reverse);
     experiment.advance(-2.0, super::PLENTY);
-    experiment.execute(Command::LookAt(6.0));
+    experiment.execute(Command::ScrubTo(6.0));
     let seen = experiment.snapshot();
     assert_eq!((seen.time, seen.recorded.from, seen.recorded.to), (6.0, 10.0, 2.0));
     let mut alone = shipped("henon-heiles");
@@ -124,8 +124,8 @@ fn the_motions_beside_it_have_their_crossings_up_to_there() {
     };
     let (all, early) = (crossed(&experiment, 60.0), crossed(&experiment, 25.0));
     assert!(!early.is_empty() && early.len() < all.len());
-    experiment.execute(Command::LookAt(25.0));
+    experiment.execute(Command::ScrubTo(25.0));
     assert_eq!(crossed(&experiment, 60.0), early);
-    experiment.execute(Command::LookAt(60.0));
+    experiment.execute(Command::ScrubTo(60.0));
     assert_eq!(crossed(&experiment, 60.0), all);
 }

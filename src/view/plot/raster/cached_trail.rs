@@ -243,7 +243,7 @@ mod tests {
     }
 
     #[test]
-    fn a_cached_trail_looks_like_one_drawn_whole() {
+    fn a_cached_trail_is_the_same_as_one_drawn_whole() {
         let area = Rect::new(0, 0, 31, 13);
         let whole = Scale::linear(-1.5, 1.5);
         let frames = [

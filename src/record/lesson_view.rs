@@ -18,19 +18,19 @@ pub(super) struct LessonView {
 impl LessonView {
     /// Handles a key that only changes what is seen, and keeps the first view of all in `before`. Returns whether it is
     /// one.
-    pub(super) fn look_around(
+    pub(super) fn handle_key(
         before: &mut Option<LessonView>,
         host: &mut HeadlessLab,
         key: KeyEvent,
     ) -> bool {
         let app = &host.app;
         let page_scrolls = app.page != Page::Lab;
-        let looks = match key.code {
+        let changes_view = match key.code {
             KeyCode::Tab | KeyCode::BackTab | KeyCode::Char('\\' | '1'..='4' | '9') => true,
             KeyCode::PageUp | KeyCode::PageDown => page_scrolls,
             _ => false,
         };
-        let Some(lab) = app.lab.as_ref().filter(|_| looks) else { return false };
+        let Some(lab) = app.lab.as_ref().filter(|_| changes_view) else { return false };
         before.get_or_insert_with(|| LessonView { page: app.page, focus: lab.focus.clone() });
         // the focus is the lesson's: Tab leads to what is hidden
         match (key.code, &mut host.app.lab) {
