@@ -190,11 +190,8 @@ impl Instrument for Diagram {
         Some(Picture::Axes { upwards, layers, occurrences: None })
     }
 
-    fn start(
-        &self,
-        PlotContext { plot, present, .. }: PlotContext<'_>,
-        at: [f64; 2],
-    ) -> StartValues {
+    fn start(&self, context: PlotContext<'_>, at: [f64; 2]) -> StartValues {
+        let PlotContext { plot, present, .. } = context;
         match plot.over.first() {
             Some(&Variation::Initial(index)) => {
                 Ok(vec![present.physics.system.initial_override(index, at[0])])

@@ -24,7 +24,7 @@ use crate::expr::{Expr, Symbol};
 use crate::integrate::method_named;
 use crate::job::Job;
 use crate::num::{math, significant};
-use crate::system::{ChannelKind, Form};
+use crate::system::ChannelKind;
 
 use cloud::{Cloud, CloudTask};
 use frame::CloudFrame;
@@ -85,18 +85,11 @@ impl Instrument for Ensemble {
     }
 
     fn offers(&self, physics: Physics<'_>) -> Vec<Offer> {
-        let rate = |i: usize| {
-            let of = |kind| physics.channel(kind);
-            of(ChannelKind::Momentum(i)).or_else(|| of(ChannelKind::Velocity(i)))
-        };
-        let pairs: Vec<(usize, usize)> = match physics.system.form() {
-            // variables of brackets have no momenta
-            Form::Variables => {
-                let all: Vec<usize> = physics.positions().map(|(_, x)| x).collect();
-                all.windows(2).map(|pair| (pair[0], pair[1])).collect()
-            }
-            _ => physics.positions().filter_map(|(i, x)| Some((x, rate(i)?))).collect(),
-        };
+        let mut pairs = physics.phase_planes();
+        // variables of brackets have no momenta
+        if physics.model.is_poisson() {
+            pairs = physics.neighbouring_positions();
+        }
         let offer = |(x, y): (usize, usize)| Offer {
             label: format!("ensemble: {} against {}", physics.shown(y), physics.shown(x)),
             about: "an ensemble of starts carried by the flow, and the action ∫ p dq around it"
@@ -145,12 +138,8 @@ impl Instrument for Ensemble {
         Some(Picture::Axes { upwards, layers, occurrences: None })
     }
 
-    fn start(
-        &self,
-        PlotContext { plot, present, .. }: PlotContext<'_>,
-        at: [f64; 2],
-    ) -> StartValues {
-        initial_values(plot, present.physics, at).ok_or(NoStart::Nothing)
+    fn start(&self, context: PlotContext<'_>, at: [f64; 2]) -> StartValues {
+        initial_values(context.plot, context.present.physics, at).ok_or(NoStart::Nothing)
     }
 
     fn seed(&self, context: PlotContext<'_>) -> Option<Seed> {
@@ -371,10 +360,5 @@ fn range(PlotContext { plot, present, answer }: PlotContext<'_>, axis: usize) ->
     }
     let margin = MARGIN * (hi - lo);
     let [lo, hi] = [lo - margin, hi + margin];
-    match present.physics.system.period(channel, present.parameters) {
-        Some(period) if lo < -period / 2.0 || hi > period / 2.0 => {
-            Some([-period / 2.0, period / 2.0])
-        }
-        _ => Some([lo, hi]),
-    }
+    present.turn_within(channel, [lo, hi]).or(Some([lo, hi]))
 }

@@ -41,9 +41,7 @@ pub fn equilibria_search(
 ) -> impl Fn(&Progress) -> Result<FoundEquilibria, String> + Send + Sync + 'static {
     let Physics { model, equations, system } = present.physics;
     let (model, equations, system) = (model.clone(), equations.clone(), system.clone());
-    let parameters = present.parameters.to_vec();
-    let overrides = given(present.physics, |channel| present.value(channel));
-    let start = Start { time: present.time, parameters, overrides };
+    let start = start(present, present.time);
     move |progress| {
         let system = system.with_cancel(progress.token().clone());
         let space = PhaseSpace::without_impulses((&model, &equations, &system), &start.parameters);
@@ -66,6 +64,12 @@ pub fn equilibria_search(
 }
 
 /// The coordinates, and the rates that belong to the state, by a value of each channel.
+/// The motion as it is, as one that begins at a time.
+pub(super) fn start(present: &Present<'_>, time: f64) -> Start {
+    let overrides = given(present.physics, |channel| present.value(channel));
+    Start { time, parameters: present.parameters.to_vec(), overrides }
+}
+
 pub(super) fn given(physics: Physics<'_>, value: impl Fn(usize) -> f64) -> Vec<InitialOverride> {
     let form = physics.system.form();
     let channels = physics.system.channels().iter().enumerate();

@@ -11,14 +11,13 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use super::conditions::PlotConditions;
-use super::equilibria::given;
+use super::equilibria::start;
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
     Need, Offer, PeriodicOrbits, Physics, Picture, Plot, PlotContext, PlotTable, Present,
     Properties, Seed, Stroke, Upwards, varied,
 };
 use crate::dynamics::{Bifurcation, NOT_ISOLATED};
-use crate::ensemble::Start;
 use crate::expr::Expr;
 use crate::integrate::method_named;
 use crate::job::{Job, Progress};
@@ -201,11 +200,7 @@ impl Instrument for FamilyPlot {
         // a picture shows no more, and a family has many orbits
         let settings = method.fast(present.settings);
         let asked = known.map_or(present.time, |known| known.asked);
-        let start = Start {
-            time: asked,
-            parameters: present.parameters.to_vec(),
-            overrides: given(present.physics, |channel| present.value(channel)),
-        };
+        let start = start(present, asked);
         let job = Job::new("family of orbits", move |progress: &Progress| {
             let system = system.with_cancel(progress.token().clone());
             let physics = Physics { model: &model, equations: &equations, system: &system.into() };

@@ -150,11 +150,8 @@ impl Instrument for Map {
         Some(Picture::Axes { upwards, layers, occurrences: None })
     }
 
-    fn start(
-        &self,
-        PlotContext { plot, present, .. }: PlotContext<'_>,
-        at: [f64; 2],
-    ) -> StartValues {
+    fn start(&self, context: PlotContext<'_>, at: [f64; 2]) -> StartValues {
+        let PlotContext { plot, present, .. } = context;
         let system = present.physics.system;
         let initial = plot.over.iter().zip(at).filter_map(|(&over, x)| match over {
             Variation::Initial(index) => Some(system.initial_override(index, x)),

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use super::closed_orbit::{ClosedOrbit, beginning, closed_orbit};
 use super::conditions::PlotConditions;
-use super::equilibria::given;
+use super::equilibria::start;
 use super::orbit_crossings::periodic_points;
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
@@ -20,7 +20,7 @@ use crate::ensemble::{Start, SystemFlow};
 use crate::integrate::{Method, Settings, method_named};
 use crate::job::{Job, Progress};
 use crate::num::{math, significant};
-use crate::system::{ChannelKind, Form, System};
+use crate::system::System;
 
 const TRAIL: Level = 0;
 const CURVE: Level = 2;
@@ -104,7 +104,8 @@ impl Instrument for OrbitPlot {
             columns: vec![vec![x], vec![y]],
             ..Offer::default()
         };
-        pairs(physics).into_iter().map(offer).collect()
+        let neighbours = physics.neighbouring_positions().into_iter();
+        neighbours.chain(physics.phase_planes()).map(offer).collect()
     }
 
     fn words(&self, plot: &Plot, physics: Physics<'_>) -> String {
@@ -136,12 +137,8 @@ impl Instrument for OrbitPlot {
         Some(Picture::Axes { upwards, layers, occurrences: None })
     }
 
-    fn start(
-        &self,
-        PlotContext { plot, present, .. }: PlotContext<'_>,
-        at: [f64; 2],
-    ) -> StartValues {
-        let found = super::phase::initial_values(plot, present.physics, at);
+    fn start(&self, context: PlotContext<'_>, at: [f64; 2]) -> StartValues {
+        let found = super::phase::initial_values(context.plot, context.present.physics, at);
         found.ok_or(NoStart::Nothing)
     }
 
@@ -179,11 +176,7 @@ impl Instrument for OrbitPlot {
             }));
         }
         let asked = present.time;
-        let start = Start {
-            time: asked,
-            parameters: present.parameters.to_vec(),
-            overrides: given(present.physics, |channel| present.value(channel)),
-        };
+        let start = start(present, asked);
         Need::Job(Job::new("periodic orbit", move |progress: &Progress| {
             let system = system.with_cancel(progress.token().clone());
             let physics = Physics { model: &model, equations: &equations, system: &system.into() };
@@ -254,21 +247,6 @@ fn close(
     let crossed = periodic_points(physics, method.0, &orbit, parameters);
     let periodic = Arc::new(PeriodicOrbits { orbit: crossed, family: Vec::new() });
     Ok(Described { orbit, points, extent, drive: space.drive(), periodic })
-}
-
-/// The pairs of quantities that are offered: two coordinates where there are two, and each coordinate with its rate.
-fn pairs(physics: Physics<'_>) -> Vec<(usize, usize)> {
-    let places: Vec<usize> = physics.positions().map(|(_, x)| x).collect();
-    let both = places.windows(2).map(|pair| (pair[0], pair[1]));
-    let rate = |i: usize| {
-        let of = |kind| physics.channel(kind);
-        of(ChannelKind::Momentum(i)).or_else(|| of(ChannelKind::Velocity(i)))
-    };
-    let own = physics.positions().filter_map(|(i, x)| Some((x, rate(i)?)));
-    match physics.system.form() {
-        Form::Variables => both.collect(),
-        _ => both.chain(own).collect(),
-    }
 }
 
 fn found(answer: Option<&Answer>) -> Option<&ComputedOrbit> {
@@ -347,11 +325,6 @@ fn range(PlotContext { plot, present, answer }: PlotContext<'_>, axis: usize) ->
     let [lo, hi] = described(answer)?.extent[axis];
     let margin = MARGIN * (hi - lo);
     let [lo, hi] = [lo - margin, hi + margin];
-    let period = present.physics.system.period(channel, present.parameters);
-    match period {
-        Some(period) if lo < -period / 2.0 || hi > period / 2.0 => {
-            Some([-period / 2.0, period / 2.0])
-        }
-        _ => (lo < hi && math::hypot(lo, hi).is_finite()).then_some([lo, hi]),
-    }
+    let turn = present.turn_within(channel, [lo, hi]);
+    turn.or((lo < hi && math::hypot(lo, hi).is_finite()).then_some([lo, hi]))
 }

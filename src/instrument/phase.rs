@@ -152,12 +152,8 @@ impl Instrument for Phase {
     }
 
     /// A point represents initial values if both axes belong to the state and are not the same.
-    fn start(
-        &self,
-        PlotContext { plot, present, .. }: PlotContext<'_>,
-        at: [f64; 2],
-    ) -> StartValues {
-        initial_values(plot, present.physics, at).ok_or(NoStart::Nothing)
+    fn start(&self, context: PlotContext<'_>, at: [f64; 2]) -> StartValues {
+        initial_values(context.plot, context.present.physics, at).ok_or(NoStart::Nothing)
     }
 
     fn job(&self, PlotContext { plot, present, answer }: PlotContext<'_>) -> Need {

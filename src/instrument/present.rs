@@ -87,6 +87,22 @@ impl<'a> Physics<'a> {
         all.filter_map(move |i| Some((i, self.channel(ChannelKind::Position(i))?)))
     }
 
+    /// The coordinates, each with the next.
+    pub(super) fn neighbouring_positions(self) -> Vec<(usize, usize)> {
+        let all: Vec<usize> = self.positions().map(|(_, x)| x).collect();
+        all.windows(2).map(|pair| (pair[0], pair[1])).collect()
+    }
+
+    /// The coordinates, each with its momentum, or its velocity where it has none; of variables of brackets there are none.
+    pub(super) fn phase_planes(self) -> Vec<(usize, usize)> {
+        let rate = |i: usize| {
+            let momentum = self.channel(ChannelKind::Momentum(i));
+            momentum.or_else(|| self.channel(ChannelKind::Velocity(i)))
+        };
+        let pairs = self.positions().filter_map(|(i, x)| Some((x, rate(i)?)));
+        pairs.filter(|_| !self.model.is_poisson()).collect()
+    }
+
     /// A channel's name in mathematical notation.
     pub fn shown(self, channel: usize) -> &'a str {
         self.system.channels().get(channel).map_or("?", |channel| &channel.shown)
@@ -116,6 +132,12 @@ impl Present<'_> {
     /// When the law was changed last, if it was since the start.
     pub fn changed_at(&self) -> Option<f64> {
         self.changed.map(|(_, state)| state.time)
+    }
+
+    /// One turn of a periodic quantity, if a range leads beyond it.
+    pub(super) fn turn_within(&self, channel: usize, [lo, hi]: [f64; 2]) -> Option<[f64; 2]> {
+        let half = self.physics.system.period(channel, self.parameters)? / 2.0;
+        (lo < -half || hi > half).then_some([-half, half])
     }
 
     /// The value of a channel.

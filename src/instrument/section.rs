@@ -174,11 +174,8 @@ impl Instrument for SectionPlot {
         Some(Picture::Axes { upwards, layers, occurrences: None })
     }
 
-    fn start(
-        &self,
-        PlotContext { plot, present, .. }: PlotContext<'_>,
-        at: [f64; 2],
-    ) -> StartValues {
+    fn start(&self, context: PlotContext<'_>, at: [f64; 2]) -> StartValues {
+        let PlotContext { plot, present, .. } = context;
         let plane = plane(plot, present).ok_or(NoStart::Nothing)?;
         let given = beginning(plot, present, &plane, at);
         given.map_err(|why| NoStart::Refused(capitalised(&why.to_string())))

@@ -15,7 +15,7 @@ use phaselab::system::{ChannelKind, InitialOverride, State};
 
 use crate::fixtures::{catalog, press};
 use crate::laboratory::{first, layers, measured, open, prepared, see, typed};
-use crate::screen::{rich, rows};
+use crate::screen::screen_text;
 
 /// An oscillator of one degree of freedom with the potential V and friction γ p.
 fn oscillator(potential: &str, friction: &str) -> Prepared {
@@ -464,10 +464,7 @@ fn once_more_it_is_spread_over_the_energy_shell() {
 fn a_narrow_pane_has_all_that_is_said_of_a_cloud() {
     let (mut app, _, mut experiment) = opened(oscillator("1/2*q^2", "1/2*c*q'^2"));
     see(&mut app, &mut experiment, 1.0);
-    let area = ratatui::layout::Rect::new(0, 0, 80, 24);
-    let mut buffer = ratatui::buffer::Buffer::empty(area);
-    phaselab::view::draw(&app, &rich(), area, &mut buffer);
-    let screen = rows(&buffer).join(" ");
+    let screen = screen_text(&app, (80, 24));
     let words: String =
         screen.split_whitespace().filter(|word| *word != "│").collect::<Vec<_>>().join(" ");
     let (_, said) = words.split_once("action 0.2").expect("the action");

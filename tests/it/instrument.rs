@@ -12,6 +12,7 @@ use phaselab::mechanics::derive_for_motion;
 use phaselab::preset;
 
 use crate::fixtures::{begun, catalog, in_lab, loaded, pendulum, press, snapshot};
+use crate::laboratory::{measure, measured, plot_named};
 use crate::nonempty;
 use crate::screen::{rich, rows};
 
@@ -50,10 +51,7 @@ fn plot(app: &App, name: &str) -> (usize, Plot) {
 }
 
 fn screen(app: &App, width: u16, height: u16) -> Vec<String> {
-    let area = ratatui::layout::Rect::new(0, 0, width, height);
-    let mut buffer = ratatui::buffer::Buffer::empty(area);
-    phaselab::view::draw(app, &rich(), area, &mut buffer);
-    rows(&buffer)
+    rows(&crate::screen::screen(app, &rich(), (width, height)))
 }
 
 #[test]
@@ -404,13 +402,9 @@ fn the_prompt_is_answered_on_the_side_and_its_question_given_up_with_it() {
 fn a_key_finds_the_frequency_of_the_pendulum() {
     let mut app = in_lab();
     press(&mut app, "w z");
-    let lab = app.lab.as_ref().unwrap();
-    let (_, plot) = lab.focused_plot().unwrap();
+    let (_, plot) = app.lab.as_ref().unwrap().focused_plot().unwrap();
     assert_eq!(plot.kind.name(), "spectrum");
-    let measure = |word: &str| {
-        let measure = plot.kind.measure(word).unwrap();
-        (measure.value)(lab.context(plot, &lab.present().unwrap())).unwrap()
-    };
+    let measure = |word: &str| measure(&app, plot, word);
     // ω = √(g/l) agm(1, cos ½θ₀), θ₀ = 2
     let (mut a, mut b) = (1.0_f64, 1.0_f64.cos());
     for _ in 0..8 {
@@ -435,10 +429,7 @@ fn the_spectrum_of_an_expression() {
          [lagrangian]\nL = \"1/2*x'^2 - 1/2*x^2\"\n\
          [[views]]\nkind = \"spectrum\"\ny = \"x*x'\"\n",
     );
-    let lab = app.lab.as_ref().unwrap();
-    let plot = lab.plots.iter().find(|plot| plot.kind.name() == "spectrum").unwrap();
-    let measure = plot.kind.measure("frequency").unwrap();
-    let frequency = (measure.value)(lab.context(plot, &lab.present().unwrap()));
+    let frequency = measured(&app, plot_named(&app, "spectrum"), "frequency");
     assert!(frequency.is_some_and(|f| (f - 2.0).abs() < 1e-10), "{frequency:?}");
 }
 
@@ -450,13 +441,9 @@ fn orbits_of_kicked_systems_are_closed_from_the_initial_values() {
     assert_ne!(near, text);
     let mut app = begun(&near);
     press(&mut app, "t");
-    let lab = app.lab.as_ref().unwrap();
-    let (_, plot) = lab.focused_plot().unwrap();
+    let (_, plot) = app.lab.as_ref().unwrap().focused_plot().unwrap();
     assert_eq!(plot.kind.name(), "orbit");
-    let measure = |word: &str| {
-        let measure = plot.kind.measure(word).unwrap();
-        (measure.value)(lab.context(plot, &lab.present().unwrap()))
-    };
+    let measure = |word: &str| measured(&app, plot, word);
     assert!(measure("period").is_some_and(|period| (period - 1.0).abs() < 1e-12));
     assert!(measure("residue").is_some_and(|r| (r - 0.971635406 / 4.0).abs() < 1e-8));
     assert_eq!(measure("stable"), Some(1.0));

@@ -55,6 +55,12 @@ pub(crate) fn see(app: &mut App, experiment: &mut Experiment, time: f64) {
     finish(app, effects);
 }
 
+/// The first plot of a kind.
+pub(crate) fn plot_named<'a>(app: &'a App, kind: &str) -> &'a Plot {
+    let plots = &mut app.lab.as_ref().unwrap().plots.iter();
+    plots.find(|plot| plot.kind.name() == kind).expect("a plot of this kind")
+}
+
 /// What a picture measures.
 pub(crate) fn measured(app: &App, plot: &Plot, word: &str) -> Option<f64> {
     let lab = app.lab.as_ref().unwrap();

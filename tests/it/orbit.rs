@@ -14,7 +14,7 @@ use phaselab::view::theme::Theme;
 
 use crate::fixtures::press;
 use crate::laboratory::{self, open, prepared, see, typed};
-use crate::screen::{rich, rows, screen};
+use crate::screen::{rows, screen, screen_text};
 
 /// Hénon's and Heiles's system at E = 1/8, a little beside the orbit B.
 const HENON_HEILES: &str = r#"
@@ -159,10 +159,7 @@ fn where_nothing_comes_back_it_says_why() {
         legend(&app)
     );
     // and so does the screen
-    let area = ratatui::layout::Rect::new(0, 0, 120, 40);
-    let mut buffer = ratatui::buffer::Buffer::empty(area);
-    phaselab::view::draw(&app, &rich(), area, &mut buffer);
-    let shown = rows(&buffer).concat();
+    let shown = screen_text(&app, (120, 40));
     assert!(shown.contains("no periodic orbit was found"), "{shown}");
 }
 

@@ -58,6 +58,11 @@ pub(crate) fn rows(buffer: &Buffer) -> Vec<String> {
     (0..buffer.area.height).map(|y| row(y).trim_end().to_owned()).collect()
 }
 
+/// What is on the screen of a terminal with all colours and characters.
+pub(crate) fn screen_text(app: &App, size: (u16, u16)) -> String {
+    rows(&screen(app, &rich(), size)).join("\n")
+}
+
 /// The first position of a text on the screen: column and row.
 fn find(buffer: &Buffer, text: &str) -> Option<(u16, u16)> {
     (0..buffer.area.height).find_map(|y| {

@@ -12,6 +12,7 @@ use phaselab::num::math;
 use phaselab::preset;
 
 use crate::fixtures::{begun, in_lab, lab, press};
+use crate::screen::screen_text;
 
 /// The plots of this kind in the lab of a preset, on which motion has been seen up to a time.
 fn plots(app: &App) -> Vec<Plot> {
@@ -603,10 +604,7 @@ fn the_page_of_equations_has_transformations() {
     let page = |name: &str| {
         let mut app = crate::fixtures::begun(&crate::fixtures::catalog().find(name).unwrap().text);
         crate::fixtures::press(&mut app, "2");
-        let area = ratatui::layout::Rect::new(0, 0, 120, 120);
-        let mut buffer = ratatui::buffer::Buffer::empty(area);
-        phaselab::view::draw(&app, &crate::screen::rich(), area, &mut buffer);
-        crate::screen::rows(&buffer).join("\n")
+        screen_text(&app, (120, 120))
     };
     let oscillator = page("angle-of-the-oscillator");
     for words in [

@@ -10,7 +10,7 @@ use phaselab::diagnostic::Document;
 use phaselab::preset::template;
 
 use crate::fixtures::{catalog, in_lab, lowered, press};
-use crate::screen::{rich, rows};
+use crate::screen::screen_text;
 
 /// The text of a wrong file: `sni` for `sin`, on the fourth line from the end of the template's beginning.
 fn wrong() -> String {
@@ -43,10 +43,7 @@ pub(super) fn rest(app: &mut App) {
 }
 
 fn text_of(app: &App) -> String {
-    let area = ratatui::layout::Rect::new(0, 0, 120, 40);
-    let mut buffer = ratatui::buffer::Buffer::empty(area);
-    phaselab::view::draw(app, &rich(), area, &mut buffer);
-    rows(&buffer).join("\n")
+    screen_text(app, (120, 40))
 }
 
 #[test]
@@ -204,10 +201,7 @@ fn a_long_help_is_wrapped_and_not_cut() {
         let (mut app, _) = App::new(catalog(), Some("./wrong.toml"));
         let message = message.clone();
         app.update(AppEvent::Loaded(Err(LoadError { name: "./wrong.toml".to_owned(), message })));
-        let area = ratatui::layout::Rect::new(0, 0, width, 24);
-        let mut buffer = ratatui::buffer::Buffer::empty(area);
-        phaselab::view::draw(&app, &rich(), area, &mut buffer);
-        let text = rows(&buffer).join(" ");
+        let text = screen_text(&app, (width, 24));
         let words: Vec<&str> = text.split_whitespace().filter(|word| *word != "│").collect();
         let help: Vec<&str> = help.split_whitespace().collect();
         assert!(words.windows(help.len()).any(|words| words == help), "{width}: {text}");

@@ -9,10 +9,10 @@ use phaselab::dynamics::{
     DynamicsError, Lagrangian, VARIATIONS, VariedAction, nearest_stationary_path, stationary_path,
     stationary_path_between, varied_action,
 };
-use phaselab::instrument::{Plot, named};
 
 use crate::fixtures::{catalog, lowered, snapshot};
-use crate::screen::{rich, rows};
+use crate::laboratory::{measured, plot_named};
+use crate::screen::screen_text;
 
 const OSCILLATOR: &str = "title = 'a test'\n[coordinates]\nx = { initial = 1.0 }\n\
                           [lagrangian]\nL = \"1/2*x'^2 - 1/2*x^2\"\n[[views]]\nkind = \"action\"\nx = \"x\"\n";
@@ -149,17 +149,8 @@ fn picture_of(text: &str, time: f64, kind: &'static str) -> (String, impl Fn(&st
     let (mut app, _) = App::new(catalog(), Some("test"));
     app.update(AppEvent::Loaded(Ok(loaded)));
     app.update(AppEvent::Snapshot(Arc::new(seen)));
-    let area = ratatui::layout::Rect::new(0, 0, 120, 40);
-    let mut buffer = ratatui::buffer::Buffer::empty(area);
-    phaselab::view::draw(&app, &rich(), area, &mut buffer);
-    let measure = move |word: &str| {
-        let lab = app.lab.as_ref().unwrap();
-        let plots = &mut lab.plots.iter();
-        let plot: &Plot = plots.find(|plot| Some(plot.kind) == named(kind)).unwrap();
-        let measure = plot.kind.measure(word).unwrap();
-        (measure.value)(lab.context(plot, &lab.present().unwrap()))
-    };
-    (rows(&buffer).join("\n"), measure)
+    let shown = screen_text(&app, (120, 40));
+    (shown, move |word: &str| measured(&app, plot_named(&app, kind), word))
 }
 
 #[test]

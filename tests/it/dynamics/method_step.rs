@@ -7,6 +7,8 @@ use phaselab::integrate::{Settings, method_named};
 
 use super::preset;
 use crate::fixtures::{begun, loaded, lowered, press};
+use crate::laboratory::{measured, plot_named};
+use crate::screen::screen_text;
 
 /// Two entangled degrees of freedom, where H does not separate and the map is solved numerically, as the step is.
 const ENTANGLED: &str = "title = \"T\"\n\
@@ -123,17 +125,9 @@ fn the_plane_shows_the_step_beside_the_map() {
     let text = &crate::fixtures::catalog().find("symplectic-euler").expect("a preset").text;
     let mut app = begun(text);
     press(&mut app, "Wait Wait");
-    let lab = app.lab.as_ref().expect("a lab");
-    let plot = lab.plots.iter().find(|plot| plot.kind.name() == "transformation").expect("a plot");
-    let measure = plot.kind.measure("off_step").expect("it is measured");
-    let off = (measure.value)(lab.context(plot, &lab.present().expect("a motion")));
+    let off = measured(&app, plot_named(&app, "transformation"), "off_step");
     assert!(off.is_some_and(|off| off < 1e-15), "{off:?}");
-    let page = |width, height| {
-        let area = ratatui::layout::Rect::new(0, 0, width, height);
-        let mut buffer = ratatui::buffer::Buffer::empty(area);
-        phaselab::view::draw(&app, &crate::screen::rich(), area, &mut buffer);
-        crate::screen::rows(&buffer).join("\n")
-    };
+    let page = |width, height| screen_text(&app, (width, height));
     // a low plot leaves it to the zoomed pane
     let low = page(80, 24);
     assert!(low.contains("canonical, proved") && low.contains("z shows more"), "{low}");

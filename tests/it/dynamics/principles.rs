@@ -8,12 +8,12 @@ use phaselab::dynamics::{
     Hamiltonian, Lagrangian, PhaseSpace, VariedAction, conjugate_points,
     conjugate_points_at_energy, varied_abbreviated_action, varied_phase_action,
 };
-use phaselab::instrument::{Layer, Plot, named};
+use phaselab::instrument::Layer;
 use phaselab::integrate::{METHODS, Settings};
 
 use crate::fixtures::{catalog, lab, lowered, press, snapshot};
-use crate::laboratory::{layers, measure};
-use crate::screen::{rich, rows};
+use crate::laboratory::{layers, measure, measured, plot_named};
+use crate::screen::screen_text;
 
 /// A law in the plane, without parameters.
 fn plane(law: &str) -> String {
@@ -204,17 +204,9 @@ fn a_key_shows_the_next_principle() {
     app.update(AppEvent::Snapshot(Arc::clone(&seen)));
     let shown = |app: &mut App| {
         app.update(AppEvent::Snapshot(Arc::clone(&seen)));
-        let area = ratatui::layout::Rect::new(0, 0, 160, 40);
-        let mut buffer = ratatui::buffer::Buffer::empty(area);
-        phaselab::view::draw(app, &rich(), area, &mut buffer);
-        rows(&buffer).join("\n")
+        screen_text(app, (160, 40))
     };
-    let measure = |app: &App, kind: &str, word: &str| {
-        let lab = app.lab.as_ref().unwrap();
-        let plot: &Plot = lab.plots.iter().find(|p| Some(p.kind) == named(kind)).unwrap();
-        let measure = plot.kind.measure(word).unwrap();
-        (measure.value)(lab.context(plot, &lab.present().unwrap()))
-    };
+    let measure = |app: &App, kind: &str, word: &str| measured(app, plot_named(app, kind), word);
     let hamilton = shown(&mut app);
     assert!(hamilton.contains("least of all paths nearby"), "{hamilton}");
     // ∫ L dt = ½ (1 + 4) t − 2 t² + ⅓ t³
@@ -250,10 +242,7 @@ fn one_coordinate_has_no_other_way() {
         let (mut app, _) = App::new(catalog(), Some("test"));
         app.update(AppEvent::Loaded(Ok(loaded)));
         app.update(AppEvent::Snapshot(seen));
-        let area = ratatui::layout::Rect::new(0, 0, 160, 40);
-        let mut buffer = ratatui::buffer::Buffer::empty(area);
-        phaselab::view::draw(&app, &rich(), area, &mut buffer);
-        let screen = rows(&buffer).join("\n");
+        let screen = screen_text(&app, (160, 40));
         assert!(screen.contains(words), "{screen}");
         assert!(!screen.contains("foci"), "{screen}");
     }
@@ -265,8 +254,7 @@ fn one_coordinate_has_no_other_way() {
 fn every_true_path_between_the_ends_of_a_swing_is_shown() {
     let mut app = lab("least-action", 4.0);
     press(&mut app, "Wait");
-    let plots = app.lab.as_ref().unwrap().plots.clone();
-    let paths = plots.iter().find(|plot| plot.kind.name() == "paths").expect("the file has one");
+    let paths = plot_named(&app, "paths");
     let of = |word: &str| measure(&app, paths, word);
     assert_eq!(of("count"), 3.0);
     assert!((of("least") - 3.344_291_248_362_989_3).abs() < 1e-10, "{}", of("least"));
