@@ -17,7 +17,6 @@ mod start;
 mod step;
 mod uniqueness;
 
-pub use check::{
-    false_claims, false_claims_followed, start_on_a_pole, structure_diagnostics, undefined_start,
-};
+pub use check::{false_claims, false_claims_followed, structure_diagnostics};
+pub use start::{start_on_a_pole, undefined_start};
 pub use uniqueness::several_starts;

@@ -7,14 +7,14 @@ use super::brackets::false_brackets;
 use super::conservation::{known, open_claims};
 use super::dissipation;
 use super::invariants::false_count;
-use super::motion::{self, ClaimedMotion};
+use super::motion::ClaimedMotion;
 use super::own_method;
 use super::step::false_steps;
 use super::uniqueness;
 use crate::diagnostic::{Diagnostic, SourceRange};
 use crate::mechanics::{self, Equations, HamiltonJacobi, StructureError};
 use crate::model::Model;
-use crate::system::{State, System};
+use crate::system::System;
 
 /// Returns a diagnostic for each false claim of a model, at its place.
 pub fn false_claims(model: &Model, equations: &Equations) -> Vec<Diagnostic> {
@@ -79,27 +79,6 @@ pub fn false_claims_followed(
 pub fn structure_diagnostics(model: &Model, equations: &Equations) -> Vec<Diagnostic> {
     let errors = mechanics::structure_errors(model, equations).into_iter();
     errors.filter_map(StructureError::diagnostic).collect()
-}
-
-/// Why the motion cannot start at a state, which is empty if there is none: a coordinate has no inertia, or a term of the
-/// law no value there.
-pub fn undefined_start(
-    model: &Model,
-    equations: &Equations,
-    system: &System,
-    state: &State,
-) -> Option<String> {
-    Some(motion::undefined_start(model, equations, system, state)?.message)
-}
-
-/// Why the motion cannot start at a state, if the law has a value there by rounding alone.
-pub fn start_on_a_pole(
-    model: &Model,
-    equations: &Equations,
-    system: &System,
-    state: &State,
-) -> Option<String> {
-    Some(motion::start_on_a_pole(model, equations, system, state)?.message)
 }
 
 /// A complete integral that is none.

@@ -13,7 +13,7 @@ use crate::expr::Symbol;
 use crate::integrate::{self, Occurrence, Reached, Settings, method_named};
 use crate::mechanics::{Equations, Valuation};
 use crate::model::{ExpectedEvent, ExpectedValue, Model};
-use crate::system::{ChannelKind, MotionError, MotionErrorKind, Observer, State, System};
+use crate::system::{ChannelKind, MotionError, MotionErrorKind, Observer, System};
 
 /// The assumed relative error of the values of a motion where a rate is evaluated.
 const SLACK: f64 = 1e-9;
@@ -97,45 +97,6 @@ fn place_of(model: &Model, error: &MotionError) -> SourceRange {
         _ => None,
     };
     constraint.map_or(0..0, |c| c.place.clone())
-}
-
-/// A coordinate without inertia, or a term of the law that has no value at a start.
-pub(super) fn undefined_start(
-    model: &Model,
-    equations: &Equations,
-    system: &System,
-    state: &State,
-) -> Option<Diagnostic> {
-    if model.constraints.is_empty()
-        && let Some(cause) = start::without_mass(model, equations)
-    {
-        return Some(cause);
-    }
-    if state.values.is_empty() {
-        return None;
-    }
-    let parameters = model.parameter_values();
-    let mut values = vec![f64::NAN; system.channels().len()];
-    // also where not all of them are known, since the others give the reason
-    system.observer(&parameters).observe(state, &mut values).ok();
-    let known = system.valuation((model, equations), state.time, &parameters, &values);
-    let at = |symbol| known.at(symbol);
-    start::without_value(model, equations, &at)
-        .or_else(|| start::constant_singular_mass(model, equations, &at))
-}
-
-/// A term of the law that has a value at a start by rounding alone.
-pub(super) fn start_on_a_pole(
-    model: &Model,
-    equations: &Equations,
-    system: &System,
-    state: &State,
-) -> Option<Diagnostic> {
-    let parameters = model.parameter_values();
-    let mut values = vec![f64::NAN; system.channels().len()];
-    system.observer(&parameters).observe(state, &mut values).ok()?;
-    let known = system.valuation((model, equations), state.time, &parameters, &values);
-    start::on_a_pole(model, equations, &|symbol| known.at(symbol))
 }
 
 fn seen(system: &System, values: &[f64], kind: ChannelKind) -> f64 {

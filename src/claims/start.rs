@@ -6,11 +6,12 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::diagnostic::{Diagnostic, SourceRange};
+use crate::dynamics::CompiledLaw;
 use crate::expr::{Expr, FunctionId, Node, Pool, Symbol};
 use crate::mechanics::{Equations, Flow};
 use crate::model::{Coordinate, Model};
 use crate::num::{Number, no_longer_than, short};
-use crate::system::{MotionError, MotionErrorKind};
+use crate::system::{MotionError, MotionErrorKind, State};
 
 /// A term of the law longer than this is not reported.
 const LONGEST: u64 = 60;
@@ -27,6 +28,41 @@ const UNKNOWN: f64 = 0.1;
 /// What is larger by this factor than at this relative distance is large by a pole.
 const BESIDE_A_POLE: f64 = 1e8;
 const BESIDE: f64 = 1e-3;
+
+/// Why the motion cannot start at a state, which is empty if there is none: a coordinate has no inertia, or a term of the
+/// law no value there.
+pub fn undefined_start(
+    (model, equations, system): CompiledLaw<'_>,
+    state: &State,
+) -> Option<Diagnostic> {
+    if model.constraints.is_empty()
+        && let Some(cause) = without_mass(model, equations)
+    {
+        return Some(cause);
+    }
+    if state.values.is_empty() {
+        return None;
+    }
+    let parameters = model.parameter_values();
+    let mut values = vec![f64::NAN; system.channels().len()];
+    // also where not all of them are known, since the others give the reason
+    system.observer(&parameters).observe(state, &mut values).ok();
+    let known = system.valuation((model, equations), state.time, &parameters, &values);
+    let at = |symbol| known.at(symbol);
+    without_value(model, equations, &at).or_else(|| constant_singular_mass(model, equations, &at))
+}
+
+/// Why the motion cannot start at a state, if a term of the law has a value there by rounding alone.
+pub fn start_on_a_pole(
+    (model, equations, system): CompiledLaw<'_>,
+    state: &State,
+) -> Option<Diagnostic> {
+    let parameters = model.parameter_values();
+    let mut values = vec![f64::NAN; system.channels().len()];
+    system.observer(&parameters).observe(state, &mut values).ok()?;
+    let known = system.valuation((model, equations), state.time, &parameters, &values);
+    on_a_pole(model, equations, &|symbol| known.at(symbol))
+}
 
 /// Returns why nothing can start with this energy, or with the error of the first step, or `None`
 /// if it can.
@@ -66,7 +102,7 @@ pub(super) fn diagnostic(
 }
 
 /// A term of the law that has no value at the start.
-pub(super) fn without_value(
+fn without_value(
     model: &Model,
     equations: &Equations,
     at: &dyn Fn(Symbol) -> f64,
@@ -78,7 +114,7 @@ pub(super) fn without_value(
 }
 
 /// A coordinate that has no inertia.
-pub(super) fn without_mass(model: &Model, equations: &Equations) -> Option<Diagnostic> {
+fn without_mass(model: &Model, equations: &Equations) -> Option<Diagnostic> {
     let (place, message, help) = without_inertia(model, equations)?;
     Some(Diagnostic::error(place, message).with_help(help))
 }
@@ -114,7 +150,7 @@ fn without_inertia(model: &Model, equations: &Equations) -> Option<(SourceRange,
 }
 
 /// Masses that are constant and do not resist every velocity: that of a coordinate is 0, or those of several are one.
-pub(super) fn constant_singular_mass(
+fn constant_singular_mass(
     model: &Model,
     equations: &Equations,
     at: &dyn Fn(Symbol) -> f64,
@@ -183,7 +219,7 @@ fn law_and_rates(equations: &Equations) -> [Vec<Expr>; 2] {
 }
 
 /// A law that has a value at the start by rounding alone, as tan(x) has at π/2.
-pub(super) fn on_a_pole(
+fn on_a_pole(
     model: &Model,
     equations: &Equations,
     at: &dyn Fn(Symbol) -> f64,

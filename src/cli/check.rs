@@ -158,8 +158,8 @@ fn description(derived: &Derived) -> String {
     };
     let names = |wanted: bool| {
         let among = |reason: &Reason| matches!(reason, Reason::BetweenImpulses(_)) == wanted;
-        let kept = report.conserved.iter().filter(|kept| among(kept.reason));
-        kept.map(|kept| name(&kept.constant)).collect::<Vec<_>>().join(", ")
+        let conserved = report.conserved.iter().filter(|conserved| among(conserved.reason));
+        conserved.map(|conserved| name(&conserved.constant)).collect::<Vec<_>>().join(", ")
     };
     let (always, between) = (names(false), names(true));
     let coordinates = match derived.model.coordinates.len() {

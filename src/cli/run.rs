@@ -158,8 +158,8 @@ pub(super) fn execute(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     if let Err(refused) = clock::check(&system, method, &experiment, &times) {
         // at a pole steps are that short whatever the clock
         let start = experiment.snapshot().state.clone();
-        let pole = claims::start_on_a_pole(&model, &equations, &system, &start);
-        return Err(pole.map_or(refused, CommandError::CouldNot));
+        let pole = claims::start_on_a_pole((&model, &equations, &system), &start);
+        return Err(pole.map_or(refused, |pole| CommandError::CouldNot(pole.message)));
     }
     experiment.forget_past();
     // what the file states, and no law proves, is refuted by samples alone
@@ -184,7 +184,8 @@ pub(super) fn execute(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let begun = Arc::clone(&first);
     let adiabatic = adiabatic.map(|known| (known, first, system.clone()));
     let steps = STEPS_PER_CHECK;
-    let cannot_start = || claims::undefined_start(&model, &equations, &system, &begun);
+    let cannot_start =
+        || Some(claims::undefined_start((&model, &equations, &system), &begun)?.message);
     let cannot_start = &cannot_start;
     let asked = experiment.snapshot().setup.clone();
     let ends_before =

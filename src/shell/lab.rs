@@ -67,13 +67,13 @@ pub fn run(request: &Request) -> Result<Ending, LabError> {
         session.offer(offered);
     }
     let ended = catch_unwind(AssertUnwindSafe(|| run_screen(&mut session, pace)));
-    let ExitResult { recorded, kept } = session.left();
+    let ExitResult { recorded, saved } = session.left();
     match &ended {
         Ok(Ok(ending)) => info!("ends: {ending:?}"),
         Ok(Err(error)) => error!("{error}"),
         Err(_) => error!("ends by a panic"),
     }
-    if let Err(error) = &kept {
+    if let Err(error) = &saved {
         error!("{error}");
     }
     drop(session);
@@ -81,7 +81,7 @@ pub fn run(request: &Request) -> Result<Ending, LabError> {
         log.close();
     }
     let ending = ended.unwrap_or_else(|panic| resume_unwind(panic))?;
-    let lost = kept.map_err(LabError::Unsaved).and(recorded.map_err(LabError::Unrecorded));
+    let lost = saved.map_err(LabError::Unsaved).and(recorded.map_err(LabError::Unrecorded));
     match (lost, ending) {
         (Err(why), Ending::Quit) => Err(why),
         (Err(why), Ending::Signal(_) | Ending::HungUp) => {

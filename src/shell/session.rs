@@ -99,7 +99,7 @@ struct ProgramEnd {
 #[derive(Debug)]
 pub(super) struct ExitResult {
     pub(super) recorded: io::Result<()>,
-    pub(super) kept: io::Result<()>,
+    pub(super) saved: io::Result<()>,
 }
 
 /// How long nothing has to change before the page rests, and how long it rests then, with a watched file or without.
@@ -253,7 +253,7 @@ impl Session {
         if let Some(store) = self.saving.store.as_mut().filter(|_| !self.exit.is_forced) {
             store.sync(HURRIED);
         }
-        self.exit.result.take().unwrap_or(ExitResult { recorded: Ok(()), kept: Ok(()) })
+        self.exit.result.take().unwrap_or(ExitResult { recorded: Ok(()), saved: Ok(()) })
     }
 
     /// Starts a loaded system.
@@ -344,7 +344,7 @@ impl Screen for Session {
             }
             let loaded = outcome
                 .map(|(name, ready)| self.begin(name, *ready))
-                .map_err(|error| self.with_text_kept(error));
+                .map_err(|error| self.with_text_saved(error));
             self.update(AppEvent::Loaded(loaded));
             if let Some(warning) = self.warning.take() {
                 self.app.notifications.show(Notification::error(warning));
@@ -413,12 +413,12 @@ impl Screen for Session {
             store.hurry(true);
         }
         // The texts come first, since they could not be recovered.
-        let kept = self.keep_within(time);
+        let saved = self.keep_within(time);
         let recorder = self.recorder.take();
         let recorded = recorder.map_or(Ok(()), |recorder| recorder.end(!hurried).map(|_| ()));
         let written = if hurried { None } else { self.writer.wait(UNHURRIED) };
         let written = written.map_or(Ok(()), |report| report.map(|_| ()).map_err(io::Error::other));
-        self.exit.result = Some(ExitResult { recorded: recorded.and(written), kept });
+        self.exit.result = Some(ExitResult { recorded: recorded.and(written), saved });
     }
 
     /// What the user has chosen in the meantime stays.

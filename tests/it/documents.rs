@@ -7,6 +7,7 @@ use std::path::Path;
 
 use phaselab::app::keymap::{KEYS, KeyContext};
 use phaselab::cli::EXITS;
+use phaselab::instrument::INSTRUMENTS;
 use phaselab::integrate::{METHODS, Preserves, Stepping};
 use phaselab::record::script::{CLAIMS, COMMANDS};
 use phaselab::shell::options::rows;
@@ -61,6 +62,23 @@ fn claims() -> String {
     table
 }
 
+fn measures() -> String {
+    let mut table = "| `KIND.WORD` | what it is |\n|---|---|\n".to_owned();
+    for kind in INSTRUMENTS {
+        for measure in kind.properties().measures {
+            writeln!(
+                table,
+                "| `{}.{}` | {} |",
+                kind.name(),
+                measure.word,
+                measure.about.replace('|', "\\|")
+            )
+            .unwrap();
+        }
+    }
+    table
+}
+
 fn options() -> String {
     let mut table =
         "| option and key | what it may be | without it | what it is for |\n|---|---|---|---|\n"
@@ -106,6 +124,7 @@ fn the_tables_are_those_of_the_code() {
     check("headless.md", "exits", &exits());
     check("demos.md", "script", &commands());
     check("demos.md", "claims", &claims());
+    check("demos.md", "measures", &measures());
 }
 
 /// The TOML blocks in a document that are complete files (those with a title), without the indent of a list.

@@ -317,21 +317,21 @@ impl TextReport<'_> {
             self.heading(&format!("Cyclic coordinates: {cyclic}"));
         }
         // what is only declared is listed where it is judged
-        let known = report.conserved.iter().filter(|kept| !kept.reason.is_declared());
+        let known = report.conserved.iter().filter(|conserved| !conserved.reason.is_declared());
         let known: Vec<_> = known.collect();
         if known.is_empty() {
             return self.heading("Conserved: nothing known");
         }
         self.heading("Conserved");
-        for kept in known {
-            let reason = self.words(&kept.reason.to_string());
+        for conserved in known {
+            let reason = self.words(&conserved.reason.to_string());
             // a formula shown above needs no repetition
-            let what = match kept.constant {
+            let what = match conserved.constant {
                 ConservedKind::Momentum(p) => self.symbol(p),
                 ConservedKind::Energy => "E".to_owned(),
                 ConservedKind::Casimir(name) => self.words(name),
                 ConservedKind::Other(name) => {
-                    format!("{} = {}", self.words(name), self.math(kept.expression))
+                    format!("{} = {}", self.words(name), self.math(conserved.expression))
                 }
             };
             self.line(&format!("  {what}   ({reason})"));

@@ -171,7 +171,7 @@ impl Session {
     }
 
     /// Adds the location of an unsaved text to the message about a system that cannot be loaded.
-    pub(super) fn with_text_kept(&self, mut error: LoadError) -> LoadError {
+    pub(super) fn with_text_saved(&self, mut error: LoadError) -> LoadError {
         let place = self.saving.store.as_ref().and_then(Store::place_of_texts);
         let unsaved = self.app.unsaved().iter().any(|text| text.name == error.name);
         if let Some(place) = place.filter(|_| unsaved) {

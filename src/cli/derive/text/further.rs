@@ -19,7 +19,8 @@ impl TextReport<'_> {
                     Err(why) => format!("  {name}   ({})", self.words(&why.0)),
                 };
                 let mut own = self.report.equations.conserved.iter();
-                let declared = own.any(|kept| kept.name == c.name && kept.reason.is_declared());
+                let declared =
+                    own.any(|conserved| conserved.name == c.name && conserved.reason.is_declared());
                 if declared { format!("{row}   (declared conserved)") } else { row }
             })
             .collect();
@@ -151,9 +152,9 @@ impl TextReport<'_> {
                 Ok(e) => self.math(*e),
                 Err(_) => "not known in closed form".to_owned(),
             };
-            let kept = if known.conserved { "conserved" } else { "not conserved" };
+            let conserved = if known.conserved { "conserved" } else { "not conserved" };
             let (name, e) = (self.words(&known.name), self.math(known.expression));
-            self.line(&format!("  {name}: G = {e}, [H, G] = {bracket}   ({kept})"));
+            self.line(&format!("  {name}: G = {e}, [H, G] = {bracket}   ({conserved})"));
         }
     }
 
