@@ -1,11 +1,10 @@
 //! Orbits carried side by side: the bits of each alone, in every shipped system where that is possible, and the orbits
 //! that must be followed alone.
 
-use phaselab::diagnostic::Document;
+use phaselab::app::Loaded;
 use phaselab::ensemble::{
     Carried, SectionPlan, Start, SystemFlow, add_section, crossings, crossings_of_all,
 };
-use phaselab::experiment::Prepared;
 use phaselab::integrate::{
     BatchPropagator, LaneStatus, Propagator, Reached, Settings, method_named,
 };
@@ -14,7 +13,7 @@ use phaselab::model::{Allowed, Direction, Scope};
 use phaselab::num::BATCH;
 use phaselab::system::{InitialOverride, State, System};
 
-use crate::fixtures::catalog;
+use crate::fixtures::{catalog, loaded, lowered};
 use crate::nonempty;
 
 const TOLERANCES: [f64; 2] = [1e-15, 1e-9];
@@ -23,7 +22,7 @@ fn settings(tolerance: f64) -> Settings {
     Settings { tolerance: Some(tolerance), ..Settings::default() }
 }
 
-fn flow(ready: &Prepared, tolerance: f64) -> SystemFlow {
+fn flow(ready: &Loaded, tolerance: f64) -> SystemFlow {
     let method = method_named("taylor").unwrap();
     let parameters = ready.model.parameter_values();
     let system = System::clone(&ready.system);
@@ -37,7 +36,7 @@ fn flow(ready: &Prepared, tolerance: f64) -> SystemFlow {
 }
 
 /// States near that of the file, in no order of size.
-fn states(ready: &Prepared, count: usize) -> Vec<State> {
+fn states(ready: &Loaded, count: usize) -> Vec<State> {
     let parameters = ready.model.parameter_values();
     let first = ready.system.initial(ready.model.run.start, &parameters, &[]).unwrap();
     let one = |i: usize| {
@@ -62,7 +61,7 @@ fn bits(one: &Carried) -> (Vec<Vec<u64>>, Option<Vec<u64>>) {
 }
 
 /// Whether orbits of a system are carried side by side.
-fn goes_side_by_side(ready: &Prepared) -> bool {
+fn goes_side_by_side(ready: &Loaded) -> bool {
     let method = method_named("taylor").unwrap();
     BatchPropagator::new(&ready.system.without_marks(), method, settings(1e-15)).is_some()
 }
@@ -71,7 +70,7 @@ fn goes_side_by_side(ready: &Prepared) -> bool {
 fn every_orbit_has_the_bits_that_it_has_alone() {
     let mut seen = Vec::new();
     for entry in catalog().entries() {
-        let ready = Prepared::of(&entry.document().unwrap()).unwrap();
+        let ready = loaded(&entry.name, 1);
         if !goes_side_by_side(&ready) {
             continue;
         }
@@ -104,7 +103,7 @@ fn every_orbit_has_the_bits_that_it_has_alone() {
 fn every_orbit_by_equal_steps_too() {
     let mut seen = Vec::new();
     for entry in catalog().entries() {
-        let ready = Prepared::of(&entry.document().unwrap()).unwrap();
+        let ready = loaded(&entry.name, 1);
         let unit = Some(ready.model.run.speed).filter(|s| s.is_finite()).unwrap_or(1.0);
         // the default step takes far longer to find than the motion to follow
         let is_found = ["henon-heiles", "pendulum"].contains(&entry.name.as_str());
@@ -154,9 +153,7 @@ fn every_orbit_by_equal_steps_too() {
 
 #[test]
 fn orbits_of_a_smooth_system_stay_side_by_side() {
-    let entry = catalog();
-    let entry = entry.entries().iter().find(|entry| entry.name == "henon-heiles").unwrap();
-    let ready = Prepared::of(&entry.document().unwrap()).unwrap();
+    let ready = loaded("henon-heiles", 1);
     let method = method_named("taylor").unwrap();
     let mut batch =
         BatchPropagator::new(&ready.system.without_marks(), method, settings(1e-12)).unwrap();
@@ -174,9 +171,7 @@ fn orbits_of_a_smooth_system_stay_side_by_side() {
 #[test]
 fn orbits_with_far_to_go_stay_side_by_side() {
     for name in ["henon-heiles", "double-pendulum", "pendulum"] {
-        let entry = catalog();
-        let entry = entry.entries().iter().find(|entry| entry.name == name).unwrap();
-        let ready = Prepared::of(&entry.document().unwrap()).unwrap();
+        let ready = loaded(name, 1);
         let method = method_named("taylor").unwrap();
         let system = ready.system.without_marks();
         let mut batch = BatchPropagator::new(&system, method, settings(1e-12)).unwrap();
@@ -204,12 +199,11 @@ fn orbits_with_far_to_go_stay_side_by_side() {
 }
 
 /// One coordinate with this Lagrangian.
-fn line(lagrangian: &str, more: &str) -> Prepared {
-    let text = format!(
+fn line(lagrangian: &str, more: &str) -> Loaded {
+    lowered(&format!(
         "title = \"line\"\n[coordinates]\nx = {{ initial = 1.0, velocity = 0.5 }}\n\
          [lagrangian]\nL = \"{lagrangian}\"\n{more}"
-    );
-    Prepared::of(&Document::new("line", &text)).unwrap_or_else(|error| panic!("{error}"))
+    ))
 }
 
 #[test]
@@ -322,7 +316,7 @@ fn an_orbit_that_takes_too_many_steps_is_given_up() {
 
 /// A system with a surface of section, and the index of its event.
 fn with_section(name: &str, written: &str, direction: Direction) -> (System, Vec<f64>, usize) {
-    let mut model = Prepared::of(&catalog().find(name).unwrap()).unwrap().model.as_ref().clone();
+    let mut model = loaded(name, 1).model.as_ref().clone();
     let mut pool = model.pool.clone();
     let read = Scope::new(&model, Allowed::Event, "a section").read(&mut pool, written);
     model.pool = pool;
@@ -428,7 +422,7 @@ fn events_are_found_in_the_lanes_themselves() {
 /// Otherwise a map over a parameter would show the motions of the flow's own.
 #[test]
 fn states_with_parameters_of_their_own_are_carried_as_each_alone() {
-    let ready = Prepared::of(&catalog().find("henon-heiles").unwrap()).unwrap();
+    let ready = loaded("henon-heiles", 1);
     let states = states(&ready, 2 * BATCH + 3);
     let own = |i: usize| {
         let mut parameters = ready.model.parameter_values();

@@ -6,17 +6,17 @@
 //! within (1/3, 6), no compensated summation. Only the coefficients are shared; other tests check them against the order
 //! conditions.
 
+use phaselab::app::Loaded;
 use phaselab::experiment::Setup;
 use phaselab::integrate::{METHODS, Propagator, Reached, Settings, method_named};
-use phaselab::mechanics;
 use phaselab::model::EventAction;
-use phaselab::preset::Catalog;
 use phaselab::system::{Rates, State, System};
 
 #[path = "../../../src/integrate/dop853/tableau.rs"]
 #[allow(dead_code, reason = "the interpolant is not looked at")]
 mod tableau;
 
+use crate::fixtures::{catalog, loaded};
 use tableau::{FIFTH, METHOD_STAGES, STAGES, THIRD};
 
 /// The number of steps of the default method over which a motion is followed, so few that none becomes chaotic.
@@ -119,14 +119,11 @@ const LONGEST: f64 = 10.0;
 
 #[test]
 fn dop853_is_as_accurate_as_an_independent_one_on_every_preset() {
-    let catalog = Catalog::with_folder(None);
     let mut worse = Vec::new();
     let (mut compared, mut held) = (0, 0);
-    for entry in catalog.entries() {
+    for entry in catalog().entries() {
         let name = &entry.name;
-        let model = entry.document().expect("shipped").read().expect("right").model;
-        let equations = mechanics::derive(&model).expect("derivable");
-        let system = System::compile(&model, &equations, &[]).expect("compiles");
+        let Loaded { model, system, .. } = loaded(name, 1);
         let setup = Setup::of(&model);
         let start = system.initial(setup.start, &setup.parameters, &[]).expect("begins");
         // in its own unit of time

@@ -1,18 +1,17 @@
 //! Rates by straight lists of instructions: those of the program, for one state and for the stages of a step side by side.
 
 use nalgebra::{DMatrix, DVector};
-use phaselab::experiment::Prepared;
+use phaselab::app::Loaded;
 use phaselab::expr::Symbol;
 use phaselab::mechanics::Flow;
 use phaselab::num::{Batch, DoubleDouble};
 use phaselab::system::{STAGES, State};
 
-use crate::fixtures::catalog;
-use crate::laboratory::prepared;
+use crate::fixtures::{catalog, loaded, lowered};
 use crate::nonempty;
 
 /// States near that of the file, at different times.
-fn states(ready: &Prepared) -> Vec<State> {
+fn states(ready: &Loaded) -> Vec<State> {
     let parameters = ready.model.parameter_values();
     let first = ready.system.initial(ready.model.run.start, &parameters, &[]).unwrap();
     let one = |i: usize| {
@@ -31,7 +30,7 @@ fn states(ready: &Prepared) -> Vec<State> {
 fn every_stage_has_the_bits_that_it_has_alone() {
     let mut compared = 0;
     for entry in catalog().entries() {
-        let ready = Prepared::of(&entry.document().unwrap()).unwrap();
+        let ready = loaded(&entry.name, 1);
         let parameters = ready.model.parameter_values();
         for mut rates in [ready.system.native_rates(), ready.system.canonical_rates()] {
             rates.set_parameters(&parameters);
@@ -70,7 +69,7 @@ fn every_stage_has_the_bits_that_it_has_alone() {
 #[test]
 fn rates_are_those_in_double_double_but_for_rounding() {
     for entry in nonempty(catalog().entries()) {
-        let ready = Prepared::of(&entry.document().unwrap()).unwrap();
+        let ready = loaded(&entry.name, 1);
         let parameters = ready.model.parameter_values();
         let mut rates = ready.system.native_rates();
         rates.set_parameters(&parameters);
@@ -115,7 +114,7 @@ fn accelerations_solve_the_equations_however_they_are_eliminated() {
             if law.contains('w') { &["x", "y", "z", "w"] } else { &["x", "y", "z"] };
         let coordinates: Vec<String> =
             names.iter().map(|q| format!("{q} = {{ initial = 0.6, velocity = 0.3 }}\n")).collect();
-        let ready = prepared(&format!(
+        let ready = lowered(&format!(
             "title = \"Law\"\n[coordinates]\n{}[parameters]\na = 1.3\nb = 0.7\nc = 0.4\n[lagrangian]\nL = \"{law}\"\n",
             coordinates.concat()
         ));
