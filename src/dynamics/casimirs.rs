@@ -4,8 +4,8 @@
 
 use nalgebra::DVector;
 
-use super::direction::FlowDirection;
 use super::error::DynamicsError;
+use super::flow_direction::FlowDirection;
 use super::phase_space::PhaseSpace;
 use crate::system::State;
 

@@ -5,9 +5,9 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::carrier::Carrier;
-use super::direction::FlowDirection;
 use super::error::DynamicsError;
 use super::excursion::Excursion;
+use super::flow_direction::FlowDirection;
 use super::phase_space::PhaseSpace;
 use crate::integrate::{Method, Settings};
 use crate::num::bisect;

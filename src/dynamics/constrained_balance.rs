@@ -12,8 +12,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::direction::basis_of_range;
 use super::error::DynamicsError;
+use super::flow_direction::basis_of_range;
 use super::phase_space::PhaseSpace;
 use crate::num::math;
 use crate::system::{ConstraintProjector, Form, MotionError, Rates, State, SurfaceRow, System};

@@ -3,7 +3,7 @@
 //!
 //! In: the equations, the parameters. Out: the common period, if there is one. Never here: orbits.
 
-use super::turning::{common_period, law, turning_rates};
+use super::periodicity::{common_period, law, turning_rates};
 use crate::expr::Expr;
 use crate::mechanics::{Equations, Valuation};
 use crate::model::{EventAction, Model};

@@ -20,8 +20,8 @@ mod zero;
 use nalgebra::{DMatrix, DVector};
 
 use super::equilibrium::{Equilibria, Equilibrium, in_order};
+use super::equilibrium_kind::{EquilibriumKind, Signature};
 use super::error::DynamicsError;
-use super::kind::{EquilibriumKind, Signature};
 use super::linear;
 use super::phase_space::PhaseSpace;
 use super::small_oscillation::{LinearMotion, Mode, growth_errors, linear_motion, modes};

@@ -4,7 +4,7 @@
 
 use std::cmp::Ordering;
 
-use super::kind::EquilibriumKind;
+use super::equilibrium_kind::EquilibriumKind;
 use super::small_oscillation::{LinearMotion, Mode, rests};
 use super::virtual_work::VirtualWork;
 

@@ -6,8 +6,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::direction::FlowDirection;
 use super::error::DynamicsError;
+use super::flow_direction::FlowDirection;
 use super::phase_space::PhaseSpace;
 use crate::num::math;
 use crate::system::State;

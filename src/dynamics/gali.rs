@@ -12,9 +12,9 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::carrier::Carrier;
-use super::direction::basis_of_range;
 use super::displacement_units::{displacement_units, scaled};
 use super::error::DynamicsError;
+use super::flow_direction::basis_of_range;
 use super::lyapunov_course::{GROWN, LEAST_ROUNDS};
 use super::phase_space::PhaseSpace;
 use crate::integrate::{Method, Settings};

@@ -6,8 +6,8 @@
 use nalgebra::DMatrix;
 
 use super::carrier::Carrier;
-use super::direction::FlowDirection;
 use super::error::DynamicsError;
+use super::flow_direction::FlowDirection;
 use super::orbit::Orbit;
 use super::phase_space::PhaseSpace;
 use crate::integrate::{Method, Settings, Stepping};

@@ -8,10 +8,10 @@
 
 use nalgebra::{DMatrix, DMatrixView, DVector};
 
-use super::direction::{FlowDirection, basis_of_range};
 use super::displacement_units::{displacement_units, scaled};
 use super::error::DynamicsError;
 use super::excursion::{Departure, Excursion};
+use super::flow_direction::{FlowDirection, basis_of_range};
 use super::flow_map::Divergence;
 use super::megno::Megno;
 use super::phase_space::{NOTHING_MOVES, PhaseSpace};

@@ -12,10 +12,10 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::amplified_rounding::MapRounding;
-use super::direction::{FlowDirection, basis_of_range};
 use super::end_state::end_state;
 use super::error::DynamicsError;
 use super::first_return::difference;
+use super::flow_direction::{FlowDirection, basis_of_range};
 use super::flow_map::flow_map_while;
 use super::linear;
 use super::orbit_units::OrbitUnits;

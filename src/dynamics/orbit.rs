@@ -8,10 +8,10 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::direction::FlowDirection;
 use super::eigenvalue_error::eigenvalue_errors;
 use super::error::DynamicsError;
 use super::first_return::{difference, return_near};
+use super::flow_direction::FlowDirection;
 use super::linear;
 use super::newton::{CLOSED, Fixed, Newton, NewtonIterate};
 use super::orbit_units::OrbitUnits;

@@ -12,7 +12,7 @@ use super::drive::{acts, coordinate_period, drive_period};
 use super::error::DynamicsError;
 use super::even_powers::has_one_strict_minimum;
 use super::levels::Levels;
-use super::power::never_adds_energy;
+use super::passivity::never_adds_energy;
 use super::unsuited::{
     acts_by_the_clock, refuse, refuse_acts, refuse_acts_but, refuse_constraints,
 };

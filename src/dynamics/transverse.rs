@@ -10,7 +10,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::direction::basis_of_range;
+use super::flow_direction::basis_of_range;
 
 /// A gradient of which no more than this part lies outside others depends on them.
 const DEPENDENT: f64 = 1e-6;

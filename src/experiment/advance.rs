@@ -2,8 +2,8 @@
 //!
 //! In: a time, a budget of steps and rows. Out: how far it came. Never here: commands.
 
-use super::course::Experiment;
 use super::gauges::Gauges;
+use super::running_experiment::Experiment;
 use crate::integrate::{Occurrence, OccurrenceKind, Reached};
 
 /// The number of the shortest row intervals that a step may cover.

@@ -15,8 +15,8 @@ mod seen_distances;
 
 use std::sync::Arc;
 
-use super::attitude::{ATTITUDE_GAUGE, AttitudeGauge};
-use super::residual::ResidualGauge;
+use super::attitude_gauge::{ATTITUDE_GAUGE, AttitudeGauge};
+use super::residual_gauge::ResidualGauge;
 use super::{FoundConstant, Gauge, Reference};
 use crate::analysis::{RoundedInput, rounding_floor};
 use crate::expr::{Expr, Symbol};

@@ -2,7 +2,7 @@
 //!
 //! In: an occurrence of the motion. Out: rows of the trail, an entry of the log, a notice. Never here: when it occurs.
 
-use super::course::Experiment;
+use super::running_experiment::Experiment;
 use crate::integrate::{Occurrence, OccurrenceKind};
 use crate::num::short;
 use crate::system;

@@ -4,9 +4,9 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::super::direction::FlowDirection;
 use super::super::error::DynamicsError;
 use super::super::family::{Along, Bifurcation, Member};
+use super::super::flow_direction::FlowDirection;
 use super::family_end::FamilyEnd;
 use super::{Continuation, FamilyPoint};
 

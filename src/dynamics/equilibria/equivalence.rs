@@ -7,7 +7,7 @@ use nalgebra::DVector;
 
 use super::search::{EquilibriumSearch, LawAtRest, size_of};
 use crate::dynamics::equilibrium::Equilibrium;
-use crate::dynamics::kind::EquilibriumKind;
+use crate::dynamics::equilibrium_kind::EquilibriumKind;
 use crate::dynamics::linear;
 
 /// Two energies are the same up to this part of what V changes by in the next unit beyond the two places, on the line through them.

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use super::invariant_monitor::{
     ChangeLaw, ChangeRate, ENERGY_BALANCE, InvariantMonitor, MonitoredInvariant,
 };
-use crate::experiment::law::{EnergyLaw, LONGEST};
+use crate::experiment::energy_law::{EnergyLaw, LONGEST};
 use crate::expr::Expr;
 use crate::mechanics::{Conserved, Equations, casimir_rate};
 use crate::model::{Mechanics, Model};
