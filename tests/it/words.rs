@@ -7,7 +7,7 @@ use crate::honest::{plain, sources};
 use crate::nonempty;
 
 /// Words of which no name is made: each has a standard one.
-const PRIVATE: [&str; 58] = [
+const PRIVATE: [&str; 56] = [
     "aside",
     "beat",
     "blow",
@@ -28,7 +28,6 @@ const PRIVATE: [&str; 58] = [
     "keeper",
     "kin",
     "laboratory",
-    "laid",
     "likeness",
     "listen",
     "look",
@@ -47,7 +46,6 @@ const PRIVATE: [&str; 58] = [
     "said",
     "seat",
     "settle",
-    "sheet",
     "shelf",
     "sought",
     "spot",
