@@ -63,13 +63,13 @@ pub fn equilibria_search(
     }
 }
 
-/// The coordinates, and the rates that belong to the state, by a value of each channel.
 /// The motion as it is, as one that begins at a time.
 pub(super) fn start(present: &Present<'_>, time: f64) -> Start {
     let overrides = given(present.physics, |channel| present.value(channel));
     Start { time, parameters: present.parameters.to_vec(), overrides }
 }
 
+/// The coordinates, and the rates that belong to the state, by a value of each channel.
 pub(super) fn given(physics: Physics<'_>, value: impl Fn(usize) -> f64) -> Vec<InitialOverride> {
     let form = physics.system.form();
     let channels = physics.system.channels().iter().enumerate();

@@ -13,7 +13,7 @@ use phaselab::model::{Allowed, Direction, Scope};
 use phaselab::num::BATCH;
 use phaselab::system::{InitialOverride, State, System};
 
-use crate::fixtures::{catalog, loaded, lowered};
+use crate::fixtures::{catalog, compiled, loaded, lowered};
 use crate::nonempty;
 
 const TOLERANCES: [f64; 2] = [1e-15, 1e-9];
@@ -70,7 +70,7 @@ fn goes_side_by_side(ready: &Loaded) -> bool {
 fn every_orbit_has_the_bits_that_it_has_alone() {
     let mut seen = Vec::new();
     for entry in catalog().entries() {
-        let ready = loaded(&entry.name, 1);
+        let ready = compiled(&entry.name);
         if !goes_side_by_side(&ready) {
             continue;
         }
@@ -103,7 +103,7 @@ fn every_orbit_has_the_bits_that_it_has_alone() {
 fn every_orbit_by_equal_steps_too() {
     let mut seen = Vec::new();
     for entry in catalog().entries() {
-        let ready = loaded(&entry.name, 1);
+        let ready = compiled(&entry.name);
         let unit = Some(ready.model.run.speed).filter(|s| s.is_finite()).unwrap_or(1.0);
         // the default step takes far longer to find than the motion to follow
         let is_found = ["henon-heiles", "pendulum"].contains(&entry.name.as_str());
@@ -153,7 +153,7 @@ fn every_orbit_by_equal_steps_too() {
 
 #[test]
 fn orbits_of_a_smooth_system_stay_side_by_side() {
-    let ready = loaded("henon-heiles", 1);
+    let ready = compiled("henon-heiles");
     let method = method_named("taylor").unwrap();
     let mut batch =
         BatchPropagator::new(&ready.system.without_marks(), method, settings(1e-12)).unwrap();
@@ -171,7 +171,7 @@ fn orbits_of_a_smooth_system_stay_side_by_side() {
 #[test]
 fn orbits_with_far_to_go_stay_side_by_side() {
     for name in ["henon-heiles", "double-pendulum", "pendulum"] {
-        let ready = loaded(name, 1);
+        let ready = compiled(name);
         let method = method_named("taylor").unwrap();
         let system = ready.system.without_marks();
         let mut batch = BatchPropagator::new(&system, method, settings(1e-12)).unwrap();
@@ -422,7 +422,7 @@ fn events_are_found_in_the_lanes_themselves() {
 /// Otherwise a map over a parameter would show the motions of the flow's own.
 #[test]
 fn states_with_parameters_of_their_own_are_carried_as_each_alone() {
-    let ready = loaded("henon-heiles", 1);
+    let ready = compiled("henon-heiles");
     let states = states(&ready, 2 * BATCH + 3);
     let own = |i: usize| {
         let mut parameters = ready.model.parameter_values();

@@ -31,6 +31,13 @@ pub(crate) fn loaded(name: &str, epoch: u64) -> Loaded {
     Loaded { epoch, ..loaded.clone() }
 }
 
+/// A shipped preset, compiled anew: no other test has begun its machine code.
+pub(crate) fn compiled(name: &str) -> Loaded {
+    let loaded = loaded(name, 1);
+    let system = System::compile(&loaded.model, &loaded.equations, &[]).unwrap();
+    Loaded { system: Arc::new(system), ..loaded }
+}
+
 /// Lowers the text of a file, with epoch 1.
 pub(crate) fn lowered(text: &str) -> Loaded {
     lower("test", 1, Document::new("test", text))

@@ -16,7 +16,7 @@ use phaselab::system::{Rates, State, System};
 #[allow(dead_code, reason = "the interpolant is not looked at")]
 mod tableau;
 
-use crate::fixtures::{catalog, loaded};
+use crate::fixtures::{catalog, compiled};
 use tableau::{FIFTH, METHOD_STAGES, STAGES, THIRD};
 
 /// The number of steps of the default method over which a motion is followed, so few that none becomes chaotic.
@@ -123,7 +123,7 @@ fn dop853_is_as_accurate_as_an_independent_one_on_every_preset() {
     let (mut compared, mut held) = (0, 0);
     for entry in catalog().entries() {
         let name = &entry.name;
-        let Loaded { model, system, .. } = loaded(name, 1);
+        let Loaded { model, system, .. } = compiled(name);
         let setup = Setup::of(&model);
         let start = system.initial(setup.start, &setup.parameters, &[]).expect("begins");
         // in its own unit of time

@@ -7,7 +7,7 @@ use phaselab::mechanics::Flow;
 use phaselab::num::{Batch, DoubleDouble};
 use phaselab::system::{STAGES, State};
 
-use crate::fixtures::{catalog, loaded, lowered};
+use crate::fixtures::{catalog, compiled, lowered};
 use crate::nonempty;
 
 /// States near that of the file, at different times.
@@ -30,7 +30,7 @@ fn states(ready: &Loaded) -> Vec<State> {
 fn every_stage_has_the_bits_that_it_has_alone() {
     let mut compared = 0;
     for entry in catalog().entries() {
-        let ready = loaded(&entry.name, 1);
+        let ready = compiled(&entry.name);
         let parameters = ready.model.parameter_values();
         for mut rates in [ready.system.native_rates(), ready.system.canonical_rates()] {
             rates.set_parameters(&parameters);
@@ -69,7 +69,7 @@ fn every_stage_has_the_bits_that_it_has_alone() {
 #[test]
 fn rates_are_those_in_double_double_but_for_rounding() {
     for entry in nonempty(catalog().entries()) {
-        let ready = loaded(&entry.name, 1);
+        let ready = compiled(&entry.name);
         let parameters = ready.model.parameter_values();
         let mut rates = ready.system.native_rates();
         rates.set_parameters(&parameters);
