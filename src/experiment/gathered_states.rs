@@ -49,9 +49,13 @@ impl GatheredStates {
         gauges: &mut Gauges,
     ) {
         let lane = self.observed.len();
-        self.numbers.resize(state.values.len(), Batch::ZERO);
-        for (number, &value) in self.numbers.iter_mut().zip(&state.values) {
-            number.0[lane] = value;
+        let count = state.values.len();
+        if self.numbers.len() != count {
+            self.numbers.resize(count, Batch::ZERO);
+        }
+        // by places, since iterators over two lists are not always inlined
+        for i in 0..count {
+            self.numbers[i].0[lane] = state.values[i];
         }
         self.clocks.0[lane] = at.clock;
         self.observed.push(at);

@@ -92,6 +92,11 @@ impl StepLog {
         self.off = true;
     }
 
+    /// Whether nothing is logged.
+    pub(super) fn is_off(&self) -> bool {
+        self.off
+    }
+
     /// The number of steps before the next that is logged, if one of so many is.
     pub(super) fn steps_to_next(&self, steps: u64, apart: u64) -> u64 {
         if self.off { u64::MAX } else { apart - steps % apart }

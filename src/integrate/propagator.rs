@@ -79,6 +79,8 @@ pub struct Propagator {
     steps_in_time: Option<StepsInTime>,
     /// The time just after the last step in time of the law, or just after the start at one.
     crossed: Option<DoubleDouble>,
+    /// Whether nothing acts on the motion but its law, and nothing is watched.
+    is_free: bool,
 }
 
 impl Propagator {
@@ -119,6 +121,7 @@ impl Propagator {
             steps: 0,
             steps_in_time: None,
             crossed: None,
+            is_free: false,
         };
         motion.take_system();
         Ok(motion)
@@ -126,6 +129,7 @@ impl Propagator {
 
     /// Updates everything that depends on the enforced constraints.
     fn take_system(&mut self) {
+        self.is_free = false;
         self.projector = self.system.projector(&self.parameters);
         self.steps_in_time = self.system.steps_in_time(&self.parameters);
         self.search.take_system(&self.system, &self.parameters);
@@ -256,6 +260,7 @@ impl Propagator {
     }
 
     fn resume(&mut self, state: &State) -> Result<(), MotionError> {
+        self.is_free = false;
         if state.form == self.system.form() {
             self.state.copy_from(state);
         } else {
@@ -271,7 +276,20 @@ impl Propagator {
         self.domain = MotionDomain::around(&self.system, &self.state, &self.parameters);
         self.stepper.start(&self.state, &self.parameters)?;
         self.watch_narrow_places()?;
-        self.find_vanishing_events()
+        self.find_vanishing_events()?;
+        self.is_free = self.finds_nothing_but_law();
+        Ok(())
+    }
+
+    /// Whether nothing acts on the motion but its law, and nothing is watched.
+    fn finds_nothing_but_law(&self) -> bool {
+        self.whole.constraints() == 0
+            && self.projector.is_none()
+            && self.domain.is_unbounded()
+            && self.system.attitude_place().is_none()
+            && self.search.is_empty()
+            && self.narrow.is_none()
+            && self.poles.is_none()
     }
 
     /// The current state in the system's native form.

@@ -55,10 +55,14 @@ pub fn four_tails<L: FourLanes>(lanes: L, high: [&[f64]; LANES], x: f64) -> L::N
     let ((c, c_rest), (d, d_rest)) = (c.as_chunks::<APART>(), d.as_chunks::<APART>());
     let count = a.len();
     let (b, c, d) = (&b[..count], &c[..count], &d[..count]);
-    let mut a_sums = lanes.from_array(padded(a_rest, 0.0));
-    let mut b_sums = lanes.from_array(padded(b_rest, 0.0));
-    let mut c_sums = lanes.from_array(padded(c_rest, 0.0));
-    let mut d_sums = lanes.from_array(padded(d_rest, 0.0));
+    let zero = lanes.splat(0.0);
+    let [mut a_sums, mut b_sums, mut c_sums, mut d_sums] = [zero; LANES];
+    if !a_rest.is_empty() {
+        a_sums = lanes.from_array(padded(a_rest, 0.0));
+        b_sums = lanes.from_array(padded(b_rest, 0.0));
+        c_sums = lanes.from_array(padded(c_rest, 0.0));
+        d_sums = lanes.from_array(padded(d_rest, 0.0));
+    }
     for i in (0..count).rev() {
         a_sums = lanes.add(lanes.mul(a_sums, fourth), lanes.from_array(a[i]));
         b_sums = lanes.add(lanes.mul(b_sums, fourth), lanes.from_array(b[i]));

@@ -16,7 +16,7 @@ use super::sign_bound::{LAST, bound, keeps_sign, shows_no_end, stays};
 use super::step_series::StepSeries;
 use crate::expr::FunctionId;
 use crate::num::{
-    DoubleDouble, all_finite, cosine_of_arctangent, cosine_of_half, math, square_root,
+    DoubleDouble, ScalarLanes, all_finite, cosine_of_arctangent, cosine_of_half, math, square_root,
 };
 
 /// The most times ahead from which functions are evaluated whose last terms show nothing.
@@ -147,9 +147,9 @@ impl Expansion {
 
     fn grow(&mut self, time: f64, unit: f64) -> bool {
         self.jet.advance_to(self.order(), time, unit).is_ok()
-            && (0..self.outputs).all(|i| all_finite(self.jet.output_series(i)))
+            && (0..self.outputs).all(|i| all_finite(ScalarLanes, self.jet.output_series(i)))
             // also of roots that the functions do not read here, as in the smaller part of a maximum
-            && self.branch_signs().all(|c| all_finite(&c))
+            && self.branch_signs().all(|c| all_finite(ScalarLanes, &c))
     }
 
     /// Whether every function has this sign from the origin of a series up to a time, in its unit, and is represented

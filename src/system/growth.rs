@@ -190,11 +190,14 @@ impl<R: Real> SeriesBuilder<R> {
     /// Copies the origin and what was evaluated at it in another precision.
     #[cfg(target_arch = "x86_64")]
     pub(super) fn take_origin<S: Real>(&mut self, other: &SeriesBuilder<S>) {
-        for i in 0..self.len() {
-            self.set_origin(i, R::of(other.series(i)[0].double()));
+        // counted along, since to divide a table into chunks takes a division
+        let (mut place, mut from) = (0, 0);
+        while place < self.state.len() {
+            self.state[place] = R::of(other.state[from].double());
+            (place, from) = (place + self.order + 1, from + other.order + 1);
         }
         self.kept.clone_from(&other.kept);
-        self.jet.take_over(&other.jet, 1);
+        self.jet.take_over_values(&other.jet);
     }
 
     /// Copies all orders known in another precision.

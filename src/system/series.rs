@@ -19,8 +19,8 @@ use super::step_series::StepSeries;
 use super::underflow;
 use crate::expr::FunctionId;
 use crate::num::{
-    Analytic, DoubleDouble, ExtendedRange, Kernel, Real, all_finite, in_four_lanes, polynomial,
-    vectorized,
+    Analytic, DoubleDouble, ExtendedRange, FourLaneKernel, FourLanes, Real, all_finite,
+    in_four_lanes, polynomial,
 };
 
 /// The series of all numbers of a state, in the native form of its system.
@@ -146,9 +146,11 @@ impl Series {
     /// Returns an error if a matrix is singular at the state, no velocities belong to its momenta, or the system is cancelled.
     pub fn build(&mut self, state: &State) -> Result<(), MotionError> {
         self.time = state.exact_time();
-        let numbers = state.values.iter().zip(&state.carry);
-        for (x, (&high, &low)) in self.origin.iter_mut().zip(numbers) {
-            *x = DoubleDouble { high, low };
+        // by places, since iterators over several lists are not always inlined
+        let count = self.origin.len();
+        let (values, carry) = (&state.values[..count], &state.carry[..count]);
+        for i in 0..count {
+            self.origin[i] = DoubleDouble { high: values[i], low: carry[i] };
         }
         match self.grow() {
             Ok(()) => Ok(()),
@@ -184,7 +186,7 @@ impl Series {
 
     /// Whether all coefficients of the state and of the switches are finite.
     fn sees_finite(&self) -> bool {
-        vectorized(Finite(self))
+        in_four_lanes(Finite(self))
     }
 
     /// Whether all coefficients of the state and of the switches are finite. Those that were copied from a wider range may not
@@ -372,7 +374,7 @@ impl Series {
 
     /// Writes the state at a time `after` the origin into `out`, by the polynomials.
     pub fn state_after(&self, after: DoubleDouble, out: &mut State) {
-        let x = after * self.scale.recip();
+        let x = after.scaled(self.scale.recip());
         let (low, known) = match &self.low {
             Some(low) => (low.list(), low.known_orders()),
             None => (SeriesList { coefficients: &self.origin, stride: 1 }, 1),
@@ -431,15 +433,15 @@ fn largest(numbers: impl Iterator<Item = f64>) -> f64 {
 /// The kernel of [`Series::sees_finite`].
 struct Finite<'a>(&'a Series);
 
-impl Kernel for Finite<'_> {
+impl FourLaneKernel for Finite<'_> {
     type Output = bool;
 
     #[inline(always)]
-    fn run<const FUSED: bool>(self) -> bool {
+    fn run<L: FourLanes, const FUSED: bool>(self, lanes: L) -> bool {
         let Finite(series) = self;
-        let mut finite = all_finite(series.high.coefficients());
+        let mut finite = all_finite(lanes, series.high.coefficients());
         for i in 0..series.switches() {
-            finite &= all_finite(series.switch(i));
+            finite &= all_finite(lanes, series.switch(i));
         }
         finite
     }

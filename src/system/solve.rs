@@ -39,19 +39,29 @@ impl<R: Real> Factored<R> {
     /// singular; a matrix with an entry that is not finite counts as regular and propagates it.
     #[must_use]
     pub(super) fn factor(&mut self, entry: impl FnMut(usize, usize) -> R) -> bool {
+        self.factor_with::<false>(entry)
+    }
+
+    /// The same, which with `FUSED` must be inlined into a [`Kernel`](crate::num::Kernel).
+    #[must_use]
+    #[inline(always)]
+    pub(super) fn factor_with<const FUSED: bool>(
+        &mut self,
+        entry: impl FnMut(usize, usize) -> R,
+    ) -> bool {
         self.is_scaled = false;
         // loops of a known length are unrolled
         match self.size {
             1 => self.take_only(entry),
-            2 => self.factor_of::<2>(entry),
-            3 => self.factor_of::<3>(entry),
-            4 => self.factor_of::<4>(entry),
-            _ => self.factor_of::<0>(entry),
+            2 => self.factor_of::<2, FUSED>(entry),
+            3 => self.factor_of::<3, FUSED>(entry),
+            4 => self.factor_of::<4, FUSED>(entry),
+            _ => self.factor_of::<0, FUSED>(entry),
         }
     }
 
     /// The same for one number, which is singular only where it is zero.
-    #[inline]
+    #[inline(always)]
     fn take_only(&mut self, mut entry: impl FnMut(usize, usize) -> R) -> bool {
         let only = entry(0, 0);
         self.entries[0] = only;
@@ -59,8 +69,11 @@ impl<R: Real> Factored<R> {
     }
 
     /// The same for a size that is known, or for any where that is zero.
-    #[inline]
-    fn factor_of<const SIZE: usize>(&mut self, mut entry: impl FnMut(usize, usize) -> R) -> bool {
+    #[inline(always)]
+    fn factor_of<const SIZE: usize, const FUSED: bool>(
+        &mut self,
+        mut entry: impl FnMut(usize, usize) -> R,
+    ) -> bool {
         let n = if SIZE == 0 { self.size } else { SIZE };
         let (entries, rows) = (&mut self.entries[..n * n], &mut self.rows[..n]);
         let mut finite = true;
@@ -97,10 +110,10 @@ impl<R: Real> Factored<R> {
             let pivot = entries[pivot_row * n + k];
             for at in k + 1..n {
                 let row = rows[at];
-                let factor = entries[row * n + k] / pivot;
+                let factor = entries[row * n + k].divided_by::<FUSED>(pivot);
                 entries[row * n + k] = factor;
                 for j in k + 1..n {
-                    let product = factor * entries[pivot_row * n + j];
+                    let product = factor.times::<FUSED>(entries[pivot_row * n + j]);
                     entries[row * n + j] = entries[row * n + j] - product;
                 }
             }
@@ -128,27 +141,34 @@ impl<R: Real> Factored<R> {
 
     /// Solves for a right-hand side, in place.
     pub(super) fn solve(&mut self, right: &mut [R]) {
+        self.solve_with::<false>(right);
+    }
+
+    /// The same, which with `FUSED` must be inlined into a [`Kernel`](crate::num::Kernel).
+    #[inline(always)]
+    pub(super) fn solve_with<const FUSED: bool>(&mut self, right: &mut [R]) {
         match self.size {
-            1 => self.solve_of::<1>(right),
-            2 => self.solve_of::<2>(right),
-            3 => self.solve_of::<3>(right),
-            4 => self.solve_of::<4>(right),
-            _ => self.solve_of::<0>(right),
+            1 => self.solve_of::<1, FUSED>(right),
+            2 => self.solve_of::<2, FUSED>(right),
+            3 => self.solve_of::<3, FUSED>(right),
+            4 => self.solve_of::<4, FUSED>(right),
+            _ => self.solve_of::<0, FUSED>(right),
         }
     }
 
-    fn solve_of<const SIZE: usize>(&mut self, right: &mut [R]) {
+    #[inline(always)]
+    fn solve_of<const SIZE: usize, const FUSED: bool>(&mut self, right: &mut [R]) {
         let n = if SIZE == 0 { self.size } else { SIZE };
-        self.eliminate::<SIZE, false>(right);
+        self.eliminate::<SIZE, FUSED>(right);
         let (entries, rows, scratch) = (&self.entries[..n * n], &self.rows[..n], &self.scratch);
         let right = &mut right[..n];
         for k in (0..n).rev() {
             let row = rows[k];
             let mut sum = scratch[k];
             for j in k + 1..n {
-                sum = sum - entries[row * n + j] * right[j];
+                sum = sum - entries[row * n + j].times::<FUSED>(right[j]);
             }
-            right[k] = sum / entries[row * n + k];
+            right[k] = sum.divided_by::<FUSED>(entries[row * n + k]);
         }
     }
 

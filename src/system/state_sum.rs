@@ -21,6 +21,15 @@ impl<'a, R> SeriesList<'a, R> {
     fn of(&self, i: usize) -> &'a [R] {
         &self.coefficients[i * self.stride..][..self.stride]
     }
+
+    /// The series of four numbers, the first of which is this one.
+    #[inline(always)]
+    fn four(&self, first: usize) -> [&'a [R]; LANES] {
+        let all = &self.coefficients[first * self.stride..][..LANES * self.stride];
+        let (ab, cd) = all.split_at(2 * self.stride);
+        let ((a, b), (c, d)) = (ab.split_at(self.stride), cd.split_at(self.stride));
+        [a, b, c, d]
+    }
 }
 
 /// The polynomials of a state, at a time in the unit of the series.
@@ -46,14 +55,18 @@ impl FourLaneKernel for StateSum<'_> {
         // four numbers side by side, none of which waits for another; the last four may have some of those before once more
         while first < units.len() && units.len() >= LANES && x.low == 0.0 {
             let start = first.min(units.len() - LANES);
-            let (i, j, k, l) = (start, start + 1, start + 2, start + 3);
-            let low = [low.of(i), low.of(j), low.of(k), low.of(l)];
-            let high = [high.of(i), high.of(j), high.of(k), high.of(l)];
+            let (low, high) = (low.four(start), high.four(start));
             let (sums, left) = sums_of_four::<L, FUSED>(lanes, (low, high, known), x.high);
-            for lane in 0..LANES {
-                let number = DoubleDouble { high: sums[lane], low: left[lane] };
-                let number = in_unit(number, units[start + lane]);
-                (values[start + lane], carry[start + lane]) = (number.high, number.low);
+            let own = start..start + LANES;
+            if units[own.clone()] == [1.0; LANES] {
+                values[own.clone()].copy_from_slice(&sums);
+                carry[own].copy_from_slice(&left);
+            } else {
+                for lane in 0..LANES {
+                    let number = DoubleDouble { high: sums[lane], low: left[lane] };
+                    let number = in_unit(number, units[start + lane]);
+                    (values[start + lane], carry[start + lane]) = (number.high, number.low);
+                }
             }
             first += LANES;
         }

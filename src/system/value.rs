@@ -224,7 +224,7 @@ impl<R: Real> Memory<'_, R> {
                 Op::Time => registers[r as usize] = time,
                 Op::Solve(at) => {
                     let block = &program.blocks[at as usize];
-                    if !solve(block, &mut blocks[at as usize], registers, right, r) {
+                    if !solve::<_, FUSED>(block, &mut blocks[at as usize], registers, right, r) {
                         return Err(Singular { block: at });
                     }
                 }
@@ -252,7 +252,8 @@ impl<R: Real> Kernel for InterpretedRange<'_, '_, R> {
 }
 
 /// Sets the registers of a block of equations from one on to its solution. Returns false where its matrix is singular.
-fn solve<R: Real>(
+#[inline(always)]
+fn solve<R: Real, const FUSED: bool>(
     block: &Block,
     factored: &mut Factored<R>,
     registers: &mut [R],
@@ -260,13 +261,13 @@ fn solve<R: Real>(
     first: Register,
 ) -> bool {
     let n = block.size();
-    if !factored.factor(|i, j| registers[block.matrix[i * n + j] as usize]) {
+    if !factored.factor_with::<FUSED>(|i, j| registers[block.matrix[i * n + j] as usize]) {
         return false;
     }
     for (x, &r) in right.iter_mut().zip(&block.right) {
         *x = registers[r as usize];
     }
-    factored.solve(&mut right[..n]);
+    factored.solve_with::<FUSED>(&mut right[..n]);
     registers[first as usize..][..n].copy_from_slice(&right[..n]);
     true
 }

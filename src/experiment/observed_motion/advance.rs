@@ -182,12 +182,15 @@ impl ObservedMotion {
 
     /// Logs the state at the end of the last step. Equal steps are short, and any of them can be taken again.
     fn log_step(&mut self) {
+        if self.log.is_off() {
+            return;
+        }
         let steps = self.inner.steps();
-        let apart = match self.inner.method().stepping {
-            Stepping::Adaptive => 1,
-            Stepping::Fixed => EQUAL_STEPS,
+        let is_logged = match self.inner.method().stepping {
+            Stepping::Adaptive => true,
+            Stepping::Fixed => steps.is_multiple_of(EQUAL_STEPS),
         };
-        if steps.is_multiple_of(apart) {
+        if is_logged {
             self.log.push(self.inner.computed(), steps, self.inner.step_size().abs());
         }
     }

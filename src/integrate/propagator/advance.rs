@@ -43,7 +43,7 @@ impl Propagator {
             if self.ended {
                 return Ok(Reached::Ended);
             }
-            if self.search.clear <= time {
+            if !self.is_free && self.search.clear <= time {
                 let due = self.search.due();
                 self.search.find_next();
                 if self.search.waiting.is_some() || due.is_some() {
@@ -104,7 +104,9 @@ impl Propagator {
                 return Err(error);
             }
             self.search.scan(self.stepper.as_mut())?;
-            self.end_before_step_in_time()?;
+            if !self.is_free {
+                self.end_before_step_in_time()?;
+            }
         }
     }
 
@@ -118,16 +120,9 @@ impl Propagator {
         self.search.scan(self.stepper.as_mut())
     }
 
-    /// Whether nothing can happen between two steps: nothing acts on the motion but its law, and
-    /// nothing is watched.
+    /// Whether nothing can happen between two steps.
     fn is_undisturbed(&self) -> bool {
-        self.method.stepping == Stepping::Fixed
-            && self.whole.constraints() == 0
-            && self.domain.is_unbounded()
-            && self.system.attitude_place().is_none()
-            && self.search.is_empty()
-            && self.narrow.is_none()
-            && self.poles.is_none()
+        self.method.stepping == Stepping::Fixed && self.is_free
     }
 
     /// Takes the steps to a time, between which nothing is observed.
@@ -160,7 +155,24 @@ impl Propagator {
         taken
     }
 
+    /// Takes a step of a motion in which nothing happens.
+    fn step_alone(&mut self, limit: f64) -> Result<(), MotionError> {
+        let before = self.stepper.state().exact_time();
+        self.stepper.step(limit)?;
+        let moved = (self.stepper.state().exact_time() - before).high > 0.0;
+        self.stalled = if moved { 0 } else { self.stalled + 1 };
+        if self.stalled > MOST_STALLED {
+            return Err(no_digits_left(before.high));
+        }
+        self.steps += 1;
+        Ok(())
+    }
+
     fn step(&mut self, limit: f64) -> Result<(), MotionError> {
+        if self.is_free {
+            self.note_regular();
+            return self.step_alone(limit);
+        }
         let limit = self.search.limit(limit);
         let before = self.stepper.state().exact_time();
         if self.search.impulses.stands_still(before.high) {
@@ -175,13 +187,7 @@ impl Propagator {
         }
         self.note_regular();
         self.choose_enforced()?;
-        self.stepper.step(limit)?;
-        let moved = (self.stepper.state().exact_time() - before).high > 0.0;
-        self.stalled = if moved { 0 } else { self.stalled + 1 };
-        if self.stalled > MOST_STALLED {
-            return Err(no_digits_left(before.high));
-        }
-        self.steps += 1;
+        self.step_alone(limit)?;
         self.note_side();
         self.note_narrow_place()?;
         self.note_departures();

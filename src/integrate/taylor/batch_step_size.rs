@@ -11,7 +11,7 @@ use super::argument_step::{
 };
 use super::lowest_steps::{LowestOfAll, LowestSteps, StepTables, lowest_steps};
 use super::step_size::{SeriesCounts, SeriesOrders, StepSize};
-use crate::num::{BATCH, Batch, FourLaneKernel, FourLanes, all_finite, in_four_lanes};
+use crate::num::{BATCH, Batch, FourLaneKernel, FourLanes, ScalarLanes, all_finite, in_four_lanes};
 use crate::system::BatchSeries;
 
 /// The rule for several orbits.
@@ -88,7 +88,7 @@ impl BatchStepSize {
         for i in 0..series.len() {
             gathered.extend(series.coefficients(i).iter().map(|c| c.0[lane]));
         }
-        if !all_finite(gathered) {
+        if !all_finite(ScalarLanes, gathered) {
             return f64::NAN;
         }
         let counts = counts_of(series);
@@ -126,7 +126,7 @@ impl FourLaneKernel for OfOneLane<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::{ScalarLanes, math};
+    use crate::num::math;
 
     const INPUTS: usize = 3;
     const COUNTS: (usize, usize) = (INPUTS + 1, INPUTS);

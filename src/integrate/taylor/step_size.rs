@@ -9,6 +9,8 @@
 //! For each of the last orders k the logarithm of the step is the largest of `(ln |c_j| − ln |c_k|)/(k − j) + ln ε/(p − j)`
 //! over all j < k, but no more than the radius of convergence, that is the largest of the first terms alone, allows.
 
+use std::sync::{Arc, Mutex, PoisonError};
+
 use super::argument_step::{
     FARTHEST_ARGUMENT, before_pole, may_pass_pole, of_argument, of_steep_pole,
 };
@@ -77,9 +79,9 @@ pub(super) fn has_velocity(series: &Series) -> bool {
 /// The rule at one tolerance and order.
 #[derive(Clone, Debug)]
 pub(super) struct StepSize {
-    motion: Shares,
+    motion: Arc<Shares>,
     /// Those of what does not act on the motion, once there is such a number.
-    integrals: Option<Shares>,
+    integrals: Option<Arc<Shares>>,
     /// The tolerance of the last terms of the motion.
     tolerance: f64,
     /// The number whose series allowed the least last time. Taken first, it mostly shows that the others allow more.
@@ -146,7 +148,8 @@ impl StepSize {
             self.integrals = Some(Shares::of_integrals(self.tolerance, self.motion.order));
         }
         let StepSize { motion, integrals: spared, least, .. } = self;
-        let spared = spared.as_ref().unwrap_or(motion);
+        let motion: &Shares = motion;
+        let spared = spared.as_deref().unwrap_or(motion);
         let mut shortest = ShortestStep::new();
         let first = *least;
         // in one loop, so that there is one copy of what it does
@@ -156,7 +159,7 @@ impl StepSize {
                 place if place <= first => place - 1,
                 place => place,
             };
-            let shares = if i < inputs + switches { &*motion } else { spared };
+            let shares = if i < inputs + switches { motion } else { spared };
             if shortest.take(lanes, coefficients_of(i), shares) && i < inputs {
                 *least = i;
             }
@@ -264,15 +267,36 @@ struct Shares {
     screen: StepScreen,
 }
 
+/// The shares of all tolerances so far, each with the bits of its tolerance. A motion begins anew at every impulse.
+static KNOWN: Mutex<Vec<(u64, Arc<Shares>)>> = Mutex::new(Vec::new());
+
+/// No more are kept.
+const MOST_KNOWN: usize = 16;
+
 impl Shares {
     /// Those of the coordinates and rates, at the tolerance of the last terms.
-    fn of_motion(tolerance: f64, order: usize) -> Shares {
-        Shares::new(tolerance, order)
+    fn of_motion(tolerance: f64, order: usize) -> Arc<Shares> {
+        Shares::of(tolerance, order)
     }
 
     /// Those of what does not act on the motion.
-    fn of_integrals(tolerance: f64, order: usize) -> Shares {
-        Shares::new(tolerance * SPARED, order)
+    fn of_integrals(tolerance: f64, order: usize) -> Arc<Shares> {
+        Shares::of(tolerance * SPARED, order)
+    }
+
+    /// The same, which are computed once for all motions.
+    fn of(tolerance: f64, order: usize) -> Arc<Shares> {
+        let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
+        let same =
+            |known: &&(u64, Arc<Shares>)| known.0 == tolerance.to_bits() && known.1.order == order;
+        if let Some((_, shares)) = known.iter().find(same) {
+            return Arc::clone(shares);
+        }
+        let shares = Arc::new(Shares::new(tolerance, order));
+        if known.len() < MOST_KNOWN {
+            known.push((tolerance.to_bits(), Arc::clone(&shares)));
+        }
+        shares
     }
 
     /// The logarithm of the step that all orders allow, or `before` where that is less; the lowest allow as much as is said.

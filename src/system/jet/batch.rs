@@ -26,14 +26,14 @@ impl FactoredMatrix<Batch> for FactoredBatch {
         }
     }
 
-    fn factor(&mut self, entry: impl Fn(usize, usize) -> Batch) -> bool {
+    fn factor<const FUSED: bool>(&mut self, entry: impl Fn(usize, usize) -> Batch) -> bool {
         for (lane, factored) in self.lanes.iter_mut().enumerate() {
             self.singular[lane] = !factored.factor(|i, j| entry(i, j).0[lane]);
         }
         true
     }
 
-    fn solve(&mut self, right: &mut [Batch]) {
+    fn solve<const FUSED: bool>(&mut self, right: &mut [Batch]) {
         self.solve_by(right, Factored::solve);
     }
 

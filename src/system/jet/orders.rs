@@ -29,13 +29,12 @@ pub trait FactoredMatrix<R>: Clone + Send + Sync + std::fmt::Debug {
     /// Room for a matrix of this size.
     fn new(size: usize) -> Self;
     /// Factors the matrix whose entries `entry` gives by row and column. Returns false if it is
-    /// singular.
+    /// singular. With `FUSED` this and what follows must be inlined into a kernel.
     #[must_use]
-    fn factor(&mut self, entry: impl Fn(usize, usize) -> R) -> bool;
+    fn factor<const FUSED: bool>(&mut self, entry: impl Fn(usize, usize) -> R) -> bool;
     /// Solves for a right-hand side, in place.
-    fn solve(&mut self, right: &mut [R]);
-    /// The same for one of many, by [shared](crate::num::Analytic::divided_by_shared) divisors. With `FUSED` it must be
-    /// inlined into a kernel.
+    fn solve<const FUSED: bool>(&mut self, right: &mut [R]);
+    /// The same for one of many, by [shared](crate::num::Analytic::divided_by_shared) divisors.
     fn solve_again<const FUSED: bool>(&mut self, right: &mut [R]);
 }
 
@@ -43,11 +42,13 @@ impl<R: Real> FactoredMatrix<R> for Factored<R> {
     fn new(size: usize) -> Factored<R> {
         Factored::new(size)
     }
-    fn factor(&mut self, entry: impl Fn(usize, usize) -> R) -> bool {
-        Factored::factor(self, entry)
+    #[inline(always)]
+    fn factor<const FUSED: bool>(&mut self, entry: impl Fn(usize, usize) -> R) -> bool {
+        self.factor_with::<FUSED>(entry)
     }
-    fn solve(&mut self, right: &mut [R]) {
-        Factored::solve(self, right);
+    #[inline(always)]
+    fn solve<const FUSED: bool>(&mut self, right: &mut [R]) {
+        self.solve_with::<FUSED>(right);
     }
     #[inline(always)]
     fn solve_again<const FUSED: bool>(&mut self, right: &mut [R]) {

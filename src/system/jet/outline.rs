@@ -48,6 +48,26 @@ impl<R: Coefficient> Jet<R> {
 }
 
 impl<R: Real> Jet<R> {
+    /// Copies what was evaluated at order 0 from a jet of the same program in another precision, and the matrices that it has
+    /// factored.
+    pub(in crate::system) fn take_over_values<S: Real>(&mut self, other: &Jet<S>) {
+        let (own, other) = (&mut self.tables, &other.tables);
+        let fixed = &self.program.fixed[..];
+        for ((x, y), &is_fixed) in own.rows.iter_mut().zip(&other.rows).zip(fixed) {
+            // without a branch, so that several are copied at once
+            let taken = R::of(y.double());
+            *x = if is_fixed { *x } else { taken };
+        }
+        for &(register, place) in &own.index.copies {
+            if !fixed[register as usize] {
+                own.series[place as usize * own.stride] = own.rows[register as usize];
+            }
+        }
+        for (own, other) in own.blocks.iter_mut().zip(&other.blocks) {
+            own.take_over(other);
+        }
+    }
+
     /// The matrices that were factored at order 0.
     pub(in crate::system) fn factored(&self) -> &[Factored<R>] {
         &self.tables.blocks

@@ -105,13 +105,13 @@ impl<R: Coefficient> Tables<R> {
             match program.ops[r as usize] {
                 Op::Time => self.rows[r as usize] = time,
                 Op::Solve(block) => {
-                    self.factor(program, block as usize)?;
+                    self.factor::<FUSED>(program, block as usize)?;
                     let block_of = &program.blocks[block as usize];
                     for (x, &right) in self.vector.iter_mut().zip(&block_of.right) {
                         *x = self.rows[right as usize];
                     }
                     let solution = &mut self.vector[..block_of.size()];
-                    self.blocks[block as usize].solve(solution);
+                    self.blocks[block as usize].solve::<FUSED>(solution);
                     self.rows[r as usize..][..block_of.size()].copy_from_slice(solution);
                 }
                 op => self.evaluate_with::<FUSED>(program, r, op),
@@ -140,11 +140,16 @@ impl<R: Coefficient> Tables<R> {
         }
     }
 
-    pub(super) fn factor(&mut self, program: &Program, at: usize) -> Result<(), Singular> {
+    #[inline(always)]
+    fn factor<const FUSED: bool>(&mut self, program: &Program, at: usize) -> Result<(), Singular> {
         let block = &program.blocks[at];
         let n = block.size();
         let entry = |i, j| self.rows[block.matrix[i * n + j] as usize];
-        if self.blocks[at].factor(entry) { Ok(()) } else { Err(Singular { block: at as u32 }) }
+        if self.blocks[at].factor::<FUSED>(entry) {
+            Ok(())
+        } else {
+            Err(Singular { block: at as u32 })
+        }
     }
 }
 

@@ -14,6 +14,9 @@ use super::product_loops::{self, ProductLoops};
 /// The number of vector registers.
 const REGISTERS: usize = 16;
 
+/// About how many bytes an instruction has.
+const BYTES: usize = 7;
+
 /// What is not read again.
 const NEVER: u32 = u32::MAX;
 
@@ -31,6 +34,8 @@ struct Allocator {
     loops: ProductLoops,
     places: Vec<Location>,
     registers: [Option<VirtualRegister>; REGISTERS],
+    /// The registers that hold nothing.
+    empty: u16,
     /// The registers that the current instruction reads.
     pinned: u16,
     room: usize,
@@ -44,10 +49,11 @@ pub(super) fn assemble(block: &BasicBlock, room: usize, slot: usize) -> (Vec<u8>
     let (first, next) = uses(block);
     let places = first.into_iter().map(|next| Location { next, ..Location::default() }).collect();
     let mut allocator = Allocator {
-        bytes: Bytes::default(),
+        bytes: Bytes(Vec::with_capacity(BYTES * block.instructions.len())),
         loops: ProductLoops::default(),
         places,
         registers: [None; REGISTERS],
+        empty: u16::MAX,
         pinned: 0,
         room,
         slot,
@@ -128,9 +134,7 @@ impl Allocator {
             }
             MachineInstruction::InnerProducts { products, made } => {
                 for register in 0..product_loops::REGISTERS {
-                    if let Some(value) = self.registers[register].take() {
-                        self.spill(value, VectorRegister(register as u8));
-                    }
+                    self.evict(register);
                 }
                 let to = self.loops.call(&mut self.bytes, products);
                 self.places[made.0 as usize].width = Some(products.width);
@@ -175,6 +179,7 @@ impl Allocator {
                 && let Some(register) = place.register.take()
             {
                 self.registers[register.0 as usize] = None;
+                self.empty |= 1 << register.0;
                 self.pinned &= !(1 << register.0);
             }
         }
@@ -196,22 +201,29 @@ impl Allocator {
 
     fn take(&mut self, register: VectorRegister, value: VirtualRegister) {
         self.registers[register.0 as usize] = Some(value);
+        self.empty &= !(1 << register.0);
         self.places[value.0 as usize].register = Some(register);
     }
 
     /// A register that holds nothing, or nothing any more.
     fn free(&mut self) -> VectorRegister {
-        if let Some(free) = self.registers.iter().position(Option::is_none) {
-            return VectorRegister(free as u8);
+        if self.empty != 0 {
+            return VectorRegister(self.empty.trailing_zeros() as u8);
         }
         let last = (0..REGISTERS).filter(|&r| self.pinned & 1 << r == 0).max_by_key(|&r| {
             self.registers[r].map_or(NEVER, |value| self.places[value.0 as usize].next)
         });
         let last = last.unwrap_or(0);
-        if let Some(value) = self.registers[last].take() {
-            self.spill(value, VectorRegister(last as u8));
-        }
+        self.evict(last);
         VectorRegister(last as u8)
+    }
+
+    /// Empties a register.
+    fn evict(&mut self, register: usize) {
+        if let Some(value) = self.registers[register].take() {
+            self.spill(value, VectorRegister(register as u8));
+        }
+        self.empty |= 1 << register;
     }
 
     /// Writes a number to memory, unless it is there.

@@ -157,7 +157,7 @@ impl Bytes {
     /// Loads the number so many bytes behind an address, both in the stretch of work.
     pub(super) fn load_behind(&mut self, to: VectorRegister, from: Address, offset: Address) {
         // mov rax, [offset]
-        self.0.extend([0x48, 0x8B]);
+        self.0.extend_from_slice(&[0x48, 0x8B]);
         self.memory(General::RAX.0, offset.into(), true);
         // vmovsd to, [from + rax]
         let opcode = moves(Width::One, 0x10);
@@ -166,13 +166,13 @@ impl Bytes {
         self.0.push(0x80 | (to.0 & 7) << 3 | index);
         let from = Place::from(from);
         self.0.push(General::RAX.0 << 3 | from.base.0);
-        self.0.extend(from.displacement.to_le_bytes());
+        self.0.extend_from_slice(&from.displacement.to_le_bytes());
     }
 
     /// Returns to the caller of the function.
     pub(super) fn end(&mut self) {
         // vzeroupper
-        self.0.extend([0xC5, 0xF8, 0x77]);
+        self.0.extend_from_slice(&[0xC5, 0xF8, 0x77]);
         self.back();
     }
 
@@ -185,15 +185,15 @@ impl Bytes {
         // lea
         let place = place.into();
         let (high, extended) = (u8::from(register.0 >= 8), u8::from(place.base.0 >= 8));
-        self.0.extend([0x48 | high << 2 | extended, 0x8D]);
+        self.0.extend_from_slice(&[0x48 | high << 2 | extended, 0x8D]);
         self.memory(register.0, place, true);
     }
 
     /// Points a register so many `f64` farther.
     pub(super) fn move_on(&mut self, register: General, count: usize) {
         // add, with an immediate operand
-        self.0.extend([0x48 | u8::from(register.0 >= 8), 0x81, 0xC0 | register.0 & 7]);
-        self.0.extend((8 * count as i32).to_le_bytes());
+        self.0.extend_from_slice(&[0x48 | u8::from(register.0 >= 8), 0x81, 0xC0 | register.0 & 7]);
+        self.0.extend_from_slice(&(8 * count as i32).to_le_bytes());
     }
 
     pub(super) fn count(&mut self, register: General, repetitions: u32) {
@@ -202,7 +202,7 @@ impl Bytes {
             self.0.push(0x41);
         }
         self.0.push(0xB8 | register.0 & 7);
-        self.0.extend(repetitions.to_le_bytes());
+        self.0.extend_from_slice(&repetitions.to_le_bytes());
     }
 
     /// Takes one from a register of at least one, and goes back to a place among the bytes unless it is zero then.
@@ -211,9 +211,9 @@ impl Bytes {
         if register.0 >= 8 {
             self.0.push(0x41);
         }
-        self.0.extend([0xFF, 0xC8 | register.0 & 7]);
+        self.0.extend_from_slice(&[0xFF, 0xC8 | register.0 & 7]);
         // jnz
-        self.0.extend([0x0F, 0x85]);
+        self.0.extend_from_slice(&[0x0F, 0x85]);
         self.distance_to(from);
     }
 
@@ -222,7 +222,7 @@ impl Bytes {
         // call
         self.0.push(0xE8);
         let call = Call(self.0.len());
-        self.0.extend([0; 4]);
+        self.0.extend_from_slice(&[0; 4]);
         call
     }
 
@@ -235,7 +235,7 @@ impl Bytes {
     /// The bytes from behind an instruction that ends with this distance to a place.
     fn distance_to(&mut self, place: usize) {
         let distance = place as i32 - (self.0.len() as i32 + 4);
-        self.0.extend(distance.to_le_bytes());
+        self.0.extend_from_slice(&distance.to_le_bytes());
     }
 
     fn vex(
@@ -271,16 +271,22 @@ impl Bytes {
         if width == Width::Eight {
             let inverted_base = if extended { 0 } else { 0x20 };
             let second = inverted_extension | 0x50 | inverted_base | map;
-            self.0.extend([0x62, second, 0x84 | (!left.0 & 15) << 3 | prefix, 0x48, code]);
+            self.0.extend_from_slice(&[
+                0x62,
+                second,
+                0x84 | (!left.0 & 15) << 3 | prefix,
+                0x48,
+                code,
+            ]);
             return;
         }
         let rest = (!left.0 & 15) << 3 | u8::from(width == Width::Four) << 2 | prefix;
         if map == MAP_0F && !wide && !extended {
-            self.0.extend([0xC5, inverted_extension | rest, code]);
+            self.0.extend_from_slice(&[0xC5, inverted_extension | rest, code]);
         } else {
             let inverted_base = if extended { 0 } else { 0x20 };
             let second = inverted_extension | 0x40 | inverted_base | map;
-            self.0.extend([0xC4, second, u8::from(wide) << 7 | rest, code]);
+            self.0.extend_from_slice(&[0xC4, second, u8::from(wide) << 7 | rest, code]);
         }
     }
 
@@ -288,10 +294,10 @@ impl Bytes {
     fn memory(&mut self, register: u8, place: Place, may_be_short: bool) {
         let (low, base) = ((register & 7) << 3, place.base.0 & 7);
         if may_be_short && let Ok(short) = i8::try_from(place.displacement) {
-            self.0.extend([0x40 | low | base, short as u8]);
+            self.0.extend_from_slice(&[0x40 | low | base, short as u8]);
         } else {
             self.0.push(0x80 | low | base);
-            self.0.extend(place.displacement.to_le_bytes());
+            self.0.extend_from_slice(&place.displacement.to_le_bytes());
         }
     }
 }

@@ -55,9 +55,12 @@ impl CompiledGrowth {
         (time, scale): (DoubleDouble, f64),
     ) -> Result<bool, Singular> {
         self.has_grown = false;
-        let extent = SeriesExtent { orbits: Width::One, numbers: high.len(), inputs: high.inputs };
-        let exact = low.as_ref().map(|low| low.jet.plan());
-        self.ask(|cache| cache.function(&high.jet.plan(), exact.as_ref(), extent));
+        self.ask(|cache| {
+            let extent =
+                SeriesExtent { orbits: Width::One, numbers: high.len(), inputs: high.inputs };
+            let exact = low.as_ref().map(|low| low.jet.plan());
+            cache.function(&high.jet.plan(), exact.as_ref(), extent)
+        });
         if let Some(code) = &mut self.code {
             code.work.set(code.compiled.scale.offset, scale);
             self.has_grown = match low {
@@ -74,9 +77,11 @@ impl CompiledGrowth {
         builder: &mut SeriesBuilder<Batch>,
         clock: SeriesClock<Batch>,
     ) -> Result<bool, Singular> {
-        let extent =
-            SeriesExtent { orbits: widest(), numbers: builder.len(), inputs: builder.inputs };
-        self.ask(|cache| cache.function(&builder.jet.plan(), None, extent));
+        self.ask(|cache| {
+            let (numbers, inputs) = (builder.len(), builder.inputs);
+            let extent = SeriesExtent { orbits: widest(), numbers, inputs };
+            cache.function(&builder.jet.plan(), None, extent)
+        });
         self.has_grown = false;
         if let Some(code) = &mut self.code {
             self.has_grown = code.grow_all(builder, clock)?;
@@ -86,8 +91,8 @@ impl CompiledGrowth {
 
     /// Takes a function once it pays.
     fn ask(&mut self, function: impl FnOnce(&CodeCache) -> Availability) {
-        let answer = self.cache.as_ref().map_or(Availability::NotYet, function);
-        self.code = match answer {
+        let Some(cache) = &self.cache else { return };
+        self.code = match function(cache) {
             Availability::NotYet => return,
             Availability::Never => None,
             Availability::Compiled(compiled) => Some(CodeInUse::of(compiled)),
@@ -184,6 +189,9 @@ fn take_matrices<R: Real>(
     places: &[FactoredPlace],
     work: &mut WorkMemory,
 ) -> bool {
+    if places.is_empty() {
+        return true;
+    }
     let mut regular = true;
     // the number of `f64` of a number
     let size = size_of::<R>() / size_of::<f64>();

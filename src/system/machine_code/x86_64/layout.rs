@@ -13,6 +13,8 @@
 //!              left   a_0 c_0 e_0 g_0  a_1 c_1 …        right   …  b_1 d_1 f_1 h_1  b_0 d_0 f_0 h_0
 //! ```
 
+use rustc_hash::FxHashMap;
+
 use crate::system::jet::JetPlan;
 
 /// The size of a cache line, which a group of operands must not cross.
@@ -128,13 +130,15 @@ pub(super) struct MemoryLayout {
     pub(super) work: usize,
     /// Numbers that stay as they are, with their places.
     constants: Vec<(usize, Vec<f64>)>,
+    /// The same by the bits of the first of the numbers.
+    by_first: FxHashMap<u64, Vec<usize>>,
 }
 
 impl MemoryLayout {
     /// One with room for units of time alone.
     pub(super) fn new() -> MemoryLayout {
         let scale = Address { area: Area::Work, offset: 0 };
-        MemoryLayout { scale, work: LINE, constants: Vec::new() }
+        MemoryLayout { scale, work: LINE, constants: Vec::new(), by_first: FxHashMap::default() }
     }
 
     /// Makes room for the series of a program.
@@ -173,13 +177,15 @@ impl MemoryLayout {
             known.len() == numbers.len()
                 && known.iter().zip(numbers).all(|(x, y)| x.to_bits() == y.to_bits())
         };
-        let known = self.constants.iter().find(|(_, known)| same(known)).map(|(place, _)| *place);
-        let offset = known.unwrap_or_else(|| {
-            let place = self.work;
+        let begins_alike =
+            self.by_first.entry(numbers.first().map_or(0, |x| x.to_bits())).or_default();
+        let known = begins_alike.iter().find(|&&i| same(&self.constants[i].1));
+        let offset = known.map_or(self.work, |&i| self.constants[i].0);
+        if known.is_none() {
+            begins_alike.push(self.constants.len());
             self.work += numbers.len().next_multiple_of(2);
-            self.constants.push((place, numbers.to_vec()));
-            place
-        });
+            self.constants.push((offset, numbers.to_vec()));
+        }
         Address { area: Area::Work, offset }
     }
 
