@@ -196,11 +196,11 @@ fn reach(
 /// Energies whose curves are about evenly spaced, as around a quadratic minimum. Returns `None` if
 /// the energy is constant or nowhere finite.
 fn levels(values: &[f64]) -> Option<Vec<f64>> {
-    let mut sorted: Vec<f64> = values.iter().copied().filter(|v| v.is_finite()).collect();
-    sorted.sort_by(f64::total_cmp);
-    let low = *sorted.first()?;
+    let mut finite: Vec<f64> = values.iter().copied().filter(|v| v.is_finite()).collect();
+    let low = finite.iter().copied().reduce(f64::min)?;
     // A wall of a few points must not take all levels.
-    let high = sorted[(sorted.len() - 1) * 19 / 20];
+    let most = (finite.len() - 1) * 19 / 20;
+    let (_, &mut high, _) = finite.select_nth_unstable_by(most, f64::total_cmp);
     let level = |k: usize| low + (high - low) * math::powi((k as f64 + 0.7) / LEVELS as f64, 2);
     (high > low).then(|| (0..LEVELS).map(level).collect())
 }

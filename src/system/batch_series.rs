@@ -249,7 +249,7 @@ impl Kernel for Origins<'_> {
     #[inline(always)]
     fn run<const FUSED: bool>(self) {
         let Origins { series, states, going } = self;
-        let mask = mask_of(going);
+        let mask = mask_of(*going);
         let mut small = Batch::ZERO;
         for i in 0..series.len() {
             let high = mask.where_equal(1.0, states.high[i], series.origins.high[i]);
@@ -269,7 +269,7 @@ impl Kernel for Origins<'_> {
 
 /// One in the lanes where something holds, else zero.
 #[inline(always)]
-fn mask_of(holds: &[bool; BATCH]) -> Batch {
+fn mask_of(holds: [bool; BATCH]) -> Batch {
     let mut mask = Batch::ZERO;
     for lane in 0..BATCH {
         mask.0[lane] = if holds[lane] { 1.0 } else { 0.0 };
@@ -292,7 +292,7 @@ impl Kernel for States<'_> {
     #[inline(always)]
     fn run<const FUSED: bool>(self) {
         let States { series, after, moving, out } = self;
-        let mask = mask_of(moving);
+        let mask = mask_of(*moving);
         let mut x = BatchDouble::ZERO;
         for lane in 0..BATCH {
             // a power of two

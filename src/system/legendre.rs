@@ -166,6 +166,17 @@ impl Legendre {
         Ok(())
     }
 
+    /// For one degree of freedom and a relation that is linear, at a time and a coordinate: the other rate where the native one is
+    /// zero, and its slope. `None` where they have no values, or nothing follows from them.
+    pub(super) fn line(
+        &mut self,
+        (time, position): (DoubleDouble, DoubleDouble),
+    ) -> Option<(DoubleDouble, DoubleDouble)> {
+        self.values.evaluate(time, &[position, DoubleDouble::ZERO]).ok()?;
+        let (at_rest, slope) = (self.values.output(0), self.values.output(1));
+        (at_rest.is_finite() && slope.is_finite() && slope.high != 0.0).then_some((at_rest, slope))
+    }
+
     /// Newton's iteration from the values in `self.state`. Returns the part of the residual that
     /// the first step left.
     fn iterate(

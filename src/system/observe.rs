@@ -127,9 +127,19 @@ impl Observer {
         out: &mut [f64],
     ) {
         let mut empty = 0;
+        let linear: Option<Vec<_>> = self.is_linear(form).then(|| {
+            let exactly = |&x: &f64| (DoubleDouble::from(time), DoubleDouble::from(x));
+            positions.iter().map(|x| self.native.legendre.line(exactly(x))).collect()
+        });
         for (row, &rate) in out.chunks_exact_mut(positions.len().max(1)).zip(rates) {
-            for (x, &position) in row.iter_mut().zip(positions) {
-                let energy = self.energy_at(time, form, position, rate);
+            for (i, (x, &position)) in row.iter_mut().zip(positions).enumerate() {
+                let energy = match &linear {
+                    Some(lines) => lines[i].and_then(|(at_rest, slope)| {
+                        let velocity = (DoubleDouble::from(rate) - at_rest) / slope;
+                        self.native_energy_at(time, position, velocity.high)
+                    }),
+                    None => self.energy_at(time, form, position, rate),
+                };
                 empty += usize::from(energy.is_none());
                 self.native.legendre.near_only = empty >= MOST_EMPTY;
                 *x = energy.unwrap_or(f64::NAN);
@@ -145,8 +155,19 @@ impl Observer {
             state[1] = DoubleDouble::ZERO;
             self.native.legendre.solve(DoubleDouble::from(time), &mut state, &target).ok()?;
         }
-        self.energy.evaluate(time, &[position, state[1].high]).ok()?;
+        self.native_energy_at(time, position, state[1].high)
+    }
+
+    fn native_energy_at(&mut self, time: f64, position: f64, rate: f64) -> Option<f64> {
+        self.energy.evaluate(time, &[position, rate]).ok()?;
         Some(self.energy.output(0))
+    }
+
+    /// Whether states of this form are converted to the native one by a relation that is linear in the rates.
+    fn is_linear(&self, form: Form) -> bool {
+        let conversion = (form, self.system.form());
+        conversion == (Form::Momentum, Form::Velocity)
+            && self.system.discontinuities().is_quadratic()
     }
 }
 

@@ -6,7 +6,7 @@
 //! Source: W. Lorensen and H. Cline, "Marching cubes" (1987), in two dimensions; a saddle is
 //! resolved by the mean of its four corners.
 
-use std::collections::HashMap;
+use std::borrow::Cow;
 
 /// Values on a rectangular grid, row by row from the lowest `y`, each row from the lowest `x`.
 #[derive(Clone, Copy, Debug)]
@@ -25,7 +25,7 @@ type CellSide = (usize, usize, bool);
 impl Grid<'_> {
     /// Returns the curves on which the values are `level`. Closed ones end where they begin.
     pub fn curves(&self, level: f64) -> Vec<Vec<[f64; 2]>> {
-        join(&self.segments(level))
+        join(&self.segments(level), self.x.0)
             .into_iter()
             .map(|sides| sides.into_iter().map(|side| self.crossing(side, level)).collect())
             .collect()
@@ -34,11 +34,21 @@ impl Grid<'_> {
     /// The segments of the curve inside each grid cell, as pairs of crossed sides.
     fn segments(&self, level: f64) -> Vec<(CellSide, CellSide)> {
         let mut segments = Vec::new();
+        let highs = |row: &[f64]| row.iter().map(|v| u8::from(*v >= level)).collect::<Vec<u8>>();
+        let mut above = self.row(0);
+        let mut highs_above = highs(&above);
         for row in 1..self.y.0 {
-            for column in 1..self.x.0 {
-                let (i, j) = (column - 1, row - 1);
-                let corners =
-                    [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)].map(|at| self.value(at));
+            let (j, below, highs_below) = (row - 1, above, highs_above);
+            above = self.row(row);
+            highs_above = highs(&above);
+            let pairs = highs_below.windows(2).zip(highs_above.windows(2));
+            for (i, (a, b)) in pairs.enumerate() {
+                // most cells are on one side
+                let count = a[0] + a[1] + b[0] + b[1];
+                if count == 0 || count == 4 {
+                    continue;
+                }
+                let corners = [below[i], below[i + 1], above[i + 1], above[i]];
                 if !corners.iter().all(|v| v.is_finite()) {
                     continue;
                 }
@@ -66,6 +76,15 @@ impl Grid<'_> {
         segments
     }
 
+    /// The values of a row, those that are missing undefined.
+    fn row(&self, j: usize) -> Cow<'_, [f64]> {
+        let count = self.x.0;
+        match self.values.get(j * count..(j + 1) * count) {
+            Some(row) => Cow::Borrowed(row),
+            None => Cow::Owned((0..count).map(|i| self.value((i, j))).collect()),
+        }
+    }
+
     fn value(&self, (i, j): (usize, usize)) -> f64 {
         self.values.get(j * self.x.0 + i).copied().unwrap_or(f64::NAN)
     }
@@ -85,21 +104,31 @@ impl Grid<'_> {
     }
 }
 
-/// Joins segments into curves: open ones first, from one end to the other, then the closed ones.
-fn join(segments: &[(CellSide, CellSide)]) -> Vec<Vec<CellSide>> {
-    let mut at: HashMap<CellSide, Vec<usize>> = HashMap::new();
-    for (index, (a, b)) in segments.iter().enumerate() {
-        at.entry(*a).or_default().push(index);
-        at.entry(*b).or_default().push(index);
+/// No segment.
+const NONE: u32 = u32::MAX;
+
+/// Joins segments on a grid of so many columns into curves: open ones first, from one end to the other, then the closed ones.
+fn join(segments: &[(CellSide, CellSide)], columns: usize) -> Vec<Vec<CellSide>> {
+    let place = |&(i, j, vertical): &CellSide| 2 * (j * columns + i) + usize::from(vertical);
+    let sides = || segments.iter().flat_map(|(a, b)| [a, b]);
+    // a side belongs to two cells, and has one segment in each
+    let count = sides().map(place).max().map_or(0, |last| last + 1);
+    let mut at = vec![[NONE; 2]; count];
+    for (index, side) in sides().enumerate() {
+        let own = &mut at[place(side)];
+        own[usize::from(own[0] != NONE)] = (index / 2) as u32;
     }
     let mut used = vec![false; segments.len()];
     let mut curves = Vec::new();
-    let ends = segments.iter().flat_map(|(a, b)| [*a, *b]).filter(|side| at[side].len() == 1);
+    let ends = sides().copied().filter(|side| at[place(side)][1] == NONE);
     let all = segments.iter().map(|(a, _)| *a);
     for start in ends.chain(all) {
         let mut curve = vec![start];
         let mut here = start;
-        while let Some(&next) = at[&here].iter().find(|&&index| !used[index]) {
+        while let Some(next) =
+            at[place(&here)].into_iter().find(|&index| index != NONE && !used[index as usize])
+        {
+            let next = next as usize;
             used[next] = true;
             let (a, b) = segments[next];
             here = if a == here { b } else { a };

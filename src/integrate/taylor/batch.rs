@@ -172,7 +172,7 @@ impl TaylorBatch {
             if !self.series.build() {
                 return None;
             }
-            let found = self.rule.longest(&self.series, &searching);
+            let found = self.rule.longest(&self.series, searching);
             for (i, searches) in searching.iter_mut().enumerate().filter(|(_, on)| **on) {
                 let scale = self.series.scale().0[i];
                 steps[i] = found.0[i] * scale.abs();

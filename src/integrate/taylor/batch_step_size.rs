@@ -37,7 +37,7 @@ impl BatchStepSize {
 
     /// The longest step of each of these lanes, in its unit; infinite for a polynomial, NaN where a coefficient
     /// is not finite.
-    pub(super) fn longest(&mut self, series: &BatchSeries, of: &[bool; BATCH]) -> Batch {
+    pub(super) fn longest(&mut self, series: &BatchSeries, of: [bool; BATCH]) -> Batch {
         let mut shortest = self.by_coefficients(series, of);
         for (function, u) in series.arguments() {
             for lane in 0..BATCH {
@@ -69,7 +69,7 @@ impl BatchStepSize {
 
     /// The steps that the coefficients allow: where the lowest orders decide it, for all lanes at once; the other lanes are asked
     /// by themselves.
-    fn by_coefficients(&mut self, series: &BatchSeries, of: &[bool; BATCH]) -> Batch {
+    fn by_coefficients(&mut self, series: &BatchSeries, of: [bool; BATCH]) -> Batch {
         let counts = (series.len(), series.inputs());
         let of_number = |i: usize| series.coefficients(i);
         let LowestSteps { step: mut steps, decided } =

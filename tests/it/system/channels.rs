@@ -168,6 +168,30 @@ fn the_energy_on_a_grid_is_the_energy() {
     assert_eq!(grid[1], 0.25 / 4.0 - 2.0);
 }
 
+/// Where L has a term linear in the velocity, and a mass that depends on the place and vanishes somewhere.
+#[test]
+fn the_energy_on_a_grid_follows_from_momenta_that_are_not_zero_at_rest() {
+    let (model, system) = compile(
+        r#"
+title = "Beside a singular point"
+[coordinates]
+x = { initial = 1.0 }
+[lagrangian]
+L = "1/2*x^2*x'^2 + 3*x*x' - x^4"
+"#,
+    );
+    let mut observer = system.observer(&parameters(&model));
+    let (positions, rates) = ([-1.5, 0.0, 2.0], [-0.7, 5.0]);
+    let mut grid = [0.0; 6];
+    observer.energy_on_grid(0.0, Form::Momentum, &positions, &rates, &mut grid);
+    for (k, energy) in grid.into_iter().enumerate() {
+        let (x, p) = (positions[k % 3], rates[k / 3]);
+        let exact = (p - 3.0 * x) * (p - 3.0 * x) / (2.0 * x * x) + x * x * x * x;
+        let right = if x == 0.0 { energy.is_nan() } else { (energy / exact - 1.0).abs() < 1e-15 };
+        assert!(right, "{energy} at {x}, {p}, and not {exact}");
+    }
+}
+
 #[test]
 fn where_there_is_no_energy_the_grid_has_no_number() {
     let (model, system) = compile(
