@@ -50,12 +50,12 @@ impl Motion {
     fn of(name: &str, depth: ColourDepth) -> Self {
         let catalog = Catalog::with_folder(None);
         let document = catalog.find(name).expect("a shipped preset");
-        let Prepared { document, model, equations, system, mut experiment } =
+        let Prepared { document, warnings, model, equations, system, mut experiment } =
             Prepared::of(&document).expect("a preset without mistakes");
         experiment.set_epoch(1);
         let name = name.to_owned();
         let (mut app, _) = App::new(&catalog, Some(&name));
-        let loaded = Loaded { name, epoch: 1, document, model, equations, system };
+        let loaded = Loaded { name, epoch: 1, document, warnings, model, equations, system };
         app.update(AppEvent::Loaded(Ok(loaded)));
         let look = RenderStyle { theme: Theme::dark(depth), glyphs: Glyphs::Braille };
         Self { app, experiment, look, painter: Painter::default() }

@@ -32,10 +32,19 @@ fn main() -> Result<ExitCode> {
     let count: u32 = words.next().map_or(Ok(1_000_000), |word| word.parse())?;
     let catalog = Catalog::with_folder(None);
     let document = catalog.find(&name)?;
-    let Prepared { document, model, equations, system, mut experiment } = Prepared::of(&document)?;
+    let Prepared { document, warnings, model, equations, system, mut experiment } =
+        Prepared::of(&document)?;
     experiment.set_epoch(1);
     let (mut app, _) = App::new(&catalog, Some(&name));
-    app.update(AppEvent::Loaded(Ok(Loaded { name, epoch: 1, document, model, equations, system })));
+    app.update(AppEvent::Loaded(Ok(Loaded {
+        name,
+        epoch: 1,
+        document,
+        warnings,
+        model,
+        equations,
+        system,
+    })));
     let look = RenderStyle { theme: Theme::dark(ColourDepth::Ansi256), glyphs: Glyphs::Braille };
     let (mut frames, mut painter) = (Frames::new(true)?, Painter::default());
     let (start, mut bytes, mut first) = (experiment.time(), 0, 0);

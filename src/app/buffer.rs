@@ -158,6 +158,7 @@ impl SourceBuffer {
             of: text.clone(),
         };
         let mut buffer = Self { state: BufferState::Runs, ..Self::of_unsaved(known) };
+        buffer.note(&loaded.warnings);
         // It opens at the law: L, H or the brackets.
         let law = buffer.editor.caret_at(loaded.model.law_place.start);
         buffer.editor.go(Caret { column: 0, ..law });
@@ -357,7 +358,7 @@ impl SourceBuffer {
     }
 
     /// Stores the diagnostics, each at its position.
-    fn note(&mut self, diagnostics: &[Diagnostic]) {
+    pub(super) fn note(&mut self, diagnostics: &[Diagnostic]) {
         let diagnostic = |diagnostic: &Diagnostic| {
             let from = self.editor.caret_at(diagnostic.place.start);
             let end = self.editor.caret_at(diagnostic.place.end);
@@ -366,7 +367,7 @@ impl SourceBuffer {
             BufferDiagnostic {
                 from,
                 to: Caret { row: from.row, column: column.max(from.column) },
-                warning: diagnostic.severity == Severity::Warning,
+                warning: diagnostic.severity != Severity::Error,
                 message: diagnostic.message.clone(),
                 help: diagnostic.help.clone(),
             }

@@ -258,7 +258,7 @@ impl App {
                     loaded.document = Arc::new(Document::new(path, own));
                 }
                 if let CheckedRevision::Newest = found {
-                    buffer.diagnostics.clear();
+                    buffer.note(&loaded.warnings);
                     buffer.state = BufferState::Rebuilt(took);
                 }
                 let waits = |lab: &Lab| lab.restoration.checkpoint().is_some();

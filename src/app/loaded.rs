@@ -4,7 +4,7 @@
 
 use std::sync::Arc;
 
-use crate::diagnostic::Document;
+use crate::diagnostic::{Diagnostic, Document, Severity};
 use crate::instrument::Physics;
 use crate::mechanics::{Equations, Further, NamedRamps, Report, latex};
 use crate::model::Model;
@@ -19,6 +19,8 @@ pub struct Loaded {
     pub epoch: u64,
     /// The parsed text of the file.
     pub document: Arc<Document>,
+    /// What the text allows but probably does not mean.
+    pub warnings: Vec<Diagnostic>,
     /// The model that the file describes.
     pub model: Arc<Model>,
     /// The equations derived from it.
@@ -37,6 +39,20 @@ impl Loaded {
             Some((named, further)) => latex(&Report::of(&named.model, &named.equations), &further),
             None => latex(&Report::of(&self.model, &equations), &further),
         }
+    }
+
+    /// Returns the first warning of the text that bears on the motion, in one line with its place.
+    pub(super) fn warning(&self) -> Option<String> {
+        let mut warnings = self.warnings.iter().filter(|one| one.severity == Severity::Warning);
+        let first = warnings.next()?;
+        let (line, _) = self.document.line_and_column(first.place.start);
+        let help = first.help.as_ref().map_or_else(String::new, |help| format!("; {help}"));
+        let more = match warnings.count() {
+            0 => String::new(),
+            1 => " (and 1 more warning: E shows it)".to_owned(),
+            n => format!(" (and {n} more warnings: E shows them)"),
+        };
+        Some(format!("Warning, line {line}: {}{help}{more}", first.message))
     }
 
     /// Returns the system as instruments see it.

@@ -262,10 +262,14 @@ impl App {
         self.overlay.take_if(|overlay| matches!(overlay, Overlay::Workbench));
         self.awaited.plots = AwaitedPlots::default();
         self.awaited.view = None;
+        let warning = loaded.warning();
         self.lab = Some(Lab::new(loaded));
         // An error message stays valid when something else is loaded.
         self.notifications.shown.take_if(|notice| !notice.is_error());
         self.notifications.clear_waiting();
+        if let Some(warning) = warning {
+            self.notifications.add(Notification::error(warning));
+        }
         self.meter.forget();
         self.picker.error = None;
         if answered == Some(true) {

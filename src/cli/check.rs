@@ -184,7 +184,7 @@ fn object(document: &Document, diagnostics: &[Diagnostic]) -> Value {
             json!({
                 "severity": match diagnostic.severity {
                     Severity::Error => "error",
-                    Severity::Warning => "warning",
+                    Severity::Warning | Severity::Unused => "warning",
                 },
                 "line": line,
                 "column": column,

@@ -4,12 +4,12 @@ use std::ffi::OsStr;
 
 use crate::diagnostic::SourceRange;
 use crate::diagnostic::nearest;
-use crate::diagnostic::{Diagnostic, Document};
+use crate::diagnostic::{Diagnostic, Document, Severity};
 use crate::experiment::{Derived, choose_method};
 use crate::integrate::{METHODS, Settings, method_named};
 use crate::mechanics::{StructureError, structure_errors};
 use crate::model::{Model, WrittenExpr};
-use crate::preset;
+use crate::preset::{self, Checked};
 use crate::printable;
 use crate::system::System;
 
@@ -24,10 +24,14 @@ pub(super) fn find(name: impl AsRef<OsStr>) -> Result<Document, CommandError> {
     preset::find(name).map_err(|why| CommandError::WrongUse(why.to_string()))
 }
 
-/// Reads a document. Its errors are shown with their ranges.
+/// Reads a document. Its errors, and the warnings that bear on the motion, are shown with their ranges.
 pub(super) fn read(document: &Document) -> Result<Model, CommandError> {
     match document.read() {
-        Ok(checked) => Ok(checked.model),
+        Ok(Checked { model, mut warnings, .. }) => {
+            warnings.retain(|warning| warning.severity == Severity::Warning);
+            stderr::show(&document.report(&warnings, stderr::has_colour()));
+            Ok(model)
+        }
         Err(diagnostics) => Err(refuse(document, &diagnostics)),
     }
 }

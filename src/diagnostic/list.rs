@@ -13,6 +13,8 @@ pub enum Severity {
     Error,
     /// The file can be used, but this is probably not what was meant.
     Warning,
+    /// This has no effect on the motion.
+    Unused,
 }
 
 /// An error in a file.
@@ -41,6 +43,11 @@ impl Diagnostic {
     /// Creates a warning about something that is allowed but probably not meant.
     pub fn warning(place: SourceRange, message: impl Into<String>) -> Diagnostic {
         Diagnostic { severity: Severity::Warning, ..Diagnostic::error(place, message) }
+    }
+
+    /// Creates a warning about something that has no effect on the motion.
+    pub fn unused(place: SourceRange, message: impl Into<String>) -> Diagnostic {
+        Diagnostic { severity: Severity::Unused, ..Diagnostic::error(place, message) }
     }
 
     /// Adds a correction.
@@ -97,7 +104,7 @@ impl Diagnostics {
         if list.len() >= MOST {
             // a warning makes room for an error
             let is_error = diagnostic.severity == Severity::Error;
-            let is_warning = |one: &Diagnostic| one.severity == Severity::Warning;
+            let is_warning = |one: &Diagnostic| one.severity != Severity::Error;
             self.left_out.update(|count| count + 1);
             let Some(at) = list.iter().rposition(is_warning).filter(|_| is_error) else { return };
             list.remove(at);

@@ -26,7 +26,7 @@ pub fn report(text: &str, path: &str, diagnostics: &[Diagnostic], colour: bool) 
     for diagnostic in diagnostics {
         let level = match diagnostic.severity {
             Severity::Error => Level::ERROR,
-            Severity::Warning => Level::WARNING,
+            Severity::Warning | Severity::Unused => Level::WARNING,
         };
         let title = level.primary_title(sentence(&diagnostic.message));
         let place = one_line(text, &diagnostic.place);

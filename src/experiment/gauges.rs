@@ -11,6 +11,7 @@ mod integration_constants;
 mod invariant_monitor;
 mod mean;
 mod monitors;
+mod rest_watch;
 mod seen_distances;
 
 use std::sync::Arc;
@@ -29,7 +30,11 @@ pub(super) use inputs::GaugeInputs;
 use integration_constants::IntegrationConstants;
 use invariant_monitor::{InvariantMonitor, MonitoredStep};
 use monitors::{monitors, with_energy_opened};
+use rest_watch::RestWatch;
 pub(super) use seen_distances::by_rounding_of_state;
+
+/// The energy among the quantities of a [`TermWatch`].
+const ENERGY: usize = 0;
 
 /// Rounding errors are measured once per this many samples.
 const MEASURED: u64 = 16;
@@ -47,6 +52,7 @@ pub(super) struct Gauges {
     integration: IntegrationConstants,
     residuals: Vec<ResidualGauge>,
     attitude: Option<AttitudeGauge>,
+    rest: RestWatch,
     /// The channel of each symbol that a state expression may contain.
     places: Vec<(Symbol, usize)>,
     reference_time: f64,
@@ -69,6 +75,7 @@ impl Gauges {
             integration: IntegrationConstants::of(model, equations, &names),
             residuals: ResidualGauge::all(model, equations, system),
             attitude: AttitudeGauge::of(system),
+            rest: RestWatch::new(system),
             places: system.symbol_channels(equations),
             equations: Arc::clone(equations),
             reference_time: 0.0,
@@ -81,6 +88,7 @@ impl Gauges {
         self.reference_time = now.time;
         self.reference_steps = now.steps;
         self.samples = 0;
+        self.rest.begin(now.values);
         for monitor in &mut self.monitors {
             let (equations, values) = (&*self.equations, now.constants);
             let energy = || equations.energy_conserved_at(values);
@@ -170,6 +178,7 @@ impl Gauges {
     /// Records the values at any other time.
     pub(super) fn observe(&mut self, now: &GaugeInputs<'_>) {
         let floor = self.floor(now.steps);
+        self.rest.observe(now.values, now.terms);
         for monitor in &mut self.monitors {
             monitor.observe(now.time, now.values, now.terms, floor);
         }
@@ -193,6 +202,7 @@ impl Gauges {
         terms: &TermWatch,
     ) {
         let floor = self.floor(steps);
+        self.rest.observe(values, terms);
         for monitor in &mut self.monitors {
             monitor.sample(time, values, terms, floor);
         }
@@ -259,7 +269,14 @@ impl Gauges {
         let floor = self.floor(now.steps);
         let show = |monitor: &InvariantMonitor| {
             let of_state = |expression| self.change_by_rounding(expression, now);
-            monitor.show(now.values, self.reference_time, (floor, now.errors), &of_state)
+            let is_at_rest = self.rest.is_at_rest();
+            monitor.show(
+                now.values,
+                self.reference_time,
+                (floor, now.errors),
+                is_at_rest,
+                &of_state,
+            )
         };
         let mut shown: Vec<Gauge> = self.monitors.iter().map(show).collect();
         let at = now.channels(&self.places);

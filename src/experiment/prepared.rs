@@ -12,6 +12,7 @@ use crate::claims::structure_diagnostics;
 use crate::diagnostic::{Diagnostic, Document};
 use crate::mechanics::{self, Equations, NoClosedForm};
 use crate::model::{Model, WrittenExpr};
+use crate::preset::Checked;
 use crate::system::{CompileError, System};
 
 /// A model with its derived equations.
@@ -51,6 +52,8 @@ impl Derived {
 pub struct Prepared {
     /// The file's text.
     pub document: Arc<Document>,
+    /// What the text allows but probably does not mean.
+    pub warnings: Vec<Diagnostic>,
     /// The model of the file.
     pub model: Arc<Model>,
     /// The derived equations.
@@ -107,7 +110,7 @@ impl Prepared {
             report: document.report(&diagnostics, false),
             diagnostics,
         };
-        let model = read.map_err(&report)?.model;
+        let Checked { model, warnings, .. } = read.map_err(&report)?;
         let why = |what: &dyn Display| PrepareError {
             report: format!("{}: {what}", document.path),
             diagnostics: vec![Diagnostic::error(0..0, what.to_string())],
@@ -127,6 +130,6 @@ impl Prepared {
         let experiment = Experiment::new(&model, &equations, &system, Setup::of(&model));
         let experiment = experiment.map_err(|error| why(&error))?;
         let document = Arc::new(document.clone());
-        Ok(Prepared { document, model, equations, system: Arc::new(system), experiment })
+        Ok(Prepared { document, warnings, model, equations, system: Arc::new(system), experiment })
     }
 }

@@ -5,7 +5,8 @@ use super::{
     Offer, Physics, Picture, Plot, PlotContext, Present, Properties, Upwards,
 };
 
-/// The levels of the picture: the marks lie over the curves, and the current state over the marks.
+/// The levels of the picture: the marks lie over the curves, and the current state over the marks. The curves share one, so that
+/// where two of them cross neither has a gap.
 const CURVES: Level = 200;
 const MARK: Level = 201;
 const NOW: Level = 202;
@@ -61,14 +62,13 @@ impl Instrument for Time {
         let PlotContext { plot, present, .. } = context;
         let channels = plot.columns.first()?;
         let curve = |(index, &channel): (usize, &usize)| {
-            let level = (channels.len() - index).min(usize::from(CURVES)) as Level;
             let now = [present.time, present.value(channel)];
             [
-                (level, Layer::Curve { index, channel }),
+                (CURVES, Layer::Curve { index, channel }),
                 (NOW, Layer::Point(now, MarkerShape::Disc, Ink::Curve(index))),
             ]
         };
-        let beside = channels.iter().map(|channel| (0, Layer::CompanionCurves(*channel)));
+        let beside = channels.iter().map(|channel| (CURVES, Layer::CompanionCurves(*channel)));
         let curves = channels.iter().enumerate().rev().flat_map(curve);
         let layers = beside.chain(curves).collect();
         let occurrences = Some((MARK, [None, channels.first().copied()]));

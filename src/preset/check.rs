@@ -250,7 +250,7 @@ impl ModelBuilder<'_> {
         for (name, kind) in parameters.chain(definitions) {
             if !self.used.contains(name.get_ref()) {
                 let message = format!("the {kind} `{}` is not used", name.get_ref());
-                self.diagnostics.push(Diagnostic::warning(name.span(), message));
+                self.diagnostics.push(Diagnostic::unused(name.span(), message));
             }
         }
     }

@@ -145,6 +145,17 @@ impl TermWatch {
         self.terms(quantity).map(|[_, rest, _]| rest).collect()
     }
 
+    /// By how much the terms of a quantity differ from their values at rest, and their size, both as sums; NaN for a quantity without
+    /// terms.
+    pub fn beyond_rest(&self, quantity: usize) -> [f64; 2] {
+        if !self.has(quantity) {
+            return [f64::NAN; 2];
+        }
+        self.terms(quantity).fold([0.0; 2], |[beyond, size], [term, rest, one]| {
+            [beyond + (term - rest).abs(), size + one]
+        })
+    }
+
     /// The sums over the terms of a quantity whose values at rest were these.
     pub fn sums(&self, quantity: usize, were: &[f64]) -> TermSums {
         let place = self.places.get(quantity).and_then(Option::as_ref);

@@ -54,10 +54,7 @@ pub(super) fn document(q: &Quantities<'_>) -> TextPage {
         let shown = q.style.glyphs.pick(&gauge.shown, &gauge.name);
         let called =
             if *shown == gauge.name { String::new() } else { format!(" ({})", gauge.name) };
-        let verdict = match in_full(&gauge.verdict).0 {
-            "…" => "open",
-            word => word,
-        };
+        let verdict = in_full(&gauge.verdict).0;
         let moved = match change(gauge, usize::MAX, q.style.glyphs) {
             Some(by) => format!("changed by {by}"),
             None => format!("drift {}", drift(gauge.drift, q.style.glyphs)),

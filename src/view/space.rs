@@ -139,7 +139,8 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
     painter.raster.draw(canvas.buffer);
     let shading = &painter.shading;
     // What is written comes before the surfaces, so that it has their backgrounds and stands out from them.
-    let written = annotation::labels(canvas, area, &painter.frame, &painter.labels);
+    let is_mark = |at| painter.raster.has_marker(at);
+    let written = annotation::labels(canvas, area, &painter.frame, &painter.labels, is_mark);
     if eye.pitch < std::f64::consts::FRAC_PI_2 {
         compass(canvas, area, &camera);
     }

@@ -9,7 +9,7 @@ use phaselab::app::{App, AppEvent, CheckedText, Effect, Loaded, key};
 use phaselab::diagnostic::Document;
 use phaselab::experiment::{Gauge, MethodFact, Prepared, Setup, Snapshot, Status, Trail, Verdict};
 use phaselab::mechanics::derive;
-use phaselab::preset::Catalog;
+use phaselab::preset::{Catalog, Checked};
 use phaselab::system::{ChannelKind, InitialOverride, System};
 use phaselab::view::theme::PALETTES;
 
@@ -44,12 +44,13 @@ pub(crate) fn lowered(text: &str) -> Loaded {
 }
 
 fn lower(name: &str, epoch: u64, document: Document) -> Loaded {
-    let model = document.read().unwrap_or_else(|diagnostics| panic!("{diagnostics:?}")).model;
+    let checked = document.read().unwrap_or_else(|diagnostics| panic!("{diagnostics:?}"));
+    let Checked { model, warnings, .. } = checked;
     let equations = derive(&model).unwrap();
     let system = System::compile(&model, &equations, &[]).unwrap();
     let (model, equations, system) = (Arc::new(model), Arc::new(equations), Arc::new(system));
     let document = Arc::new(document);
-    Loaded { name: name.to_owned(), epoch, document, model, equations, system }
+    Loaded { name: name.to_owned(), epoch, document, warnings, model, equations, system }
 }
 
 /// The pendulum.
@@ -182,11 +183,12 @@ pub(crate) fn key(word: &str) -> KeyEvent {
 /// waited for.
 pub(crate) fn begun(text: &str) -> App {
     let ready = Prepared::of(&Document::new("test", text)).unwrap_or_else(|why| panic!("{why}"));
-    let Prepared { document, model, equations, system, mut experiment } = ready;
+    let Prepared { document, warnings, model, equations, system, mut experiment } = ready;
     experiment.set_epoch(1);
     let (mut app, _) = App::new(catalog(), Some("test"));
     let name = "test".to_owned();
-    app.update(AppEvent::Loaded(Ok(Loaded { name, epoch: 1, document, model, equations, system })));
+    let loaded = Loaded { name, epoch: 1, document, warnings, model, equations, system };
+    app.update(AppEvent::Loaded(Ok(loaded)));
     app.update(AppEvent::Snapshot(Arc::new(experiment.snapshot())));
     app
 }
@@ -231,8 +233,8 @@ fn answered(app: &mut App) -> (String, bool, Vec<Effect>) {
     let name = app.lab.as_ref().unwrap().loaded.name.clone();
     let ready = Prepared::of(&Document::new(title.as_str(), text.as_str()));
     let outcome = ready.map_err(|why| why.diagnostics).map(|ready| {
-        let Prepared { document, model, equations, system, .. } = ready;
-        Loaded { name, epoch: 2, document, model, equations, system }
+        let Prepared { document, warnings, model, equations, system, .. } = ready;
+        Loaded { name, epoch: 2, document, warnings, model, equations, system }
     });
     let (took, is_right) = (Some(Duration::from_millis(3)), outcome.is_ok());
     let effects = app.update(AppEvent::Checked(Box::new(CheckedText { ticket, outcome, took })));

@@ -6,7 +6,9 @@ use std::time::Duration;
 
 use phaselab::app::{App, AppEvent, Asker, Computation, Effect, Saved};
 use phaselab::experiment::{Command, Snapshot};
-use phaselab::instrument::{Answer, INSTRUMENTS, Instrument, Plot, SavedPlot, named, offers};
+use phaselab::instrument::{
+    Answer, INSTRUMENTS, Instrument, Layer, Level, Picture, Plot, SavedPlot, named, offers,
+};
 use phaselab::job::{Outcome, Progress, Share};
 use phaselab::mechanics::derive_for_motion;
 use phaselab::preset;
@@ -486,4 +488,23 @@ fn planes_of_places_have_one_scale_and_phase_planes_two() {
     ] {
         assert_eq!(is_plane(preset, x, y), expected, "{preset}: {y} against {x}");
     }
+}
+
+/// A cell shows the dots of its highest level alone: curves of one level have no gap where they cross.
+#[test]
+fn curves_against_the_time_are_of_one_level() {
+    let app = begun(
+        "title = 'a test'\n[coordinates]\nx = { velocity = 1 }\ny = { initial = 1, velocity = -1 }\n\
+         [lagrangian]\nL = \"1/2*x'^2 + 1/2*y'^2\"\n[[views]]\nkind = \"time\"\ny = [\"x\", \"y\"]\n",
+    );
+    let lab = app.lab.as_ref().unwrap();
+    let several = |plot: &&Plot| plot.kind.name() == "time" && plot.columns[0].len() == 2;
+    let plot = lab.plots.iter().find(several).expect("both against t");
+    let present = lab.present().unwrap();
+    let picture = plot.kind.picture(lab.context(plot, &present), [f64::NAN; 2]);
+    let Some(Picture::Axes { layers, .. }) = picture else { panic!("no axes") };
+    let is_curve = |layer: &Layer| matches!(layer, Layer::Curve { .. } | Layer::CompanionCurves(_));
+    let levels: Vec<Level> =
+        layers.iter().filter(|(_, layer)| is_curve(layer)).map(|(level, _)| *level).collect();
+    assert_eq!(levels, [levels[0]; 4]);
 }

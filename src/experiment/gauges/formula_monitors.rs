@@ -171,7 +171,7 @@ impl FormulaMonitors {
     pub(super) fn show(&self, now: ChannelValues<'_>, floor: f64, errors: Errors) -> Vec<Gauge> {
         let FormulaValues { values, .. } = self.values(now);
         let show = |monitor: &InvariantMonitor| {
-            monitor.show(&values, self.since, (floor, errors), &|_| None)
+            monitor.show(&values, self.since, (floor, errors), false, &|_| None)
         };
         self.monitors.iter().map(show).collect()
     }

@@ -38,6 +38,9 @@ const LIGHT: f64 = 0.6;
 /// One in so many cells of a surface has a character in ASCII.
 const SPARSE: i32 = 4;
 
+/// The dots of a cell from which on a mass fills it in ASCII.
+const FILLED: u32 = 3;
+
 /// How a line is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pen {
@@ -65,6 +68,8 @@ pub enum Letters {
     Direction,
     /// Dots: scenery.
     Dots,
+    /// A solid mass: blocks where it covers enough of a cell, and elsewhere the height at which it does.
+    Mass,
 }
 
 impl Pen {
@@ -315,7 +320,8 @@ impl Raster {
         if rank >= cell.rank {
             cell.rank = rank;
             cell.style = pen.style;
-            cell.sign = sign;
+            let is_filled = pen.letters == Letters::Mass && cell.upper.count_ones() >= FILLED;
+            cell.sign = sign.or(is_filled.then_some('#'));
         }
     }
 
@@ -341,6 +347,14 @@ impl Raster {
     fn cell(&self) -> [i32; 2] {
         let (wide, high) = self.glyphs.dots();
         [i32::from(wide), i32::from(high)]
+    }
+
+    /// Whether a marker stands in a cell of the screen.
+    pub fn has_marker(&self, at: Position) -> bool {
+        let (column, row) = (at.x.wrapping_sub(self.area.x), at.y.wrapping_sub(self.area.y));
+        let index = usize::from(row) * usize::from(self.area.width) + usize::from(column);
+        let is_inside = column < self.area.width && row < self.area.height;
+        is_inside && self.cells.get(index).is_some_and(|cell| cell.rank.1)
     }
 
     /// The index of a dot's cell, and the bit of the dot.

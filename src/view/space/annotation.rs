@@ -79,13 +79,14 @@ pub(super) struct Label {
 }
 
 /// Writes names beside their points. Where there is no room on one side the name is above the point, and ends at the edge.
-/// No name is written over another: it goes to the other side, or a row or two above or below. A name for which there is
-/// no room at all is left out. Returns the cells of each that is written.
+/// No name is written over another: it goes to the other side, or a row or two above or below, nor over a mark, if there is a
+/// place beside it. A name for which there is no room at all is left out. Returns the cells of each that is written.
 pub(super) fn labels(
     canvas: &mut Canvas<'_>,
     area: Rect,
     frame: &PlotFrame,
     labels: &[Label],
+    is_mark: impl Fn(Position) -> bool,
 ) -> Vec<Rect> {
     let mut written: Vec<Rect> = Vec::new();
     for label in labels {
@@ -100,7 +101,11 @@ pub(super) fn labels(
         };
         let apart = if label.apart { places_apart(at, label, area) } else { Vec::new() };
         let apart = apart.into_iter().find(|place| free(place) && blank(place));
-        let place = apart.or_else(|| places(at, label, area).into_iter().find(free));
+        let uncovered = |place: &Rect| !place.positions().any(&is_mark);
+        let all = places(at, label, area);
+        let beside = all.iter().find(|place| free(place) && uncovered(place));
+        let place =
+            apart.or_else(|| beside.or_else(|| all.iter().find(|place| free(place))).copied());
         let Some(place) = place else { continue };
         canvas.write(place.as_position(), place.width, &label.text, label.style);
         written.push(place);
@@ -209,6 +214,32 @@ mod tests {
     use crate::view::glyphs::Glyphs;
     use crate::view::theme::Theme;
 
+    /// The Earth beside the Moon: a name leaves the mark of the other body free, if it has another place.
+    #[test]
+    fn no_name_is_written_over_a_mark() {
+        let style = RenderStyle { theme: Theme::dark(ColourDepth::None), glyphs: Glyphs::Ascii };
+        let area = Rect::new(0, 0, 30, 9);
+        let frame = PlotFrame::equal(Scale::linear(-1.0, 1.0), Scale::linear(-1.0, 1.0), area);
+        let at = frame.cell([0.0; 2]).expect("a cell");
+        let label = || Label {
+            tip: [0.0; 2],
+            leftwards: false,
+            apart: false,
+            text: "Earth".to_owned(),
+            style: Style::new(),
+        };
+        let place = |is_mark: &dyn Fn(Position) -> bool| {
+            let mut buffer = Buffer::empty(area);
+            let mut canvas = Canvas::over(&mut buffer, &style);
+            labels(&mut canvas, area, &frame, &[label()], is_mark)[0]
+        };
+        let moon = Position::new(at.x + 3, at.y);
+        assert!(place(&|_| false).contains(moon));
+        let beside = place(&|cell| cell == moon);
+        assert!(!beside.contains(moon) && beside.y == at.y, "{beside:?}");
+        assert!(place(&|_| true).contains(moon), "over all of them rather than nowhere");
+    }
+
     /// The name of a body stands beside its cells, and over them only where nothing else is left.
     #[test]
     fn the_name_of_a_body_covers_nothing_of_it() {
@@ -230,7 +261,7 @@ mod tests {
                 text: "right".to_owned(),
                 style: Style::new(),
             };
-            let written = labels(&mut canvas, area, &frame, &[label]);
+            let written = labels(&mut canvas, area, &frame, &[label], |_| false);
             assert_eq!(written.len(), 1);
             let left = area.positions().filter(|cell| buffer[*cell].symbol() == "#").count();
             assert_eq!(all - left, covered, "{buffer:?}");

@@ -8,10 +8,7 @@ use crate::view::plot::Pen;
 /// The thickness, in columns, from which on a piece is drawn in blocks: two quarters of a cell across, however it turns.
 const THICK: f64 = 2.0;
 
-/// The extent, in columns, below which a sheet is all edge: lines around so few cells would hide what is between them.
-const SMALL_FACE: f64 = 16.0;
-
-/// How a piece is drawn with tones. It follows from its size on the screen and, but for small sheets, not from its attitude, so that
+/// How a piece is drawn with tones. It follows from its size on the screen and, but for sheets, not from its attitude, so that
 /// it does not change while it turns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum PieceStyle {
@@ -32,12 +29,11 @@ impl PieceStyle {
         }
     }
 
-    /// The style of such a piece where it is seen with this least width: the edges of a small sheet are blocks, unless it is seen
-    /// from its edge.
+    /// The style of such a piece where it is seen with this least width: the edges of a sheet are blocks, unless it is seen from
+    /// its edge.
     pub(super) fn seen(extents: [f64; 2], width: f64, column: f64) -> Self {
-        let is_small = extents[1] / column < SMALL_FACE;
         match Self::of(extents, column) {
-            Self::Sheet if is_small && width / column >= THICK => Self::Solid,
+            Self::Sheet if width / column >= THICK => Self::Solid,
             style => style,
         }
     }
@@ -86,9 +82,9 @@ mod tests {
     }
 
     #[test]
-    fn a_small_disc_has_blocks_for_edges_unless_it_is_seen_from_its_edge() {
+    fn a_disc_has_blocks_for_edges_unless_it_is_seen_from_its_edge() {
         let of = |diameter: f64, width: f64| PieceStyle::seen([0.0, diameter], width, 1.0);
         assert_eq!([of(15.9, 2.1), of(15.9, 1.9)], [PieceStyle::Solid, PieceStyle::Sheet]);
-        assert_eq!([of(16.1, 9.0), of(1.9, 1.9)], [PieceStyle::Sheet, PieceStyle::Dots]);
+        assert_eq!([of(60.0, 9.0), of(1.9, 1.9)], [PieceStyle::Solid, PieceStyle::Dots]);
     }
 }

@@ -147,7 +147,8 @@ impl ScenePainter<'_> {
             let pen = pens[covered.surface][usize::from(covered.veiled)];
             let surface = &surfaces[covered.surface];
             if surface.is_mass {
-                self.raster.dot(dot, &Pen { layer: pen.layer.max(SOLID), ..pen });
+                let letters = if style.glyphs.is_ascii() { Letters::Mass } else { pen.letters };
+                self.raster.dot(dot, &Pen { layer: pen.layer.max(SOLID), letters, ..pen });
                 continue;
             }
             let [shade, light] = surface.shares;
@@ -204,7 +205,7 @@ impl ScenePainter<'_> {
         draw: impl FnOnce(&mut Self, &Pen),
     ) {
         if self.is_mass(extents) {
-            self.letters = Some(Letters::Height);
+            self.letters = Some(Letters::Mass);
             draw(self, pen);
             self.letters = None;
             return;

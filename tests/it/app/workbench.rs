@@ -13,7 +13,7 @@ use phaselab::diagnostic::Document;
 use phaselab::experiment::{Command, Prepared, Snapshot, Status};
 use phaselab::instrument::Plot;
 
-use crate::fixtures::{catalog, in_lab, loaded, pendulum, press, snapshot};
+use crate::fixtures::{begun, catalog, in_lab, loaded, pendulum, press, snapshot};
 
 fn sheet(app: &App) -> &SourceBuffer {
     app.open_buffer().expect("the editor is open")
@@ -25,8 +25,8 @@ fn checked(app: &App, effect: &Effect) -> AppEvent {
     assert!(app.awaits(*ticket));
     let name = app.lab.as_ref().unwrap().loaded.name.clone();
     let outcome = match Prepared::of(&Document::new(title.as_str(), text.as_str())) {
-        Ok(Prepared { document, model, equations, system, .. }) => {
-            Ok(Loaded { name, epoch: 2, document, model, equations, system })
+        Ok(Prepared { document, warnings, model, equations, system, .. }) => {
+            Ok(Loaded { name, epoch: 2, document, warnings, model, equations, system })
         }
         Err(unready) => Err(unready.diagnostics),
     };
@@ -290,9 +290,9 @@ fn own_file() -> App {
     let text = &catalog().find("pendulum").unwrap().text;
     let (mut app, _) = App::new(catalog(), Some("./my.toml"));
     let ready = Prepared::of(&Document::new("./my.toml", text.as_str())).unwrap();
-    let Prepared { document, model, equations, system, .. } = ready;
+    let Prepared { document, warnings, model, equations, system, .. } = ready;
     let name = "./my.toml".to_owned();
-    let loaded = Loaded { name, epoch: 1, document, model, equations, system };
+    let loaded = Loaded { name, epoch: 1, document, warnings, model, equations, system };
     let seen = snapshot(&loaded, 2.0);
     app.update(AppEvent::Loaded(Ok(loaded)));
     app.update(AppEvent::Snapshot(Arc::new(seen)));
@@ -606,4 +606,25 @@ fn what_becomes_of_a_watched_file_is_reported() {
     app.update(file(&text.replace("9.81", "1.62")));
     rest(&mut app);
     assert_eq!(reported(&app), "./my.toml: rebuilt in 7 ms; the motion continues.");
+}
+
+/// A warning is no error: the system runs, and the lab says what was probably not meant; the editor marks its place.
+#[test]
+fn a_warning_of_the_text_is_shown_in_the_lab_and_in_the_editor() {
+    let text = |unit: &str| {
+        format!(
+            "title = 'a test'\n[coordinates]\nx = {{ initial = 30, unit = '{unit}' }}\n\
+             [parameters]\nidle = 1\n[lagrangian]\nL = \"x'^2 + cos(x)\"\n"
+        )
+    };
+    assert_eq!(begun(&text("rad")).notifications.shown, None);
+    let mut app = begun(&text("degree"));
+    let shown = app.notifications.shown.clone().expect("a warning");
+    let words = "Warning, line 7: `x` is in degrees, but cos takes radians; write cos(x*pi/180)";
+    assert!(shown.text.starts_with(words) && shown.is_error(), "{shown:?}");
+    press(&mut app, "E");
+    let buffer = sheet(&app);
+    let marked: Vec<(usize, bool)> =
+        buffer.diagnostics.iter().map(|one| (one.from.row, one.warning)).collect();
+    assert_eq!((marked.as_slice(), buffer.error_count()), (&[(4, true), (6, true)][..], 0));
 }

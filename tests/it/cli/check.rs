@@ -37,6 +37,21 @@ fn a_warning_is_shown_and_is_no_failure() {
     assert!(done.stderr.contains("idle"), "{}", done.stderr);
 }
 
+/// What makes another motion of it is said wherever the motion is computed; what has no effect on it, by `check` alone.
+#[test]
+fn degrees_are_warned_of_wherever_a_motion_is_computed() {
+    let degrees = PENDULUM
+        .replace("initial = 0.0,", "initial = 30.0, unit = \"degree\",")
+        .replace("m = 2.0", "m = 2.0\nidle = 1.0");
+    for arguments in [&["run", "system.toml", "--until", "1"][..], &["derive", "system.toml"]] {
+        let done = with_file(&degrees, arguments);
+        assert_eq!(done.code, 0, "{}", done.stderr);
+        let warned = ["warning", "system.toml:13:", "`theta` is in degrees, but cos takes radians"];
+        assert!(warned.iter().all(|words| done.stderr.contains(words)), "{}", done.stderr);
+        assert!(!done.stderr.contains("idle"), "{}", done.stderr);
+    }
+}
+
 #[test]
 fn a_false_claim_of_conservation_is_an_error_where_it_stands() {
     let file =

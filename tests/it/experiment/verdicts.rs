@@ -121,6 +121,22 @@ fn an_energy_that_cannot_resolve_the_motion_is_not_exact() {
     }
 }
 
+/// A bead at the tilted equilibrium of a turning hoop, cos θ = g/(a ω²), moves by the last digits of its place: nothing is lost there.
+/// A body that falls at 1e20 m has a place that does not change for long, and is not at rest.
+#[test]
+fn a_body_at_rest_conserves_what_a_body_too_far_away_may_lose() {
+    let bead = "title = \"Bead\"\n[coordinates]\ntheta = { initial = \"acos(9.81/25)\" }\n\
+        [lagrangian]\nL = \"1/2*(theta'^2 + 25*sin(theta)^2) + 9.81*cos(theta)\"\n";
+    let far = "title = \"Far\"\n[coordinates]\nx = { initial = 1e20 }\n\
+        [lagrangian]\nL = \"1/2*x'^2 - x\"\n";
+    for (text, word, rests) in [(bead, "exact", true), (far, "unknown", false)] {
+        let snapshot = carried(text, "taylor", None, 50.0).snapshot();
+        let energy = gauge(&snapshot, "energy");
+        assert_eq!(energy.verdict.word(), word, "{energy:?}");
+        assert_eq!(energy.reason.ends_with("; at rest"), rests, "{energy:?}");
+    }
+}
+
 /// The energy of x'²/2 − V from this place at rest, until t = 100.
 fn energy_in(
     potential: &str,

@@ -14,23 +14,30 @@ use crate::expr::Expr;
 const UNDERFLOW: &str = "its terms underflow";
 const UNRESOLVED: &str = "it cannot resolve the motion";
 
+/// What is said beside the reason where nothing moves.
+const AT_REST: &str = "at rest";
+
 impl InvariantMonitor {
-    /// The gauge, given how rounding of the present state changes its value.
+    /// The gauge, given whether the motion is at rest, where every function of the state is constant, and how rounding of the present
+    /// state changes its value.
     pub(in crate::experiment::gauges) fn show(
         &self,
         values: &[f64],
         since: f64,
         (floor, errors): (f64, Errors),
+        is_at_rest: bool,
         of_state: &dyn Fn(Expr) -> Option<(f64, RoundedInput)>,
     ) -> Gauge {
         let invariant = &self.invariant;
         let reason = self.constant_here.as_ref().unwrap_or(&invariant.reason);
         let value = values[invariant.channel];
-        let measure = if self.is_seen() {
+        let mut measure = if self.is_seen() {
             self.measured_by_value(floor, of_state(invariant.expression))
         } else {
             self.measured_by_terms(floor)
         };
+        let rests = matches!(measure.unseen, Some(Unseen::Unresolved(_))) && is_at_rest;
+        measure.unseen.take_if(|_| rests);
         let distance = if self.reference.offset {
             self.drift.last
         } else {
@@ -54,6 +61,7 @@ impl InvariantMonitor {
                 Some(Unseen::Rounded(input)) => {
                     format!("{reason}; rounding of {} explains its change", input.name)
                 }
+                None if rests => format!("{reason}; {AT_REST}"),
                 None => reason.clone(),
             },
             proved: invariant.proved && !is_broken,
