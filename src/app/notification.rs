@@ -29,6 +29,8 @@ pub enum NotificationKind {
     Info,
     /// Why a key does nothing here, and what would.
     Hint,
+    /// Something is allowed, but probably not what was meant.
+    Warning,
     /// Something went wrong.
     Error,
 }
@@ -120,6 +122,11 @@ impl Notification {
     /// Creates a notification that says why a key does nothing here.
     pub fn hint(text: impl Into<String>) -> Self {
         Self::new(text, NotificationKind::Hint, 10)
+    }
+
+    /// Creates a notification of something that is probably not what was meant.
+    pub fn warning(text: impl Into<String>) -> Self {
+        Self::new(text, NotificationKind::Warning, 10)
     }
 
     /// Creates a notification of an error.

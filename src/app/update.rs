@@ -268,7 +268,7 @@ impl App {
         self.notifications.shown.take_if(|notice| !notice.is_error());
         self.notifications.clear_waiting();
         if let Some(warning) = warning {
-            self.notifications.add(Notification::error(warning));
+            self.notifications.add(Notification::warning(warning));
         }
         self.meter.forget();
         self.picker.error = None;

@@ -122,6 +122,7 @@ pub(super) fn notice_role(notice: &Notification) -> Role {
     match notice.kind {
         NotificationKind::Info => Role::Good,
         NotificationKind::Hint => Role::Text,
+        NotificationKind::Warning => Role::Warn,
         NotificationKind::Error => Role::Bad,
     }
 }

@@ -43,7 +43,7 @@ pub(super) fn in_full(verdict: &Verdict) -> (&'static str, Role) {
 /// The words for a verdict, short enough for a column, and their role.
 pub(super) fn word(verdict: &Verdict) -> (&'static str, Role) {
     match verdict {
-        Verdict::Open => ("pending", Role::Dim),
+        Verdict::Open => ("open", Role::Dim),
         Verdict::Unknown(_) => ("unknown", Role::Warn),
         Verdict::Exact(Growth::Level | Growth::Root) => ("exact", Role::Good),
         Verdict::Exact(Growth::Faster) => ("grows", Role::Warn),

@@ -6,8 +6,8 @@ use std::time::Duration;
 
 use phaselab::app::keymap::KeyContext;
 use phaselab::app::{
-    App, AppEvent, BufferState, Caret, CheckedText, Effect, Loaded, Overlay, Page, SaveError,
-    SourceBuffer,
+    App, AppEvent, BufferState, Caret, CheckedText, Effect, Loaded, NotificationKind, Overlay, Page,
+    SaveError, SourceBuffer,
 };
 use phaselab::diagnostic::Document;
 use phaselab::experiment::{Command, Prepared, Snapshot, Status};
@@ -621,7 +621,8 @@ fn a_warning_of_the_text_is_shown_in_the_lab_and_in_the_editor() {
     let mut app = begun(&text("degree"));
     let shown = app.notifications.shown.clone().expect("a warning");
     let words = "Warning, line 7: `x` is in degrees, but cos takes radians; write cos(x*pi/180)";
-    assert!(shown.text.starts_with(words) && shown.is_error(), "{shown:?}");
+    assert!(shown.text.starts_with(words), "{shown:?}");
+    assert_eq!(shown.kind, NotificationKind::Warning);
     press(&mut app, "E");
     let buffer = sheet(&app);
     let marked: Vec<(usize, bool)> =
