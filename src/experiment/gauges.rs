@@ -33,9 +33,6 @@ use monitors::{monitors, with_energy_opened};
 use rest_watch::RestWatch;
 pub(super) use seen_distances::by_rounding_of_state;
 
-/// The energy among the quantities of a [`TermWatch`].
-const ENERGY: usize = 0;
-
 /// Rounding errors are measured once per this many samples.
 const MEASURED: u64 = 16;
 

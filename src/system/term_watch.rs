@@ -31,6 +31,9 @@ pub struct TermWatch {
 }
 
 impl TermWatch {
+    /// The number of the energy among the quantities.
+    pub const ENERGY: usize = 0;
+
     fn new(system: System, terms: &Terms, parameters: &[f64]) -> TermWatch {
         let inputs = system.motion_len() + 2;
         let mut watch = TermWatch {

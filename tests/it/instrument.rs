@@ -494,7 +494,7 @@ fn planes_of_places_have_one_scale_and_phase_planes_two() {
 #[test]
 fn curves_against_the_time_are_of_one_level() {
     let app = begun(
-        "title = 'a test'\n[coordinates]\nx = { velocity = 1 }\ny = { initial = 1, velocity = -1 }\n\
+        "title = 'a test'\n[coordinates]\nx = { initial = 0, velocity = 1 }\ny = { initial = 1, velocity = -1 }\n\
          [lagrangian]\nL = \"1/2*x'^2 + 1/2*y'^2\"\n[[views]]\nkind = \"time\"\ny = [\"x\", \"y\"]\n",
     );
     let lab = app.lab.as_ref().unwrap();

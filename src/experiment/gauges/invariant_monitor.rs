@@ -5,7 +5,6 @@
 mod drift_measure;
 mod gauge;
 
-use super::ENERGY;
 use super::drift_record::{Distance, DriftRecord, Early};
 use super::mean::Mean;
 use super::seen_distances::{SeenDistances, by_rounding_of_state};
@@ -17,6 +16,9 @@ use crate::system::{BatchTerms, TermSums, TermWatch};
 
 /// The name of the gauge that is constant by the law of the energy's change.
 pub(super) const ENERGY_BALANCE: &str = "energy balance";
+
+/// The energy among the quantities of a [`TermWatch`].
+const ENERGY: usize = TermWatch::ENERGY;
 
 /// Constant terms are large from this multiple of the others on: the value has three digits fewer than their sum.
 const LARGE: f64 = 1e3;

@@ -40,7 +40,7 @@ impl RestWatch {
 
     pub(super) fn observe(&mut self, values: &[f64], terms: &TermWatch) {
         if !self.has_moved {
-            let [moving, size] = terms.beyond_rest(super::ENERGY);
+            let [moving, size] = terms.beyond_rest(TermWatch::ENERGY);
             self.take(values, moving, size);
         }
     }

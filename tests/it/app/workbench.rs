@@ -6,8 +6,8 @@ use std::time::Duration;
 
 use phaselab::app::keymap::KeyContext;
 use phaselab::app::{
-    App, AppEvent, BufferState, Caret, CheckedText, Effect, Loaded, NotificationKind, Overlay, Page,
-    SaveError, SourceBuffer,
+    App, AppEvent, BufferState, Caret, CheckedText, Effect, Loaded, NotificationKind, Overlay,
+    Page, SaveError, SourceBuffer,
 };
 use phaselab::diagnostic::Document;
 use phaselab::experiment::{Command, Prepared, Snapshot, Status};

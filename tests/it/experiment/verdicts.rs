@@ -125,7 +125,7 @@ fn an_energy_that_cannot_resolve_the_motion_is_not_exact() {
 /// A body that falls at 1e20 m has a place that does not change for long, and is not at rest.
 #[test]
 fn a_body_at_rest_conserves_what_a_body_too_far_away_may_lose() {
-    let bead = "title = \"Bead\"\n[coordinates]\ntheta = { initial = \"acos(9.81/25)\" }\n\
+    let bead = "title = \"Bead\"\n[coordinates]\ntheta = { initial = 1.167556903805043 }\n\
         [lagrangian]\nL = \"1/2*(theta'^2 + 25*sin(theta)^2) + 9.81*cos(theta)\"\n";
     let far = "title = \"Far\"\n[coordinates]\nx = { initial = 1e20 }\n\
         [lagrangian]\nL = \"1/2*x'^2 - x\"\n";
