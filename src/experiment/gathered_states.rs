@@ -53,7 +53,6 @@ impl GatheredStates {
         if self.numbers.len() != count {
             self.numbers.resize(count, Batch::ZERO);
         }
-        // by places, since iterators over two lists are not always inlined
         for i in 0..count {
             self.numbers[i].0[lane] = state.values[i];
         }

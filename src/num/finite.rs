@@ -15,7 +15,6 @@ pub fn all_finite<L: FourLanes>(lanes: L, numbers: &[f64]) -> bool {
     let mut sums = [zero; APART];
     let (fours, rest) = numbers.as_chunks::<LANES>();
     let (groups, left) = fours.as_chunks::<APART>();
-    // by places, since what is given to an iterator is not always inlined
     for i in 0..groups.len() {
         for j in 0..APART {
             sums[j] = lanes.add(sums[j], lanes.mul(lanes.from_array(groups[i][j]), zero));

@@ -146,7 +146,6 @@ impl Series {
     /// Returns an error if a matrix is singular at the state, no velocities belong to its momenta, or the system is cancelled.
     pub fn build(&mut self, state: &State) -> Result<(), MotionError> {
         self.time = state.exact_time();
-        // by places, since iterators over several lists are not always inlined
         let count = self.origin.len();
         let (values, carry) = (&state.values[..count], &state.carry[..count]);
         for i in 0..count {

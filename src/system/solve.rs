@@ -292,6 +292,7 @@ fn measure_by_couplings(n: usize, at: impl Fn(usize, usize) -> f64, out: &mut [f
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::num::{DoubleDouble, Kernel, vectorized};
 
     /// Whether a matrix is regular that has 1 in its corners and on its diagonal, but a little more at the end.
     fn is_regular(size: usize, more: f64) -> bool {
@@ -325,6 +326,30 @@ mod tests {
                     }
                 }
             }
+        }
+    }
+
+    /// The solution for 1, 1/2, 1/3, … of a matrix with entries of all digits.
+    struct Solution(usize);
+
+    impl Kernel for Solution {
+        type Output = Vec<DoubleDouble>;
+
+        #[inline(always)]
+        fn run<const FUSED: bool>(self) -> Vec<DoubleDouble> {
+            let part = |n: usize| DoubleDouble::ONE / n as f64;
+            let mut factored = Factored::<DoubleDouble>::new(self.0);
+            assert!(factored.factor_with::<FUSED>(|i, j| part(1 + (7 * i + 3 * j) % 11)));
+            let mut right: Vec<DoubleDouble> = (1..=self.0).map(part).collect();
+            factored.solve_with::<FUSED>(&mut right);
+            right
+        }
+    }
+
+    #[test]
+    fn fused_multiply_adds_change_no_bit_of_a_solution() {
+        for size in 1..=6 {
+            assert_eq!(vectorized(Solution(size)), Solution(size).run::<false>(), "{size}");
         }
     }
 

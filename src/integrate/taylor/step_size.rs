@@ -9,7 +9,8 @@
 //! For each of the last orders k the logarithm of the step is the largest of `(ln |c_j| − ln |c_k|)/(k − j) + ln ε/(p − j)`
 //! over all j < k, but no more than the radius of convergence, that is the largest of the first terms alone, allows.
 
-use std::sync::{Arc, Mutex, PoisonError};
+use std::cell::RefCell;
+use std::sync::Arc;
 
 use super::argument_step::{
     FARTHEST_ARGUMENT, before_pole, may_pass_pole, of_argument, of_steep_pole,
@@ -267,11 +268,13 @@ struct Shares {
     screen: StepScreen,
 }
 
-/// The shares of all tolerances so far, each with the bits of its tolerance. A motion begins anew at every impulse.
-static KNOWN: Mutex<Vec<(u64, Arc<Shares>)>> = Mutex::new(Vec::new());
+thread_local! {
+    /// The shares of the last tolerances, each with the bits of its tolerance, the oldest first.
+    static KNOWN: RefCell<Vec<(u64, Arc<Shares>)>> = const { RefCell::new(Vec::new()) };
+}
 
 /// No more are kept.
-const MOST_KNOWN: usize = 16;
+const MOST_KNOWN: usize = 8;
 
 impl Shares {
     /// Those of the coordinates and rates, at the tolerance of the last terms.
@@ -284,19 +287,21 @@ impl Shares {
         Shares::of(tolerance * SPARED, order)
     }
 
-    /// The same, which are computed once for all motions.
+    /// The same, which are computed once for all motions of a thread at a tolerance: a motion has a stepper anew wherever it begins.
     fn of(tolerance: f64, order: usize) -> Arc<Shares> {
-        let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
         let same =
             |known: &&(u64, Arc<Shares>)| known.0 == tolerance.to_bits() && known.1.order == order;
-        if let Some((_, shares)) = known.iter().find(same) {
-            return Arc::clone(shares);
-        }
-        let shares = Arc::new(Shares::new(tolerance, order));
-        if known.len() < MOST_KNOWN {
+        KNOWN.with_borrow_mut(|known| {
+            if let Some((_, shares)) = known.iter().find(same) {
+                return Arc::clone(shares);
+            }
+            let shares = Arc::new(Shares::new(tolerance, order));
+            if known.len() == MOST_KNOWN {
+                known.remove(0);
+            }
             known.push((tolerance.to_bits(), Arc::clone(&shares)));
-        }
-        shares
+            shares
+        })
     }
 
     /// The logarithm of the step that all orders allow, or `before` where that is less; the lowest allow as much as is said.
