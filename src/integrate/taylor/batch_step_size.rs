@@ -188,7 +188,9 @@ mod tests {
             series[lane][5 + lane].0[lane] = bad;
         }
         for k in 1..=23 {
-            series.iter_mut().for_each(|c| c[k].0[3] = 0.0);
+            for number in &mut series {
+                number[k].0[3] = 0.0;
+            }
         }
         let all = lowest_steps(COUNTS, |i| &series[i][..], &bounds, &mut tables);
         assert_eq!(all.decided[..4], [false; 4]);
