@@ -16,7 +16,9 @@ mod quantity_sizes;
 mod start;
 mod step;
 mod uniqueness;
+mod unresolved;
 
 pub use check::{false_claims, false_claims_followed, structure_diagnostics};
 pub use start::{start_on_a_pole, undefined_start};
 pub use uniqueness::several_starts;
+pub use unresolved::unresolved_feature;

@@ -36,6 +36,7 @@ mod pool;
 mod positive_factors;
 mod print;
 mod product;
+mod quotient_sign;
 mod range;
 mod rewrite;
 mod sample;

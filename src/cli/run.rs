@@ -154,7 +154,7 @@ pub(super) fn execute(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let (model, equations) = (Arc::new(model), Arc::new(equations));
     let mut experiment = Experiment::new(&model, &equations, &system, setup)
         .map_err(|why| CommandError::WrongUse(why.to_string()))?;
-    cautions::of_start(&model, &system, (method, settings), &experiment);
+    cautions::of_start(&model, &equations, &system, (method, settings), &experiment);
     if let Err(refused) = clock::check(&system, method, &experiment, &times) {
         // at a pole steps are that short whatever the clock
         let start = experiment.snapshot().state.clone();

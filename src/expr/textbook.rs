@@ -367,7 +367,7 @@ impl Pool {
     }
 
     /// The highest rank among the symbols of an expression.
-    fn rank_of(&self, e: Expr) -> Rank {
+    pub(super) fn rank_of(&self, e: Expr) -> Rank {
         let ranks = self.symbols_of(e).into_iter().map(|s| self.symbol_info(s).rank);
         ranks.max().unwrap_or_default()
     }

@@ -41,30 +41,30 @@ impl Ramp {
     /// The value at a time.
     pub fn at(&self, time: f64) -> f64 {
         let u = ((time - self.start) / self.duration).clamp(0.0, 1.0);
-        let part = match self.form {
+        let share = |u: f64| match self.form {
             RampForm::Linear => u,
             RampForm::Cubic => u * u * (3.0 - 2.0 * u),
             RampForm::Smooth => u * u * u * (10.0 - u * (15.0 - 6.0 * u)),
         };
         let [from, to] = self.values;
-        if u == 1.0 { to } else { from + (to - from) * part }
+        from * share(1.0 - u) + to * share(u)
     }
 
-    /// The part of its time that is behind, from 0 to 1, as a function of t in the syntax of files.
-    fn progress(&self) -> String {
-        format!("min(max((t - ({:?}))/({:?}), 0), 1)", self.start, self.duration)
+    /// The parts of its time that are behind and left, from 0 to 1, as functions of t in the syntax of files.
+    fn parts(&self) -> [String; 2] {
+        let passed = format!("(t - ({:?}))/({:?})", self.start, self.duration);
+        [passed.clone(), format!("1 - {passed}")].map(|part| format!("min(max({part}, 0), 1)"))
     }
 
-    /// The value as a function of t, in the syntax of files.
+    /// The value as a function of t, in the syntax of files; see [`Ramped::lead`].
     fn written(&self) -> String {
         let [from, to] = self.values;
-        let u = self.progress();
-        let part = match self.form {
+        let [passed, left] = self.parts().map(|u| match self.form {
             RampForm::Linear => u,
             RampForm::Cubic => format!("(3*{u}^2 - 2*{u}^3)"),
             RampForm::Smooth => format!("(10*{u}^3 - 15*{u}^4 + 6*{u}^5)"),
-        };
-        format!("({from:?}) + (({to:?}) - ({from:?}))*{part}")
+        });
+        format!("({from:?})*{left} + ({to:?})*{passed}")
     }
 }
 
@@ -90,10 +90,14 @@ pub fn replace_by_ramps(model: &mut Model, ramps: &[Ramp]) -> Result<Ramped, Ram
         let mut pool = model.pool.clone();
         let mut scope = Scope::new(model, Allowed::Event, "a ramp");
         let mut read = |text: &str| scope.read(&mut pool, text).ok_or(RampRefused::TooLarge);
-        let (value, progress) = (read(&ramp.written())?, read(&ramp.progress())?);
+        let value = read(&ramp.written())?;
+        let [passed, left] = ramp.parts();
+        let parts = [read(&passed)?, read(&left)?];
         model.pool = pool;
         ramped.insert(symbol, value);
-        model.ramped.proceed(progress, ramp.form == RampForm::Smooth);
+        for part in parts {
+            model.ramped.proceed(part, ramp.form == RampForm::Smooth);
+        }
     }
     let Model { pool, mechanics, constraints, impulses, events, observables, definitions, .. } =
         model;

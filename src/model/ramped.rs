@@ -159,30 +159,31 @@ impl RampForm {
 
 impl Ramped {
     /// Makes a parameter follow its schedule from its own value, which stays what it is before the first part.
+    ///
+    /// Between a and b it is a s(v) + b s(u), where u is what has passed of a part, v what is left, and s(u) + s(v) = 1: as a and a share of
+    /// b − a what leads to zero would lose its digits. Both are clamped, so that nothing writes one as a difference from the other.
     pub fn lead(&mut self, pool: &mut Pool, time: Symbol, parameter: Symbol, parts: &[RampPart]) {
         let own = pool.variable(parameter);
         let time = pool.variable(time);
         let mut value = own;
         let one = pool.number(Number::ONE);
-        for (k, RampStage { part, change, limit, .. }) in
-            stages(pool, own, parts).into_iter().enumerate()
-        {
+        for RampStage { part, limit, .. } in stages(pool, own, parts) {
+            let limit = limit.unwrap_or(one);
             let passed = pool.sub(time, part.start);
             let passed = pool.div(passed, part.duration);
-            let passed = pool.call(FunctionId::Max, &[passed, Expr::ZERO]);
-            let u = pool.call(FunctionId::Min, &[passed, limit.unwrap_or(one)]);
+            let [ahead, least] = [passed, limit].map(|u| pool.sub(one, u));
+            let [u, left] =
+                [(passed, Expr::ZERO, limit), (ahead, least, one)].map(|(part, least, most)| {
+                    let part = pool.call(FunctionId::Max, &[part, least]);
+                    pool.call(FunctionId::Min, &[part, most])
+                });
             // one that a later part takes over from stops at once
-            self.proceed(u, part.form == RampForm::Smooth && limit.is_none());
-            let share = part.form.share(pool, u);
-            let change = if k == 0 {
-                pool.mul(change, share)
-            } else {
-                // what is left of those before vanishes exactly at its end, which their sum would not to the last bit
-                let left = pool.sub(one, share);
-                value = pool.mul(value, left);
-                pool.mul(part.to, share)
-            };
-            value = pool.linear(Number::ZERO, &[(Number::ONE, value), (Number::ONE, change)]);
+            let smoothly = part.form == RampForm::Smooth && limit == one;
+            self.proceed(u, smoothly);
+            self.proceed(left, smoothly);
+            let [share, left] = [u, left].map(|u| part.form.share(pool, u));
+            let terms = [pool.mul(value, left), pool.mul(part.to, share)];
+            value = pool.sum(&terms);
         }
         self.functions.insert(parameter, value);
     }

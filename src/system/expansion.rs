@@ -207,7 +207,7 @@ impl Expansion {
 
     /// The series of a root that is positive on its branch, or of the root of the argument of a power that is none itself.
     fn root(&self, guard: &Guard) -> Option<Cow<'_, [f64]>> {
-        match (guard.passes, guard.under) {
+        match (guard.passes, guard.under(|r| self.jet.value(r))) {
             (true, _) => Some(Cow::Borrowed(self.jet.series(guard.value))),
             (false, Some(under)) => Some(Cow::Owned(square_root(self.jet.series(under)))),
             (false, None) => None,

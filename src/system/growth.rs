@@ -287,8 +287,8 @@ impl<R: Real> SeriesBuilder<R> {
                 let forces = matrix
                     .chunks_exact(n)
                     .map(|row| row.iter().map(|x| x.value().abs()).fold(0.0, f64::max));
-                let is_still = |(rate, force): (&f64, f64)| *rate <= STILL * force;
-                if rates.is_some_and(|rates| !rates.iter().zip(forces).all(is_still)) {
+                let still = |(&rate, force): (&f64, f64)| is_still(rate, force);
+                if rates.is_some_and(|rates| !rates.iter().zip(forces).all(still)) {
                     return Err(Halt::Sticks);
                 }
                 break rest;
@@ -402,6 +402,11 @@ impl<R: Coefficient> Kernel for Grow<'_, R> {
     }
 }
 
+/// Whether what moves towards a surface, or from it, at this rate is at rest beside what forces do to it in the unit of time.
+fn is_still(rate: f64, force: f64) -> bool {
+    rate <= STILL * force
+}
+
 /// Whether a coefficient of this size is rounding of what weights balance in it.
 fn is_balanced(size: f64, terms: f64, rounding: f64) -> bool {
     terms.is_finite() && size > 0.0 && size <= BALANCED * rounding * terms
@@ -409,7 +414,15 @@ fn is_balanced(size: f64, terms: f64, rounding: f64) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::is_balanced;
+    use super::{is_balanced, is_still};
+
+    #[test]
+    fn what_moves_by_less_than_a_billionth_of_a_thousandth_of_what_forces_do_is_at_rest() {
+        for force in [1e-200, 1.0, 1e200] {
+            assert!(is_still(0.9e-12 * force, force) && !is_still(1.1e-12 * force, force));
+        }
+        assert!(is_still(0.0, 0.0) && !is_still(f64::NAN, 1.0) && !is_still(1e-300, 0.0));
+    }
 
     #[test]
     fn a_coefficient_is_rounding_up_to_sixty_four_digits_of_what_is_balanced() {

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use rustc_hash::FxHashMap;
 
 use super::overflow;
-use super::program::{Block, Guard, LinearTerm, Op, Program, Register};
+use super::program::{Block, Guard, LinearTerm, Op, Program, Register, STEEPEST_FOLLOWED};
 use crate::expr::{Expr, FunctionId, Pool, Symbol};
 use crate::num::{DoubleDouble, Number};
 
@@ -311,16 +311,13 @@ impl Program {
     }
 }
 
-/// The series of a power with a larger exponent may be far off before its argument comes near zero.
-const STEEPEST_FOLLOWED: f64 = 4.0;
-
 /// The guard of an operation, if it needs one. No motion continues through the zero of an argument whose power is the
 /// inverse or a higher one: it meets a pole, or passes it closely.
 fn guard(program: &Program, r: Register) -> Option<Guard> {
     match program.ops[r as usize] {
         Op::Root(under) => {
             let argument = Some(under);
-            Some(Guard { value: r, argument, under: argument, passes: true })
+            Some(Guard { value: r, argument, under: argument, passes: true, exponent: None })
         }
         Op::Power(under, exponent) => {
             let exponent = program.constants[exponent as usize].high;
@@ -329,10 +326,19 @@ fn guard(program: &Program, r: Register) -> Option<Guard> {
                 argument: Some(under).filter(|_| exponent.abs() <= STEEPEST_FOLLOWED),
                 under: Some(under).filter(|_| exponent > -1.0),
                 passes: false,
+                exponent: None,
             })
         }
+        // how steep it is the parameters say
+        Op::ParametricPower(under, exponent) => Some(Guard {
+            value: r,
+            argument: Some(under),
+            under: Some(under),
+            passes: false,
+            exponent: Some(exponent),
+        }),
         Op::Call(FunctionId::Asin | FunctionId::Acos, _) => {
-            Some(Guard { value: r + 1, argument: None, under: None, passes: true })
+            Some(Guard { value: r + 1, argument: None, under: None, passes: true, exponent: None })
         }
         _ => None,
     }

@@ -85,6 +85,32 @@ pub(super) struct Guard {
     pub(super) under: Option<Register>,
     /// Whether the value itself passes zero where the branch is left.
     pub(super) passes: bool,
+    /// The exponent of a power, where that depends on parameters.
+    pub(super) exponent: Option<Register>,
+}
+
+/// The series of a power with a larger exponent may be far off before its argument comes near zero.
+pub(super) const STEEPEST_FOLLOWED: f64 = 4.0;
+
+impl Guard {
+    /// Whether there are branches at the values of a program: a whole power has none.
+    pub(super) fn has_branches(&self, value: impl Fn(Register) -> f64) -> bool {
+        self.exponent.is_none_or(|exponent| value(exponent).fract() != 0.0)
+    }
+
+    /// The argument through whose zero a motion may continue, at the values of a program: not that of a whole power, or of one with a
+    /// pole.
+    pub(super) fn under(&self, value: impl Fn(Register) -> f64) -> Option<Register> {
+        let has_pole = self.exponent.is_some_and(|exponent| value(exponent) <= -1.0);
+        self.under.filter(|_| !has_pole && self.has_branches(value))
+    }
+
+    /// The argument of a root, or of a power that is not steep at the values of a program.
+    pub(super) fn argument(&self, value: impl Fn(Register) -> f64) -> Option<Register> {
+        let is_steep =
+            self.exponent.is_some_and(|exponent| value(exponent).abs() > STEEPEST_FOLLOWED);
+        self.argument.filter(|_| !is_steep)
+    }
 }
 
 impl Block {

@@ -315,15 +315,22 @@ impl Series {
         &self.high.jet.series(register)[..self.high.order]
     }
 
+    /// Whether it has branches: a power whose exponent a parameter gives may be whole.
+    pub fn guard_has_branches(&self, i: usize) -> bool {
+        self.system.motion().native.guards[i].has_branches(|r| self.high.jet.value(r))
+    }
+
     /// The coefficients of its argument, where it is a root or a power that is not steep.
     pub fn guard_argument(&self, i: usize) -> Option<&[f64]> {
-        let register = self.system.motion().native.guards[i].argument?;
+        let value = |r: Register| self.high.jet.value(r);
+        let register = self.system.motion().native.guards[i].argument(value)?;
         Some(&self.high.jet.series(register)[..self.high.order])
     }
 
     /// The coefficients of its argument, where that is a root's or a power's through whose zero a motion may continue.
     pub fn guard_under(&self, i: usize) -> Option<&[f64]> {
-        let register = self.system.motion().native.guards[i].under?;
+        let value = |r: Register| self.high.jet.value(r);
+        let register = self.system.motion().native.guards[i].under(value)?;
         Some(&self.high.jet.series(register)[..self.high.order])
     }
 
@@ -346,13 +353,14 @@ impl Series {
         &self.high.jet.weight(i)[..self.high.order]
     }
 
-    /// The series of the arguments u of functions; beyond the range of `f64` in a unit of their own, with ln |u| at the origin.
-    pub fn arguments(&self) -> impl Iterator<Item = (FunctionId, &[f64], Option<f64>)> {
+    /// The series of the arguments of functions; beyond the range of `f64` in a wider one, too.
+    pub fn arguments(
+        &self,
+    ) -> impl Iterator<Item = (FunctionId, &[f64], Option<&[ExtendedRange]>)> {
         let wide = self.wide.as_ref().filter(|_| self.has_left_range);
-        let mut sizes = wide.map(|wide| wide.jet.arguments());
+        let mut wide = wide.map(|wide| wide.jet.arguments());
         self.high.jet.arguments().map(move |(function, u)| {
-            let wide = sizes.as_mut().and_then(Iterator::next).map(|(_, u)| u[0]);
-            (function, u, wide.map(|u| Analytic::ln(if u.value() < 0.0 { -u } else { u }).value()))
+            (function, u, wide.as_mut().and_then(Iterator::next).map(|(_, wide)| wide))
         })
     }
 

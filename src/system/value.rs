@@ -11,7 +11,7 @@ use super::kink_sides::KinkSides;
 use super::machine_code::CompiledValues;
 use super::operation::value_of;
 use super::parts::PartwiseEvaluation;
-use super::program::{Block, Op, Program, Register, Singular};
+use super::program::{Block, Guard, Op, Program, Register, Singular};
 use super::solve::Factored;
 use super::{overflow, underflow};
 use crate::num::{Analytic, DoubleDouble, ExtendedRange, Kernel, Real, vectorized};
@@ -188,6 +188,8 @@ impl<R: Real> Evaluator<R> {
     pub(super) fn sides(&self) -> KinkSides {
         let value = |r: Register| self.registers[r as usize].value();
         let guards = self.program.guards.iter();
+        let is_smooth = |guard: &&Guard| guard.exponent.is_some() && guard.under(value).is_none();
+        let guards = guards.filter(|guard| !is_smooth(guard));
         let roots = guards.map(|guard| value(guard.under.unwrap_or(guard.value)));
         KinkSides::new(self.program.switches.iter().map(|&r| value(r)), roots)
     }

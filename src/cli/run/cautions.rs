@@ -51,15 +51,20 @@ pub(super) fn before(model: &Model, system: &System, equations: &Equations, meth
     }
 }
 
-/// Warns before the run about a start from which more than one motion follows.
+/// Warns before the run about a start from which more than one motion follows, and about what no motion from it sees.
 pub(super) fn of_start(
     model: &Model,
+    equations: &Equations,
     system: &System,
     by: (&'static Method, Settings),
     experiment: &Experiment,
 ) {
     let snapshot = experiment.snapshot();
     let start = (&*snapshot.state, &*snapshot.setup.parameters);
+    if let Some(sentence) = claims::unresolved_feature((model, equations, system), start.0, start.1)
+    {
+        stderr::report(&sentence);
+    }
     if let Some(sentence) = claims::several_starts(model, system, start, by) {
         stderr::report(&sentence);
     }

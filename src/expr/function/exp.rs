@@ -2,7 +2,7 @@
 
 use super::recurrence::{BilinearEquation, Convolution, FIRST, Recurrence, VALUE};
 use super::{Function, FunctionId, Rule};
-use crate::expr::{Expr, Node, Pool, is_never_negative};
+use crate::expr::{Expr, Node, Pool, Rank, is_never_negative};
 use crate::num::{Analytic, Number, math};
 
 /// The value, and that of the companion.
@@ -17,19 +17,13 @@ const RECURRENCE: Recurrence = Recurrence {
     companion: None,
 };
 
-/// `exp(c ln u + v) → u^c exp(v)` where both have a value for the same u, but for the limit at u = 0.
+/// `exp(c ln u + v) → u^c exp(v)` where both have a value for the same u, but for the limit at u = 0; c may be a parameter.
 fn powers_of_logarithms(pool: &mut Pool, exponent: Expr) -> Option<Expr> {
     let (mut powers, mut others) = (Vec::new(), Vec::new());
     for (c, term) in pool.summands(exponent) {
-        let (c, term) = match pool.node(term) {
-            Node::Product(k, factors) if matches!(**factors, [(_, n)] if n.is_one()) => {
-                (c * *k, factors[0].0)
-            }
-            _ => (c, term),
-        };
-        match pool.node(term) {
-            Node::Call(FunctionId::Ln, u) if is_same_power(pool, u[0], c) => powers.push((u[0], c)),
-            _ => others.push((c, term)),
+        match power_of_logarithm(pool, c, term) {
+            Some(power) => powers.push((power, Number::ONE)),
+            None => others.push((c, term)),
         }
     }
     if powers.is_empty() {
@@ -39,6 +33,28 @@ fn powers_of_logarithms(pool: &mut Pool, exponent: Expr) -> Option<Expr> {
     let rest = pool.call(FunctionId::Exp, &[rest]);
     powers.push((rest, Number::ONE));
     Some(pool.monomial(Number::ONE, &powers))
+}
+
+/// The power that the exponential of c times a term is.
+fn power_of_logarithm(pool: &mut Pool, c: Number, term: Expr) -> Option<Expr> {
+    let (c, factors) = match pool.node(term) {
+        Node::Product(k, factors) => (c * *k, factors.to_vec()),
+        _ => (c, vec![(term, Number::ONE)]),
+    };
+    let is_logarithm = |&(base, n): &(Expr, Number)| {
+        n.is_one() && matches!(pool.node(base), Node::Call(FunctionId::Ln, _))
+    };
+    let place = factors.iter().position(is_logarithm)?;
+    let Node::Call(_, u) = pool.node(factors[place].0) else { return None };
+    let u = u[0];
+    if factors.len() == 1 {
+        return is_same_power(pool, u, c).then(|| pool.monomial(Number::ONE, &[(u, c)]));
+    }
+    let others: Vec<_> = factors.iter().copied().enumerate().filter(|(k, _)| *k != place).collect();
+    let others: Vec<(Expr, Number)> = others.into_iter().map(|(_, factor)| factor).collect();
+    let exponent = pool.monomial(c, &others);
+    let is_fixed = pool.rank_of(exponent) == Rank::Constant;
+    (is_fixed && is_never_negative(pool, u)).then(|| pool.pow(u, exponent))
 }
 
 /// Whether `u^c` has a value for no more u than `exp(c ln u)`, but for 0.

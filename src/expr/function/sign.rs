@@ -2,7 +2,7 @@
 
 use super::{Function, FunctionId, KinkBranches, Rule};
 use crate::expr::{Expr, Node, Pool};
-use crate::num::Number;
+use crate::num::{Number, math};
 
 /// sign uⁿ = sign u or sign² u for whole n > 1: where u passes zero, uⁿ has a root of order n, which is located with fewer digits.
 fn of_power(pool: &mut Pool, argument: Expr) -> Option<Expr> {
@@ -15,6 +15,40 @@ fn of_power(pool: &mut Pool, argument: Expr) -> Option<Expr> {
     Some(pool.scale(outer, sign))
 }
 
+/// Factors beyond this, or below its reciprocal, are taken out: beside a zero nothing else keeps what they multiply in range.
+const LARGE: f64 = 1e100;
+
+/// sign(2ᵏ u) = sign u, for what has a very small, or a very large number as a factor, or only such coefficients.
+fn within_range(pool: &mut Pool, argument: Expr) -> Option<Expr> {
+    let is_extreme = |c: f64| c.is_normal() && !(1.0 / LARGE..=LARGE).contains(&c.abs());
+    let bare = match &*pool.shared(argument) {
+        Node::Product(c, factors) if is_extreme(c.value()) => {
+            let sign = if c.is_negative() { Number::MINUS_ONE } else { Number::ONE };
+            pool.monomial(sign, factors)
+        }
+        Node::Sum(constant, terms) => {
+            let sizes = terms.iter().map(|(c, _)| *c).chain([*constant]).map(|c| c.value().abs());
+            let largest = sizes.fold(0.0, f64::max);
+            if !is_extreme(largest) {
+                return None;
+            }
+            let power = math::powi(2.0, -math::log2(largest).clamp(-1000.0, 1000.0) as i32);
+            let scaled = |c: Number| Number::Real(c.value() * power).canonical();
+            let terms: Vec<(Number, Expr)> =
+                terms.iter().map(|&(c, term)| (scaled(c), term)).collect();
+            pool.linear(scaled(*constant), &terms)
+        }
+        _ => return None,
+    };
+    Some(pool.call(FunctionId::Sign, &[bare]))
+}
+
+/// The sign of a quotient is that of a product: one that changes at a pole changes at a zero then, which can be located.
+fn of_quotient(pool: &mut Pool, argument: Expr) -> Option<Expr> {
+    let cleared = pool.with_the_sign_of(argument);
+    (cleared != argument).then(|| pool.call(FunctionId::Sign, &[cleared]))
+}
+
 pub(super) const FUNCTION: Function = Function {
     id: FunctionId::Sign,
     name: "sign",
@@ -25,7 +59,10 @@ pub(super) const FUNCTION: Function = Function {
     fold: |pool, u| match *pool.node(u[0]) {
         Node::Number(n) if !n.is_zero() => Some(pool.integer(n.value().signum() as i64)),
         Node::Pi => Some(Expr::ONE),
-        _ => pool.fold_odd(FunctionId::Sign, u[0]).or_else(|| of_power(pool, u[0])),
+        _ => (pool.fold_odd(FunctionId::Sign, u[0]))
+            .or_else(|| of_power(pool, u[0]))
+            .or_else(|| of_quotient(pool, u[0]))
+            .or_else(|| within_range(pool, u[0])),
     },
     derivative: |_, _, _| Expr::ZERO,
     rule: Rule::Branch(|pool, u| KinkBranches {

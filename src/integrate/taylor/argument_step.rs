@@ -4,7 +4,7 @@
 
 use super::last_orders::{FAINT, ROOM};
 use crate::expr::FunctionId;
-use crate::num::math;
+use crate::num::{Analytic, ExtendedRange, Real, math};
 
 /// The largest change of a function's argument in one step: a short-range potential must not be
 /// stepped over.
@@ -50,8 +50,8 @@ pub(super) fn before_pole(u: &[f64]) -> f64 {
 }
 
 /// The step in which the argument of a function changes by the largest amount allowed.
-/// `log_size` is ln |u| where that is known beyond the range of `u`, whose series is then in a unit of its own.
-pub(super) fn of_argument(function: FunctionId, u: &[f64], log_size: Option<f64>) -> f64 {
+/// `wide` is the same series where it is known in a wider range, beyond which that of `f64` may be.
+pub(super) fn of_argument(function: FunctionId, u: &[f64], wide: Option<&[ExtendedRange]>) -> f64 {
     let room = match function {
         _ if saturates(function) => u[0].abs() - SATURATED,
         FunctionId::Ln | FunctionId::Atan | FunctionId::Atan2 => u[0].abs() * PART_OF_ARGUMENT,
@@ -59,9 +59,12 @@ pub(super) fn of_argument(function: FunctionId, u: &[f64], log_size: Option<f64>
     };
     let mut step = moving(FARTHEST_ARGUMENT, &u[..4]);
     if saturates(function) {
-        let fall = log_size.unwrap_or_else(|| math::ln(u[0].abs())) - LOG_SATURATED;
+        let fall = wide.map_or_else(|| math::ln(u[0].abs()), log_size) - LOG_SATURATED;
         if fall > 1.0 {
-            step = step.max(before_fall(u, fall));
+            step = step.max(match wide {
+                Some(wide) => before_fall(wide, fall),
+                None => before_fall(u, fall),
+            });
         }
     }
     if room > FARTHEST_ARGUMENT {
@@ -73,6 +76,12 @@ pub(super) fn of_argument(function: FunctionId, u: &[f64], log_size: Option<f64>
         step = step.max(safe);
     }
     step
+}
+
+/// ln |u| at the origin.
+fn log_size(u: &[ExtendedRange]) -> f64 {
+    let size = if u[0].value() < 0.0 { -u[0] } else { u[0] };
+    size.ln().value()
 }
 
 /// Whether a function no longer changes, or is beyond the range of `f64`, where its argument is large.
@@ -95,7 +104,7 @@ pub(super) fn of_steep_pole(degree: f64, above: f64, u: &[f64]) -> f64 {
 
 /// A time in which |u| does not fall by a factor of more than e^`fall`: the sum of the sizes of the terms of ln |u| stays below
 /// it, each having a share. Where u grows fast, as an exponential or a high power does, its own terms allow far less.
-fn before_fall(u: &[f64], fall: f64) -> f64 {
+fn before_fall<R: Real>(u: &[R], fall: f64) -> f64 {
     let Some(logs) = logarithm(u) else { return 0.0 };
     let mut safe = f64::INFINITY;
     for (k, log) in logs.iter().enumerate().skip(1).filter(|(_, log)| log.abs() >= FAINT) {
@@ -109,24 +118,45 @@ fn before_fall(u: &[f64], fall: f64) -> f64 {
     safe
 }
 
-/// The series of ln |u| beyond its first term: with a_k = u_k/u₀, l_k = a_k − Σ_{0<j<k} j l_j a_{k−j}/k. `None` where a term is
-/// not finite.
-fn logarithm(u: &[f64]) -> Option<[f64; ROOM]> {
-    let mut logs = [0.0; ROOM];
+/// The series of ln |u| beyond its first term: with a_k = u_k/u₀, l_k = a_k − Σ_{0<j<k} j l_j a_{k−j}/k; zero where that is within its
+/// rounding. With the digits of double-double that is followed from order to order: of e^(2x³) all digits of the third term may be lost
+/// beside the first, and those behind are made of what was lost. Of `f64` such bounds would leave nothing. `None` where a term is not
+/// finite.
+fn logarithm<R: Real>(u: &[R]) -> Option<[f64; ROOM]> {
+    let size_of = |x: R| if x.value() < 0.0 { -x } else { x };
+    let exceeds = |a: R, b: R| (a - b).value() > 0.0;
+    let rounding = ROUNDING / f64::EPSILON * R::ROUNDING;
+    let (mut logs, mut errors, mut ratios) = ([R::ZERO; ROOM], [R::ZERO; ROOM], [R::ZERO; ROOM]);
+    let mut known = [0.0; ROOM];
     // the highest order of an argument is not known where that of the state is
-    for k in 1..(u.len() - 1).min(ROOM) {
-        let own = u[k] / u[0];
-        let (mut log, mut size) = (own, own.abs());
+    let orders = (u.len() - 1).min(ROOM);
+    for k in 1..orders {
+        ratios[k] = u[k] / u[0];
+        let (mut log, mut size, mut error) = (ratios[k], size_of(ratios[k]), R::ZERO);
         for j in 1..k {
-            let term = j as f64 * logs[j] * (u[k - j] / u[0]) / k as f64;
-            (log, size) = (log - term, size.max(term.abs()));
+            let factor = ratios[k - j] * j as f64 / k as f64;
+            let term = factor * logs[j];
+            log = log - term;
+            if exceeds(size_of(term), size) {
+                size = size_of(term);
+            }
+            error = error + size_of(factor) * errors[j];
         }
-        if !log.is_finite() {
+        let own = size * rounding;
+        if R::UNBOUNDED {
+            (logs[k], errors[k]) = (log, own + error);
+        } else if exceeds(size_of(log), own) {
+            logs[k] = log;
+        }
+        if exceeds(size_of(logs[k]), errors[k]) {
+            known[k] = logs[k].value();
+        }
+        let is_lost = if R::UNBOUNDED { log.value().is_nan() } else { !log.value().is_finite() };
+        if is_lost || !known[k].is_finite() {
             return None;
         }
-        logs[k] = if log.abs() > ROUNDING * size { log } else { 0.0 };
     }
-    Some(logs)
+    Some(known)
 }
 
 /// The time in which no term of a series exceeds `far`.
@@ -144,6 +174,7 @@ fn moving(far: f64, u: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::num::DoubleDouble;
 
     #[test]
     fn an_angle_ends_its_step_before_a_pole_of_its_tangent() {
@@ -169,9 +200,8 @@ mod tests {
         // −1e6 − t falls by a factor of 1e6/750 within less than 1e6
         assert!((4e5..1e6).contains(&step(FunctionId::Exp, -1e6)));
         // e^u, of which only ln |e^u| = 1e9 is known, with u′ = 1
-        let factorial = |k: usize| (1..=k).map(|i| i as f64).product::<f64>();
-        let exponential: Vec<f64> = (0..20).map(|k| 1e300 / factorial(k)).collect();
-        let longest = of_argument(FunctionId::Exp, &exponential, Some(1e9));
+        let exponential = exponential_of(1e9, &[1.0]);
+        let longest = of_argument(FunctionId::Exp, &in_its_unit(&exponential), Some(&exponential));
         assert!((4e8..1e9).contains(&longest), "{longest}");
         // (1 + t)⁴¹, from 1e60: it has fallen to 750 near t = −0.96
         let mut power = vec![1e60];
@@ -194,5 +224,42 @@ mod tests {
         assert_eq!(of_steep_pole(300.0, 1.0, &falling), f64::INFINITY);
         near(step(FunctionId::Ln, 100.0), 25.0);
         near(step(FunctionId::Sin, 100.0), 6.0);
+    }
+
+    /// The series of e^v, where v has this value and these further coefficients.
+    fn exponential_of(value: f64, v: &[f64]) -> Vec<ExtendedRange> {
+        let wide = |x: f64| ExtendedRange::of(DoubleDouble::from(x));
+        let mut all = vec![wide(value).exp()];
+        for k in 1..29_usize {
+            let terms = v.iter().zip(1..=k).map(|(&c, j)| all[k - j] * c * j as f64 / k as f64);
+            all.push(terms.fold(ExtendedRange::ZERO, |sum, term| sum + term));
+        }
+        all
+    }
+
+    /// The same series in the unit of its first coefficient.
+    fn in_its_unit(u: &[ExtendedRange]) -> Vec<f64> {
+        u.iter().map(|&c| (c / u[0]).value()).collect()
+    }
+
+    /// −e^(2x³), which falls to −750 near x = 1.5 only, along x ± t: of the third term of its logarithm, ±2, no digit of `f64` is left.
+    #[test]
+    fn an_exponential_of_a_power_may_move_as_far_as_it_stays_out_of_range() {
+        for x in [50.0, 90.0, 95.0, 1e3, 1e5, 1e8] {
+            for v in [1.0, -1.0] {
+                let u = exponential_of(2.0 * x * x * x, &[6.0 * x * x * v, 6.0 * x, 2.0 * v]);
+                let longest = of_argument(FunctionId::Exp, &in_its_unit(&u), Some(&u));
+                assert!((0.1 * x..0.9 * x).contains(&longest), "{longest} at {x}");
+            }
+        }
+        // e^(c t) (1 − t/r) beyond the range of numbers passes zero at r
+        for (c, r) in [(0.0, 0.5), (20.0, 0.5), (20.0, 2.0), (100.0, 0.5)] {
+            let mut u = exponential_of(1e6, &[c]);
+            for k in (1..u.len()).rev() {
+                u[k] = u[k] - u[k - 1] / r;
+            }
+            let longest = of_argument(FunctionId::Tanh, &in_its_unit(&u), Some(&u));
+            assert!((0.3 * r..0.95 * r).contains(&longest), "{longest} before {r}, {c}");
+        }
     }
 }

@@ -97,7 +97,7 @@ fn is_zero(value: f64, size: f64, change: f64) -> bool {
 /// Whether some root may deviate from its series a time `after` the origin, in its unit: its argument may come to zero
 /// before.
 pub(super) fn may_stray(series: &Series, after: f64) -> bool {
-    (0..series.guards()).any(|i| {
+    (0..series.guards()).filter(|&i| series.guard_has_branches(i)).any(|i| {
         series.guard_argument(i).is_none_or(|argument| !keeps_off_zero(argument, after.abs()))
     })
 }
@@ -143,7 +143,7 @@ impl FourLaneKernel for OtherTerms<'_> {
 /// Whether some root deviates from its series a time `after` the origin, in its unit, at a state
 /// where the rates have been evaluated.
 pub(super) fn strayed(series: &Series, after: f64, rates: &ExactRates) -> bool {
-    (0..series.guards()).any(|i| {
+    (0..series.guards()).filter(|&i| series.guard_has_branches(i)).any(|i| {
         let coefficients = series.guard(i);
         let (predicted, _) = value_and_slope(coefficients, after);
         let size = largest_term(coefficients, after);

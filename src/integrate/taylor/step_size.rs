@@ -106,7 +106,7 @@ impl StepSize {
             return None;
         }
         let mut shortest = in_four_lanes(ByCoefficients { rule: self, series });
-        for (function, u, log_size) in series.arguments() {
+        for (function, u, wide) in series.arguments() {
             if may_pass_pole(function) {
                 shortest = shortest.min(before_pole(u));
             }
@@ -114,7 +114,7 @@ impl StepSize {
             let far = |k: usize, h: f64| u[k].abs() * h > FARTHEST_ARGUMENT;
             let (square, cube) = (shortest * shortest, shortest * shortest * shortest);
             if far(1, shortest) || far(2, square) || far(3, cube) || !cube.is_finite() {
-                shortest = shortest.min(of_argument(function, u, log_size));
+                shortest = shortest.min(of_argument(function, u, wide));
             }
         }
         for (degree, above, u) in series.steep_poles() {

@@ -163,8 +163,11 @@ fn divisors(program: &Program) -> Vec<Register> {
     }
     // a root is checked where it may vanish: with it vanishes what it divides, as in v/|v| of friction where a velocity touches zero
     divisors.retain(|&r| {
-        let is_of =
-            |guard: &Guard| guard.value == r || guard.argument == Some(r) || guard.under == Some(r);
+        // what a parameter decides may be a pole
+        let is_of = |guard: &Guard| {
+            let is_root = guard.exponent.is_none();
+            is_root && (guard.value == r || guard.argument == Some(r) || guard.under == Some(r))
+        };
         !program.guards.iter().any(is_of)
     });
     divisors.sort_unstable();

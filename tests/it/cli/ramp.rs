@@ -239,3 +239,44 @@ fn corners_of_ramps_are_no_singularities_to_any_adaptive_method() {
         near(row[1], 1.75, 1e-12);
     }
 }
+
+/// The mass 3 of a free particle goes to 0 by s(v) = v³ (10 − 15 v + 6 v²) or its relatives, with the time v to the end in parts of the
+/// ramp: near the end it has the digits that the time has, and its momentum all of them.
+#[test]
+fn what_leads_to_zero_keeps_its_digits_to_its_end() {
+    let file = |form: &str, before: &str| {
+        format!(
+            "title = \"t\"\n[coordinates]\nx = {{ initial = 0, velocity = 0.5 }}\n[parameters]\nm = 3.0\n\
+             [lagrangian]\nL = \"1/2*m*x'^2\"\n{before}[[ramps]]\nparameter = \"m\"\nto = 0\nstart = 2\n\
+             duration = 2\nform = \"{form}\"\n[[observables]]\nname = \"mass\"\nexpression = \"m\"\n"
+        )
+    };
+    let earlier = "[[ramps]]\nparameter = \"m\"\nto = 6\nstart = 0.5\nduration = 1\n";
+    for (form, share) in [
+        ("smooth", (|v: f64| v.powi(3) * (10.0 - 15.0 * v + 6.0 * v * v)) as fn(f64) -> f64),
+        ("cubic", |v| v * v * (3.0 - 2.0 * v)),
+        ("linear", |v| v),
+    ] {
+        for (before, mass) in [("", 3.0), (earlier, 6.0)] {
+            for left in [2.0_f64.powi(-7), 2.0_f64.powi(-20)] {
+                let at = format!("--at={}", 4.0 - left);
+                let text = file(form, before);
+                let row = end(&text, &[&at]);
+                let wanted = mass * share(left / 2.0);
+                // t, x, x', p_x, energy, mass
+                near(row[5] / wanted, 1.0, 1e-14);
+                near(row[2] * wanted / 1.5, 1.0, 1e-14);
+                near(row[3] / 1.5, 1.0, 1e-14);
+                let done = with_file(&text, &["run", "system.toml", "--strict", &at]);
+                assert_eq!((done.code, done.stderr.as_str()), (0, ""), "{form} {left}");
+            }
+        }
+        // the option is the same function
+        let text = file(form, "").replace("[[ramps]]", "[unused]");
+        let text = text.split("[unused]").next().unwrap();
+        let left = 2.0_f64.powi(-12);
+        let (ramp, at) = (format!("--ramp=m=3:0:2:2:{form}"), format!("--at={}", 4.0 - left));
+        let row = end(text, &[&ramp, &at, "--observe=m"]);
+        near(row[5] / (3.0 * share(left / 2.0)), 1.0, 1e-14);
+    }
+}

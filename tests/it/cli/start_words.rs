@@ -57,3 +57,29 @@ fn a_place_is_given_in_few_digits_and_a_term_without_infinities() {
     let said = refused(&edge, &["a part of the law has no finite value at x = 1"]);
     assert!(!said.contains("inf*") && !said.contains("NaN"), "{said}");
 }
+
+/// A barrier between two numbers is passed unseen, and one of the same width near the start is not: the particle comes back.
+#[test]
+fn a_barrier_between_two_numbers_is_reported() {
+    let run = |from: f64, barrier: &str, method: &str| {
+        let text = law(
+            &format!("x = {{ initial = {from:?}, velocity = 1 }}"),
+            "",
+            &format!("1/2*x'^2 - {barrier}"),
+        );
+        with_file(&text, &["run", "system.toml", "--at", "20", "--method", method])
+    };
+    for method in ["taylor", "dop853", "leapfrog"] {
+        for barrier in ["exp(-((x - 9)/1e-16)^2)", "1e-60/(x - 9)^2"] {
+            let done = run(0.0, barrier, method);
+            assert!(done.stderr.contains("the energy has a feature at x = 9"), "{}", done.stderr);
+        }
+        let done = run(0.0, "exp(-((x - 9)/1e-3)^2)", method);
+        assert!(!done.stderr.contains("feature"), "{}", done.stderr);
+    }
+    // nearby, where numbers are closer to each other
+    let done = run(-0.01, "exp(-(x/1e-16)^2)", "taylor");
+    let row: Vec<&str> = done.stdout.lines().last().unwrap().split(',').collect();
+    assert!((row[1].parse::<f64>().unwrap() + 19.99).abs() < 1e-12, "{}", done.stdout);
+    assert_eq!((done.code, done.stderr.as_str()), (0, ""));
+}

@@ -388,3 +388,42 @@ fn a_kink_where_a_root_touches_zero() {
     }
     assert!(passed > 100, "{passed}");
 }
+
+/// A root whose exponent a parameter gives has the kinks of one that is written: (1 − sin 2x)^p = |sin x − cos x| for p = ½, and so has
+/// e^(p ln u). A whole power has none, and a pole stays one.
+#[test]
+fn a_power_with_the_exponent_of_a_parameter_is_followed_through_its_kinks() {
+    let end = |v: &str, p: f64| {
+        let mut run = Run::new(&format!(
+            "title = \"Kinks\"\n[coordinates]\nx = {{ initial = 0.5, velocity = 1.3 }}\n[parameters]\np = {p:?}\n\
+             [lagrangian]\nL = \"1/2*x'^2 - {v}\"\n"
+        ));
+        run.to(20.0)
+    };
+    let wanted = end("abs(sin(x) - cos(x))", 0.5);
+    for v in ["(1 - sin(2*x))^p", "(1 - sin(2*x))^(p/2 + 0.25)", "exp(p*ln(1 - sin(2*x)))"] {
+        near(&end(v, 0.5), &wanted, 1e-13);
+    }
+    near(&end("(1 - sin(2*x))^p", 1.25), &end("abs(sin(x) - cos(x))^2.5", 0.0), 1e-13);
+    near(&end("(1 - sin(2*x))^p", 2.0), &end("(1 - sin(2*x))^2", 0.0), 1e-13);
+    near(&end("(sin(x) - cos(x))^p", 3.0), &end("(sin(x) - cos(x))^3", 0.0), 1e-13);
+}
+
+/// Beside a power whose exponent a parameter gives a pole is seen as ever: the particle turns back before x = 0, where 1/x² is larger
+/// than its energy, and with the exponent written in it does the same.
+#[test]
+fn a_pole_beside_a_power_with_the_exponent_of_a_parameter_turns_back() {
+    let end = |v: &str, n: f64| {
+        let mut run = Run::new(&format!(
+            "title = \"Pole\"\n[coordinates]\nx = {{ initial = 3, velocity = -1 }}\n[parameters]\nn = {n:?}\n\
+             [lagrangian]\nL = \"1/2*x'^2 - ({v})\"\n"
+        ));
+        run.to(8.0)
+    };
+    for (n, written) in [(-2.0, "x^(-2)"), (2.0, "x^2"), (2.5, "x^2.5"), (-0.5, "1/sqrt(x)")] {
+        let by_parameter = end("1e-3/x + 0.01*x^n", n);
+        let wanted = end(&format!("1e-3/x + 0.01*{written}"), n);
+        near(&by_parameter, &wanted, 1e-12);
+        assert!(wanted[1] > 0.0, "{written}: {wanted:?}");
+    }
+}
