@@ -12,7 +12,7 @@ use crate::num::math;
 #[derive(Clone, PartialEq, Debug)]
 pub enum Verdict {
     /// The motion is too short for a verdict: for any, for one on a function of the state that has
-    /// not yet returned, or for one on an error that has changed but a few times and may add up.
+    /// not yet returned, or for one on an error that has changed but a few times, or unevenly, and may add up.
     Open,
     /// Not known, since no drift of it can be seen.
     Unknown(Unseen),
@@ -122,10 +122,12 @@ impl Verdict {
         };
         match slope {
             Some(slope) => Verdict::Secular(slope),
-            // after a few passages levels that are left may or may not add up
-            None if errors == Errors::Accumulated && !turns(whole, OFTEN) => {
-                let by_rounding = greatest.max(distances.peak()) <= FAR * floor;
-                if by_rounding { Verdict::Bounded } else { Verdict::Open }
+            None if errors == Errors::Accumulated
+                && greatest.max(distances.peak()) > FAR * floor =>
+            {
+                // after a few passages levels that are left may or may not add up, and so may what inclines
+                let is_settled = turns(whole, OFTEN) && !inclines(whole);
+                if is_settled { Verdict::Bounded } else { Verdict::Open }
             }
             None => Verdict::Bounded,
         }
@@ -172,6 +174,38 @@ const RETURNED: f64 = 1.5;
 
 /// The same where errors accumulate: it has come back three times and is away again.
 const OFTEN: f64 = 7.0;
+
+/// Whether a quantity rises or falls on the whole beside its oscillation, though not in every part as a trend does: an uneven loss
+/// may look like that for a while, and what oscillates does not.
+fn inclines(intervals: &[Stretch]) -> bool {
+    let means: Vec<f64> = blocks(intervals, SLOPED).map(|part| average(part, |s| s.mean)).collect();
+    let middle = 0.5 * (SLOPED - 1) as f64;
+    let mean = means.iter().sum::<f64>() / SLOPED as f64;
+    let (mut across, mut along) = (0.0, 0.0);
+    for (k, value) in means.iter().enumerate() {
+        across += (k as f64 - middle) * (value - mean);
+        along += math::powi(k as f64 - middle, 2);
+    }
+    let slope = across / along;
+    let rest =
+        |(k, value): (usize, &f64)| math::powi(value - mean - slope * (k as f64 - middle), 2);
+    let rest: f64 = means.iter().enumerate().map(rest).sum();
+    let error = (rest / ((SLOPED - 2) as f64 * along)).sqrt();
+    let greatest = intervals.iter().map(|s| s.greatest).fold(f64::MIN, f64::max);
+    let least = intervals.iter().map(|s| s.least).fold(f64::MAX, f64::min);
+    let rise = slope.abs() * (SLOPED - 1) as f64;
+    rise > INCLINED * (greatest - least) && slope.abs() > SURE * error
+}
+
+/// The number of blocks through whose means a line is drawn.
+const SLOPED: usize = 8;
+
+/// The least rise of that line, in amplitudes. That of a sine of any frequency and phase is at most 0.091 where its slope is as sure.
+const INCLINED: f64 = 0.1;
+
+/// The least slope of that line in standard errors: one of a line through eight uncorrelated values exceeds it once in 250 times,
+/// and a single step in their middle has 4.4.
+const SURE: f64 = 4.5;
 
 /// Whether what lies beside a straight line comes and goes with a motion that returns: steps along a staircase, which has
 /// not come back itself. A curve that only bends, or a line as straight as rounding allows, shows no return.
