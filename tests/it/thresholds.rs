@@ -61,8 +61,8 @@ fn turns(floor: f64, numbers: [f64; 2], signal: impl Fn(f64, f64) -> f64) {
 
 /// Asserts what is said of the signal with each number.
 fn says(words: [&str; 2], floor: f64, numbers: [f64; 2], signal: impl Fn(f64, f64) -> f64) {
-    let said = numbers.map(|number| verdict(floor, |time| signal(number, time)));
-    assert_eq!(said, words, "{numbers:?}");
+    let verdicts = numbers.map(|number| verdict(floor, |time| signal(number, time)));
+    assert_eq!(verdicts, words, "{numbers:?}");
 }
 
 /// A share of time spent above that grows: the mean inclines, and the extremes do not.
