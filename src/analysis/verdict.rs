@@ -178,33 +178,37 @@ const OFTEN: f64 = 7.0;
 /// Whether a quantity rises or falls on the whole beside its oscillation, though not in every part as a trend does: an uneven loss
 /// may look like that for a while, and what oscillates does not.
 fn inclines(intervals: &[Stretch]) -> bool {
-    let means: Vec<f64> = blocks(intervals, SLOPED).map(|part| average(part, |s| s.mean)).collect();
-    let middle = 0.5 * (SLOPED - 1) as f64;
-    let mean = means.iter().sum::<f64>() / SLOPED as f64;
-    let (mut across, mut along) = (0.0, 0.0);
-    for (k, value) in means.iter().enumerate() {
-        across += (k as f64 - middle) * (value - mean);
-        along += math::powi(k as f64 - middle, 2);
-    }
-    let slope = across / along;
-    let rest =
-        |(k, value): (usize, &f64)| math::powi(value - mean - slope * (k as f64 - middle), 2);
-    let rest: f64 = means.iter().enumerate().map(rest).sum();
-    let error = (rest / ((SLOPED - 2) as f64 * along)).sqrt();
     let greatest = intervals.iter().map(|s| s.greatest).fold(f64::MIN, f64::max);
     let least = intervals.iter().map(|s| s.least).fold(f64::MAX, f64::min);
-    let rise = slope.abs() * (SLOPED - 1) as f64;
-    rise > INCLINED * (greatest - least) && slope.abs() > SURE * error
+    SLOPED.iter().all(|&count| {
+        let means: Vec<f64> =
+            blocks(intervals, count).map(|part| average(part, |s| s.mean)).collect();
+        let middle = 0.5 * (count - 1) as f64;
+        let mean = means.iter().sum::<f64>() / count as f64;
+        let (mut across, mut along) = (0.0, 0.0);
+        for (k, value) in means.iter().enumerate() {
+            across += (k as f64 - middle) * (value - mean);
+            along += math::powi(k as f64 - middle, 2);
+        }
+        let slope = across / along;
+        let beside =
+            |(k, value): (usize, &f64)| math::powi(value - mean - slope * (k as f64 - middle), 2);
+        let rest: f64 = means.iter().enumerate().map(beside).sum();
+        let error = (rest / ((count - 2) as f64 * along)).sqrt();
+        // that of the whole time
+        let rise = slope.abs() * intervals.len() as f64 / (intervals.len() / count) as f64;
+        rise > INCLINED * (greatest - least) && slope.abs() > SURE * error
+    })
 }
 
-/// The number of blocks through whose means a line is drawn.
-const SLOPED: usize = 8;
+/// The numbers of blocks through whose means lines are drawn: no sine of 3.4 to 37 periods, at any phase, has slopes that are sure
+/// in both.
+const SLOPED: [usize; 2] = [8, 13];
 
-/// The least rise of that line, in amplitudes. That of a sine of any frequency and phase is at most 0.091 where its slope is as sure.
+/// The least rise of these lines, in amplitudes.
 const INCLINED: f64 = 0.1;
 
-/// The least slope of that line in standard errors: one of a line through eight uncorrelated values exceeds it once in 250 times,
-/// and a single step in their middle has 4.4.
+/// The least slope of these lines in standard errors.
 const SURE: f64 = 4.5;
 
 /// Whether what lies beside a straight line comes and goes with a motion that returns: steps along a staircase, which has

@@ -233,6 +233,20 @@ fn alternating(swing: f64, of: impl Fn(f64) -> f64) -> Verdict {
     })
 }
 
+/// Where an oscillation has a period in each of the parts that are compared, or nearly so, their means change slowly.
+#[test]
+fn no_oscillation_inclines() {
+    for tenth in 37..370 {
+        for phase in 0..8 {
+            let turns = f64::from(tenth) / 10.0;
+            let of = |t: f64| {
+                (std::f64::consts::TAU * (turns * t / 819.2 + f64::from(phase) / 8.0)).sin()
+            };
+            assert_eq!(verdict(8192, of), Verdict::Bounded, "{turns} {phase}");
+        }
+    }
+}
+
 /// The mean rises by 0.75 s from the first quarter to the last; within a quarter the values vary by 2 + 0.25 s.
 #[test]
 fn a_rise_of_a_hundredth_of_the_swing_is_a_trend() {
