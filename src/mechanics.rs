@@ -69,7 +69,7 @@ mod vakonomic;
 mod valuation;
 mod weighted_degree;
 
-pub use at_values::{constant_at, vanishing_at};
+pub use at_values::{absent_at, constant_at, vanishing_at};
 pub use bracket::{ChainRule, Recognised, bracket, in_phase_space, recognise, unreduced_bracket};
 pub use canonical::PhaseMap;
 pub use canonical_verdict::{CanonicalVerdict, FailingBracket};

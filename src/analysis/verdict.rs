@@ -12,7 +12,7 @@ use crate::num::math;
 #[derive(Clone, PartialEq, Debug)]
 pub enum Verdict {
     /// The motion is too short for a verdict: for any, for one on a function of the state that has
-    /// not yet returned, or for one on an error that has changed but a few times and may add up.
+    /// not yet returned, or for one on an error that has changed but a few times, or unevenly, and may add up.
     Open,
     /// Not known, since no drift of it can be seen.
     Unknown(Unseen),
@@ -122,10 +122,12 @@ impl Verdict {
         };
         match slope {
             Some(slope) => Verdict::Secular(slope),
-            // after a few passages levels that are left may or may not add up
-            None if errors == Errors::Accumulated && !turns(whole, OFTEN) => {
-                let by_rounding = greatest.max(distances.peak()) <= FAR * floor;
-                if by_rounding { Verdict::Bounded } else { Verdict::Open }
+            None if errors == Errors::Accumulated
+                && greatest.max(distances.peak()) > FAR * floor =>
+            {
+                // after a few passages levels that are left may or may not add up, and so may what inclines
+                let is_settled = turns(whole, OFTEN) && !inclines(whole);
+                if is_settled { Verdict::Bounded } else { Verdict::Open }
             }
             None => Verdict::Bounded,
         }
@@ -172,6 +174,42 @@ const RETURNED: f64 = 1.5;
 
 /// The same where errors accumulate: it has come back three times and is away again.
 const OFTEN: f64 = 7.0;
+
+/// Whether a quantity rises or falls on the whole beside its oscillation, though not in every part as a trend does: an uneven loss
+/// may look like that for a while, and what oscillates does not.
+fn inclines(intervals: &[Stretch]) -> bool {
+    let greatest = intervals.iter().map(|s| s.greatest).fold(f64::MIN, f64::max);
+    let least = intervals.iter().map(|s| s.least).fold(f64::MAX, f64::min);
+    SLOPED.iter().all(|&count| {
+        let means: Vec<f64> =
+            blocks(intervals, count).map(|part| average(part, |s| s.mean)).collect();
+        let middle = 0.5 * (count - 1) as f64;
+        let mean = means.iter().sum::<f64>() / count as f64;
+        let (mut across, mut along) = (0.0, 0.0);
+        for (k, value) in means.iter().enumerate() {
+            across += (k as f64 - middle) * (value - mean);
+            along += math::powi(k as f64 - middle, 2);
+        }
+        let slope = across / along;
+        let beside =
+            |(k, value): (usize, &f64)| math::powi(value - mean - slope * (k as f64 - middle), 2);
+        let rest: f64 = means.iter().enumerate().map(beside).sum();
+        let error = (rest / ((count - 2) as f64 * along)).sqrt();
+        // that of the whole time
+        let rise = slope.abs() * intervals.len() as f64 / (intervals.len() / count) as f64;
+        rise > INCLINED * (greatest - least) && slope.abs() > SURE * error
+    })
+}
+
+/// The numbers of blocks through whose means lines are drawn: no sine of 3.4 to 37 periods, at any phase, has slopes that are sure
+/// in both.
+const SLOPED: [usize; 2] = [8, 13];
+
+/// The least rise of these lines, in amplitudes.
+const INCLINED: f64 = 0.1;
+
+/// The least slope of these lines in standard errors.
+const SURE: f64 = 4.5;
 
 /// Whether what lies beside a straight line comes and goes with a motion that returns: steps along a staircase, which has
 /// not come back itself. A curve that only bends, or a line as straight as rounding allows, shows no return.

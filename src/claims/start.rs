@@ -110,7 +110,17 @@ fn without_value(
     let culprit = undefined(equations, at)?;
     let (coordinate, cause) = describe(model, &equations.pool, culprit, at)?;
     let place = coordinate.map_or(&model.law_place, |i| &model.coordinates[i].place);
-    Some(Diagnostic::error(place.clone(), format!("the motion cannot start: {cause}")))
+    let diagnostic = Diagnostic::error(place.clone(), format!("the motion cannot start: {cause}"));
+    let pool = &equations.pool;
+    let is_of_power = matches!(pool.node(culprit), Node::Call(FunctionId::Ln, _))
+        && pool.symbols_of(culprit).is_empty();
+    Some(if is_of_power {
+        diagnostic.with_help(
+            "a power u^x whose exponent changes is exp(x*ln(u)), so that u must be above zero",
+        )
+    } else {
+        diagnostic
+    })
 }
 
 /// A coordinate that has no inertia.
@@ -322,7 +332,9 @@ fn describe(
     } else {
         "a part of the law has no finite value".to_owned()
     };
-    Some((coordinate, format!("{what} at {}", values.join(", "))))
+    let place =
+        if values.is_empty() { String::new() } else { format!(" at {}", values.join(", ")) };
+    Some((coordinate, format!("{what}{place}")))
 }
 
 /// Whether all numbers in an expression are finite: a derivative at the end of a domain may have others, as that of asin(1).
@@ -353,6 +365,11 @@ mod tests {
         assert!((found[0] / found[2] + 2.0).abs() < 1e-12 && found[1] == 0.0, "{found:?}");
         assert_eq!(of(&[&[0.0, 1.0], &[1.0, 0.0]]), None);
         assert_eq!(of(&[&[1.0, 0.0], &[0.0, 1e-26]]), None);
+        // x'² + 2 x' y' + (1 + d) y'² resists x' = −y' by d alone, in any units of x
+        for unit in [1.0, 1e-10, 1e15] {
+            let by = |d: f64| of(&[&[unit * unit, unit], &[unit, 1.0 + d]]);
+            assert!(by(0.9e-12).is_some() && by(1.1e-12).is_none(), "{unit}");
+        }
     }
 
     /// 1/(x − 1 + d), with more beside it from a distance on.

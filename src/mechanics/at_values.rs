@@ -79,6 +79,26 @@ pub fn vanishing_at(pool: &Pool, rates: &[Expr], values: &Valuation) -> Option<V
     })
 }
 
+/// Of each expression whether it is 0, or free of a symbol if one is given, where the parameters are that are 0 at these values.
+pub fn absent_at(pool: &Pool, parts: &[(Expr, Option<Symbol>)], values: &Valuation) -> Vec<bool> {
+    let mut zeros: Vec<Symbol> = parts.iter().flat_map(|&(e, _)| pool.symbols_of(e)).collect();
+    zeros.retain(|&s| values.at(s) == 0.0);
+    if zeros.is_empty() {
+        return vec![false; parts.len()];
+    }
+    let mut here = pool.clone();
+    let zero = Number::Real(0.0).canonical();
+    let given = zeros.into_iter().map(|s| (s, zero)).collect();
+    let is_absent = |&(e, of): &(Expr, Option<Symbol>)| {
+        let e = at(&mut here, e, &given);
+        match of {
+            Some(symbol) => !here.depends(e, symbol),
+            None => here.is_zero(e) == Zero::Proved,
+        }
+    };
+    parts.iter().map(is_absent).collect()
+}
+
 /// The first of two sets of parameters, those that are 0 and all, whose values suffice for something that depends on these
 /// expressions.
 fn first_of(

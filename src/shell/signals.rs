@@ -35,6 +35,12 @@ const FATAL: [i32; 15] = [
     SIGIO, SIGABRT, SIGBUS, SIGSYS, SIGTRAP,
 ];
 
+/// Those of Linux alone, such as that of a failing supply of power.
+#[cfg(target_os = "linux")]
+const OF_SYSTEM: [i32; 2] = [Signal::POWER.as_raw(), Signal::STKFLT.as_raw()];
+#[cfg(not(target_os = "linux"))]
+const OF_SYSTEM: [i32; 0] = [];
+
 /// The other signals for the frame loop; and SIGXFSZ, for a file that has become too large, which is ignored
 /// because the writer gets an error.
 const OTHERS: [i32; 4] = [SIGTSTP, SIGCONT, SIGWINCH, SIGXFSZ];
@@ -70,7 +76,7 @@ impl Signals {
         let shared = Arc::clone(&pending);
         let noticed = Arc::new(AtomicBool::new(false));
         let answered = Arc::clone(&noticed);
-        let mut signals = Caught::new(FATAL.iter().chain(&OTHERS))?;
+        let mut signals = Caught::new(FATAL.iter().chain(&OF_SYSTEM).chain(&OTHERS))?;
         thread::Builder::new().name("signals".to_owned()).spawn(move || {
             for signal in signals.forever() {
                 let mut pending = shared.lock().unwrap_or_else(PoisonError::into_inner);

@@ -46,7 +46,7 @@ impl System {
         MotionError { time, kind, place: place.collect() }
     }
 
-    /// The error for a singular matrix, reported with the coordinates the matrix depends on.
+    /// The error for a singular matrix, reported with the coordinates and rates the matrix depends on.
     pub(super) fn singular(
         &self,
         program: &Program,
@@ -54,8 +54,9 @@ impl System {
         time: f64,
         values: &[f64],
     ) -> MotionError {
-        let named = program.inputs_of(singular).iter().filter(|&&i| i < self.degrees());
-        let place = named.map(|&i| (self.channels()[i].shown.clone(), values[i]));
+        let known = self.moving().min(values.len());
+        let named = program.inputs_of(singular).iter().filter(|&&i| i < known);
+        let place = named.map(|&i| (self.name_of(i, self.form()), values[i]));
         let is_constrained = self.constraints() > 0;
         let kind = if is_constrained {
             MotionErrorKind::SingularConstraints(None)

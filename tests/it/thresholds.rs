@@ -55,9 +55,34 @@ fn oscillation(time: f64) -> f64 {
 }
 
 /// Asserts that the signal with the first number is bounded, and with the second secular.
-fn turns(floor: f64, [within, beyond]: [f64; 2], signal: impl Fn(f64, f64) -> f64) {
-    assert_eq!(verdict(floor, |time| signal(within, time)), "bounded", "{within}");
-    assert_eq!(verdict(floor, |time| signal(beyond, time)), "secular", "{beyond}");
+fn turns(floor: f64, numbers: [f64; 2], signal: impl Fn(f64, f64) -> f64) {
+    says(["bounded", "secular"], floor, numbers, signal);
+}
+
+/// Asserts what is said of the signal with each number.
+fn says(words: [&str; 2], floor: f64, numbers: [f64; 2], signal: impl Fn(f64, f64) -> f64) {
+    let verdicts = numbers.map(|number| verdict(floor, |time| signal(number, time)));
+    assert_eq!(verdicts, words, "{numbers:?}");
+}
+
+/// A share of time spent above that grows: the mean inclines, and the extremes do not.
+#[test]
+fn what_inclines_by_a_tenth_of_its_swing_is_open() {
+    says(["bounded", "open"], 1e-9, [0.09, 0.11], |rise, time| {
+        let above = 256.0 * (0.3 + rise * time);
+        if (time * 8192.0).round() % 256.0 < above { 0.5 } else { -0.5 }
+    });
+}
+
+/// Levels of the eighths that no line has, ±a, leave a standard error of a √(8/(6·42)) for the slope of the rest.
+#[test]
+fn what_inclines_by_four_and_a_half_standard_errors_is_open() {
+    let error = 0.05 * (8.0 / (6.0 * 42.0_f64)).sqrt();
+    says(["bounded", "open"], 1e-9, [4.3, 4.7], |errors, time| {
+        let eighth = (time * 8.0).floor().min(7.0);
+        let level = [1.0, -1.0, -1.0, 1.0, 1.0, -1.0, -1.0, 1.0][eighth as usize];
+        oscillation(time) + 0.05 * level + errors * error * eighth
+    });
 }
 
 #[test]
@@ -124,7 +149,7 @@ fn a_trend_is_a_hundredth_of_the_swing() {
 #[test]
 fn extremes_rise_with_a_trend_by_a_fifth_of_it() {
     // the rest of the rise is that of the share of time spent above
-    turns(1e-9, [0.17, 0.23], |along, time| {
+    says(["open", "secular"], 1e-9, [0.17, 0.23], |along, time| {
         let above = 64.0 * (0.4 + 0.25 * time * (1.0 - along));
         let wave = if (time * 8192.0).round() % 64.0 < above { 0.5 } else { -0.5 };
         wave + 0.25 * along * time
@@ -134,7 +159,7 @@ fn extremes_rise_with_a_trend_by_a_fifth_of_it() {
 #[test]
 fn every_part_of_a_trend_has_a_third_of_its_share() {
     // between the second and the third of five parts the rise has this slope, elsewhere 1: 2 s/(1 + s) of an even one
-    turns(1e-9, [0.19, 0.23], |slope, time| {
+    says(["open", "secular"], 1e-9, [0.19, 0.23], |slope, time| {
         let slow = time.clamp(0.2, 0.6) - 0.2;
         oscillation(time) + 0.5 * (time - slow + slope * slow)
     });
@@ -144,7 +169,7 @@ fn every_part_of_a_trend_has_a_third_of_its_share() {
 fn a_trend_is_clear_of_six_standard_errors() {
     // the means of neighbouring intervals differ by 1, a quarter has 16 of them
     let error = 0.5 / 16.0_f64.sqrt();
-    turns(1e-9, [5.4, 6.3], |errors, time| {
+    says(["open", "secular"], 1e-9, [5.4, 6.3], |errors, time| {
         let scatter = if (time * 64.0).floor() % 2.0 == 0.0 { 0.5 } else { -0.5 };
         scatter + errors * error * time / 0.75
     });

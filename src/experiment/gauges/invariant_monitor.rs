@@ -5,11 +5,12 @@
 mod drift_measure;
 mod gauge;
 
-use super::drift_record::{Distance, DriftRecord, Early};
+use super::drift_record::{Distance, DriftRecord, Early, Waiting};
 use super::mean::Mean;
 use super::seen_distances::{SeenDistances, by_rounding_of_state};
-use crate::analysis::{LEFT, LOST, RESOLVED, RoundedInput};
+use crate::analysis::{LEFT, RESOLVED, RoundedInput};
 use crate::experiment::Reference;
+use crate::experiment::energy_law::{Cause, acting};
 use crate::expr::{Expr, Pool, Symbol};
 use crate::mechanics::{Valuation, constant_at, vanishing_at};
 use crate::system::{BatchTerms, TermSums, TermWatch};
@@ -32,6 +33,8 @@ pub(super) struct InvariantMonitor {
     pub(super) invariant: MonitoredInvariant,
     /// Why it is constant at the values of the parameters, if only there.
     constant_here: Option<String>,
+    /// What changes it at the values of the parameters, if not all that does in general.
+    acting_here: Option<String>,
     /// Whether its reference jumps with an impulse.
     jumps: bool,
     reference: ReferenceValue,
@@ -87,8 +90,8 @@ pub(super) struct ChangeLaw {
 
 #[derive(Clone, Debug)]
 pub(super) enum ChangeRate {
-    /// The rate of the energy, with the steps of the law.
-    Energy,
+    /// The rate of the energy, with the steps of the law, and its causes.
+    Energy(Vec<Cause>),
     /// These expressions, all of them.
     All(Vec<Expr>),
 }
@@ -116,6 +119,7 @@ impl InvariantMonitor {
             jumps: invariant.name != ENERGY_BALANCE,
             invariant,
             constant_here: None,
+            acting_here: None,
             reference: ReferenceValue {
                 initial: unknown,
                 value: unknown,
@@ -139,8 +143,12 @@ impl InvariantMonitor {
     ) {
         let Some(law) = &self.invariant.broken else { return };
         let special = match &law.rate {
-            ChangeRate::Energy => energy(),
+            ChangeRate::Energy(_) => energy(),
             ChangeRate::All(rates) => vanishing_at(pool, rates, values),
+        };
+        self.acting_here = match &law.rate {
+            ChangeRate::Energy(causes) if special.is_none() => acting(pool, causes, values),
+            _ => None,
         };
         self.constant_here = special.map(|parameters| constant_at(pool, &parameters, values));
     }
@@ -268,12 +276,12 @@ impl InvariantMonitor {
             moving = sums.moving;
             size = sums.size;
             self.drift.see_moving(moving);
-            // where an impulse ends every step the ends of steps are not seen
-            if time > self.drift.moving.time() && self.drift.worst <= LOST {
-                self.drift.moving.note(time, moving);
-            }
             if self.reference.offset {
                 distance = self.rough(sums.value, terms.work()) - self.reference.rough;
+            }
+            // where an impulse ends every step the ends of steps are not seen
+            if time > self.drift.moving.time() {
+                self.drift.note_moving(time, distance, moving);
             }
         }
         if !self.reference.offset {
@@ -337,10 +345,7 @@ impl InvariantMonitor {
             self.seen.begin();
         }
         self.drift.see_moving(moving);
-        // the moving part of a lost motion is no measure of it
-        if self.drift.worst <= LOST {
-            self.drift.moving.note(time, moving);
-        }
+        self.drift.note_moving(time, distance, moving);
         if !is_rounding && distance.abs() > floor * self.rounding.greatest {
             self.note(time, distance, moving, floor);
             // if there are rows within a step, these make the history
@@ -363,23 +368,28 @@ impl InvariantMonitor {
         if !beyond && moving == 0.0 && self.moving() == 0.0 {
             return;
         }
-        let deferred =
-            self.drift.early.take(beyond.then_some(Distance { time, size: distance, moving }));
-        if beyond && !deferred {
-            let drift = self.drift_of(distance, moving);
-            if drift > self.drift.worst {
-                self.drift.worst = drift;
-                self.drift.worst_scale = self.scale_of(moving.max(self.moving()));
-            }
-            // rows lie before the end of the step, which was recorded first
-            if drift > LEFT && self.drift.left.is_none_or(|left| time < left) {
-                self.drift.left = Some(time);
+        self.drift.early.observe(moving, self.drift.most_moving);
+        if beyond {
+            let seen = Distance { time, size: distance, moving: moving.max(self.moving()) };
+            if !self.drift.early.defer(seen) {
+                self.compare(seen);
             }
         }
-        if self.drift.early.is_known() {
-            (self.drift.worst, self.drift.left) = self.drifted();
-            self.drift.worst_scale = self.scale();
-            self.drift.early = Early::over();
+        while let Some(waiting) = self.drift.early.take(time) {
+            waiting.distances().for_each(|seen| self.compare(seen));
+        }
+    }
+
+    /// Compares a distance with what moves.
+    fn compare(&mut self, Distance { time, size, moving }: Distance) {
+        let drift = self.drift_of(size, moving);
+        if drift > self.drift.worst {
+            self.drift.worst = drift;
+            self.drift.worst_scale = self.scale_of(moving.max(self.moving()));
+        }
+        // rows lie before the end of the step, which was recorded first
+        if drift > LEFT && self.drift.left.is_none_or(|left| time < left) {
+            self.drift.left = Some(time);
         }
     }
 
@@ -411,7 +421,8 @@ impl InvariantMonitor {
     /// The greatest drift, and when it first exceeded the limit.
     fn drifted(&self) -> (f64, Option<f64>) {
         let (mut worst, mut left) = (self.drift.worst, self.drift.left);
-        for &Distance { time, size, moving } in &self.drift.early.distances {
+        let waiting = self.drift.early.waiting.iter().flat_map(Waiting::distances);
+        for Distance { time, size, moving } in waiting {
             let drift = self.drift_of(size, moving);
             worst = worst.max(drift);
             if drift > LEFT && left.is_none_or(|left| time < left) {

@@ -45,7 +45,7 @@ pub(super) fn monitors(
     if !equations.conserved.iter().any(|c| c.name == "energy") {
         let law = EnergyLaw::of(model, equations);
         let kind = ChannelKind::Energy;
-        let change = ChangeLaw { shown: law.rate, rate: ChangeRate::Energy };
+        let change = ChangeLaw { shown: law.rate, rate: ChangeRate::Energy(law.parts) };
         add("energy", law.cause, Some(change), kind, energy, equations.energy);
         let reason = "E − work done on it".to_owned();
         add(ENERGY_BALANCE, reason, None, ChannelKind::EnergyBalance, energy, equations.energy);

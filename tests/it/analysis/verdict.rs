@@ -223,13 +223,28 @@ fn the_floor_rises_like_brouwers_walk() {
     assert!((9.0..10.1).contains(&ratio), "{ratio}");
 }
 
-/// The verdict on 8192 values, 64 to an interval: values that alternate in sign have zero mean in it.
+/// The verdict on 8192 values, 64 to an interval: values that alternate in sign have zero mean in it. What is almost a trend is
+/// nothing yet: under a method whose errors accumulate it may become one.
 fn alternating(swing: f64, of: impl Fn(f64) -> f64) -> Verdict {
     let mut sign = -1.0;
     verdict(8192, |t| {
         sign = -sign;
         sign * swing + of(t / 819.2)
     })
+}
+
+/// Where an oscillation has a period in each of the parts that are compared, or nearly so, their means change slowly.
+#[test]
+fn no_oscillation_inclines() {
+    for tenth in 37..370 {
+        for phase in 0..8 {
+            let turns = f64::from(tenth) / 10.0;
+            let of = |t: f64| {
+                (std::f64::consts::TAU * (turns * t / 819.2 + f64::from(phase) / 8.0)).sin()
+            };
+            assert_eq!(verdict(8192, of), Verdict::Bounded, "{turns} {phase}");
+        }
+    }
 }
 
 /// The mean rises by 0.75 s from the first quarter to the last; within a quarter the values vary by 2 + 0.25 s.
@@ -252,7 +267,7 @@ fn a_rise_clears_the_scatter() {
         })
     };
     assert!(secular(&scattered(1.3)).is_some());
-    assert_eq!(scattered(0.9), Verdict::Bounded);
+    assert_eq!(scattered(0.9), Verdict::Open);
 }
 
 /// The minima rise by 0.3, the maxima by a fraction of that.
@@ -267,7 +282,7 @@ fn both_extremes_rise_with_a_trend() {
     };
     // 2 part/(1 + part) of the mean: a fifth at 1/9
     assert!(secular(&drawn(0.13)).is_some());
-    assert_eq!(drawn(0.09), Verdict::Bounded);
+    assert_eq!(drawn(0.09), Verdict::Open);
 }
 
 /// In the middle half the rise is a fraction of what it is at the ends.
@@ -281,7 +296,7 @@ fn a_trend_does_not_rest() {
         })
     };
     assert!(secular(&resting(0.22)).is_some());
-    assert_eq!(resting(0.13), Verdict::Bounded);
+    assert_eq!(resting(0.13), Verdict::Open);
 }
 
 /// A jump in the middle of an oscillation of 2.
@@ -289,7 +304,7 @@ fn a_trend_does_not_rest() {
 fn a_level_that_is_left_lies_more_than_a_swing_away() {
     let jump = |height: f64| alternating(1.0, move |t| if t < 0.5 { 0.0 } else { height });
     assert!(secular(&jump(2.5)).is_some());
-    assert_eq!(jump(2.3), Verdict::Bounded);
+    assert_eq!(jump(2.3), Verdict::Open);
 }
 
 #[test]

@@ -183,6 +183,12 @@ fn what_cannot_start_is_said_with_the_coordinate_and_the_reason() {
             ["the mass matrix is singular", "θ = 0"],
         ),
         (late, l("1/2*x'^2/(x - 1)^2"), ["x'^2/(x - 1)^2` has no finite value at x = 1", ":3:1"]),
+        (late, l("1/2*x'^2 - (-1)^x"), ["`ln(-1)` has no finite value\n", "u must be above zero"]),
+        (
+            "x = { initial = 1 }",
+            l("1/12*x'^4 - 1/2*x^2"),
+            ["the mass matrix is singular", "x′ = 0"],
+        ),
     ] {
         let law = if law.contains("hamiltonian") {
             one(&start.replace("velocity", "momentum"), &law)

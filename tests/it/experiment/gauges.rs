@@ -106,6 +106,26 @@ fn a_long_law_is_given_in_its_general_form() {
     assert_eq!(energy.reason, "explicit time, friction, forces");
 }
 
+/// dE/dt = −c x'² + A' … : of what changes the energy in general, a drive of amplitude 0 and a damper without friction do not.
+#[test]
+fn what_does_not_act_at_the_values_of_the_parameters_is_no_cause() {
+    let reason = |drive: f64, friction: f64, wall: f64| {
+        let text = format!(
+            "title = \"T\"\n[parameters]\nA = {drive:?}\nc = {friction:?}\nw = {wall:?}\n[coordinates]\nx = {{ initial = 1 }}\n\
+             [lagrangian]\nL = \"1/2*x'^2 - 1/2*x^2 + A*x*cos(1.3*t)\"\ndissipation = \"1/2*c*x'^2\"\n\
+             forces = {{ x = \"-w*x'^3\" }}\n"
+        );
+        let mut system = build(&text, |_| ());
+        run(&mut system, 5.0);
+        gauge(&system.snapshot(), "energy").reason
+    };
+    assert_eq!(reason(0.3, 0.1, 0.2), "explicit time, friction, forces");
+    assert_eq!(reason(0.0, 0.1, 0.0), "friction");
+    assert_eq!(reason(0.3, 0.0, 0.0), "explicit time");
+    assert_eq!(reason(0.0, 0.1, 0.2), "friction, forces");
+    assert!(reason(0.0, 0.0, 0.0).starts_with("constant at "));
+}
+
 #[test]
 fn drift_is_measured_by_the_size_of_the_terms() {
     // in equilibrium on top of the hill, E = 0 is the difference of two terms of size 1e6

@@ -302,6 +302,62 @@ fn beyond_a_millionth_of_what_moves_it_is_reported() {
     assert_eq!(left.reason, "stated by the file, along this motion only; contradicted by the run");
 }
 
+/// From a velocity that first leads to a turning point nearby little moves until the motion is on its way back, and the error
+/// of these steps is no greater a part of what moves than later: by symplectic Euler E + (h/2) k x v is constant for each frequency
+/// (Hairer, Lubich, Wanner, § IX.3), so that E swings by h/2 (x v)_max = h/4 of the amplitude's square, and by what x v was at first.
+/// What moves is E and the change of V, on the mean as much as E.
+#[test]
+fn a_motion_that_begins_near_its_turning_point_is_judged_like_any_other() {
+    let mut seen = Vec::new();
+    for velocity in [0.03, 0.1, 0.3] {
+        for friction in ["", "dissipation = \"0.0079*x'^2\"\n"] {
+            let text = format!(
+                "title = \"Near\"\n[coordinates]\nx = {{ initial = 1, velocity = {velocity} }}\n\
+                 [lagrangian]\nL = \"1/2*x'^2 - 1/2*x^2\"\n{friction}"
+            );
+            let name = if friction.is_empty() { "energy" } else { "energy balance" };
+            for (step, length) in [(0.02, 10.0), (0.02, 31.4), (0.005, 20.0), (0.02, 200.0)] {
+                let run = carried(&text, "symplectic-euler", Some(step), length);
+                let gauge = gauge(&run.snapshot(), name);
+                let amplitude = 1.0 + velocity * velocity;
+                let most = step / 2.0 * (amplitude / 2.0 + velocity);
+                if gauge.verdict != Verdict::Bounded
+                    || gauge.max_drift > 2.5 * most / (amplitude / 2.0)
+                {
+                    seen.push(format!("{velocity} {name} {step} {length}: {gauge:?}"));
+                }
+            }
+        }
+    }
+    assert!(seen.is_empty(), "{}", seen.join("\n"));
+}
+
+/// A Runge–Kutta method loses energy for good. Toda's ring of three has two frequencies, so that it loses it unevenly: it is never
+/// said that it oscillates without trend, and not at any length that it does after it was seen to drift.
+#[test]
+fn an_uneven_loss_is_never_bounded() {
+    let text = "title = \"Ring\"\n[coordinates]\na = { initial = 0.47, velocity = -0.37 }\n\
+        b = { initial = -0.18, velocity = -0.51 }\nc = { initial = -0.44, velocity = -0.37 }\n[lagrangian]\n\
+        L = \"1/2*(a'^2 + b'^2 + c'^2) - exp(a - b) - exp(b - c) - exp(c - a)\"\n";
+    let energy = |time: f64| {
+        let mut experiment = build(text, |setup| {
+            "dop853".clone_into(&mut setup.method);
+            setup.settings = Settings { step: None, tolerance: Some(1.5e-9) };
+            setup.end = Some(time);
+            setup.spacing = time / 1000.0;
+        });
+        run(&mut experiment, time);
+        gauge(&experiment.snapshot(), "energy")
+    };
+    let gauges = [92.4, 135.0, 184.8, 270.0, 369.6, 739.2].map(energy);
+    for gauge in &gauges {
+        assert!(matches!(gauge.verdict, Verdict::Open | Verdict::Secular(_)), "{gauge:?}");
+    }
+    // so it is: twice the time, about twice the loss
+    let [first, .., last] = &gauges;
+    assert!((3.0..16.0).contains(&(last.drift / first.drift)), "{first:?} {last:?}");
+}
+
 /// In equilibrium nothing moves, and nothing drifts.
 #[test]
 fn an_equilibrium_is_exact() {

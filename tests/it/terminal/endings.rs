@@ -59,6 +59,10 @@ fn every_signal_that_ends_a_program_gives_the_terminal_back() {
         (Signal::VTALARM, 154),
         (Signal::PROF, 155),
         (Signal::ABORT, 134),
+        #[cfg(target_os = "linux")]
+        (Signal::POWER, 158),
+        #[cfg(target_os = "linux")]
+        (Signal::STKFLT, 144),
     ];
     for (signal, status) in signals {
         let mut lab = pendulum();

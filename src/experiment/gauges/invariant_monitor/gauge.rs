@@ -29,7 +29,8 @@ impl InvariantMonitor {
         of_state: &dyn Fn(Expr) -> Option<(f64, RoundedInput)>,
     ) -> Gauge {
         let invariant = &self.invariant;
-        let reason = self.constant_here.as_ref().unwrap_or(&invariant.reason);
+        let here = self.constant_here.as_ref().or(self.acting_here.as_ref());
+        let reason = here.unwrap_or(&invariant.reason);
         let value = values[invariant.channel];
         let mut measure = if self.is_seen() {
             self.measured_by_value(floor, of_state(invariant.expression))
