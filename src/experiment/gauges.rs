@@ -85,7 +85,7 @@ impl Gauges {
         self.reference_time = now.time;
         self.reference_steps = now.steps;
         self.samples = 0;
-        self.rest.begin(now.values);
+        self.rest.begin(now.system, now.values);
         for monitor in &mut self.monitors {
             let (equations, values) = (&*self.equations, now.constants);
             let energy = || equations.energy_conserved_at(values);
@@ -175,7 +175,7 @@ impl Gauges {
     /// Records the values at any other time.
     pub(super) fn observe(&mut self, now: &GaugeInputs<'_>) {
         let floor = self.floor(now.steps);
-        self.rest.observe(now.values, now.terms);
+        self.rest.observe(now.values);
         for monitor in &mut self.monitors {
             monitor.observe(now.time, now.values, now.terms, floor);
         }
@@ -199,7 +199,7 @@ impl Gauges {
         terms: &TermWatch,
     ) {
         let floor = self.floor(steps);
-        self.rest.observe(values, terms);
+        self.rest.observe(values);
         for monitor in &mut self.monitors {
             monitor.sample(time, values, terms, floor);
         }
@@ -264,9 +264,10 @@ impl Gauges {
 
     pub(super) fn show(&self, now: &GaugeInputs<'_>) -> Arc<[Gauge]> {
         let floor = self.floor(now.steps);
+        let is_at_rest =
+            self.rest.is_in_place() && self.monitors.iter().any(InvariantMonitor::was_slow);
         let show = |monitor: &InvariantMonitor| {
             let of_state = |expression| self.change_by_rounding(expression, now);
-            let is_at_rest = self.rest.is_at_rest();
             monitor.show(
                 now.values,
                 self.reference_time,

@@ -170,7 +170,7 @@ impl<W: Fn(usize) -> Option<Batch>> Kernel for SumsKernel<'_, W> {
         let (mut value, mut size, mut moving) = (negative_zero, negative_zero, negative_zero);
         let place = terms.places.get(quantity).and_then(Option::as_ref);
         let as_a_whole = place.is_some_and(|place| place.exchanges);
-        let mut changed_at_rest = Batch::ZERO;
+        let (mut all_beyond, mut changed_at_rest) = (Batch::ZERO, Batch::ZERO);
         let (first, rests) = place.map_or((0, &[][..]), |place| (place.first, &place.terms));
         let mut outputs = terms.program.outputs.get(first..).unwrap_or_default().iter();
         let mut next = || outputs.next().map(|&r| terms.registers[r as usize]);
@@ -188,8 +188,10 @@ impl<W: Fn(usize) -> Option<Batch>> Kernel for SumsKernel<'_, W> {
             };
             value = value + term;
             size = size + its_size;
+            let beyond = (term - rest).abs();
+            all_beyond = all_beyond + beyond;
             if let Some(were) = were(k) {
-                let (beyond, change) = ((term - rest).abs(), rest - were);
+                let change = rest - were;
                 let both = beyond + change.abs();
                 // zero times what is not finite is NaN, and equal to nothing
                 let finite = both * 0.0;
@@ -206,6 +208,7 @@ impl<W: Fn(usize) -> Option<Batch>> Kernel for SumsKernel<'_, W> {
             value: value.0[lane],
             size: size.0[lane],
             moving: moving.0[lane],
+            beyond: all_beyond.0[lane],
         })
     }
 }

@@ -148,17 +148,6 @@ impl TermWatch {
         self.terms(quantity).map(|[_, rest, _]| rest).collect()
     }
 
-    /// By how much the terms of a quantity differ from their values at rest, and their size, both as sums; NaN for a quantity without
-    /// terms.
-    pub fn beyond_rest(&self, quantity: usize) -> [f64; 2] {
-        if !self.has(quantity) {
-            return [f64::NAN; 2];
-        }
-        self.terms(quantity).fold([0.0; 2], |[beyond, size], [term, rest, one]| {
-            [beyond + (term - rest).abs(), size + one]
-        })
-    }
-
     /// The sums over the terms of a quantity whose values at rest were these.
     pub fn sums(&self, quantity: usize, were: &[f64]) -> TermSums {
         let place = self.places.get(quantity).and_then(Option::as_ref);
@@ -169,6 +158,7 @@ impl TermWatch {
         for [term, rest, size] in self.terms(quantity) {
             sums.value += term;
             sums.size += size;
+            sums.beyond += (term - rest).abs();
             if let Some(were) = were.next() {
                 let (beyond, change) = ((term - rest).abs(), rest - were);
                 if !(beyond + change.abs()).is_finite() {
@@ -205,9 +195,11 @@ pub struct TermSums {
     /// of place, the latter is the change of their sum, since the terms of a potential may cancel
     /// each other. A term that has no value at rest counts entirely.
     pub moving: f64,
+    /// The sum of the amounts by which the terms differ from their values at rest: of an energy, that of motion.
+    pub beyond: f64,
 }
 
 impl TermSums {
     /// Those over no terms.
-    pub const NOTHING: TermSums = TermSums { value: -0.0, size: -0.0, moving: -0.0 };
+    pub const NOTHING: TermSums = TermSums { value: -0.0, size: -0.0, moving: -0.0, beyond: 0.0 };
 }

@@ -7,6 +7,7 @@ mod gauge;
 
 use super::drift_record::{Distance, DriftRecord, Early, Waiting};
 use super::mean::Mean;
+use super::rest_watch::is_slow;
 use super::seen_distances::{SeenDistances, by_rounding_of_state};
 use crate::analysis::{LEFT, RESOLVED, RoundedInput};
 use crate::experiment::Reference;
@@ -41,6 +42,8 @@ pub(super) struct InvariantMonitor {
     rounding: RoundingError,
     seen: SeenDistances,
     drift: DriftRecord,
+    /// Whether its terms ever differed from those at rest, at the end of a step or within it.
+    was_moving: bool,
 }
 
 /// What distances are measured from.
@@ -130,6 +133,7 @@ impl InvariantMonitor {
             rounding: RoundingError::default(),
             seen: SeenDistances::default(),
             drift: DriftRecord::beginning(Mean::default()),
+            was_moving: false,
         }
     }
 
@@ -172,6 +176,7 @@ impl InvariantMonitor {
         self.reference = ReferenceValue { initial, value: initial, rough, offset, at_rest };
         self.rounding = RoundingError::default();
         self.seen = SeenDistances::default();
+        self.was_moving = false;
         self.drift = DriftRecord::beginning(Mean::beginning(time));
     }
 
@@ -275,6 +280,7 @@ impl InvariantMonitor {
             }
             moving = sums.moving;
             size = sums.size;
+            self.was_moving |= !is_slow(&sums);
             self.drift.see_moving(moving);
             if self.reference.offset {
                 distance = self.rough(sums.value, terms.work()) - self.reference.rough;
@@ -330,6 +336,11 @@ impl InvariantMonitor {
         self.invariant.quantity.map(|quantity| (quantity, &*self.reference.at_rest))
     }
 
+    /// Whether it is the energy of a motion that was slow at the end of every step.
+    pub(super) fn was_slow(&self) -> bool {
+        self.invariant.quantity == Some(ENERGY) && !self.was_moving
+    }
+
     /// Records the sums over the terms, and the work. A distance that rounding explains is ignored.
     pub(super) fn step_with(
         &mut self,
@@ -337,7 +348,8 @@ impl InvariantMonitor {
         (sums, work): (TermSums, f64),
         by_state: impl FnOnce(usize) -> Option<(f64, RoundedInput)>,
     ) {
-        let TermSums { value, size, moving } = sums;
+        let TermSums { value, size, moving, .. } = sums;
+        self.was_moving |= !is_slow(&sums);
         let distance = self.rough(value, work) - self.reference.rough;
         self.widen(size);
         let is_rounding = self.measure_far((time, distance), sums, floor, by_state);

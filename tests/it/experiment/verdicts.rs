@@ -5,6 +5,8 @@
 //! step without trend, and angular momenta are conserved; Gauss methods conserve quadratic invariants (§ IV.2). A
 //! Taylor series to the last digit conserves everything.
 
+use std::f64::consts::TAU;
+
 use phaselab::analysis::{Growth, Verdict};
 use phaselab::experiment::Experiment;
 use phaselab::integrate::Settings;
@@ -81,7 +83,7 @@ fn an_oscillator_in_any_units() {
     let runs: usize = UNITS
         .iter()
         .map(|&units| {
-            let period = std::f64::consts::TAU / units.1;
+            let period = TAU / units.1;
             hold(&oscillator(units, 0.0), period, &labels, &[("energy", None)])
         })
         .sum();
@@ -100,7 +102,7 @@ fn an_oscillator_with_a_constant_in_its_potential() {
     ];
     let mut runs = 0;
     for (units, offset) in [(UNITS[0], 1e12), (UNITS[1], 1e6), (UNITS[2], -1e4)] {
-        let period = std::f64::consts::TAU / units.1;
+        let period = TAU / units.1;
         runs += hold(&oscillator(units, offset), period, &labels, &[("energy", None)]);
     }
     assert_eq!(runs, 60);
@@ -134,6 +136,23 @@ fn a_body_at_rest_conserves_what_a_body_too_far_away_may_lose() {
         let energy = gauge(&snapshot, "energy");
         assert_eq!(energy.verdict.word(), word, "{energy:?}");
         assert_eq!(energy.reason.ends_with("; at rest"), rests, "{energy:?}");
+    }
+}
+
+/// A pendulum that swings by 1e-9 is where it began at every row of a period, and no energy of 9.81 has the digits of its swing.
+#[test]
+fn what_every_row_meets_where_it_began_is_not_at_rest() {
+    let text = "title = \"Swing\"\n[coordinates]\nx = { initial = 1e-9 }\n\
+        [lagrangian]\nL = \"1/2*x'^2 + 9.81*cos(x)\"\n";
+    let period = TAU / 9.81_f64.sqrt();
+    for (from, word) in [("1e-9", "unknown"), ("0", "exact")] {
+        let mut experiment = build(&text.replace("1e-9", from), |setup| {
+            setup.end = Some(20.0 * period);
+            setup.spacing = period;
+        });
+        run(&mut experiment, 20.0 * period);
+        let energy = gauge(&experiment.snapshot(), "energy");
+        assert_eq!(energy.verdict.word(), word, "from {from}: {energy:?}");
     }
 }
 
@@ -187,7 +206,7 @@ fn period_of_pendulum(from: f64) -> f64 {
     while (a - b).abs() > 1e-15 {
         (a, b) = (f64::midpoint(a, b), (a * b).sqrt());
     }
-    std::f64::consts::TAU / a
+    TAU / a
 }
 
 #[test]
@@ -239,7 +258,7 @@ fn a_planet_in_a_plane() {
                 [lagrangian]\nL = \"1/2*(x'^2 + y'^2) + 1/sqrt(x^2 + y^2)\"\n\
                 [[observables]]\nname = \"A\"\n\
                 expression = \"x'*(x*y' - y*x') + y/sqrt(x^2 + y^2)\"\nconserved = true\n";
-    let period = std::f64::consts::TAU;
+    let period = TAU;
     let swung: [Label; 2] =
         [("leapfrog", 0.002, |_| "bounded"), ("yoshida4", 0.005, |_| "bounded")];
     let mut runs = hold(text, period, &swung, &[("energy", None), ("L_z", Some("exact"))]);
@@ -254,7 +273,7 @@ fn friction_breaks_the_energy_under_any_method() {
                 [lagrangian]\nL = \"1/2*x'^2 - 1/2*x^2\"\ndissipation = \"0.02*x'^2\"\n";
     let broken: Label = ("taylor", 0.0, |_| "not conserved");
     let coarse: Label = ("rk4", 0.05, |_| "not conserved");
-    let period = std::f64::consts::TAU;
+    let period = TAU;
     let runs =
         hold(text, period, &[broken], &[("energy", None), ("energy balance", Some("exact"))])
             + hold(text, period, &[coarse], &[("energy", None)]);
@@ -264,7 +283,7 @@ fn friction_breaks_the_energy_under_any_method() {
 /// Samples at whole periods only would miss these oscillations, or see a trend in them.
 #[test]
 fn a_swing_is_as_great_whenever_rows_are_written() {
-    let period = std::f64::consts::TAU;
+    let period = TAU;
     let text = oscillator(UNITS[0], 0.0);
     let drift = |length: f64| {
         let snapshot = carried(&text, "yoshida4", Some(0.01 * period), length * period).snapshot();
