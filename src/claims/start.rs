@@ -1,14 +1,14 @@
 //! Checks whether a motion can start: its state, its energy and its first step must be finite.
 //!
 //! In: the error that stopped it, and the values at the start. Out: a diagnostic at its place, with
-//! the coordinate and the reason. Never here: constraints at the start, which `system` checks.
+//! the coordinate and the reason. Never here: whether constraints agree at the start, which `system` checks.
 
 use nalgebra::{DMatrix, DVector};
 
 use crate::diagnostic::{Diagnostic, SourceRange};
 use crate::dynamics::CompiledLaw;
 use crate::expr::{Expr, FunctionId, Node, Pool, Symbol};
-use crate::mechanics::{Equations, Flow};
+use crate::mechanics::{ConstraintRow, Equations, Flow};
 use crate::model::{Coordinate, Model};
 use crate::num::{Number, no_longer_than, short};
 use crate::system::{MotionError, MotionErrorKind, State};
@@ -107,11 +107,14 @@ fn without_value(
     equations: &Equations,
     at: &dyn Fn(Symbol) -> f64,
 ) -> Option<Diagnostic> {
-    let culprit = undefined(equations, at)?;
-    let (coordinate, cause) = describe(model, &equations.pool, culprit, at)?;
+    let pool = &equations.pool;
+    let mut roots = law_and_rates(equations).into_iter();
+    let Some(culprit) = roots.find_map(|roots| undefined(pool, &roots, at)) else {
+        return constraint_without_value(model, equations, at);
+    };
+    let (coordinate, cause) = describe(model, pool, culprit, at)?;
     let place = coordinate.map_or(&model.law_place, |i| &model.coordinates[i].place);
     let diagnostic = Diagnostic::error(place.clone(), format!("the motion cannot start: {cause}"));
-    let pool = &equations.pool;
     let is_of_power = matches!(pool.node(culprit), Node::Call(FunctionId::Ln, _))
         && pool.symbols_of(culprit).is_empty();
     Some(if is_of_power {
@@ -120,6 +123,24 @@ fn without_value(
         )
     } else {
         diagnostic
+    })
+}
+
+/// A constraint, or its derivative, that has no value at the start.
+fn constraint_without_value(
+    model: &Model,
+    equations: &Equations,
+    at: &dyn Fn(Symbol) -> f64,
+) -> Option<Diagnostic> {
+    let pool = &equations.pool;
+    equations.constraints.iter().find_map(|constraint| {
+        let ConstraintRow { name, row, rate, bias, position, .. } = constraint;
+        let roots: Vec<Expr> = position.iter().chain(row).chain([rate, bias]).copied().collect();
+        let (_, cause) = describe(model, pool, undefined(pool, &roots, at)?, at)?;
+        let written = model.constraints.iter().find(|written| written.name == *name);
+        let place = written.map_or(&model.law_place, |written| &written.place).clone();
+        let message = format!("the motion cannot start: {cause}, in the constraint `{name}`");
+        Some(Diagnostic::error(place, message))
     })
 }
 
@@ -279,15 +300,12 @@ fn has_pole(place: f64, function: impl Fn(f64) -> f64) -> bool {
         && (at(ROUNDING) - here).abs() > UNKNOWN * here.abs()
 }
 
-/// The first term of the law, or of what follows from it, that has no value although its own parts
-/// have.
-fn undefined(equations: &Equations, at: &dyn Fn(Symbol) -> f64) -> Option<Expr> {
-    let pool = &equations.pool;
-    law_and_rates(equations).into_iter().find_map(|roots| {
-        pool.reachable(&roots).into_iter().find(|&e| {
-            !pool.evaluate(e, at).is_finite()
-                && pool.node(e).parts().iter().all(|&part| pool.evaluate(part, at).is_finite())
-        })
+/// The first part of expressions that has no value although its own parts have; a multiplier, say, whose value is not known is no reason.
+fn undefined(pool: &Pool, roots: &[Expr], at: &dyn Fn(Symbol) -> f64) -> Option<Expr> {
+    pool.reachable(roots).into_iter().find(|&e| {
+        !matches!(pool.node(e), Node::Symbol(_))
+            && !pool.evaluate(e, at).is_finite()
+            && pool.node(e).parts().iter().all(|&part| pool.evaluate(part, at).is_finite())
     })
 }
 

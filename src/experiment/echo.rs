@@ -13,25 +13,16 @@
 use std::sync::Arc;
 
 use super::observed_motion::ObservedMotion;
-use super::step_log::LoggedState;
 use super::{Companion, CompanionOrigin, Return, Trail};
 use crate::analysis::{CrossingLog, DistanceHistory, distance};
 use crate::integrate::{Preserves, Stepping};
-use crate::system::{State, StepsInTime};
+use crate::system::State;
 
 /// Half the distance between 1 and the next number.
 const ROUNDING: f64 = 1.110_223_024_625_156_5e-16;
 
 /// The places of the run at which the error of a step is measured.
 const MEASURED: usize = 24;
-
-/// A motion that begins at a step in time at t = 0 is dated so shortly after it that it begins at 0.
-const AT_ZERO: f64 = 1e-100;
-
-/// A time, or 0 beside it.
-fn at_zero(time: f64) -> f64 {
-    if time.abs() <= AT_ZERO { 0.0 } else { time }
-}
 
 /// The run before time was reversed.
 pub(super) struct Echo {
@@ -45,8 +36,6 @@ pub(super) struct Echo {
     /// When its clock began to count.
     began: f64,
     pub(super) start: f64,
-    /// The time to which its first state is dated.
-    first: f64,
     distance: Option<f64>,
     error: Option<f64>,
     step_error: f64,
@@ -60,7 +49,7 @@ pub(super) struct Echo {
 impl Echo {
     /// The run that ends now, which has left this trail; `None` if none of it is known.
     pub(super) fn of(run: ObservedMotion, trail: Trail, variables: &[usize]) -> Option<Echo> {
-        let (first, turned) = (run.sign() * run.known_from()?, run.time());
+        let (start, turned) = (run.sign() * run.known_from()?, run.time());
         let greatest = |row: &[f64]| {
             variables.iter().map(|&i| row.get(1 + i).map_or(0.0, |x| x * x)).sum::<f64>()
         };
@@ -70,9 +59,8 @@ impl Echo {
             values: run.values().to_vec(),
             separation: Arc::default(),
             turned,
-            began: run.sign() * first,
-            start: at_zero(first),
-            first,
+            began: run.sign() * start,
+            start,
             distance: None,
             error: None,
             step: None,
@@ -85,10 +73,10 @@ impl Echo {
     }
 
     /// Measures the error of a step by a motion that goes back over some of the steps of the run, where neither the tolerance
-    /// nor rounding is that error. Beside a step in time of the law there is no step to be taken back: its ends have different laws.
+    /// nor rounding is that error.
     pub(super) fn measure_step(
         &mut self,
-        (mut back, mut steps_in_time): (ObservedMotion, Option<StepsInTime>),
+        mut back: ObservedMotion,
         horizon: f64,
         (variables, periods): (&[usize], &[Option<f64>]),
     ) {
@@ -99,14 +87,7 @@ impl Echo {
         let pick = |values: &[f64]| -> Vec<f64> { variables.iter().map(|&i| values[i]).collect() };
         let step = self.run.step_size().abs();
         let (mut error, mut steps, mut passed) = (0.0, 0.0, 0.0);
-        let mut is_beside = |known: &LoggedState| {
-            let beside = steps_in_time.as_mut().map(|s| s.beside(known.state.exact_time(), step));
-            beside.is_some_and(|beside| !matches!(beside, Ok(None)))
-        };
         for [from, to] in self.run.log.sample(MEASURED) {
-            if is_beside(&from) || is_beside(&to) {
-                continue;
-            }
             let times = [&from, &to].map(|known| self.run.sign() * known.state.time);
             let Some(begun) = self.run.values_at(&from.state) else { continue };
             if !back.go_to_before((&to.state, step), times[0], horizon) {
@@ -130,8 +111,7 @@ impl Echo {
 
     /// Goes to where the run before was at a time. Returns whether it has been there.
     pub(super) fn scrub_to(&mut self, time: f64, horizon: f64) -> bool {
-        let dated = if time == self.start { self.first } else { time };
-        let there = self.covers(time) && self.run.go_back_to(dated, horizon, self.began);
+        let there = self.covers(time) && self.run.go_back_to(time, horizon, self.began);
         if there {
             self.at = time;
             self.values.copy_from_slice(self.run.values());
@@ -146,7 +126,6 @@ impl Echo {
         horizon: f64,
         (variables, periods): (&[usize], &[Option<f64>]),
     ) {
-        let time = at_zero(time);
         if !self.scrub_to(time, horizon) {
             return;
         }

@@ -36,9 +36,7 @@ impl Experiment {
         let parameters = &self.setup.parameters;
         if let (Some(echo), Ok(back)) = (&mut echo, self.motion.another(parameters)) {
             let periods = self.periods(&variables);
-            let steps_in_time = self.system().steps_in_time(parameters);
-            let horizon = HORIZON * self.setup.spacing;
-            echo.measure_step((back, steps_in_time), horizon, (&variables, &periods));
+            echo.measure_step(back, HORIZON * self.setup.spacing, (&variables, &periods));
         }
         self.reversal.echo = echo.map(Box::new);
         self.run.ended = None;

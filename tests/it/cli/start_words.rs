@@ -83,3 +83,23 @@ fn a_barrier_between_two_numbers_is_reported() {
     assert!((row[1].parse::<f64>().unwrap() + 19.99).abs() < 1e-12, "{}", done.stdout);
     assert_eq!((done.code, done.stderr.as_str()), (0, ""));
 }
+
+/// A constraint whose coefficient is infinite has no direction, and one that has a direction or none by its coordinates alone is singular.
+#[test]
+fn a_constraint_without_a_value_is_named_with_its_part_and_place() {
+    let constraint = |expression: &str, x: &str| {
+        let coordinates = format!("x = {{ initial = {x} }}\ny = {{ initial = 0.2 }}");
+        let more = format!("[[constraints]]\nname = \"roll\"\nexpression = \"{expression}\"\n");
+        law(&coordinates, &more, "1/2*(x'^2 + y'^2) - y")
+    };
+    for (expression, x, reason) in [
+        ("x' - y'/t", "0.3", "`1/t` has no finite value at t = 0"),
+        ("x'*ln(x) + y'", "0", "`ln(x)` has no finite value at x = 0"),
+    ] {
+        let said = refused(&constraint(expression, x), &[reason, "in the constraint `roll`"]);
+        assert!(!said.contains("singular"), "{said}");
+        assert!(said.contains("| expression = "), "{said}");
+    }
+    let singular = refused(&constraint("x^2 - (y - 0.2)^2", "0"), &["singular configuration"]);
+    assert!(!singular.contains("no finite value"), "{singular}");
+}

@@ -265,36 +265,6 @@ fn a_motion_reversed_at_the_instant_returns() {
     }
 }
 
-/// So does one that begins at an instant, which may be t = 0; and the error of a step is that of one beside which the law does not jump.
-#[test]
-fn a_motion_that_begins_at_the_instant_returns_to_it() {
-    let reverse = |mass: &str, start: &str, until: &str, method: &str| {
-        let text = format!(
-            "title = \"T\"\n[coordinates]\nx = {{ initial = 0.3, velocity = 0.8 }}\n{}\n[run]\nstart = {start}\n",
-            law(mass, "1/2*x^2")
-        );
-        let arguments = ["reverse", "system.toml", "--until", until, "--method", method];
-        with_file(&text, &[&arguments[..], &["--format", "json"]].concat()).json()
-    };
-    let (often, once) = ("(3 - sign(sin(3*t)))/2", "(3 - sign(t - 1))/2");
-    for (mass, start, until) in [
-        (often, "0", "0.5"),
-        (often, "0", "2"),
-        (once, "1", "2"),
-        (once, "0", "1"),
-        (once, "0", "1.5"),
-    ] {
-        for (method, within) in [("taylor", 1e-15), ("dop853", 2e-11)] {
-            let found = reverse(mass, start, until, method);
-            let number =
-                |key: &str| found[key].as_f64().unwrap_or_else(|| panic!("{key} in {found}"));
-            let what = format!("{mass} from {start} to {until} by {method}: {found}");
-            assert_eq!(number("t").to_string(), start, "{what}");
-            assert!(number("return_error") < within && number("step_error") < within, "{what}");
-        }
-    }
-}
-
 /// A function whose values are too small for a product of two of them has its signs all the same.
 #[test]
 fn signs_of_small_functions_count() {
