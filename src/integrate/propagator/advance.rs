@@ -158,7 +158,12 @@ impl Propagator {
     /// Takes a step of a motion in which nothing happens.
     fn step_alone(&mut self, limit: f64) -> Result<(), MotionError> {
         let before = self.stepper.state().exact_time();
-        self.stepper.step(limit)?;
+        self.stepper.step(limit).map_err(|error| {
+            if error.time.is_finite() { error } else { time_out_of_range(before.high) }
+        })?;
+        if !self.stepper.time().is_finite() {
+            return Err(time_out_of_range(before.high));
+        }
         let moved = (self.stepper.state().exact_time() - before).high > 0.0;
         self.stalled = if moved { 0 } else { self.stalled + 1 };
         if self.stalled > MOST_STALLED {
@@ -287,4 +292,9 @@ impl Propagator {
 fn no_digits_left(time: f64) -> MotionError {
     let kind = MotionErrorKind::ClockStands(clock::spacing(time));
     MotionError { time, kind, place: Vec::new() }
+}
+
+/// A step of a motion that nothing bounds, as one at rest, leads beyond the range of times.
+fn time_out_of_range(time: f64) -> MotionError {
+    MotionError { time, kind: MotionErrorKind::OutOfRange(None), place: Vec::new() }
 }

@@ -93,7 +93,7 @@ fn a_constraint_without_a_value_is_named_with_its_part_and_place() {
         law(&coordinates, &more, "1/2*(x'^2 + y'^2) - y")
     };
     for (expression, x, reason) in [
-        ("x' - y'/t", "0.3", "`1/t` has no finite value at t = 0"),
+        ("x' - y'/t", "0.3", "`-1/t` has no finite value at t = 0"),
         ("x'*ln(x) + y'", "0", "`ln(x)` has no finite value at x = 0"),
     ] {
         let said = refused(&constraint(expression, x), &[reason, "in the constraint `roll`"]);
