@@ -276,7 +276,7 @@ fn what_leads_to_zero_keeps_its_digits_to_its_end() {
         let text = text.split("[unused]").next().unwrap();
         let left = 2.0_f64.powi(-12);
         let (ramp, at) = (format!("--ramp=m=3:0:2:2:{form}"), format!("--at={}", 4.0 - left));
-        let row = end(text, &[&ramp, &at, "--observe=m"]);
+        let row = end(text, &[&ramp, &at, "--observe=mass=m"]);
         near(row[5] / (3.0 * share(left / 2.0)), 1.0, 1e-14);
     }
 }

@@ -96,7 +96,9 @@ fn a_constraint_without_a_value_is_named_with_its_part_and_place() {
         ("x' - y'/t", "0.3", "`-1/t` has no finite value at t = 0"),
         ("x'*ln(x) + y'", "0", "`ln(x)` has no finite value at x = 0"),
     ] {
-        let said = refused(&constraint(expression, x), &[reason, "in the constraint `roll`"]);
+        let check = with_file(&constraint(expression, x), &["check", "system.toml"]);
+        check.fails(65, &[reason, "in the constraint `roll`"]);
+        let said = &check.stderr;
         assert!(!said.contains("singular"), "{said}");
         assert!(said.contains("| expression = "), "{said}");
     }

@@ -325,8 +325,8 @@ fn in_space(shapes: &str) -> App {
     ))
 }
 
-/// A piece is a solid without lines at its edge if the smaller one of its extents is two columns or more, or if it is small and
-/// seen so wide; a sheet between lines if another one is, and else dots: each with a body just below and just above.
+/// A disc or a cylinder that is seen two columns wide in either direction is painted up to an edge of blocks, and else drawn by dots:
+/// each with a body just below and just above.
 #[test]
 fn two_columns_are_thick() {
     let is_braille =
@@ -346,10 +346,10 @@ fn two_columns_are_thick() {
     for (length, wide, style) in [
         (20.0, 1.9, "dots"),
         (20.0, 2.1, "solid"),
-        (1.9, 20.0, "sheet"),
+        (1.9, 20.0, "solid"),
         (2.1, 20.0, "solid"),
         (1.6, 1.9, "dots"),
-        (1.0, 2.1, "sheet"),
+        (1.0, 2.1, "solid"),
         (1.6, 2.1, "solid"),
     ] {
         let (half, radius) = (length / 2.0 * column, wide / 2.0 * column);
@@ -359,7 +359,7 @@ fn two_columns_are_thick() {
         let drawn = match (painted, count(&buffer, 2..floor, &is_line)) {
             (0, _) => "dots",
             (_, 0) => "solid",
-            (_, _) => "sheet",
+            (_, _) => "between lines",
         };
         assert_eq!(drawn, style, "{length} × {wide} columns: {}", super::rows(&buffer).join("\n"));
     }

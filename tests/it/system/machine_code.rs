@@ -108,7 +108,8 @@ fn every_operation_has_the_bits_of_the_jet_in_all_lanes() {
         let mut numbers = noise(order as u64);
         let mut by_code = 0;
         let mut states = BatchStates::new(system.form(), system.state_len());
-        for step in 0..WANTED / BATCH + 10 {
+        // where instructions take four numbers at once, a batch counts for four orbits
+        for step in 0..2 * WANTED / BATCH + 10 {
             for lane in 0..BATCH {
                 let values = numbers.by_ref().take(system.state_len()).collect();
                 states.set(lane, &State::new(0.3 * lane as f64, system.form(), values));
