@@ -92,16 +92,11 @@ fn a_constraint_without_a_value_is_named_with_its_part_and_place() {
         let more = format!("[[constraints]]\nname = \"roll\"\nexpression = \"{expression}\"\n");
         law(&coordinates, &more, "1/2*(x'^2 + y'^2) - y")
     };
-    for (expression, x, reason) in [
-        ("x' - y'/t", "0.3", "`-1/t` has no finite value at t = 0"),
-        ("x'*ln(x) + y'", "0", "`ln(x)` has no finite value at x = 0"),
-    ] {
-        let check = with_file(&constraint(expression, x), &["check", "system.toml"]);
-        check.fails(65, &[reason, "in the constraint `roll`"]);
-        let said = &check.stderr;
-        assert!(!said.contains("singular"), "{said}");
-        assert!(said.contains("| expression = "), "{said}");
-    }
+    let check = with_file(&constraint("x' - y'/t", "0.3"), &["check", "system.toml"]);
+    let said = check.stderr.clone();
+    check.fails(65, &["`-1/t` has no finite value at t = 0", "in the constraint `roll`"]);
+    assert!(!said.contains("singular"), "{said}");
+    assert!(said.contains("| expression = "), "{said}");
     let singular = refused(&constraint("x^2 - (y - 0.2)^2", "0"), &["singular configuration"]);
     assert!(!singular.contains("no finite value"), "{singular}");
 }
