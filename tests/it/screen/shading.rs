@@ -325,8 +325,8 @@ fn in_space(shapes: &str) -> App {
     ))
 }
 
-/// A disc or a cylinder that is seen two columns wide in either direction is painted up to an edge of blocks, and else drawn by dots:
-/// each with a body just below and just above.
+/// A cylinder that is seen two columns wide in both directions, or as a disc of any size, is painted up to an edge of blocks; a small flat
+/// one of two columns is painted between lines, and what is thinner is dots: each with a body just below and just above.
 #[test]
 fn two_columns_are_thick() {
     let is_braille =
@@ -349,7 +349,7 @@ fn two_columns_are_thick() {
         (1.9, 20.0, "solid"),
         (2.1, 20.0, "solid"),
         (1.6, 1.9, "dots"),
-        (1.0, 2.1, "solid"),
+        (1.0, 2.1, "between lines"),
         (1.6, 2.1, "solid"),
     ] {
         let (half, radius) = (length / 2.0 * column, wide / 2.0 * column);
