@@ -246,6 +246,7 @@ impl App {
     pub(super) fn checked(&mut self, checked: CheckedText) -> Vec<Effect> {
         let CheckedText { ticket, outcome, took } = checked;
         let mends = self.awaited.wrong_file.take().is_some();
+        let warned = self.lab.as_ref().and_then(|lab| lab.loaded.warning());
         let Some(buffer) = self.buffer().filter(|buffer| buffer.awaits(ticket)) else {
             return Vec::new();
         };
@@ -272,6 +273,13 @@ impl App {
                     let time = time.unwrap_or_default();
                     let message = format!("{title}: rebuilt{time}; the motion continues.");
                     self.notifications.show(Notification::info(message));
+                }
+                let warning = loaded.warning();
+                if warning != warned {
+                    warned.iter().for_each(|text| self.notifications.withdraw(text));
+                    // the editor shows it in its place
+                    let said = warning.filter(|_| !is_open).map(Notification::warning);
+                    said.into_iter().for_each(|warning| self.notifications.add(warning));
                 }
                 self.rebuilt(loaded)
             }

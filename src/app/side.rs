@@ -70,12 +70,16 @@ impl Lab {
             }) {
                 Need::Nothing => continue,
                 Need::Addition(_) if !jobs.in_background || !is_drawn => None,
+                Need::WhileDrawn(_) if !is_drawn => None,
                 Need::Valid => None,
                 Need::AtRest(_) if !rests || !is_drawn => {
                     waits |= is_drawn;
                     None
                 }
-                Need::Job(job) | Need::Addition(job) | Need::AtRest(job) => {
+                Need::Job(job)
+                | Need::AtRest(job)
+                | Need::WhileDrawn(job)
+                | Need::Addition(job) => {
                     let computation = jobs.request(Asker::Plot(place), job);
                     let under_way = UnderWay::new(&computation);
                     wanted.push(computation);

@@ -24,6 +24,8 @@ pub enum Need {
     /// This job is needed once the values of the motion rest, and the last result stays until it has finished: where a sweep moves
     /// them in each frame, it would begin again in each.
     AtRest(Job<Answer>),
+    /// This job is needed while the picture is drawn.
+    WhileDrawn(Job<Answer>),
     /// This job adds to the picture and may take long: where there is no background it is left out.
     Addition(Job<Answer>),
 }

@@ -218,7 +218,7 @@ impl Instrument for Ensemble {
         };
         let job = Job::new("cloud", move |progress| Answer::new(task.run(progress)));
         // what a person asks for is computed in any case
-        if plot.seeds.is_empty() { Need::Addition(job) } else { Need::Job(job) }
+        if plot.seeds.is_empty() { Need::WhileDrawn(job) } else { Need::Job(job) }
     }
 
     fn known_until(&self, answer: &Answer) -> Option<f64> {

@@ -216,7 +216,7 @@ impl Instrument for FamilyPlot {
             Answer::new(ComputedFamily { conditions: conditions.clone(), asked, outcome })
         });
         // what a person asks for is computed in any case
-        if plot.seeds.is_empty() { Need::Addition(job) } else { Need::Job(job) }
+        if plot.seeds.is_empty() { Need::WhileDrawn(job) } else { Need::Job(job) }
     }
 
     fn table(&self, PlotContext { plot, present, answer }: PlotContext<'_>) -> Option<PlotTable> {

@@ -628,4 +628,34 @@ fn a_warning_of_the_text_is_shown_in_the_lab_and_in_the_editor() {
     let marked: Vec<(usize, bool)> =
         buffer.diagnostics.iter().map(|one| (one.from.row, one.warning)).collect();
     assert_eq!((marked.as_slice(), buffer.error_count()), (&[(4, true), (6, true)][..], 0));
+    // once the text is mended, or its file, nothing of it is left
+    replace(&mut app, "degree", "rad");
+    rest(&mut app);
+    assert_eq!(sheet(&app).diagnostics.len(), 1, "the parameter is still idle");
+    assert_eq!(app.notifications.shown, None);
+    press(&mut app, "Esc");
+    let warned =
+        |app: &App| app.notifications.shown.clone().is_some_and(|n| n.text.starts_with("Warning"));
+    assert!(!warned(&app), "{:?}", app.notifications.shown);
+}
+
+/// What is watched is rebuilt without the editor: the lab says what its new text is warned of, until that is mended.
+#[test]
+fn a_warning_of_a_watched_file_comes_and_goes() {
+    let mut app = own_file();
+    let reported = |app: &App| app.notifications.shown.clone().map(|notice| notice.text);
+    let text = app.lab.as_ref().unwrap().loaded.document.text.clone();
+    let wrong = text.replace("\"rad\"", "\"degree\"");
+    assert_ne!(wrong, text);
+    app.update(file(&wrong));
+    rest(&mut app);
+    app.update(AppEvent::Tick(Duration::from_secs(2)));
+    let warning = reported(&app).unwrap_or_default();
+    assert!(warning.starts_with("Warning, line "), "{warning}");
+    app.update(file(&text));
+    rest(&mut app);
+    let left = |app: &App| reported(app).is_some_and(|text| text.starts_with("Warning"));
+    assert!(!left(&app), "{:?}", reported(&app));
+    app.update(AppEvent::Tick(Duration::from_secs(2)));
+    assert!(!left(&app), "{:?}", reported(&app));
 }

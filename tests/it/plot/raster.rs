@@ -185,6 +185,41 @@ fn a_marker_stands_above_its_layer_and_below_the_next() {
     assert_eq!(rows(&outside), [""]);
 }
 
+/// Names are written beside marks: these are told from the dots of lines, by the cell on the screen.
+#[test]
+fn a_marker_is_told_from_dots_by_its_cell() {
+    let area = Rect::new(3, 2, 5, 2);
+    let frame = unit(area);
+    let mut raster = Raster::new(area, Glyphs::Braille);
+    raster.line(&frame, [0.0, 0.2], [1.0, 0.2], &PLAIN);
+    raster.marker(&frame, [0.5, 0.8], Marker::Disc, &Pen::new(Style::new(), 3));
+    raster.marker(&frame, [0.1, 0.2], Marker::Ring, &Pen::new(Style::new(), 3));
+    // a line of a higher layer takes its cell
+    raster.line(&frame, [0.0, 0.2], [0.1, 0.2], &Pen::new(Style::new(), 4));
+    let cells = (0..10_u16).flat_map(|x| (0..6_u16).map(move |y| (x, y)));
+    let marked: Vec<_> = cells.filter(|at| raster.has_marker((*at).into())).collect();
+    assert_eq!(marked, [(5, 2)]);
+}
+
+/// What a mass covers half of is `#` in ASCII, of less the letter says which part; a line has its letters whatever it covers.
+#[test]
+fn a_mass_fills_the_cells_it_covers_half_of() {
+    let area = Rect::new(0, 0, 6, 1);
+    let of = |letters: Letters| {
+        let buffer = drawn(area, Glyphs::Ascii, |raster| {
+            // from the left one dot more in each cell, in the order of a row after the other
+            for cell in 0..6 {
+                for dot in 0..=cell {
+                    raster.dot([2 * cell + dot % 2, dot / 2], &Pen { letters, ..PLAIN });
+                }
+            }
+        });
+        rows(&buffer).concat()
+    };
+    assert_eq!(of(Letters::Mass), "`\"####");
+    assert_eq!(of(Letters::Height), "`\"\"*/#");
+}
+
 #[test]
 fn cells_without_dots_and_backgrounds_are_left_alone() {
     let area = Rect::new(0, 0, 2, 1);

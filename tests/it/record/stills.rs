@@ -69,6 +69,20 @@ fn a_still_in_text_is_drawn_without_colours() {
     }
 }
 
+/// The disc of radius 0.3 about the start turns rigidly, so the action around it remains its area; friction makes it smaller
+/// by e^(−c t/m), of an ellipse of semi-axes 0.3 and 0.6. It does so where nobody asked for it but the file.
+#[test]
+fn an_ensemble_that_a_file_opens_with_is_carried_in_a_recording() {
+    let disc = 0.09 * std::f64::consts::PI;
+    let turned = format!("Assert ensemble.action = {disc} within 1e-3");
+    let script =
+        format!("Size 110x32\nWait 2s\nAssert ensemble.points = 2000 within 0.5\n{turned}\n");
+    played("back-to-the-start", &script);
+    let script = "Size 110x32\nWait 3s\nAssert ensemble.points = 2000 within 0.5\n\
+        Assert ensemble.action = pi*0.18*exp(-c*t/m) within 1e-3\n";
+    played("damped-oscillator", script);
+}
+
 #[test]
 fn text_and_colours_are_those_of_the_screen() {
     let recording = played("pendulum", "Size 80x24\nColor 256\nWait 1s");
