@@ -115,7 +115,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_newest_crossings_are_kept_in_order_and_all_are_counted() {
+    fn the_newest_crossings_are_stored_in_order_and_all_are_counted() {
         let mut log = CrossingLog::new(2);
         let channels = 999;
         let most = NUMBERS / (CHUNK * (channels + 1)) * CHUNK;

@@ -15,7 +15,7 @@ use crate::system::InitialOverride;
 /// Changes of one thing that follow each other within this time are undone together.
 const TOGETHER: Duration = Duration::from_millis(800);
 
-/// The most motions whose recorded past is kept, and not their state alone.
+/// The most motions whose recorded past is stored, and not their state alone.
 const MOST_PASTS: usize = 8;
 
 #[derive(Clone, Debug, PartialEq)]
@@ -93,10 +93,10 @@ impl Change {
             }
             (
                 Self::Start { given, windows },
-                Self::Start { given: [_, after], windows: [_, kept] },
+                Self::Start { given: [_, given_after], windows: [_, window_after] },
             ) => {
-                given[1].clone_from(after);
-                windows[1].clone_from(kept);
+                given[1].clone_from(given_after);
+                windows[1].clone_from(window_after);
             }
             (Self::Plot { index, plots }, Self::Plot { index: other, plots: later })
                 if index == other && plots[0].differs_smoothly(&later[1]) =>
@@ -211,12 +211,12 @@ impl UndoHistory {
         self.stepped = self.stepped.map(|(index, since)| (index, since.saturating_add(elapsed)));
     }
 
-    /// Returns the change to be undone and the motion before it. The motion now is kept for when it is redone.
+    /// Returns the change to be undone and the motion before it. The motion now is stored for when it is redone.
     pub(super) fn undo(&mut self, now: Option<Checkpoint>) -> Option<ChangeAtMotion> {
         self.moved(0, now)
     }
 
-    /// Returns the change to be redone and the motion at which it was undone. The motion now is kept for when it is undone.
+    /// Returns the change to be redone and the motion at which it was undone. The motion now is stored for when it is undone.
     pub(super) fn redo(&mut self, now: Option<Checkpoint>) -> Option<ChangeAtMotion> {
         self.moved(1, now)
     }

@@ -5,6 +5,7 @@
 use std::sync::Arc;
 
 use crate::diagnostic::{Diagnostic, Document, Severity};
+use crate::experiment::{Experiment, Prepared};
 use crate::instrument::Physics;
 use crate::mechanics::{Equations, Further, NamedRamps, Report, latex};
 use crate::model::Model;
@@ -30,6 +31,12 @@ pub struct Loaded {
 }
 
 impl Loaded {
+    /// What the lab needs of a system that is ready, and the experiment, which is run elsewhere.
+    pub fn of(name: String, epoch: u64, ready: Prepared) -> (Loaded, Experiment) {
+        let Prepared { document, warnings, model, equations, system, experiment } = ready;
+        (Loaded { name, epoch, document, warnings, model, equations, system }, experiment)
+    }
+
     /// Returns what follows from its law as a fragment for LaTeX, as `phaselab derive --format latex` writes it.
     pub fn latex(&self) -> String {
         let mut equations = (*self.equations).clone();

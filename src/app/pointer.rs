@@ -279,7 +279,7 @@ impl App {
 /// What keys do at the cursor of a plot, and on a section.
 impl App {
     /// Keeps the cursor of the focused plot at the coordinates at which it was drawn.
-    pub(super) fn hold_cursor(&mut self) {
+    pub(super) fn fix_cursor(&mut self) {
         let (Some(at), Some(place)) = (self.drawn.reading, self.drawn.cursor_place) else { return };
         let Some(lab) = &mut self.lab else { return };
         let Some((index, _)) = lab.focused_plot() else { return };

@@ -76,7 +76,7 @@ impl App {
             return effects;
         }
         if let Some(lab) = &mut self.lab {
-            lab.hold_for_ramp(&name);
+            lab.pause_for_ramp(&name);
             lab.show_action_variable();
         }
         let sentence = format!(
@@ -95,7 +95,7 @@ impl Lab {
 
     /// Lets the motion continue from what is seen, once the law with the ramp is there: the ramp begins at that very time, so
     /// that nothing jumps.
-    fn hold_for_ramp(&mut self, name: &str) {
+    fn pause_for_ramp(&mut self, name: &str) {
         let Some(seen) = self.seen() else { return };
         let Loaded { model, system, .. } = &self.loaded;
         let checkpoint = Checkpoint::of(model, system, seen).with_past(system, seen);

@@ -81,16 +81,18 @@ impl Lab {
         if self.seen()?.parameters[..] == at[..] {
             return None;
         }
-        let kept: Vec<FoundConstant> = result.as_ref().map_or_else(
+        let proved: Vec<FoundConstant> = result.as_ref().map_or_else(
             |_| Vec::new(),
             |findings| {
                 let all = followed(findings).into_iter().zip(&findings.invariants.found);
-                all.filter(|(_, c)| c.proof == Proof::Proved).map(|(kept, _)| kept).collect()
+                all.filter(|(_, c)| c.proof == Proof::Proved)
+                    .map(|(constant, _)| constant)
+                    .collect()
             },
         );
         self.searches.constants.outcome = None;
         self.searches.constants.stopped = false;
-        std::mem::take(&mut self.searches.constants.followed).then_some(kept)
+        std::mem::take(&mut self.searches.constants.followed).then_some(proved)
     }
 
     /// Every constant that has a flow, by its name.
@@ -110,8 +112,8 @@ impl App {
     pub(super) fn request_search(&mut self, effects: &mut Vec<Effect>) {
         let shown = self.page == Page::Equations;
         let Some(lab) = &mut self.lab else { return };
-        if let Some(kept) = lab.forget_search() {
-            effects.push(Effect::Execute(Command::Follow(kept)));
+        if let Some(proved) = lab.forget_search() {
+            effects.push(Effect::Execute(Command::Follow(proved)));
         }
         if shown {
             effects.extend(lab.wants_search(&mut self.jobs).map(Effect::Compute));

@@ -166,7 +166,7 @@ mod tests {
 
     /// Two that take turns are no reason to keep a third; and beyond the limit a word is kept as well.
     #[test]
-    fn a_verdict_that_does_not_hold_is_not_kept() {
+    fn a_verdict_that_changes_back_is_dropped() {
         let secular = Verdict::Secular(1e-9);
         let turns =
             |k: usize| if (k / 4).is_multiple_of(2) { Verdict::Bounded } else { secular.clone() };

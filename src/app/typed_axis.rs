@@ -66,15 +66,15 @@ impl App {
             return false;
         }
         let mut text = own.to_owned();
-        let (lost, kept): (Vec<_>, Vec<_>) = lab.typed.drain(..).partition(|one| {
+        let (lost, valid): (Vec<_>, Vec<_>) = lab.typed.drain(..).partition(|one| {
             let from = text.len();
             text = one.behind(&text);
             places().any(|place| (from..text.len()).contains(&place))
         });
         // where it cannot be said which of them it is, all are given up
-        let (lost, kept) = if lost.is_empty() { (kept, lost) } else { (lost, kept) };
+        let (lost, valid) = if lost.is_empty() { (valid, lost) } else { (lost, valid) };
         let lost: Vec<String> = lost.into_iter().map(|one| one.name).collect();
-        lab.typed = kept;
+        lab.typed = valid;
         lab.take_off_axes(&lost);
         if let Some(view) = &mut self.awaited.view {
             view.take_off_axes(&lost, lab);

@@ -120,7 +120,7 @@ impl App {
             }
             AppEvent::Drawn(drawn) => {
                 self.drawn = drawn;
-                self.hold_cursor();
+                self.fix_cursor();
                 if let (Some(panes), Some(lab)) = (self.drawn.panes.clone(), &mut self.lab) {
                     lab.take_drawn(panes);
                 }

@@ -76,13 +76,13 @@ pub(super) fn execute(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         _ => None,
     };
     drop(bar);
-    let kept = match arguments.exponents {
+    let count = match arguments.exponents {
         Count::All => found.exponents.len(),
         Count::First(count) => count.min(found.exponents.len()),
     };
-    found.exponents.truncate(kept);
-    found.uncertainty.truncate(kept);
-    found.settled.truncate(kept);
+    found.exponents.truncate(count);
+    found.uncertainty.truncate(count);
+    found.settled.truncate(count);
     let (mut object, mut text) = (object(&study, &found), text(&study, &found));
     if let Some(volumes) = volumes {
         object.insert("gali".to_owned(), series(&volumes));

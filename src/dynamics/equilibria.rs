@@ -53,12 +53,12 @@ pub fn with_virtual_work(
     let places: Vec<_> =
         found.iter().map(|one| (&one.variables[..], &one.units[..], &one.rates[..])).collect();
     let balances = virtual_work(law, parameters, &places);
-    let mut hold = vec![true; found.len()];
-    for ((one, hold), balance) in found.iter_mut().zip(&mut hold).zip(balances) {
-        (one.work, one.multipliers, *hold) = (balance.work, balance.multipliers, balance.holds);
+    let mut balanced = vec![true; found.len()];
+    for ((one, balanced), balance) in found.iter_mut().zip(&mut balanced).zip(balances) {
+        (one.work, one.multipliers, *balanced) = (balance.work, balance.multipliers, balance.holds);
     }
-    let mut hold = hold.into_iter();
-    found.retain(|_| hold.next().unwrap_or(true));
+    let mut balanced = balanced.into_iter();
+    found.retain(|_| balanced.next().unwrap_or(true));
 }
 
 /// Searches around the coordinates of `start`; cyclic coordinates have its momenta.

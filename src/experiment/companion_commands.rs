@@ -171,17 +171,9 @@ impl Experiment {
         self.companions.all = all;
     }
 
-    pub(super) fn pass_parameters(&mut self) {
-        self.pass(&CompanionChange::Parameters(self.setup.parameters.clone()));
-    }
-
-    pub(super) fn pass_method(&mut self) {
-        self.pass(&CompanionChange::Method(self.motion.method(), self.motion.settings()));
-    }
-
     /// Lets all meet a change of the main motion where that is: those that were farther, as they are where it was carried back,
     /// go back, and those that are behind change once they are there. Of a pinned run nothing changes but the distances.
-    fn pass(&mut self, change: &CompanionChange) {
+    pub(super) fn pass(&mut self, change: &CompanionChange) {
         let (time, start) = (self.time(), self.setup.start);
         for one in &mut self.companions.all {
             one.forget_rows_after(time);

@@ -157,7 +157,7 @@ mod tests {
     }
 
     #[test]
-    fn the_newest_are_kept_in_order_and_all_are_counted() {
+    fn the_newest_are_stored_in_order_and_all_are_counted() {
         let most = CHUNK * CHUNKS;
         let count = most + 1000;
         let event_log: EventLog = ticks(count).collect();
@@ -195,7 +195,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_only_counted_is_not_kept() {
+    fn what_is_only_counted_is_not_stored() {
         let mut event_log = EventLog::default();
         event_log.only_count();
         ticks(3 * CHUNK).for_each(|occurrence| event_log.push(occurrence));

@@ -5,6 +5,7 @@
 
 use std::sync::Arc;
 
+use super::companion_motion::CompanionChange;
 use super::gauges::Gauges;
 use super::last_change::LastChange;
 use super::setup::{choose_method, with_override};
@@ -137,7 +138,7 @@ impl Experiment {
         self.continue_from(state);
         // at the start it may be the motion of the file with this value
         self.changed_unless_at(initial.ok().as_ref(), name.clone());
-        self.pass_parameters();
+        self.pass(&CompanionChange::Parameters(self.setup.parameters.clone()));
         self.gauge(Gauges::refer);
         let jump = self.energy() - before;
         self.report_jump(index, jump, 1e-12 * before.abs());
@@ -171,11 +172,11 @@ impl Experiment {
         }
         let sign = if by < 0.0 { '−' } else { '+' };
         let by = short(by.abs());
-        let kept = match self.motion.state().form {
+        let unchanged = match self.motion.state().form {
             Form::Variables => "the state",
             Form::Velocity | Form::Momentum => "q and p",
         };
-        self.notify(format!("{lead} {sign}{by}; {kept} kept; press r to restart"));
+        self.notify(format!("{lead} {sign}{by}; {unchanged} kept; press r to restart"));
     }
 
     fn energy(&self) -> f64 {
@@ -262,7 +263,7 @@ impl Experiment {
             let initial = self.initial_state();
             self.changed_unless_at(initial.ok().as_ref(), "the method".to_owned());
         }
-        self.pass_method();
+        self.pass(&CompanionChange::Method(self.motion.method(), self.motion.settings()));
         self.gauge(Gauges::refer);
     }
 

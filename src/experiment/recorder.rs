@@ -234,8 +234,8 @@ impl Recorder {
             }
             let newer = self.sealed[level].pop_front();
             let rows = older.iter().chain(&newer).flat_map(|c| c.chunks_exact(self.width));
-            let kept: Vec<f64> = rows.step_by(2).flatten().copied().collect();
-            self.sealed[level + 1].push_back(Arc::new(kept));
+            let thinned: Vec<f64> = rows.step_by(2).flatten().copied().collect();
+            self.sealed[level + 1].push_back(Arc::new(thinned));
         }
     }
 }
@@ -260,7 +260,7 @@ mod tests {
     }
 
     #[test]
-    fn rows_are_due_at_even_times_and_kept_in_order() {
+    fn rows_are_due_at_even_times_and_in_order() {
         let recorder = filled(1000);
         assert_eq!(recorder.due(), 510.0);
         assert_eq!(numbers(&recorder), (0..1000).map(f64::from).collect::<Vec<_>>());
@@ -329,10 +329,12 @@ mod tests {
         let mut cut = filled(0);
         cut.insert(1e9, &[7.0]);
         cut.precede(&trail, |row| (row[1] < 1e5).then(|| row.to_vec()));
-        let kept = numbers(&cut);
-        assert_eq!(kept.last(), Some(&7.0));
-        assert!(kept[..kept.len() - 1].iter().all(|&x| x < 1e5) && kept.len() > 7000);
-        assert!(kept[..kept.len() - 1].windows(2).all(|pair| pair[0] < pair[1]));
+        let remaining = numbers(&cut);
+        assert_eq!(remaining.last(), Some(&7.0));
+        assert!(
+            remaining[..remaining.len() - 1].iter().all(|&x| x < 1e5) && remaining.len() > 7000
+        );
+        assert!(remaining[..remaining.len() - 1].windows(2).all(|pair| pair[0] < pair[1]));
     }
 
     #[test]
@@ -341,8 +343,8 @@ mod tests {
             let mut recorder = filled(120_000);
             let all = numbers(&recorder);
             recorder.rewind(time);
-            let kept: Vec<f64> = all.into_iter().filter(|k| 10.0 + 0.5 * k < time).collect();
-            assert_eq!(numbers(&recorder), kept, "{time}");
+            let remaining: Vec<f64> = all.into_iter().filter(|k| 10.0 + 0.5 * k < time).collect();
+            assert_eq!(numbers(&recorder), remaining, "{time}");
             assert_eq!(recorder.due(), time);
             recorder.record(time, &[-1.0]);
             assert_eq!(recorder.due(), time + 0.5);

@@ -43,12 +43,12 @@ impl Trail {
     #[must_use]
     pub fn until(&self, time: f64) -> Trail {
         let (width, last) = (self.width.max(1), self.order(time));
-        let kept = |chunk: &[f64]| {
+        let rows_until = |chunk: &[f64]| {
             chunk.chunks_exact(width).take_while(|row| self.order(row[0]) <= last).count()
         };
         let mut trail = Trail { sealed: Vec::new(), ..self.clone() };
         for (index, chunk) in self.sealed.iter().enumerate() {
-            let count = kept(chunk);
+            let count = rows_until(chunk);
             if count * width == chunk.len() {
                 trail.sealed.push(Arc::clone(chunk));
                 continue;
@@ -62,7 +62,7 @@ impl Trail {
             }
             return trail;
         }
-        let count = kept(&self.open);
+        let count = rows_until(&self.open);
         trail.open = Arc::new(self.open[..count * width].to_vec());
         trail
     }

@@ -24,7 +24,7 @@ impl Pool {
         let seeds: FxHashMap<Symbol, Expr> = seeds.iter().copied().collect();
         let set = SymbolSet::of_all(seeds.keys().copied());
         let mut done: FxHashMap<Expr, Expr> = FxHashMap::default();
-        for part in self.reachable_until(&[e], |part| !self.may_hold(part, set)) {
+        for part in self.reachable_until(&[e], |part| !self.may_contain(part, set)) {
             if self.is_stopped() {
                 return Expr::ZERO;
             }
@@ -97,7 +97,7 @@ impl Pool {
     pub fn substitute(&mut self, e: Expr, replacements: &HashMap<Symbol, Expr>) -> Expr {
         let set = SymbolSet::of_all(replacements.keys().copied());
         let mut done: FxHashMap<Expr, Expr> = FxHashMap::default();
-        for part in self.reachable_until(&[e], |part| !self.may_hold(part, set)) {
+        for part in self.reachable_until(&[e], |part| !self.may_contain(part, set)) {
             if self.is_stopped() {
                 return e;
             }

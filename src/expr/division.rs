@@ -16,14 +16,10 @@ impl Pool {
     /// A fraction with the sums cancelled that are factors below and divide a sum above.
     pub fn divided_out(&mut self, e: Expr) -> Expr {
         let mut whole = e;
-        while let Some(then) = self.divided_once(whole) {
+        while let Some(then) = self.with_quotient(whole, Pool::exact_quotient) {
             whole = then;
         }
         if whole == e { e } else { self.simplify(whole) }
-    }
-
-    fn divided_once(&mut self, e: Expr) -> Option<Expr> {
-        self.with_quotient(e, Pool::exact_quotient)
     }
 
     /// A fraction with the first sum above that has a quotient by a sum below in its place.

@@ -302,16 +302,16 @@ impl Pool {
     /// Returns whether any of the symbols occurs in an expression.
     pub fn depends_on_any(&self, e: Expr, symbols: &[Symbol]) -> bool {
         let set = SymbolSet::of_all(symbols.iter().copied());
-        self.may_hold(e, set)
+        self.may_contain(e, set)
             && (self.symbols.len() <= DISTINCT
                 || self
-                    .reachable_until(&[e], |part| !self.may_hold(part, set))
+                    .reachable_until(&[e], |part| !self.may_contain(part, set))
                     .into_iter()
                     .any(|e| self.as_symbol(e).is_some_and(|s| symbols.contains(&s))))
     }
 
     /// Returns whether any symbol of a set may occur in an expression; `false` is certain.
-    pub(super) fn may_hold(&self, e: Expr, symbols: SymbolSet) -> bool {
+    pub(super) fn may_contain(&self, e: Expr, symbols: SymbolSet) -> bool {
         self.measures[e.index()].symbols.meets(symbols)
     }
 

@@ -89,15 +89,12 @@ impl Instrument for ActionPlot {
     }
 
     fn offers(&self, physics: Physics<'_>) -> Vec<Offer> {
-        let offer = |(index, channel): (usize, usize)| Offer {
-            label: format!(
-                "{}, {} varied",
-                self.0.action(),
-                physics.model.coordinates[index].shown
-            ),
-            about: self.0.about().to_owned(),
-            columns: vec![vec![channel]],
-            ..Offer::default()
+        let offer = |(index, channel): (usize, usize)| {
+            Offer::new(
+                format!("{}, {} varied", self.0.action(), physics.model.coordinates[index].shown),
+                self.0.about(),
+                vec![vec![channel]],
+            )
         };
         physics.positions().map(offer).collect()
     }

@@ -90,12 +90,12 @@ impl Instrument for Ensemble {
         if physics.model.is_poisson() {
             pairs = physics.neighbouring_positions();
         }
-        let offer = |(x, y): (usize, usize)| Offer {
-            label: format!("ensemble: {} against {}", physics.shown(y), physics.shown(x)),
-            about: "an ensemble of starts carried by the flow, and the action ∫ p dq around it"
-                .to_owned(),
-            columns: vec![vec![x], vec![y]],
-            ..Offer::default()
+        let offer = |(x, y): (usize, usize)| {
+            Offer::new(
+                format!("ensemble: {} against {}", physics.shown(y), physics.shown(x)),
+                "an ensemble of starts carried by the flow, and the action ∫ p dq around it",
+                vec![vec![x], vec![y]],
+            )
         };
         pairs.into_iter().map(offer).collect()
     }
@@ -194,7 +194,7 @@ impl Instrument for Ensemble {
                 // an ensemble that a parameter has changed the law of keeps its size, also where the change is undone
                 Some(origin) => match cloud(answer) {
                     Some(known) if known.conditions.differ_in_parameters_alone(&conditions) => {
-                        origin.laid_again(&known.origin)
+                        origin.placed_again(&known.origin)
                     }
                     _ => origin,
                 },

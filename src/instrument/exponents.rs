@@ -65,12 +65,11 @@ impl Instrument for Exponents {
     }
 
     fn offers(&self, _physics: Physics<'_>) -> Vec<Offer> {
-        vec![Offer {
-            label: "exponents".to_owned(),
-            about: "the largest Lyapunov exponent against time, regular or chaotic".to_owned(),
-            columns: Columns::new(),
-            ..Offer::default()
-        }]
+        vec![Offer::new(
+            "exponents",
+            "the largest Lyapunov exponent against time, regular or chaotic",
+            Columns::new(),
+        )]
     }
 
     fn words(&self, _plot: &Plot, _physics: Physics<'_>) -> String {

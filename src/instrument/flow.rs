@@ -100,13 +100,11 @@ impl Instrument for FlowPlot {
     }
 
     fn offers(&self, _physics: Physics<'_>) -> Vec<Offer> {
-        vec![Offer {
-            label: "flow map".to_owned(),
-            about: "M = ∂η(t)/∂η(0): det M, and how symplectic it is, by this method and exactly"
-                .to_owned(),
-            columns: Columns::new(),
-            ..Offer::default()
-        }]
+        vec![Offer::new(
+            "flow map",
+            "M = ∂η(t)/∂η(0): det M, and how symplectic it is, by this method and exactly",
+            Columns::new(),
+        )]
     }
 
     fn words(&self, _plot: &Plot, _physics: Physics<'_>) -> String {

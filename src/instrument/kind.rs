@@ -285,6 +285,17 @@ pub struct Offer {
     pub over: Vec<Variation>,
 }
 
+impl Offer {
+    /// Quantities on axes, without a view of the file.
+    pub(super) fn new(
+        label: impl Into<String>,
+        about: impl Into<String>,
+        columns: Columns,
+    ) -> Self {
+        Self { label: label.into(), about: about.into(), columns, ..Self::default() }
+    }
+}
+
 /// The initial values that a point of a picture stands for.
 pub type StartValues = Result<Vec<InitialOverride>, NoStart>;
 

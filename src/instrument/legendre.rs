@@ -146,12 +146,11 @@ impl Instrument for LegendrePlot {
             let plot = Plot::new(&LegendrePlot, (columns.clone(), None), physics.model);
             let found = TransformedFunction::of(&plot, physics)?;
             let (function, number) = (found.letters[0], physics.shown(found.channel));
-            Some(Offer {
-                label: format!("Legendre transform, {function} over {number}"),
-                about: "the momentum as a slope, the Hamiltonian as an intercept".to_owned(),
+            Some(Offer::new(
+                format!("Legendre transform, {function} over {number}"),
+                "the momentum as a slope, the Hamiltonian as an intercept",
                 columns,
-                ..Offer::default()
-            })
+            ))
         };
         physics.positions().filter_map(offer).collect()
     }

@@ -18,11 +18,12 @@ pub(super) fn offers(physics: Physics<'_>, what: &str, about: &str) -> Vec<Offer
     if model.is_poisson() || !model.constraints.is_empty() {
         return Vec::new();
     }
-    let offer = |(index, channel): (usize, usize)| Offer {
-        label: format!("{what} of {}", model.coordinates[index].shown),
-        about: about.to_owned(),
-        columns: vec![vec![channel]],
-        ..Offer::default()
+    let offer = |(index, channel): (usize, usize)| {
+        Offer::new(
+            format!("{what} of {}", model.coordinates[index].shown),
+            about,
+            vec![vec![channel]],
+        )
     };
     physics.positions().map(offer).collect()
 }

@@ -98,11 +98,12 @@ impl Instrument for OrbitPlot {
     }
 
     fn offers(&self, physics: Physics<'_>) -> Vec<Offer> {
-        let offer = |(x, y): (usize, usize)| Offer {
-            label: format!("orbit: {} against {}", physics.shown(y), physics.shown(x)),
-            about: "the periodic orbit near the motion: period, action, multipliers".to_owned(),
-            columns: vec![vec![x], vec![y]],
-            ..Offer::default()
+        let offer = |(x, y): (usize, usize)| {
+            Offer::new(
+                format!("orbit: {} against {}", physics.shown(y), physics.shown(x)),
+                "the periodic orbit near the motion: period, action, multipliers",
+                vec![vec![x], vec![y]],
+            )
         };
         let neighbours = physics.neighbouring_positions().into_iter();
         neighbours.chain(physics.phase_planes()).map(offer).collect()

@@ -80,11 +80,12 @@ impl Instrument for PathsPlot {
     }
 
     fn offers(&self, physics: Physics<'_>) -> Vec<Offer> {
-        let offer = |(index, channel): (usize, usize)| Offer {
-            label: format!("true paths of {}", physics.model.coordinates[index].shown),
-            about: "all paths found between the ends of the motion, with their actions".to_owned(),
-            columns: vec![vec![channel]],
-            ..Offer::default()
+        let offer = |(index, channel): (usize, usize)| {
+            Offer::new(
+                format!("true paths of {}", physics.model.coordinates[index].shown),
+                "all paths found between the ends of the motion, with their actions",
+                vec![vec![channel]],
+            )
         };
         physics.positions().map(offer).collect()
     }

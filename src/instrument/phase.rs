@@ -87,12 +87,7 @@ impl Instrument for Phase {
                 "" => String::new(),
                 unit => format!(" [{unit}]"),
             };
-            Offer {
-                label: channel.shown.clone(),
-                about: format!("{}{unit}", channel.name),
-                columns: vec![vec![index]],
-                ..Offer::default()
-            }
+            Offer::new(channel.shown.clone(), format!("{}{unit}", channel.name), vec![vec![index]])
         };
         physics.named().map(offer).collect()
     }

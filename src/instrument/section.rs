@@ -206,7 +206,7 @@ impl Instrument for SectionPlot {
         };
         let conditions = SectionConditions::of(present);
         let known = Portrait::of(answer).filter(|known| {
-            known.conditions.still_hold(&conditions, plane.is_bounded())
+            known.conditions.are_unchanged(&conditions, plane.is_bounded())
                 && plot.seeds.starts_with(&known.seeds)
         });
         let seed = match known {

@@ -76,12 +76,11 @@ impl Instrument for SeparationPlot {
     }
 
     fn offers(&self, _physics: Physics<'_>) -> Vec<Offer> {
-        vec![Offer {
-            label: "separation".to_owned(),
-            about: "ln of the distance from the motions beside this one, against time".to_owned(),
-            columns: Columns::new(),
-            ..Offer::default()
-        }]
+        vec![Offer::new(
+            "separation",
+            "ln of the distance from the motions beside this one, against time",
+            Columns::new(),
+        )]
     }
 
     fn words(&self, _plot: &Plot, _physics: Physics<'_>) -> String {

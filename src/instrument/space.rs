@@ -19,12 +19,7 @@ impl Instrument for Space {
     }
 
     fn offers(&self, physics: Physics<'_>) -> Vec<Offer> {
-        let offer = |columns| Offer {
-            label: "motion in space".to_owned(),
-            about: "the system in space".to_owned(),
-            columns,
-            ..Offer::default()
-        };
+        let offer = |columns| Offer::new("motion in space", "the system in space", columns);
         self.opening(physics).into_iter().map(offer).collect()
     }
 

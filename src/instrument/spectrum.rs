@@ -104,11 +104,12 @@ impl Instrument for SpectrumPlot {
 
     fn offers(&self, physics: Physics<'_>) -> Vec<Offer> {
         let known = physics.named().filter(|(index, _)| *index < physics.system.columns());
-        let offer = |(index, channel): (usize, &crate::system::Channel)| Offer {
-            label: format!("spectrum of {}", channel.shown),
-            about: "the frequencies of the motion, and what they are combinations of".to_owned(),
-            columns: vec![vec![index]],
-            ..Offer::default()
+        let offer = |(index, channel): (usize, &crate::system::Channel)| {
+            Offer::new(
+                format!("spectrum of {}", channel.shown),
+                "the frequencies of the motion, and what they are combinations of",
+                vec![vec![index]],
+            )
         };
         known.map(offer).collect()
     }

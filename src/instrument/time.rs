@@ -33,12 +33,7 @@ impl Instrument for Time {
     }
 
     fn offers(&self, _physics: Physics<'_>) -> Vec<Offer> {
-        vec![Offer {
-            label: "t".to_owned(),
-            about: "one or several quantities over time".to_owned(),
-            columns: Columns::new(),
-            ..Offer::default()
-        }]
+        vec![Offer::new("t", "one or several quantities over time", Columns::new())]
     }
 
     fn words(&self, plot: &Plot, physics: Physics<'_>) -> String {

@@ -104,12 +104,11 @@ impl Instrument for TransformationPlot {
             law.new.iter().filter_map(move |&[position, momentum]| {
                 let (x, across) = channel(law, position)?;
                 let (y, upwards) = channel(law, momentum)?;
-                Some(Offer {
-                    label: format!("{} against {}", upwards.shown, across.shown),
-                    about: format!("the transformation {}, with the grid of (q, p)", law.name),
-                    columns: vec![vec![x], vec![y]],
-                    ..Offer::default()
-                })
+                Some(Offer::new(
+                    format!("{} against {}", upwards.shown, across.shown),
+                    format!("the transformation {}, with the grid of (q, p)", law.name),
+                    vec![vec![x], vec![y]],
+                ))
             })
         });
         pairs.collect()

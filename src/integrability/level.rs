@@ -125,8 +125,8 @@ impl Ground<'_> {
             idle = if echelon.add(row.values) { 0 } else { idle + 1 };
         }
         let constant = |c: usize| ansatz.expression_is_one(c);
-        let kept = |c: &usize| !constant(*c) && (atoms.free || echelon.leads(*c));
-        Ok(all.into_iter().filter(kept).collect())
+        let is_included = |c: &usize| !constant(*c) && (atoms.free || echelon.leads(*c));
+        Ok(all.into_iter().filter(is_included).collect())
     }
 }
 

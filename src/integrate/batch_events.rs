@@ -98,11 +98,11 @@ impl BatchEvents {
                 sides.0[lane] = side;
             }
         }
-        let kept = signs.keep_signs(series, &self.sides, (CUT_OFF, time));
+        let unchanged = signs.keep_signs(series, &self.sides, (CUT_OFF, time));
         for (lane, search) in self.lanes.iter_mut().enumerate() {
             if let Some(search) = search
                 .as_mut()
-                .filter(|_| motion.status(lane) == LaneStatus::Underway && kept.0[lane] == 1.0)
+                .filter(|_| motion.status(lane) == LaneStatus::Underway && unchanged.0[lane] == 1.0)
             {
                 search.locator.pass();
                 search.clear = motion.time(lane);

@@ -173,7 +173,7 @@ impl Taylor {
         match &self.course {
             StepCourse::Series => {
                 self.series.state_after(after, out);
-                hold_on_kinks(&self.series, out);
+                snap_to_kinks(&self.series, out);
             }
             StepCourse::Collocation(from, _) if after.high == 0.0 => out.copy_from(from),
             StepCourse::Collocation(from, toward) => {
@@ -186,7 +186,7 @@ impl Taylor {
 }
 
 /// Where a motion is held on a kink by a number that is zero there, as a velocity at rest, that is zero and no rounding.
-fn hold_on_kinks(series: &Series, state: &mut State) {
+fn snap_to_kinks(series: &Series, state: &mut State) {
     for (i, side) in series.sides().iter().enumerate() {
         if let (Side::Between, Some(number)) = (side, series.switch_number(i)) {
             state.set(number, DoubleDouble::ZERO);

@@ -114,11 +114,11 @@ fn written(
     sides: [Expr; 2],
 ) -> Result<Expr, NoClosedForm> {
     let new = map.new_variables();
-    let mut kept = equations.supplements.maps.new_variables.clone();
-    std::mem::swap(&mut kept, &mut equations.supplements.maps.new_variables);
+    let mut charted = equations.supplements.maps.new_variables.clone();
+    std::mem::swap(&mut charted, &mut equations.supplements.maps.new_variables);
     equations.supplements.maps.new_variables.retain(|(symbol, _)| !new.contains(symbol));
     let opened = sides.map(|side| in_phase_space(equations, side));
-    equations.supplements.maps.new_variables = kept;
+    equations.supplements.maps.new_variables = charted;
     let [f, g] = opened;
     let (mut f, mut g) = (f?, g?);
     let mut shorter = None;

@@ -224,11 +224,11 @@ impl PhaseMap {
         let each = || types.iter().enumerate();
         let missing: Vec<Symbol> =
             each().map(|(i, of)| self.old[half(i, !of.has_position())]).collect();
-        let kept: Vec<usize> = each().map(|(i, of)| half(i, of.has_new_position())).collect();
+        let halves: Vec<usize> = each().map(|(i, of)| half(i, of.has_new_position())).collect();
         let pool = &mut equations.pool;
         let mut matrix = Vec::new();
         let mut relations = Vec::new();
-        for k in kept {
+        for k in halves {
             let (name, value) = (self.implicit.new[k], images[k]);
             let row: Vec<Expr> = missing.iter().map(|&s| pool.derivative(value, s)).collect();
             matrix.push(row);

@@ -82,19 +82,19 @@ impl OneSided {
         let among = |switches: &[Expr]| -> Vec<(Expr, bool)> {
             switches.iter().filter_map(|e| stayed.iter().find(|(s, _)| s == e).copied()).collect()
         };
-        let mut kept = among(&self.kinks);
-        if !kept.is_empty()
-            && pool.vanishes_on_sides(self.rate, &kept)
+        let mut sides = among(&self.kinks);
+        if !sides.is_empty()
+            && pool.vanishes_on_sides(self.rate, &sides)
             && pool.has_value_beyond_kinks(self.rate, &self.kinks, &moving, at)
         {
-            for side in kept.clone() {
+            for side in sides.clone() {
                 let fewer: Vec<(Expr, bool)> =
-                    kept.iter().copied().filter(|&one| one != side).collect();
+                    sides.iter().copied().filter(|&one| one != side).collect();
                 if pool.vanishes_on_sides(self.rate, &fewer) {
-                    kept = fewer;
+                    sides = fewer;
                 }
             }
-            return kept;
+            return sides;
         }
         let jumps = among(&self.jumps);
         let jump = |&(e, _): &(Expr, bool)| pool.jumps_at(self.observable, e, &moving, at);

@@ -231,7 +231,7 @@ mod tests {
     }
 
     #[test]
-    fn results_hold_the_values_of_all_numbers_of_the_operands() {
+    fn results_contain_the_values_of_all_numbers_of_the_operands() {
         let bounds = [(-3.0, -1.0), (-2.0, 0.0), (-0.7, 1.9), (0.0, 0.3), (0.1, 7.0), (1e9, 1e10)];
         let numbers = |(low, high): (f64, f64)| {
             (0..=8).map(move |k| DoubleDouble::from(low + (high - low) * f64::from(k) / 8.0))

@@ -163,12 +163,12 @@ impl GifCanvas {
             let glyph = self.glyphs.of(cell);
             for (row, levels) in glyph.rows().enumerate() {
                 let (x, y) = (x * wide, y * high + row);
-                let kept = &mut self.pixels[y * self.width + x..][..wide];
+                let shown = &mut self.pixels[y * self.width + x..][..wide];
                 let drawn = &mut buffer[(y - top) * width + x - left..][..wide];
-                for ((kept, drawn), level) in kept.iter_mut().zip(drawn).zip(levels) {
+                for ((shown, drawn), level) in shown.iter_mut().zip(drawn).zip(levels) {
                     let index = ramp[usize::from(*level)];
-                    if *kept != index {
-                        (*kept, *drawn) = (index, index);
+                    if *shown != index {
+                        (*shown, *drawn) = (index, index);
                     }
                 }
             }

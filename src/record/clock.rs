@@ -84,7 +84,7 @@ mod tests {
     }
 
     #[test]
-    fn parts_of_a_frame_are_kept() {
+    fn parts_of_a_frame_are_added_up() {
         let mut clock = Clock::new(10);
         let mut frames = 0;
         for _ in 0..10 {

@@ -201,12 +201,12 @@ impl HeadlessLab {
     }
 
     fn begin(&mut self, name: String, ready: Prepared) -> Loaded {
-        let Prepared { document, warnings, model, equations, system, mut experiment } = ready;
         self.epoch += 1;
+        let (loaded, mut experiment) = Loaded::of(name, self.epoch, ready);
         experiment.set_epoch(self.epoch);
         self.base = (self.clock.frame(), experiment.clock(), experiment.speed());
         self.experiment = Some(experiment);
-        Loaded { name, epoch: self.epoch, document, warnings, model, equations, system }
+        loaded
     }
 
     /// Checks a text being edited; one without errors runs at once.

@@ -112,17 +112,17 @@ impl Guided {
         matches!(&self.screen, GuideScreen::Demo(demo) if demo.is_done())
     }
 
-    /// Leaves it, and keeps the progress of a lesson. Returns what is wrong with its script, or why progress is not kept.
+    /// Leaves it, and keeps the progress of a lesson. Returns what is wrong with its script, or why progress is not saved.
     pub(super) fn leave(self) -> Option<String> {
         match self.screen {
             GuideScreen::Demo(demo) => demo.outcome().err().map(|diagnostic| diagnostic.message),
             GuideScreen::Lesson(screen) => {
                 let (lesson, outcome) = screen.outcome();
                 let mark = LessonMark::of(&lesson);
-                let kept = LessonProgress::file()
+                let saved = LessonProgress::file()
                     .and_then(|path| LessonProgress::note(&path, &self.name, mark));
                 let wrong = outcome.err().map(|diagnostic| diagnostic.message);
-                wrong.or_else(|| kept.err().map(|why| why.to_string()))
+                wrong.or_else(|| saved.err().map(|why| why.to_string()))
             }
         }
     }

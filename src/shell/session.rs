@@ -258,11 +258,11 @@ impl Session {
 
     /// Starts a loaded system.
     fn begin(&mut self, name: String, ready: Prepared) -> Loaded {
-        let Prepared { document, warnings, model, equations, system, experiment } = ready;
+        let (mut loaded, experiment) = Loaded::of(name, 0, ready);
         // The background jobs belong to the previous system.
         self.sides.clear();
-        let epoch = self.worker.load(experiment);
-        Loaded { name, epoch, document, warnings, model, equations, system }
+        loaded.epoch = self.worker.load(experiment);
+        loaded
     }
 }
 

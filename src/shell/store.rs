@@ -291,7 +291,7 @@ mod tests {
     }
 
     #[test]
-    fn texts_are_kept_to_the_last_character_until_there_are_none() {
+    fn texts_are_saved_to_the_last_character_until_there_are_none() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("session.toml");
         let mut store = Store::at(path.clone()).expect("it can be written");

@@ -9,7 +9,7 @@ use super::System;
 use super::batch_series::BatchSeries;
 use super::jet::Jet;
 use super::program::{Op, Program};
-use super::sign_bound::{shows_end, signs_kept, stay};
+use super::sign_bound::{shows_end, signs_unchanged, stay};
 use crate::expr::FunctionId;
 use crate::num::{Analytic, Batch, DoubleDouble, Kernel, vectorized};
 
@@ -141,7 +141,7 @@ impl Kernel for KeepSigns<'_> {
                 Functions::Numbers(numbers) => (series.coefficients(numbers[event]), f64::INFINITY),
                 Functions::Program { jet, .. } => (jet.output_series(event), cut_off),
             };
-            all = all * (c[0] * sign).is_above(Batch::ZERO) * signs_kept(c, cut_off, time);
+            all = all * (c[0] * sign).is_above(Batch::ZERO) * signs_unchanged(c, cut_off, time);
             if !is_whole {
                 all = all * shows_end(c, time);
             }

@@ -360,7 +360,7 @@ mod tests {
     }
 
     #[test]
-    fn a_sine_is_simple_for_about_half_a_turn_and_a_pole_is_kept_at_a_distance() {
+    fn a_sine_is_simple_for_about_half_a_turn_and_a_pole_is_avoided() {
         for speed in [1.0, 1e6, 1e-6] {
             let sine: [f64; ORDER + 1] = std::array::from_fn(|k| {
                 let sign = [0.0, 1.0, 0.0, -1.0][k % 4];

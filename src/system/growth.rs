@@ -49,7 +49,7 @@ pub(super) struct SeriesBuilder<R: Coefficient> {
     /// The coefficients of each number of the state, `order + 1` of them.
     state: Vec<R>,
     /// The switches that are kept at zero.
-    pub(super) kept: Vec<usize>,
+    pub(super) sliding: Vec<usize>,
     /// The number of orders after which a weight affects these switches: one if it acts on the
     /// numbers they depend on, two if it acts on the rates of these.
     pub(super) depth: usize,
@@ -69,7 +69,7 @@ impl<R: Coefficient> SeriesBuilder<R> {
         let order = jet.order();
         let state = vec![R::ZERO; len * (order + 1)];
         let steered = vec![false; inputs];
-        SeriesBuilder { jet, order, inputs, state, kept: Vec::new(), depth: 1, steered }
+        SeriesBuilder { jet, order, inputs, state, sliding: Vec::new(), depth: 1, steered }
     }
 
     #[inline]
@@ -87,7 +87,7 @@ impl<R: Coefficient> SeriesBuilder<R> {
 
     /// How many coefficients of a number are final: a weight that acts two orders later is not known at the last order.
     pub(super) fn known_orders(&self) -> usize {
-        let unknown = if self.kept.is_empty() { 0 } else { self.depth - 1 };
+        let unknown = if self.sliding.is_empty() { 0 } else { self.depth - 1 };
         self.order + 1 - unknown
     }
 
@@ -166,7 +166,7 @@ impl<R: Coefficient> SeriesBuilder<R> {
         for i in 0..self.inputs {
             self.jet.set_input(i, k, self.state[i * (k + 1) + k]);
         }
-        for &switch in &self.kept {
+        for &switch in &self.sliding {
             self.jet.set_weight(switch, k, R::ZERO);
         }
         self.jet.advance(k, clock.time, clock.scale)
@@ -178,11 +178,11 @@ impl<R: Real> SeriesBuilder<R> {
         for (i, &x) in origin.iter().enumerate() {
             self.set_origin(i, R::of(x));
         }
-        self.kept.clear();
+        self.sliding.clear();
         for (switch, &side) in sides.iter().enumerate() {
             self.jet.set_side(switch, side);
             if side == Side::Between {
-                self.kept.push(switch);
+                self.sliding.push(switch);
             }
         }
     }
@@ -196,7 +196,7 @@ impl<R: Real> SeriesBuilder<R> {
             self.state[place] = R::of(other.state[from].double());
             (place, from) = (place + self.order + 1, from + other.order + 1);
         }
-        self.kept.clone_from(&other.kept);
+        self.sliding.clone_from(&other.sliding);
         self.jet.take_over_values(&other.jet);
     }
 
@@ -206,7 +206,7 @@ impl<R: Real> SeriesBuilder<R> {
         for (own, other) in series.zip(other.state.chunks_exact(other.order + 1)) {
             own.iter_mut().zip(other).for_each(|(x, y)| *x = R::of(y.double()));
         }
-        self.kept.clone_from(&other.kept);
+        self.sliding.clone_from(&other.sliding);
         self.steered.clone_from(&other.steered);
         self.depth = other.depth;
         self.jet.take_over(&other.jet, other.order);
@@ -231,7 +231,7 @@ impl<R: Real> SeriesBuilder<R> {
         clock: SeriesClock<R>,
         cancel: &Cancel,
     ) -> Result<(), Halt> {
-        if self.kept.is_empty() {
+        if self.sliding.is_empty() {
             return self.grow_plainly(first, clock, cancel);
         }
         for k in first..self.order {
@@ -251,13 +251,13 @@ impl<R: Real> SeriesBuilder<R> {
     /// the weights balance in its coefficient of order `k + 1`, or nothing where that order is the
     /// last and its weights are not known.
     fn solve_weights(&mut self, k: usize, clock: SeriesClock<R>) -> Result<Option<Vec<f64>>, Halt> {
-        let kept = self.kept.clone();
-        let n = kept.len();
+        let sliding = self.sliding.clone();
+        let n = sliding.len();
         if k == 0 {
             self.depth = 1;
         }
         if k + self.depth > self.order {
-            for &switch in &kept {
+            for &switch in &sliding {
                 self.jet.set_weight(switch, k, R::ZERO);
             }
             return Ok(None);
@@ -269,12 +269,12 @@ impl<R: Real> SeriesBuilder<R> {
         // the rates of the switches, where the weights act on those of these
         let mut rates: Option<Vec<f64>> = None;
         let rest = loop {
-            let rest = self.probe(k, clock, &kept, None)?;
+            let rest = self.probe(k, clock, &sliding, None)?;
             for (i, part) in parts.iter_mut().take(inputs).enumerate() {
                 *part = self.state[i * place + k + 1];
             }
-            for (j, &switch) in kept.iter().enumerate() {
-                let moved = self.probe(k, clock, &kept, Some(switch))?;
+            for (j, &switch) in sliding.iter().enumerate() {
+                let moved = self.probe(k, clock, &sliding, Some(switch))?;
                 let (without, with) = parts.split_at_mut((j + 1) * inputs);
                 for (i, (part, &before)) in with.iter_mut().zip(&without[..inputs]).enumerate() {
                     *part = self.state[i * place + k + 1] - before;
@@ -302,7 +302,7 @@ impl<R: Real> SeriesBuilder<R> {
         };
         let mut weights: Vec<R> = rest.iter().map(|&x| -x).collect();
         factored.solve(&mut weights);
-        for (&switch, &w) in kept.iter().zip(&weights) {
+        for (&switch, &w) in sliding.iter().zip(&weights) {
             self.jet.set_weight(switch, k, w);
         }
         let acting = |i: usize| (1..=n).map(move |j| j * inputs + i);
@@ -337,10 +337,10 @@ impl<R: Real> SeriesBuilder<R> {
         &mut self,
         k: usize,
         clock: SeriesClock<R>,
-        kept: &[usize],
+        sliding: &[usize],
         one: Option<usize>,
     ) -> Result<Vec<R>, Singular> {
-        for &switch in kept {
+        for &switch in sliding {
             let weight = if one == Some(switch) { R::ONE } else { R::ZERO };
             self.jet.set_weight(switch, k, weight);
             for later in k + 1..=k + self.depth {
@@ -355,7 +355,7 @@ impl<R: Real> SeriesBuilder<R> {
             }
         }
         self.jet.advance(last, clock.time, clock.scale)?;
-        Ok(kept.iter().map(|&switch| self.jet.switch(switch)[last]).collect())
+        Ok(sliding.iter().map(|&switch| self.jet.switch(switch)[last]).collect())
     }
 }
 

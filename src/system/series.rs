@@ -5,6 +5,8 @@
 //! the origin in units of a power of two near the step's size, so that no coefficient overflows or
 //! underflows on any time scale.
 
+mod functions;
+
 use std::sync::Arc;
 
 use super::compiled::System;
@@ -17,10 +19,9 @@ use super::state::State;
 use super::state_sum::{SeriesList, StateSum};
 use super::step_series::StepSeries;
 use super::underflow;
-use crate::expr::FunctionId;
 use crate::num::{
     Analytic, DoubleDouble, ExtendedRange, FourLaneKernel, FourLanes, Real, all_finite,
-    in_four_lanes, polynomial,
+    in_four_lanes,
 };
 
 /// The series of all numbers of a state, in the native form of its system.
@@ -238,26 +239,26 @@ impl Series {
         let (time, scale) = (self.time, self.scale);
         let clock = SeriesClock::new(time, scale);
         let cancel = self.system.cancel();
-        let kept = match &mut self.low {
+        let sliding = match &mut self.low {
             Some(low) => {
                 low.begin(&self.origin, &self.sides);
-                &low.kept
+                &low.sliding
             }
             None => {
                 self.high.begin(&self.origin, &self.sides);
-                &self.high.kept
+                &self.high.sliding
             }
         };
         if cancel.is_cancelled() {
             return Err(Halt::Cancelled);
         }
-        if kept.is_empty() && self.code.grow(&mut self.high, self.low.as_mut(), (time, scale))? {
+        if sliding.is_empty() && self.code.grow(&mut self.high, self.low.as_mut(), (time, scale))? {
             return Ok(());
         }
         let mut first = 0;
         if let Some(low) = &mut self.low {
             low.grow(0, SeriesClock::new(time, scale), cancel)?;
-            first = if low.kept.is_empty() { low.order } else { low.order + 1 - low.depth };
+            first = if low.sliding.is_empty() { low.order } else { low.order + 1 - low.depth };
             self.high.take_over(low);
         }
         self.high.grow(first, clock, cancel)?;
@@ -280,103 +281,6 @@ impl Series {
     /// All coefficients of a number of the state, in its unit.
     pub fn coefficients(&self, i: usize) -> &[f64] {
         self.high.series(i)
-    }
-
-    /// All coefficients of a switch.
-    pub fn switch(&self, i: usize) -> &[f64] {
-        &self.high.jet.switch(i)[..=self.high.order]
-    }
-
-    /// The value of a switch at a time after the origin, in the unit of the series, as exact as the
-    /// lowest orders are.
-    pub fn switch_after(&self, i: usize, x: DoubleDouble) -> DoubleDouble {
-        let exact = self.low.as_ref().map_or(&[][..], |low| &low.jet.switch(i)[..low.order]);
-        polynomial(exact, &self.switch(i)[exact.len()..], x)
-    }
-
-    /// Whether the law has powers so high that the series may end before their first term.
-    pub fn is_steep(&self) -> bool {
-        self.system.motion().native.steep
-    }
-
-    /// The number of functions whose branch a motion may leave.
-    pub fn guards(&self) -> usize {
-        self.system.motion().native.guards.len()
-    }
-
-    /// Whether the series of such a function passes zero where its branch is left.
-    pub fn guard_passes(&self, i: usize) -> bool {
-        self.system.motion().native.guards[i].passes
-    }
-
-    /// The known coefficients of such a function.
-    pub fn guard(&self, i: usize) -> &[f64] {
-        let register = self.system.motion().native.guards[i].value;
-        &self.high.jet.series(register)[..self.high.order]
-    }
-
-    /// Whether it has branches: a power whose exponent a parameter gives may be whole.
-    pub fn guard_has_branches(&self, i: usize) -> bool {
-        self.system.motion().native.guards[i].has_branches(|r| self.high.jet.value(r))
-    }
-
-    /// The coefficients of its argument, where it is a root or a power that is not steep.
-    pub fn guard_argument(&self, i: usize) -> Option<&[f64]> {
-        let value = |r: Register| self.high.jet.value(r);
-        let register = self.system.motion().native.guards[i].argument(value)?;
-        Some(&self.high.jet.series(register)[..self.high.order])
-    }
-
-    /// The coefficients of its argument, where that is a root's or a power's through whose zero a motion may continue.
-    pub fn guard_under(&self, i: usize) -> Option<&[f64]> {
-        let value = |r: Register| self.high.jet.value(r);
-        let register = self.system.motion().native.guards[i].under(value)?;
-        Some(&self.high.jet.series(register)[..self.high.order])
-    }
-
-    /// Its value at a time after the origin, in the unit of the series, as exact as the lowest
-    /// orders are.
-    pub fn guard_after(&self, i: usize, x: DoubleDouble) -> DoubleDouble {
-        let register = self.system.motion().native.guards[i].value;
-        let exact = self.low.as_ref().map_or(&[][..], |low| &low.jet.series(register)[..low.order]);
-        polynomial(exact, &self.guard(i)[exact.len()..], x)
-    }
-
-    /// The number of the state that a switch is equal to, if any.
-    pub fn switch_number(&self, i: usize) -> Option<usize> {
-        self.system.motion().native.switch_input(i)
-    }
-
-    /// All coefficients of the weight at a switch whose side is [`Side::Between`], one order fewer
-    /// than the others.
-    pub fn weight(&self, i: usize) -> &[f64] {
-        &self.high.jet.weight(i)[..self.high.order]
-    }
-
-    /// The series of the arguments of functions; beyond the range of `f64` in a wider one, too.
-    pub fn arguments(
-        &self,
-    ) -> impl Iterator<Item = (FunctionId, &[f64], Option<&[ExtendedRange]>)> {
-        let wide = self.wide.as_ref().filter(|_| self.has_left_range);
-        let mut wide = wide.map(|wide| wide.jet.arguments());
-        self.high.jet.arguments().map(move |(function, u)| {
-            (function, u, wide.as_mut().and_then(Iterator::next).map(|(_, wide)| wide))
-        })
-    }
-
-    /// The high negative powers c/u^n: n, c, the series of u.
-    pub fn steep_poles(&self) -> impl Iterator<Item = (f64, f64, &[f64])> {
-        self.high.jet.steep_poles()
-    }
-
-    /// The series of what is divided by.
-    pub fn divisors(&self) -> impl Iterator<Item = &[f64]> {
-        self.high.jet.divisors()
-    }
-
-    /// The series of the arguments of tangents, each with what is to be taken from it to have the pole at π/2.
-    pub fn tangents(&self) -> impl Iterator<Item = (&[f64], f64)> {
-        self.high.jet.tangents()
     }
 
     /// Writes the state at a time `after` the origin into `out`, by the polynomials.

@@ -91,7 +91,7 @@ pub(super) fn stays(c: &[f64], time: f64) -> bool {
 
 /// [`keeps_sign`] in each lane: one or zero. To be inlined into a kernel.
 #[inline(always)]
-pub(super) fn signs_kept(c: &[Batch], cut_off: f64, time: Batch) -> Batch {
+pub(super) fn signs_unchanged(c: &[Batch], cut_off: f64, time: Batch) -> Batch {
     let (first, last) = (c[0].abs(), c.len() - LAST);
     let (mut against, mut all, mut largest) = (Batch::ZERO, first, first);
     let mut power = c[0].where_below(0.0, -Batch::ONE, Batch::ONE);
@@ -135,17 +135,17 @@ mod tests {
     /// In one lane, and in all of them.
     fn both(c: &[f64], time: f64) -> [bool; 2] {
         let several: Vec<Batch> = c.iter().map(|&x| Batch::splat(x)).collect();
-        let kept = signs_kept(&several, CUT_OFF, Batch::splat(time));
-        [keeps_sign(c, CUT_OFF, time), kept == Batch::ONE]
+        let unchanged = signs_unchanged(&several, CUT_OFF, Batch::splat(time));
+        [keeps_sign(c, CUT_OFF, time), unchanged == Batch::ONE]
     }
 
     #[test]
     fn the_first_term_must_outweigh_all_others_of_the_opposite_sign() {
         // 1 − x − x² changes its sign at 0.618
         let c = [1.0, -1.0, -1.0, 0.0, 0.0, 0.0];
-        for (time, kept) in [(0.617, true), (0.619, false), (0.0, true), (f64::NAN, false)] {
-            assert_eq!(both(&c, time), [kept; 2], "{time}");
-            assert_eq!(both(&c.map(|c| -c), time), [kept; 2], "{time}");
+        for (time, unchanged) in [(0.617, true), (0.619, false), (0.0, true), (f64::NAN, false)] {
+            assert_eq!(both(&c, time), [unchanged; 2], "{time}");
+            assert_eq!(both(&c.map(|c| -c), time), [unchanged; 2], "{time}");
         }
         // 1 + 5 x − x² moves away from zero, and 1 − 5 x + 9 x² only comes near it
         assert_eq!(both(&[1.0, 5.0, -1.0, 0.0, 0.0, 0.0], 0.9), [true; 2]);
@@ -178,16 +178,16 @@ mod tests {
 
     #[test]
     fn a_first_term_that_may_be_rounding_shows_nothing() {
-        for (first, kept) in [(2e-9, true), (0.5e-9, false)] {
-            assert_eq!(both(&[first, 1.0, 0.0, 0.0, 0.0, 0.0], 1.0), [kept; 2], "{first}");
+        for (first, unchanged) in [(2e-9, true), (0.5e-9, false)] {
+            assert_eq!(both(&[first, 1.0, 0.0, 0.0, 0.0, 0.0], 1.0), [unchanged; 2], "{first}");
         }
     }
 
     #[test]
     fn a_series_that_is_cut_off_too_early_shows_nothing() {
-        for (last, kept) in [(0.9e-13, true), (1.1e-13, false)] {
-            assert_eq!(both(&[1.0, 0.1, 0.0, 0.0, 0.0, last], 1.0), [kept; 2], "{last}");
-            assert_eq!(both(&[1.0, 0.1, 0.0, last, 0.0, 0.0], 1.0), [kept; 2], "{last}");
+        for (last, unchanged) in [(0.9e-13, true), (1.1e-13, false)] {
+            assert_eq!(both(&[1.0, 0.1, 0.0, 0.0, 0.0, last], 1.0), [unchanged; 2], "{last}");
+            assert_eq!(both(&[1.0, 0.1, 0.0, last, 0.0, 0.0], 1.0), [unchanged; 2], "{last}");
         }
     }
 

@@ -314,13 +314,13 @@ impl EquationRows<'_> {
         let released = lab.seen().map_or(&[][..], |snapshot| &snapshot.released);
         let names: Vec<&str> =
             released.iter().filter_map(|&k| Some(&*constraints.get(k)?.name)).collect();
-        let (constraint, hold) = match names.as_slice() {
+        let (constraint, verb) = match names.as_slice() {
             [] => return,
             [_] => ("constraint", "holds"),
             _ => ("constraints", "hold"),
         };
         let names = names.join(", ");
-        let words = format!("While the {constraint} {names} {hold}, which the motion has left:");
+        let words = format!("While the {constraint} {names} {verb}, which the motion has left:");
         self.page.words(Role::Warn, words);
     }
 
@@ -349,7 +349,7 @@ impl EquationRows<'_> {
             self.put("h", report.energy.right, "");
             "dh/dt"
         };
-        let known = report.conserved.iter().any(|kept| kept.constant == ConservedKind::Energy);
+        let known = report.conserved.iter().any(|known| known.constant == ConservedKind::Energy);
         let rests = known && report.energy_rate == Expr::ZERO;
         let remark = match (rests, report.impulses.is_empty()) {
             (true, true) => "conserved",
@@ -370,21 +370,21 @@ impl EquationRows<'_> {
         if report.conserved.is_empty() {
             self.page.words(Role::Dim, "Nothing that could be found.");
         }
-        for kept in &report.conserved {
-            let shown = match kept.constant {
+        for known in &report.conserved {
+            let shown = match known.constant {
                 ConservedKind::Momentum(p) => self.symbol(p),
                 ConservedKind::Energy => self.style.glyphs.pick("E", "energy").to_owned(),
                 ConservedKind::Casimir(name) | ConservedKind::Other(name) => name.to_owned(),
             };
-            let reason = kept.reason.to_string();
-            match kept.constant {
-                ConservedKind::Energy if self.is_law(kept.expression) => {
+            let reason = known.reason.to_string();
+            match known.constant {
+                ConservedKind::Energy if self.is_law(known.expression) => {
                     self.page.formula(&shown, "H".to_owned(), &reason);
                 }
-                ConservedKind::Energy if kept.expression == report.energy.right => {
+                ConservedKind::Energy if known.expression == report.energy.right => {
                     self.page.formula(&shown, "h".to_owned(), &reason);
                 }
-                _ => self.put(&shown, kept.expression, &reason),
+                _ => self.put(&shown, known.expression, &reason),
             }
         }
     }

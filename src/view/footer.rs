@@ -47,7 +47,7 @@ pub(super) fn footer(canvas: &mut Canvas<'_>, area: Rect, (app, body): (&App, Re
     // the meaning.
     let room = usize::from(area.width);
     let pauses = |hint: &Hint| hint.action == Action::PlayPause && room >= ROOM_FOR_PAUSE;
-    let mut kept = if let Some(place) = hints.iter().position(pauses) {
+    let mut shown = if let Some(place) = hints.iter().position(pauses) {
         let pause = hints.remove(place);
         hints.insert(hints.len().saturating_sub(2), pause);
         3
@@ -56,25 +56,25 @@ pub(super) fn footer(canvas: &mut Canvas<'_>, area: Rect, (app, body): (&App, Re
     };
     // If its pane is small, a gauge's reason appears in full nowhere else.
     let gauge = app.lab.as_ref().is_some_and(|lab| lab.focus.pane == Pane::Gauges);
-    let beside = |kept: usize| {
-        let last: usize = hints.iter().rev().take(kept).map(|hint| long(hint) + 3).sum();
+    let beside = |shown: usize| {
+        let last: usize = hints.iter().rev().take(shown).map(|hint| long(hint) + 3).sum();
         room.saturating_sub(last.saturating_sub(3) + 2)
     };
-    let [narrow, whole] = [kept, 2].map(beside);
+    let [narrow, whole] = [shown, 2].map(beside);
     let first = if gauge { whole } else { narrow.min(room * 2 / 3) };
     let meaning = fitting(&meaning, [first, narrow, whole]);
     if meaning.width() > narrow {
-        kept = 2;
+        shown = 2;
     }
     let meant = if meaning.is_empty() { 0 } else { meaning.width().min(whole) + 2 };
-    while hints.len() > kept && meant + wide > room + 3 {
+    while hints.len() > shown && meant + wide > room + 3 {
         // the way to panes out of sight comes before the pause
         let leads_on = hints.first().is_some_and(|hint| hint.action == Action::NextPane);
-        let dropped = if kept == 3 && hints.len() == 4 && leads_on {
-            kept = 2;
+        let dropped = if shown == 3 && hints.len() == 4 && leads_on {
+            shown = 2;
             hints.len() - 3
         } else {
-            hints.len() - kept - 1
+            hints.len() - shown - 1
         };
         wide -= long(&hints.remove(dropped)) + 3;
     }

@@ -121,10 +121,10 @@ impl FurtherRows<'_> {
         }
         for known in &forms.further.generators {
             self.put("G", known.expression, &known.name);
-            let kept = if known.conserved { "conserved" } else { "not conserved" };
+            let verdict = if known.conserved { "conserved" } else { "not conserved" };
             match &known.bracket {
-                Ok(bracket) => self.put("[H, G]", *bracket, kept),
-                Err(why) => self.page.words(Role::Dim, format!("[H, G]: {why}; {kept}.")),
+                Ok(bracket) => self.put("[H, G]", *bracket, verdict),
+                Err(why) => self.page.words(Role::Dim, format!("[H, G]: {why}; {verdict}.")),
             }
         }
     }

@@ -91,7 +91,7 @@ fn line_of_law(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab) {
     canvas.target(area, HitTarget::Pane(Pane::Law));
     let mut cache = std::mem::take(&mut canvas.cache);
     let rows = cache.law(&lab.loaded.equations, area.width, || {
-        equations::law(lab, canvas.style).laid_out(canvas, area.width)
+        equations::law(lab, canvas.style).wrapped(canvas, area.width)
     });
     let glyphs = canvas.style.glyphs;
     let more = match rows.len() {
@@ -111,7 +111,7 @@ fn law(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, title: &[StyledText]) -> 
     canvas.target(area, HitTarget::Pane(Pane::Law));
     let mut cache = std::mem::take(&mut canvas.cache);
     let rows = cache.law(&lab.loaded.equations, inner.width, || {
-        equations::law(lab, canvas.style).laid_out(canvas, inner.width)
+        equations::law(lab, canvas.style).wrapped(canvas, inner.width)
     });
     let drawn = draw_rows(canvas, inner, lab.law_scroll, rows);
     canvas.cache = cache;

@@ -142,15 +142,15 @@ fn whole_words(line: &str, room: usize, mark: &str) -> String {
             _ => {}
         }
     }
-    let kept = line[..end].trim_end_matches(['+', '−', '-', '·', '*', '/', ',', ';', ' ']);
+    let shown = line[..end].trim_end_matches(['+', '−', '-', '·', '*', '/', ',', ';', ' ']);
     // The beginning of a product is no value: where the value stands before it, it is left out.
-    let is_product = line[kept.len()..].trim_start().starts_with(['·', '×', '*', '/']);
-    let kept = match kept.rsplit_once(" = ") {
+    let is_product = line[shown.len()..].trim_start().starts_with(['·', '×', '*', '/']);
+    let shown = match shown.rsplit_once(" = ") {
         Some((before, _)) if is_product && before.contains(" = ") => before,
         // nor is an equals sign behind a value
-        _ => kept.strip_suffix(" =").filter(|before| before.contains(" = ")).unwrap_or(kept),
+        _ => shown.strip_suffix(" =").filter(|before| before.contains(" = ")).unwrap_or(shown),
     };
-    if kept.is_empty() { shortened(line, room, mark) } else { format!("{kept} {mark}") }
+    if shown.is_empty() { shortened(line, room, mark) } else { format!("{shown} {mark}") }
 }
 
 /// What a line gives the value of: the one word before its equals sign.

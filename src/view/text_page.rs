@@ -127,7 +127,7 @@ impl TextPage {
 
     /// Draws the rows from `scroll` on.
     pub(super) fn draw(self, canvas: &mut Canvas<'_>, area: Rect, scroll: u16) -> Drawn {
-        let rows = self.laid_out(canvas, area.width);
+        let rows = self.wrapped(canvas, area.width);
         draw_rows(canvas, area, scroll, &rows)
     }
 
@@ -136,7 +136,7 @@ impl TextPage {
     pub(super) fn draw_in_columns(self, canvas: &mut Canvas<'_>, area: Rect, scroll: u16) -> Drawn {
         let half = area.width.saturating_sub(BETWEEN) / 2;
         let height = usize::from(area.height);
-        let whole = self.laid_out(canvas, area.width);
+        let whole = self.wrapped(canvas, area.width);
         if area.width < TWO_COLUMNS || whole.len() <= height && !self.balanced {
             let section = self.section(canvas, &whole);
             let drawn = draw_rows(canvas, area, section.unwrap_or(scroll), &whole);
@@ -147,7 +147,7 @@ impl TextPage {
             let matches = matches(&whole, &self.pattern.0).len();
             return Drawn { scroll: section, matches, ..drawn };
         }
-        let lines = self.laid_out(canvas, half);
+        let lines = self.wrapped(canvas, half);
         let beyond = lines.len().saturating_sub(2 * height);
         let section = self.section(canvas, &lines);
         let first = usize::from(section.unwrap_or(scroll)).min(beyond);
@@ -184,7 +184,7 @@ impl TextPage {
     }
 
     /// The rows of the page in an area of this width.
-    pub(super) fn laid_out(&self, canvas: &Canvas<'_>, width: u16) -> Vec<Vec<StyledText>> {
+    pub(super) fn wrapped(&self, canvas: &Canvas<'_>, width: u16) -> Vec<Vec<StyledText>> {
         self.lines(canvas, measure(width).into())
     }
 

@@ -58,8 +58,8 @@ pub(super) fn shortened(text: &str, width: usize, mark: &str) -> String {
     }
     let whole = whole.trim_end_matches(|c: char| ",;:–—".contains(c) || c.is_whitespace());
     let enough = |text: &&str| 3 * text.width() >= room;
-    let kept = [whole, words_only].into_iter().find(enough).unwrap_or_else(|| torn.trim_end());
-    format!("{kept}{mark}")
+    let shown = [whole, words_only].into_iter().find(enough).unwrap_or_else(|| torn.trim_end());
+    format!("{shown}{mark}")
 }
 
 /// The same with its last words in place of those in the middle.

@@ -24,8 +24,8 @@ impl Continuation<'_> {
     ) -> Result<(DVector<f64>, usize), DynamicsError> {
         // the last column does not exist where no parameter changes
         let missing = usize::from(!matches!(self.along, Along::Parameter(_)));
-        let kept = found.matrix.ncols() - missing;
-        let kernel = linear::kernel(&found.matrix.columns(0, kept).into_owned(), KERNEL);
+        let columns = found.matrix.ncols() - missing;
+        let kernel = linear::kernel(&found.matrix.columns(0, columns).into_owned(), KERNEL);
         let directions = match before {
             Some(before) => before.directions.min(kernel.len()),
             None if point.unit().is_some() => 1,
@@ -36,8 +36,8 @@ impl Continuation<'_> {
             Some(before) if directions == 1 || directions < kernel.len() => before.tangent.clone(),
             _ => self.guide(point)?,
         };
-        let guide = found.within(&guide).rows(0, kept).into_owned();
-        let mut direction = DVector::zeros(kept);
+        let guide = found.within(&guide).rows(0, columns).into_owned();
+        let mut direction = DVector::zeros(columns);
         for vector in &kernel {
             direction.axpy(vector.dot(&guide), vector, 1.0);
         }
@@ -54,7 +54,7 @@ impl Continuation<'_> {
                     .to_owned(),
             ));
         };
-        let mut unit = found.outside(&unit.resize_vertically(kept + missing, 0.0));
+        let mut unit = found.outside(&unit.resize_vertically(columns + missing, 0.0));
         if before.is_some_and(|before| before.tangent.dot(&unit) < 0.0) {
             unit.neg_mut();
         }

@@ -234,7 +234,7 @@ mod tests {
     }
 
     #[test]
-    fn of_early_distances_that_are_near_each_other_the_greatest_part_is_kept() {
+    fn of_early_distances_that_are_near_each_other_the_greatest_part_is_stored() {
         let mut early = Early::beginning(0.0);
         let seen = |time, size, moving| Distance { time, size, moving };
         let small = seen(1.0, 1e-9, 1.0);

@@ -28,8 +28,9 @@ impl Pool {
                     let new = self.intern(Node::Product(other, other_factors));
                     turned.insert(part, new);
                     let gets_sign = other.is_negative() && !c.is_negative();
-                    let kept = if gets_sign { self.intern(Node::Product(c, factors)) } else { new };
-                    within.insert(part, kept);
+                    let signed =
+                        if gets_sign { self.intern(Node::Product(c, factors)) } else { new };
+                    within.insert(part, signed);
                 }
                 Node::Sum(constant, mut terms) => {
                     for (c, term) in &mut terms {

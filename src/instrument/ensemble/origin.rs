@@ -75,7 +75,7 @@ impl CloudOrigin {
     }
 
     /// The same about the motion as it is now, of the size that `before` has.
-    pub(super) fn laid_again(self, before: &CloudOrigin) -> Self {
+    pub(super) fn placed_again(self, before: &CloudOrigin) -> Self {
         // a shell is as large as the motion
         let is_alike = matches!(
             (&self.shape, &before.shape),

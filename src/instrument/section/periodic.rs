@@ -46,17 +46,17 @@ fn distinct(all: Vec<(Option<bool>, Vec<[f64; 2]>)>) -> Vec<(Option<bool>, Vec<[
         values.fold(0.0, f64::max)
     });
     let near = |a: &[f64; 2], b: &[f64; 2]| (0..2).all(|k| (a[k] - b[k]).abs() <= SAME * sizes[k]);
-    let mut kept: Vec<(Option<bool>, Vec<[f64; 2]>)> = Vec::new();
+    let mut distinct: Vec<(Option<bool>, Vec<[f64; 2]>)> = Vec::new();
     for (stable, points) in all {
-        let is_known = kept.iter().any(|(_, known)| {
+        let is_known = distinct.iter().any(|(_, known)| {
             known.len() == points.len()
                 && points.iter().all(|at| known.iter().any(|other| near(at, other)))
         });
         if !is_known {
-            kept.push((stable, points));
+            distinct.push((stable, points));
         }
     }
-    kept
+    distinct
 }
 
 /// The layers that show them, and the families.

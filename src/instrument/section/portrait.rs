@@ -120,7 +120,7 @@ impl SectionConditions {
     }
 
     /// Whether the orbits of one are those of the other. Where the plane has no bound the energy does not matter.
-    pub(super) fn still_hold(&self, now: &Self, bounded: bool) -> bool {
+    pub(super) fn are_unchanged(&self, now: &Self, bounded: bool) -> bool {
         let near = !bounded || self.is_near(now.energy);
         near && (&self.parameters, self.method, self.settings)
             == (&now.parameters, now.method, now.settings)

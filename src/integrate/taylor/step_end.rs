@@ -6,7 +6,7 @@
 
 use super::branches::Passing;
 use super::kinks::{KinkCrossing, represents};
-use super::{Taylor, branches, hold_on_kinks};
+use super::{Taylor, branches, snap_to_kinks};
 use crate::num::DoubleDouble;
 use crate::system::{MotionError, MotionErrorKind};
 
@@ -271,7 +271,7 @@ impl Taylor {
         } else {
             self.history.unit.take(size, step, left);
         }
-        hold_on_kinks(&self.series, &mut self.state);
+        snap_to_kinks(&self.series, &mut self.state);
         if !self.kinks.arrive(end.crossing, &self.series, &mut self.state) {
             return Err(self.system.error(MotionErrorKind::Sticks, begin, &self.state.values));
         }

@@ -350,9 +350,9 @@ fn extent(q: &Quantities<'_>, point: &Point) -> Span3 {
         QuantitySource::Number(number) => (number, number),
         QuantitySource::Channel(channel) => {
             // a motion that was begun in a picture keeps its window
-            let kept = q.lab.window_before(channel);
+            let before = q.lab.window_before(channel);
             let set = q.lab.least_range(channel).map(|[from, to]| (from, to));
-            let more = [kept, set].into_iter().flatten();
+            let more = [before, set].into_iter().flatten();
             more.fold(q.bounds(channel), |(lo, hi), (from, to)| (lo.min(from), hi.max(to)))
         }
     });

@@ -258,9 +258,9 @@ mod tests {
             let theme = Theme::dark(depth);
             let ramp = theme.trail(1);
             for glyphs in [Glyphs::Braille, Glyphs::HalfBlock, Glyphs::Ascii] {
-                let mut kept = CachedTrail::new(frame, glyphs, None);
+                let mut cached = CachedTrail::new(frame, glyphs, None);
                 for (index, point) in points.iter().enumerate() {
-                    kept.to([point[0], point[1], 0.0], index as f64);
+                    cached.to([point[0], point[1], 0.0], index as f64);
                     let count = index + 1;
                     if ![1, 2, 3, 10, 51, 500, 777, 900].contains(&count) {
                         continue;
@@ -274,7 +274,7 @@ mod tests {
                         .map(|age| if start(age) < count { start(age) as f64 } else { NOW })
                         .collect();
                     let mut again = Raster::new(area, glyphs);
-                    kept.draw(
+                    cached.draw(
                         &mut again,
                         Ages { since: &since, ramp, layer: 2, behind: None },
                         present,
@@ -291,14 +291,14 @@ mod tests {
         let scale = Scale::linear(0.0, 1.0);
         let frame = PlotFrame::new(scale, scale, area);
         let theme = Theme::dark(ColourDepth::True);
-        let mut kept = CachedTrail::new(&frame, Glyphs::Braille, None);
-        kept.to([0.0, 0.1, 0.0], 0.0);
-        kept.to([0.4, 0.1, 0.0], 1.0);
-        kept.to([0.9, 0.8, 0.0], 2.0);
+        let mut cached = CachedTrail::new(&frame, Glyphs::Braille, None);
+        cached.to([0.0, 0.1, 0.0], 0.0);
+        cached.to([0.4, 0.1, 0.0], 1.0);
+        cached.to([0.9, 0.8, 0.0], 2.0);
         let dots = |oldest: f64| {
             let mut raster = Raster::new(area, Glyphs::Braille);
             let ages = Ages { since: &[oldest; 8], ramp: theme.trail(0), layer: 1, behind: None };
-            kept.draw(&mut raster, ages, [0.9, 0.8]);
+            cached.draw(&mut raster, ages, [0.9, 0.8]);
             (raster.is_set([2, 14]), raster.is_set([18, 3]))
         };
         assert_eq!([dots(0.0), dots(2.0)], [(true, true), (false, true)]);
