@@ -138,11 +138,23 @@ pub(crate) fn in_lab() -> App {
 
 /// The application with a shipped preset in the lab and a snapshot at `time`.
 pub(crate) fn lab(name: &str, time: f64) -> App {
-    let loaded = loaded(name, 1);
+    showing(loaded(name, 1), time)
+}
+
+/// The application with a system in the lab and a snapshot at `time`.
+pub(crate) fn showing(loaded: Loaded, time: f64) -> App {
     let seen = snapshot(&loaded, time);
-    let (mut app, _) = App::new(catalog(), Some(name));
+    let (mut app, _) = App::new(catalog(), Some(&loaded.name));
     app.themes.available = PALETTES.iter().map(|palette| (palette.name, palette.about)).collect();
     app.update(AppEvent::Loaded(Ok(loaded)));
+    app.update(AppEvent::Snapshot(Arc::new(seen)));
+    app
+}
+
+/// The application with the pendulum in the lab and a snapshot at t = 2 after a change.
+pub(crate) fn in_lab_with(change: impl FnOnce(&mut Snapshot)) -> App {
+    let (mut app, mut seen) = (in_lab(), snapshot(&pendulum(), 2.0));
+    change(&mut seen);
     app.update(AppEvent::Snapshot(Arc::new(seen)));
     app
 }
@@ -183,11 +195,9 @@ pub(crate) fn key(word: &str) -> KeyEvent {
 /// waited for.
 pub(crate) fn begun(text: &str) -> App {
     let ready = Prepared::of(&Document::new("test", text)).unwrap_or_else(|why| panic!("{why}"));
-    let Prepared { document, warnings, model, equations, system, mut experiment } = ready;
+    let (loaded, mut experiment) = Loaded::of("test".to_owned(), 1, ready);
     experiment.set_epoch(1);
     let (mut app, _) = App::new(catalog(), Some("test"));
-    let name = "test".to_owned();
-    let loaded = Loaded { name, epoch: 1, document, warnings, model, equations, system };
     app.update(AppEvent::Loaded(Ok(loaded)));
     app.update(AppEvent::Snapshot(Arc::new(experiment.snapshot())));
     app
@@ -232,10 +242,7 @@ fn answered(app: &mut App) -> (String, bool, Vec<Effect>) {
     let (ticket, title, text) = found.expect("a text to be checked");
     let name = app.lab.as_ref().unwrap().loaded.name.clone();
     let ready = Prepared::of(&Document::new(title.as_str(), text.as_str()));
-    let outcome = ready.map_err(|why| why.diagnostics).map(|ready| {
-        let Prepared { document, warnings, model, equations, system, .. } = ready;
-        Loaded { name, epoch: 2, document, warnings, model, equations, system }
-    });
+    let outcome = ready.map(|ready| Loaded::of(name, 2, ready).0).map_err(|why| why.diagnostics);
     let (took, is_right) = (Some(Duration::from_millis(3)), outcome.is_ok());
     let effects = app.update(AppEvent::Checked(Box::new(CheckedText { ticket, outcome, took })));
     (text, is_right, effects)

@@ -16,12 +16,10 @@ pub(crate) fn prepared(text: &str) -> Prepared {
 
 /// The lab with a system whose motion it has not seen yet, and the motion.
 pub(crate) fn open(ready: Prepared) -> (App, Experiment) {
-    let Prepared { document, warnings, model, equations, system, mut experiment } = ready;
+    let (loaded, mut experiment) = Loaded::of("test".to_owned(), 1, ready);
     experiment.set_epoch(1);
     let (mut app, _) = App::new(catalog(), Some("test"));
     app.jobs.in_background = true;
-    let name = "test".to_owned();
-    let loaded = Loaded { name, epoch: 1, document, warnings, model, equations, system };
     let effects = app.update(AppEvent::Loaded(Ok(loaded)));
     finish(&mut app, effects);
     (app, experiment)

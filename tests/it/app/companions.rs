@@ -1,24 +1,16 @@
 //! Motions beside the main one, by keys, the mouse and scripts.
 
 use crossterm::event::{MouseButton, MouseEventKind};
-use phaselab::app::{AppEvent, HitTarget, Pane};
+use phaselab::app::{App, AppEvent, HitTarget, Pane};
 use phaselab::experiment::CompanionOrigin;
-use phaselab::view::colour::ColourDepth;
-use phaselab::view::glyphs::Glyphs;
-use phaselab::view::theme::Theme;
-use phaselab::view::{RenderStyle, draw};
-use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
+use phaselab::view::RenderStyle;
 
 use super::real::Real;
 use crate::record::played;
-use crate::screen::rows;
+use crate::screen::{ascii, rich, rows, screen};
 
-fn screen(real: &Real, look: &RenderStyle) -> Vec<String> {
-    let area = Rect::new(0, 0, 120, 40);
-    let mut buffer = Buffer::empty(area);
-    draw(&real.app, look, area, &mut buffer);
-    rows(&buffer)
+fn shown(app: &App, look: &RenderStyle) -> Vec<String> {
+    rows(&screen(app, look, (120, 40)))
 }
 
 /// The picture of a kind.
@@ -84,8 +76,7 @@ fn the_right_button_adds_a_motion_and_the_left_one_begins_the_main_one() {
 
 /// The numbers at the axes of the picture in the middle of the upper row.
 fn ticks(real: &Real) -> Vec<String> {
-    let look = RenderStyle { theme: Theme::dark(ColourDepth::True), glyphs: Glyphs::Braille };
-    let rows = screen(real, &look);
+    let rows = shown(&real.app, &rich());
     let pane = rows[2..21].iter().map(|row| row.chars().skip(41).take(38).collect::<String>());
     let numbers = pane.filter_map(|row| match row.split_once('┤') {
         Some((label, _)) => Some(label.trim().to_owned()),
@@ -129,27 +120,23 @@ fn each_motion_has_its_number_in_every_portrait_in_the_scene_and_against_time() 
     assert_eq!(real.seen().companions.len(), 2);
     // the neighbour is where the main motion is until they part
     real.run(900);
-    for (glyphs, depth) in
-        [(Glyphs::Braille, ColourDepth::True), (Glyphs::Ascii, ColourDepth::None)]
-    {
-        let look = RenderStyle { theme: Theme::dark(depth), glyphs };
+    for look in [rich(), ascii()] {
         for kind in ["space", "phase", "time"] {
             let index = picture(&real, kind);
             real.app.lab.as_mut().unwrap().focus.pane = Pane::Plot(index);
             real.app.lab.as_mut().unwrap().focus.zoomed = true;
-            let with = screen(&real, &look);
+            let with = shown(&real.app, &look);
             assert!(
                 with.iter().skip(1).any(|row| row.contains('1')),
                 "{kind}\n{}",
                 with.join("\n")
             );
-            let mut without =
-                Real { app: real.app.clone(), experiment: Real::of("pendulum").experiment };
-            let lab = without.app.lab.as_mut().unwrap();
+            let mut without = real.app.clone();
+            let lab = without.lab.as_mut().unwrap();
             let mut seen = (**lab.snapshot.as_ref().unwrap()).clone();
             seen.companions = [].into();
             lab.snapshot = Some(seen.into());
-            assert_ne!(with, screen(&without, &look), "{kind}");
+            assert_ne!(with, shown(&without, &look), "{kind}");
         }
     }
 }

@@ -5,13 +5,11 @@ use std::sync::Arc;
 use crossterm::event::KeyEvent;
 use phaselab::app::{App, AppEvent, Effect, Lab, Loaded, ValueId};
 use phaselab::experiment::{Command, Experiment, Setup, Snapshot, Status};
-use phaselab::view::draw;
 use proptest::prelude::*;
-use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
 
 use crate::cases;
 use crate::fixtures::{catalog, key, loaded};
+use crate::screen::screen_text;
 
 /// The length of a frame in seconds.
 const FRAME: f64 = 1.0 / 60.0;
@@ -165,10 +163,7 @@ fn a_new_reference_measures_drift_from_here_and_says_so() {
     // The notification disappears by itself; the reference time of the gauges remains visible.
     real.app.notifications.dismiss();
     for size in [(80, 24), (120, 40)] {
-        let area = Rect::new(0, 0, size.0, size.1);
-        let mut buffer = Buffer::empty(area);
-        draw(&real.app, &crate::screen::rich(), area, &mut buffer);
-        let text = crate::screen::rows(&buffer).join("\n");
+        let text = screen_text(&real.app, size);
         assert!(text.contains("since t = 5"), "{text}");
     }
 }

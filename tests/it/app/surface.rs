@@ -3,7 +3,7 @@
 use phaselab::app::{App, Overlay};
 use phaselab::model::Direction;
 
-use crate::fixtures::{checked, lab, press, write};
+use crate::fixtures::{checked, lab, lowered, press, showing, write};
 
 /// Focuses the first plot of a kind.
 fn focus(app: &mut App, kind: &str) {
@@ -99,11 +99,7 @@ fn an_angle_passes_a_value_once_in_a_turn() {
                 b = { initial = 0.3, velocity = 1.0 }\n[parameters]\nP = 3.0\n[lagrangian]\n\
                 L = \"1/2*(a'^2 + b'^2) - 1/2*b^2\"\n[[views]]\nkind = \"section\"\non = \"a\"\nx = \"b\"\ny = \"p_b\"\n";
     for (typed, surface) in [("a = 1", "sin((a - 1)/(P/pi))"), ("", "sin((a)/(P/pi))")] {
-        let loaded = crate::fixtures::lowered(text);
-        let seen = crate::fixtures::snapshot(&loaded, 1.0);
-        let (mut app, _) = App::new(crate::fixtures::catalog(), Some("test"));
-        app.update(phaselab::app::AppEvent::Loaded(Ok(loaded)));
-        app.update(phaselab::app::AppEvent::Snapshot(std::sync::Arc::new(seen)));
+        let mut app = showing(lowered(text), 1.0);
         focus(&mut app, "section");
         press(&mut app, "L");
         if typed.is_empty() {

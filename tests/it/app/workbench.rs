@@ -13,7 +13,7 @@ use phaselab::diagnostic::Document;
 use phaselab::experiment::{Command, Prepared, Snapshot, Status};
 use phaselab::instrument::Plot;
 
-use crate::fixtures::{begun, catalog, in_lab, loaded, pendulum, press, snapshot};
+use crate::fixtures::{begun, catalog, in_lab, loaded, pendulum, press, showing, snapshot};
 
 fn sheet(app: &App) -> &SourceBuffer {
     app.open_buffer().expect("the editor is open")
@@ -24,12 +24,8 @@ fn checked(app: &App, effect: &Effect) -> AppEvent {
     let Effect::Check { ticket, title, text } = effect else { panic!("{effect:?}") };
     assert!(app.awaits(*ticket));
     let name = app.lab.as_ref().unwrap().loaded.name.clone();
-    let outcome = match Prepared::of(&Document::new(title.as_str(), text.as_str())) {
-        Ok(Prepared { document, warnings, model, equations, system, .. }) => {
-            Ok(Loaded { name, epoch: 2, document, warnings, model, equations, system })
-        }
-        Err(unready) => Err(unready.diagnostics),
-    };
+    let ready = Prepared::of(&Document::new(title.as_str(), text.as_str()));
+    let outcome = ready.map(|ready| Loaded::of(name, 2, ready).0).map_err(|why| why.diagnostics);
     let took = Some(Duration::from_millis(7));
     AppEvent::Checked(Box::new(CheckedText { ticket: *ticket, outcome, took }))
 }
@@ -288,15 +284,8 @@ fn a_name_that_is_taken_is_asked_for_again() {
 /// A user's file in the lab.
 fn own_file() -> App {
     let text = &catalog().find("pendulum").unwrap().text;
-    let (mut app, _) = App::new(catalog(), Some("./my.toml"));
     let ready = Prepared::of(&Document::new("./my.toml", text.as_str())).unwrap();
-    let Prepared { document, warnings, model, equations, system, .. } = ready;
-    let name = "./my.toml".to_owned();
-    let loaded = Loaded { name, epoch: 1, document, warnings, model, equations, system };
-    let seen = snapshot(&loaded, 2.0);
-    app.update(AppEvent::Loaded(Ok(loaded)));
-    app.update(AppEvent::Snapshot(Arc::new(seen)));
-    app
+    showing(Loaded::of("./my.toml".to_owned(), 1, ready).0, 2.0)
 }
 
 fn file(text: &str) -> AppEvent {

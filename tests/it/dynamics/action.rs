@@ -1,16 +1,14 @@
 //! The action of paths beside a motion, against closed forms and the integral of each path by itself.
 
 use std::f64::consts::PI;
-use std::sync::Arc;
 
-use phaselab::app::{App, AppEvent};
 use phaselab::cancel::Cancel;
 use phaselab::dynamics::{
     DynamicsError, Lagrangian, VARIATIONS, VariedAction, nearest_stationary_path, stationary_path,
     stationary_path_between, varied_action,
 };
 
-use crate::fixtures::{catalog, lowered, snapshot};
+use crate::fixtures::{lowered, showing};
 use crate::laboratory::{measured, plot_named};
 use crate::screen::screen_text;
 
@@ -144,11 +142,7 @@ fn picture(text: &str, time: f64) -> (String, impl Fn(&str) -> Option<f64>) {
 
 /// The same of a view of another kind.
 fn picture_of(text: &str, time: f64, kind: &'static str) -> (String, impl Fn(&str) -> Option<f64>) {
-    let loaded = lowered(text);
-    let seen = snapshot(&loaded, time);
-    let (mut app, _) = App::new(catalog(), Some("test"));
-    app.update(AppEvent::Loaded(Ok(loaded)));
-    app.update(AppEvent::Snapshot(Arc::new(seen)));
+    let app = showing(lowered(text), time);
     let shown = screen_text(&app, (120, 40));
     (shown, move |word: &str| measured(&app, plot_named(&app, kind), word))
 }

@@ -4,20 +4,17 @@ use std::time::Duration;
 
 use phaselab::app::{Guide, GuideKind};
 use phaselab::shell::{Guided, Screen};
-use phaselab::view::RenderStyle;
-use phaselab::view::colour::ColourDepth;
-use phaselab::view::glyphs::Glyphs;
-use phaselab::view::theme::Theme;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
+
+use crate::screen::ascii;
 
 /// A demo that has ended stands still, so that the picture with the way back must be asked for.
 #[test]
 fn a_demo_that_ends_asks_for_a_picture_that_says_so() {
     let name = "sleeping-top".to_owned();
     let guide = Guide { kind: GuideKind::Demo, title: name.clone(), system: name.clone(), name };
-    let look = RenderStyle { theme: Theme::dark(ColourDepth::None), glyphs: Glyphs::Ascii };
-    let mut guided = Guided::open(&guide, look).expect("a shipped demo");
+    let mut guided = Guided::open(&guide, ascii()).expect("a shipped demo");
     let area = Rect::new(0, 0, 80, 24);
     let is_over = |guided: &mut Guided| {
         let mut buffer = Buffer::empty(area);

@@ -15,6 +15,7 @@ use ratatui::layout::Rect;
 use super::on_all_cores;
 use crate::fixtures::{catalog, key};
 use crate::nonempty;
+use crate::screen::ascii;
 
 fn system(name: &str) -> Document {
     catalog().find(name).expect("a preset")
@@ -56,12 +57,8 @@ fn screen(lesson: &mut Lesson, size: (u16, u16), look: &RenderStyle) -> Vec<Stri
     (0..size.1).map(row).collect()
 }
 
-fn plain() -> RenderStyle {
-    RenderStyle { theme: Theme::dark(ColourDepth::None), glyphs: Glyphs::Ascii }
-}
-
 fn shown(lesson: &mut Lesson) -> String {
-    screen(lesson, (80, 24), &plain()).join("\n")
+    screen(lesson, (80, 24), &ascii()).join("\n")
 }
 
 /// On a low screen the motion has the rows that the text leaves, and where the text fits alone it is whole.
@@ -71,7 +68,7 @@ fn a_lesson_on_a_low_screen_shows_the_motion_too() {
     {
         let mut lesson = taken("Say \"This is a planet; it goes round its sun.\"\nWait 1s\n");
         pass(&mut lesson, 0.1);
-        let rows = screen(&mut lesson, size, &plain());
+        let rows = screen(&mut lesson, size, &ascii());
         let text = rows.join("\n");
         assert!(!text.contains("needs"), "{size:?}\n{text}");
         assert!(text.contains("its sun"), "{size:?}\n{text}");
@@ -80,7 +77,7 @@ fn a_lesson_on_a_low_screen_shows_the_motion_too() {
     let long = "word ".repeat(80);
     let mut lesson = taken(&format!("Say \"{long}\"\nWait 1s\n"));
     pass(&mut lesson, 0.1);
-    let text = screen(&mut lesson, (40, 10), &plain()).join("\n");
+    let text = screen(&mut lesson, (40, 10), &ascii()).join("\n");
     assert!(text.contains("rows in 40") && text.contains("the window has 10"), "{text}");
 }
 
@@ -207,10 +204,10 @@ fn a_task_in_a_low_window_shows_the_parameters() {
             "Say \"first\"\nTask \"do\" hint \"so\" until e < 0.5\nSolution Down x3 Enter 0 Enter\nWait 1s\n",
         );
         pass(&mut lesson, 0.1);
-        assert!(screen(&mut lesson, size, &plain()).join("\n").contains("- Motion"), "{size:?}");
+        assert!(screen(&mut lesson, size, &ascii()).join("\n").contains("- Motion"), "{size:?}");
         keys(&mut lesson, "\n");
         pass(&mut lesson, 0.1);
-        let text = screen(&mut lesson, size, &plain()).join("\n");
+        let text = screen(&mut lesson, size, &ascii()).join("\n");
         assert!(text.contains("Parameters"), "{size:?}\n{text}");
         assert_eq!(text.contains("- Motion"), !is_low, "{size:?}\n{text}");
     }
@@ -253,7 +250,7 @@ fn an_extent_holds_the_scale_of_the_picture() {
         let mut suns = Vec::new();
         for answer in ["\n", "\n", "", ""] {
             pass(&mut lesson, 0.2);
-            let rows = screen(&mut lesson, (80, 24), &plain());
+            let rows = screen(&mut lesson, (80, 24), &ascii());
             suns.extend(sun(&rows).filter(|_| !answer.is_empty()));
             keys(&mut lesson, answer);
         }
@@ -262,7 +259,7 @@ fn an_extent_holds_the_scale_of_the_picture() {
         }
         keys(&mut lesson, "\n0\n\n");
         pass(&mut lesson, 0.2);
-        let rows = screen(&mut lesson, (80, 24), &plain());
+        let rows = screen(&mut lesson, (80, 24), &ascii());
         assert!(rows.iter().any(|row| row.contains("c  ")), "{rows:?}");
         suns.extend(sun(&rows));
         assert_eq!(suns.len(), 3, "{suns:?}");
@@ -391,7 +388,7 @@ fn the_pane_lies_below_the_lab_and_is_readable_without_colour_and_in_ascii() {
             let mut lesson =
                 Lesson::watched(script.clone(), &system(&open), &open).expect("a lesson");
             pass(&mut lesson, 0.5);
-            let rows = screen(&mut lesson, size, &plain());
+            let rows = screen(&mut lesson, size, &ascii());
             let title = script.head.title.clone().expect("a title");
             let pane = rows.iter().position(|row| row.contains(&title[..20])).expect("a pane");
             // on a low screen what is said is whole, and a picture of three rows at least is above it if there is one
@@ -423,7 +420,7 @@ fn a_point_is_set_by_the_cursor_committed_and_kept_beside_the_outcome() {
     assert!(!diagnostics(&point.replace("p_r", "nothing")).is_empty());
     let mut lesson = taken(point);
     pass(&mut lesson, 0.1);
-    let wide = |lesson: &mut Lesson| screen(lesson, (120, 40), &plain()).join("\n");
+    let wide = |lesson: &mut Lesson| screen(lesson, (120, 40), &ascii()).join("\n");
     let before = wide(&mut lesson);
     assert!(
         before.contains("Where is it in half a turn?") && !before.contains("measured"),
@@ -571,7 +568,7 @@ fn the_tour_shows_what_it_speaks_of() {
     for size in [(80, 24), (120, 40), (200, 60)] {
         for (words, title) in [("the plot Phase", "p_theta"), ("The energy gauge", "verdict")] {
             let mut tour = tour_until(words);
-            let drawn = screen(&mut tour, size, &plain());
+            let drawn = screen(&mut tour, size, &ascii());
             assert!(drawn.join("\n").contains(title), "{words} at {size:?}: {drawn:#?}");
         }
     }

@@ -13,16 +13,6 @@ use crate::experiment::shipped;
 use crate::fixtures::{catalog, gauge, lab, loaded, press, snapshot};
 use crate::nonempty;
 
-/// A preset in the lab, with a snapshot of its first second.
-fn opened(name: &str) -> App {
-    let loaded = loaded(name, 1);
-    let seen = snapshot(&loaded, 1.0);
-    let (mut app, _) = App::new(catalog(), Some(name));
-    app.update(AppEvent::Loaded(Ok(loaded)));
-    app.update(AppEvent::Snapshot(Arc::new(seen)));
-    app
-}
-
 /// The tabs in the titles of the left panes.
 fn tabs(rows: &[String]) -> Vec<Vec<String>> {
     let titles =
@@ -41,7 +31,7 @@ fn tabs_of_a_frame_differ() {
         ("duffing", ["Phase x, x′", "Phase x, p_x"]),
         ("driven-damped-pendulum", ["Phase θ, θ′", "Time θ′"]),
     ] {
-        let rows = rows(&screen(&opened(name), &rich(), (120, 40)));
+        let rows = rows(&screen(&lab(name, 1.0), &rich(), (120, 40)));
         let tabs = tabs(&rows);
         assert_eq!(tabs.len(), 1, "{name}: {rows:#?}");
         for (place, tab) in tabs[0].iter().enumerate() {
@@ -80,7 +70,7 @@ fn meanings_of_parameters_are_whole() {
 fn reasons_of_gauges_are_whole() {
     for (name, least) in [("solar-system", 8), ("heavy-top", 3), ("kicked-rotor", 3), ("planet", 3)]
     {
-        let mut app = opened(name);
+        let mut app = lab(name, 1.0);
         let lab = app.lab.as_mut().expect("a lab");
         lab.focus.pane = Pane::Gauges;
         let mut seen = (**lab.snapshot.as_ref().expect("a snapshot")).clone();
@@ -100,7 +90,7 @@ fn reasons_of_gauges_are_whole() {
 /// The names of gauges are those that were once torn, some of them of shipped presets.
 #[test]
 fn names_of_gauges_end_with_a_word() {
-    let mut app = opened("pendulum");
+    let mut app = lab("pendulum", 1.0);
     let lab = app.lab.as_ref().expect("a lab");
     let mut seen = (**lab.snapshot.as_ref().expect("a snapshot")).clone();
     let names = [
@@ -117,7 +107,7 @@ fn names_of_gauges_end_with_a_word() {
     let named = |name: &&str| gauge(name, name, 1.0, Verdict::Exact(Growth::Level));
     seen.gauges = names.iter().map(named).collect::<Vec<_>>().into();
     app.update(AppEvent::Snapshot(Arc::new(seen)));
-    let text = rows(&screen(&app, &rich(), (120, 40))).join("\n");
+    let text = super::screen_text(&app, (120, 40));
     for shown in ["least spin that sleeps", "A Aᵀ = 1, det A = 1", "areal velocity seen…"] {
         assert!(text.contains(&format!("  {shown} ")), "{shown}: {text}");
     }
@@ -129,7 +119,7 @@ fn names_of_gauges_end_with_a_word() {
 #[test]
 fn a_unit_is_whole_though_its_bar_is_shorter() {
     for size in [(80, 24), (120, 40)] {
-        let text = rows(&screen(&opened("solar-system"), &rich(), size));
+        let text = rows(&screen(&lab("solar-system", 1.0), &rich(), size));
         let row = text.iter().find(|row| row.contains("au³/(M☉ yr²)"));
         assert!(row.is_some_and(|row| row.contains('●')), "{text:#?}");
     }
@@ -139,7 +129,7 @@ fn a_unit_is_whole_though_its_bar_is_shorter() {
 #[test]
 fn rows_to_spare_are_those_of_the_law() {
     for name in ["harmonic-oscillator", "pendulum", "planet"] {
-        let app = opened(name);
+        let app = lab(name, 1.0);
         let gauges = app.lab.as_ref().and_then(|lab| Some(lab.snapshot.as_ref()?.gauges.len()));
         let buffer = screen(&app, &rich(), (120, 40));
         let at = |title: &str| find(&buffer, title).unwrap_or_else(|| panic!("{name}: {title}")).1;
@@ -157,7 +147,7 @@ fn rows_to_spare_are_those_of_the_law() {
 
 #[test]
 fn numbers_have_two_columns_where_they_are_wide() {
-    let mut app = opened("planet");
+    let mut app = lab("planet", 1.0);
     press(&mut app, "4");
     let at = |size, heading: &str| {
         let buffer = screen(&app, &rich(), size);
@@ -212,7 +202,7 @@ fn the_motion_is_seen_wherever_there_is_a_view_of_it() {
 /// A body on the far side of a sphere is seen through it, from wherever one looks.
 #[test]
 fn a_body_is_seen_through_its_sphere() {
-    let mut app = opened("smooth-sphere");
+    let mut app = lab("smooth-sphere", 1.0);
     for turn in 0..8 {
         let lab = app.lab.as_mut().unwrap();
         let Sight::Camera(eye) = &mut lab.plots[0].sight else { panic!("no scene") };
@@ -268,7 +258,7 @@ fn no_step_is_not_a_step_of_zero() {
     let loaded = loaded("pendulum", 1);
     let mut seen = snapshot(&loaded, 1.0);
     seen.method.step = 0.0;
-    let mut app = opened("pendulum");
+    let mut app = lab("pendulum", 1.0);
     app.update(AppEvent::Snapshot(Arc::new(seen)));
     let rows = rows(&screen(&app, &rich(), (120, 40)));
     assert!(rows[38].contains(" step – "), "{}", rows[38]);
@@ -295,7 +285,7 @@ fn the_list_of_systems_begins_with_its_first_rows() {
         system: "Simple pendulum".to_owned(),
     }];
     for size in [(40, 10), (60, 15), (80, 24), (120, 40)] {
-        let text = rows(&screen(&app, &rich(), size)).join("\n");
+        let text = super::screen_text(&app, size);
         assert!(text.contains("Lessons and demos"), "{text}");
         assert!(text.contains('›'), "{text}");
     }
@@ -346,7 +336,7 @@ fn a_note_without_room_loses_its_last_part() {
 /// On a wide screen the notes stand in two columns.
 #[test]
 fn notes_use_the_width_of_the_screen() {
-    let mut app = opened("double-pendulum");
+    let mut app = lab("double-pendulum", 1.0);
     press(&mut app, "3");
     let rows = rows(&screen(&app, &rich(), (200, 60)));
     let right = rows.iter().filter(|row| row.chars().skip(110).take(80).any(char::is_alphabetic));
@@ -357,7 +347,7 @@ fn notes_use_the_width_of_the_screen() {
 #[test]
 fn every_field_says_how_to_leave_it() {
     for keys in ["Enter", "a", "g"] {
-        let mut app = opened("pendulum");
+        let mut app = lab("pendulum", 1.0);
         press(&mut app, keys);
         assert!(app.overlay.is_some(), "{keys}");
         for size in [(80, 24), (120, 40)] {
@@ -373,7 +363,7 @@ fn every_field_says_how_to_leave_it() {
 fn the_law_is_on_the_first_screen() {
     let mut missing = Vec::new();
     for entry in nonempty(catalog().entries()) {
-        let app = opened(&entry.name);
+        let app = lab(&entry.name, 1.0);
         for size in [(80, 24), (120, 40)] {
             let rows = rows(&screen(&app, &rich(), size));
             let of_law = |row: &&String| {
@@ -397,7 +387,7 @@ fn the_law_is_on_the_first_screen() {
 fn reasons_are_in_full_where_there_is_room() {
     let mut seen = 0;
     for name in ["pendulum", "planet", "heavy-top", "damped-pendulum", "atwood", "two-centres"] {
-        let mut app = opened(name);
+        let mut app = lab(name, 1.0);
         let gauges = shipped(name).snapshot().gauges;
         let lab = app.lab.as_ref().expect("a lab");
         let taken = (**lab.snapshot.as_ref().expect("a snapshot")).clone();

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use phaselab::app::{App, AppEvent, Drawn, DrawnPanes, LawInView, Notification, Pane, ValueId};
-use phaselab::experiment::{Gauge, Growth, Status, Verdict};
+use phaselab::experiment::{Gauge, Growth, RunError, Status, Verdict};
 use phaselab::instrument::{Plot, PotentialView};
 use phaselab::integrate::{Occurrence, OccurrenceKind};
 use phaselab::model::Shape;
@@ -15,10 +15,11 @@ use phaselab::view::glyphs::Glyphs;
 use phaselab::view::theme::{Role, Theme};
 use ratatui::style::{Color, Modifier};
 
-use super::{find, rich, rows, screen};
+use super::{ascii, find, rich, rows, screen, screen_text};
 use crate::app::real::Real;
 use crate::fixtures::{
-    at_picker, catalog, gauge, in_lab, lab, loaded, lowered, pendulum, press, snapshot,
+    at_picker, catalog, gauge, in_lab, in_lab_with, lab, loaded, lowered, pendulum, press, showing,
+    snapshot,
 };
 
 #[test]
@@ -194,7 +195,7 @@ fn wide_pages_have_two_columns() {
         scroll += drawn.rows;
     }
     app.text.scroll = drawn.beyond;
-    seen += &rows(&screen(&app, &rich(), (200, 30))).join("\n");
+    seen += &screen_text(&app, (200, 30));
     for row in phaselab::app::keymap::KEYS {
         let begins: String = row.help.chars().take(40).collect();
         assert!(seen.contains(begins.trim()), "{}", row.help);
@@ -208,10 +209,7 @@ fn a_standard_screen_is_whole() {
         ["Motion", "Phase", "Parameters", "Initial values", "Gauges", "θ₀", "exact", "quit", "fps"]
     {
         let exact = gauge("energy", "E", 1.0, Verdict::Exact(Growth::Level));
-        let mut seen = snapshot(&pendulum(), 2.0);
-        seen.gauges = [exact].into();
-        let mut app = in_lab();
-        app.update(AppEvent::Snapshot(Arc::new(seen)));
+        let app = in_lab_with(|seen| seen.gauges = [exact].into());
         let buffer = if text == "exact" { screen(&app, &rich(), (80, 24)) } else { buffer.clone() };
         assert!(find(&buffer, text).is_some(), "{text} in {:#?}", rows(&buffer));
     }
@@ -253,10 +251,7 @@ fn verdicts_have_their_colours() {
         (Verdict::Lost, "lost", Role::Bad),
         (Verdict::Broken("−2F".into()), "not conserved", Role::Warn),
     ] {
-        let mut app = in_lab();
-        let mut seen = snapshot(&pendulum(), 2.0);
-        seen.gauges = [gauge("energy", "E", 4.0, verdict)].into();
-        app.update(AppEvent::Snapshot(Arc::new(seen)));
+        let app = in_lab_with(|seen| seen.gauges = [gauge("energy", "E", 4.0, verdict)].into());
         for size in [(80, 24), (120, 40)] {
             let buffer = screen(&app, &look, size);
             let at = find(&buffer, word).unwrap_or_else(|| panic!("{word} at {size:?}"));
@@ -268,7 +263,6 @@ fn verdicts_have_their_colours() {
 /// A deviation from the law of motion is marked on every picture, and the status shows its size.
 #[test]
 fn a_departed_invariant_marks_the_picture() {
-    let plain = RenderStyle { theme: Theme::dark(ColourDepth::None), glyphs: Glyphs::Ascii };
     for (verdict, drift, word) in [
         (Verdict::Lost, 0.3, "lost 30 %"),
         (Verdict::Bounded, 2.3e-4, "swings 2.3e-4"),
@@ -280,7 +274,7 @@ fn a_departed_invariant_marks_the_picture() {
             |left| Gauge { left, max_drift: drift, ..gauge("energy", "E", 4.0, verdict.clone()) };
         seen.gauges = [of(Some(1.5))].into();
         app.update(AppEvent::Snapshot(Arc::new(seen.clone())));
-        for (look, size) in [(rich(), (80, 24)), (rich(), (120, 40)), (plain.clone(), (80, 24))] {
+        for (look, size) in [(rich(), (80, 24)), (rich(), (120, 40)), (ascii(), (80, 24))] {
             let rows = rows(&screen(&app, &look, size));
             let name = if look.glyphs.is_ascii() { "energy" } else { "E" };
             let word = if look.glyphs.is_ascii() {
@@ -313,12 +307,9 @@ fn a_velocity_has_a_prime_in_a_cell_of_its_own() {
 #[test]
 fn nothing_jumps_while_numbers_change() {
     let column = |time: f64, text: &str| {
-        let mut app = in_lab();
-        let mut seen = snapshot(&pendulum(), 2.0);
-        seen.time = time;
-        seen.recorded.to = time;
-        seen.method.step = time / 1e4;
-        app.update(AppEvent::Snapshot(Arc::new(seen)));
+        let app = in_lab_with(|seen| {
+            (seen.time, seen.recorded.to, seen.method.step) = (time, time, time / 1e4);
+        });
         find(&screen(&app, &rich(), (120, 40)), text).map(|(x, _)| x)
     };
     for text in ["speed", "taylor", "steps/s", "fps"] {
@@ -343,29 +334,22 @@ fn an_error_in_a_field_is_read_beside_it() {
 
 #[test]
 fn status_and_error_are_reported() {
-    let mut app = in_lab();
-    let mut seen = snapshot(&pendulum(), 2.0);
-    seen.status = Status::Paused;
-    app.update(AppEvent::Snapshot(Arc::new(seen.clone())));
-    assert!(find(&screen(&app, &rich(), (120, 40)), "paused").is_some());
-    let message = "the bob left the world".to_owned();
-    seen.status =
-        Status::Failed(phaselab::experiment::RunError { time: 2.0, message, ends_motion: true });
-    app.update(AppEvent::Snapshot(Arc::new(seen.clone())));
-    let buffer = screen(&app, &rich(), (120, 40));
-    for text in
+    let shown = |status: Status| screen_text(&in_lab_with(|seen| seen.status = status), (120, 40));
+    let failed = |time: f64, message: &str| {
+        let message = message.to_owned();
+        shown(Status::Failed(RunError { time, message, ends_motion: true }))
+    };
+    assert!(shown(Status::Paused).contains("paused"));
+    let text = failed(2.0, "the bob left the world");
+    for part in
         ["stopped", "The motion cannot continue", "The bob left the world", "r back to the start"]
     {
-        assert!(find(&buffer, text).is_some(), "{text}");
+        assert!(text.contains(part), "{part}: {text}");
     }
     // at the start nothing leads back
-    let message = "no velocities".to_owned();
-    seen.status =
-        Status::Failed(phaselab::experiment::RunError { time: 0.0, message, ends_motion: true });
-    app.update(AppEvent::Snapshot(Arc::new(seen)));
-    let buffer = screen(&app, &rich(), (120, 40));
-    for text in ["The motion cannot begin", "No velocities", "E edit the file"] {
-        assert!(find(&buffer, text).is_some(), "{text}");
+    let text = failed(0.0, "no velocities");
+    for part in ["The motion cannot begin", "No velocities", "E edit the file"] {
+        assert!(text.contains(part), "{part}: {text}");
     }
 }
 
@@ -438,18 +422,18 @@ fn the_first_row_of_the_picker_is_the_session() {
     app.offer_session(real.app.saved().unwrap());
     let time = format!(", t = {} s", (100.0 * real.seen().time).round() / 100.0);
     for size in [(80, 24), (120, 40)] {
-        let text = rows(&screen(&app, &rich(), size)).join("\n");
+        let text = screen_text(&app, size);
         assert!(text.contains(&format!("› Continue: Simple pendulum{time}")), "{text}");
         assert!(!text.contains("› Simple pendulum"), "{text}");
     }
     // where there is no room for both the title is shortened, not the time
-    let text = rows(&screen(&app, &rich(), (70, 24))).join("\n");
+    let text = screen_text(&app, (70, 24));
     assert!(text.contains(&format!("› Continue: Simple…{time}")), "{text}");
     press(&mut app, "Down");
-    let text = rows(&screen(&app, &rich(), (80, 24))).join("\n");
+    let text = screen_text(&app, (80, 24));
     assert!(text.contains("  Continue: Simple pendulum"), "{text}");
     press(&mut app, "/ p e n d");
-    let text = rows(&screen(&app, &rich(), (80, 24))).join("\n");
+    let text = screen_text(&app, (80, 24));
     assert!(!text.contains("Continue:"), "{text}");
 }
 
@@ -457,7 +441,7 @@ fn the_first_row_of_the_picker_is_the_session() {
 fn the_equations_are_written_in_mathematics() {
     let mut app = in_lab();
     press(&mut app, "2");
-    let text = rows(&screen(&app, &rich(), (120, 40))).join("\n");
+    let text = screen_text(&app, (120, 40));
     for line in ["L = ½ m l² θ′² + m g l cos θ", "p_θ = m l² θ′", "θ″ = −(g/l) sin θ", "∂L/∂t = 0"]
     {
         assert!(text.contains(line), "{line} in\n{text}");
@@ -471,7 +455,7 @@ fn the_page_of_equations_writes_an_energy_once() {
     let page = |name: &str| {
         let mut app = lab(name, 1.0);
         press(&mut app, "2");
-        rows(&screen(&app, &rich(), (160, 90))).join("\n")
+        screen_text(&app, (160, 90))
     };
     let oscillator = page("harmonic-oscillator");
     assert_eq!(oscillator.matches("p_x²/(2 m) + ½ k x²").count(), 1, "{oscillator}");
@@ -520,10 +504,7 @@ fn what_happened_is_marked_where_it_was_and_named() {
 
 #[test]
 fn an_ended_motion_says_by_what_and_how_to_go_on() {
-    let mut seen = snapshot(&pendulum(), 2.0);
-    seen.status = Status::Ended("ground".to_owned());
-    let mut app = in_lab();
-    app.update(AppEvent::Snapshot(Arc::new(seen)));
+    let app = in_lab_with(|seen| seen.status = Status::Ended("ground".to_owned()));
     for size in [(80, 24), (120, 40), (200, 60)] {
         let buffer = screen(&app, &rich(), size);
         assert!(find(&buffer, "ended at: ground; r restarts").is_some(), "{size:?}");
@@ -558,11 +539,7 @@ fn the_prompt_answers_in_mathematics_and_places_errors() {
 
 #[test]
 fn a_picture_may_be_seen_from_a_frame() {
-    let seen = loaded("merry-go-round", 1);
-    let (mut app, _) = phaselab::app::App::new(crate::fixtures::catalog(), Some("merry-go-round"));
-    let now = snapshot(&seen, 2.0);
-    app.update(AppEvent::Loaded(Ok(seen)));
-    app.update(AppEvent::Snapshot(Arc::new(now)));
+    let mut app = lab("merry-go-round", 2.0);
     let buffer = screen(&app, &rich(), (120, 40));
     assert!(find(&buffer, "From the ground").is_some());
     assert!(find(&buffer, "From the merry-go-round").is_some());
@@ -591,8 +568,7 @@ fn t_handle(matrix: [f64; 9], keys: &str) -> Vec<String> {
         }
     }
     now.values = values.into();
-    let (mut app, _) = phaselab::app::App::new(crate::fixtures::catalog(), Some("t-handle"));
-    app.update(AppEvent::Loaded(Ok(handle.clone())));
+    let mut app = lab("t-handle", 1.0);
     app.update(AppEvent::Snapshot(Arc::new(now)));
     let lab = app.lab.as_ref().unwrap();
     let drawn = |plot: &Plot| {
@@ -645,7 +621,7 @@ fn a_body_seen_from_itself_keeps_its_size() {
 #[test]
 fn a_potential_is_drawn_with_the_energy_and_where_the_motion_is_allowed() {
     let planet = loaded("planet", 1);
-    let (mut app, _) = phaselab::app::App::new(crate::fixtures::catalog(), Some("planet"));
+    let mut app = lab("planet", 2.0);
     let mut now = snapshot(&planet, 2.0);
     // a circle-like motion between r = 0.8 and 1.4, as bounds and now
     let place = |kind| planet.system.channels().iter().position(|c| c.kind == kind).unwrap();
@@ -662,7 +638,6 @@ fn a_potential_is_drawn_with_the_energy_and_where_the_motion_is_allowed() {
             &[r],
         )[0]
     };
-    app.update(AppEvent::Loaded(Ok(planet.clone())));
     app.update(AppEvent::Snapshot(Arc::new(now.clone())));
     // V_eff = V + p²/(2 m r²): p is constant, so doubling r divides the wall by four
     let lab = app.lab.as_ref().unwrap();
@@ -783,11 +758,7 @@ fn news_are_reported_one_after_the_other_and_leave_the_hints_room() {
 
 #[test]
 fn a_frame_is_chosen_from_any_pane() {
-    let seen = loaded("merry-go-round", 1);
-    let (mut app, _) = App::new(crate::fixtures::catalog(), Some("merry-go-round"));
-    let now = snapshot(&seen, 2.0);
-    app.update(AppEvent::Loaded(Ok(seen)));
-    app.update(AppEvent::Snapshot(Arc::new(now)));
+    let mut app = lab("merry-go-round", 2.0);
     let buffer = screen(&app, &rich(), (120, 40));
     assert!(find(&buffer, "f frame").is_some(), "the hint stands where parameters are focused");
     press(&mut app, "f");
@@ -797,12 +768,9 @@ fn a_frame_is_chosen_from_any_pane() {
 
 #[test]
 fn the_reason_of_a_gauge_is_read_in_full_where_it_is_narrow() {
-    let mut app = in_lab();
-    let mut seen = snapshot(&pendulum(), 2.0);
     let mut long = gauge("energy", "E", 4.0, Verdict::Bounded);
     long.reason = "∂L/∂t = 0, and no force does work that would not be in the potential".to_owned();
-    seen.gauges = [long].into();
-    app.update(AppEvent::Snapshot(Arc::new(seen)));
+    let mut app = in_lab_with(|seen| seen.gauges = [long].into());
     press(&mut app, "Tab Tab");
     for size in [(80, 24), (120, 40)] {
         let buffer = screen(&app, &rich(), size);
@@ -820,11 +788,7 @@ fn a_view_of_any_kind_is_called_what_the_file_calls_it() {
         title = 'The plane'\n[[views]]\nkind = 'time'\ny = 'x'\ntitle = 'The swing'\n\
         [[views]]\nkind = 'space'\ntitle = 'The track'\n[[views]]\nkind = 'potential'\n\
         x = 'x'\ny = 'x^2'\ntitle = 'The well'\n[space]\nshapes = [{ mass = ['x', '0', '0'] }]\n";
-    let loaded = lowered(text);
-    let mut app = in_lab();
-    let seen = snapshot(&loaded, 1.0);
-    app.update(AppEvent::Loaded(Ok(loaded)));
-    app.update(AppEvent::Snapshot(Arc::new(seen)));
+    let mut app = showing(lowered(text), 1.0);
     let buffer = screen(&app, &rich(), (200, 60));
     for title in ["The plane", "The swing", "The track", "The well"] {
         let (x, y) = find(&buffer, title).unwrap_or_else(|| panic!("{:#?}", rows(&buffer)));
@@ -1037,29 +1001,21 @@ fn what_is_found_is_marked_and_topics_are_headings_only_of_the_whole_list() {
 
 #[test]
 fn the_palette_names_keys_and_says_what_it_had_to_cut() {
-    let ascii = RenderStyle { theme: Theme::dark(ColourDepth::None), glyphs: Glyphs::Ascii };
     let mut app = in_lab();
     press(&mut app, ": c o a r s e");
-    let text = rows(&screen(&app, &ascii, (80, 24))).join("\n");
+    let text = rows(&screen(&app, &ascii(), (80, 24))).join("\n");
     assert!(text.contains("Shift-Left H -") && text.contains("Shift-Right L + ="), "{text}");
     let mut app = in_lab();
     press(&mut app, ": p a g e Space 9");
-    let narrow = rows(&screen(&app, &ascii, (60, 24))).join("\n");
+    let narrow = rows(&screen(&app, &ascii(), (60, 24))).join("\n");
     assert!(narrow.contains("line by line"), "what the line cuts stands below: {narrow}");
-    let wide = rows(&screen(&app, &rich(), (160, 50))).join("\n");
+    let wide = screen_text(&app, (160, 50));
     assert!(wide.contains("to be read line by line"), "{wide}");
 }
 
 #[test]
 fn two_mechanics_side_by_side_are_called_right_and_wrong() {
-    let shown = |name: &str| {
-        let loaded = loaded(name, 1);
-        let seen = snapshot(&loaded, 1.0);
-        let (mut app, _) = App::new(crate::fixtures::catalog(), Some(name));
-        app.update(AppEvent::Loaded(Ok(loaded)));
-        app.update(AppEvent::Snapshot(Arc::new(seen)));
-        screen(&app, &rich(), (120, 40))
-    };
+    let shown = |name: &str| screen(&lab(name, 1.0), &rich(), (120, 40));
     for name in ["rolling-disc", "knife-edge"] {
         let buffer = shown(name);
         let [right, wrong] = ["right", "wrong"].map(|which| {
@@ -1073,11 +1029,9 @@ fn two_mechanics_side_by_side_are_called_right_and_wrong() {
 
 #[test]
 fn all_verdicts_are_short_where_the_name_of_one_gauge_is_long() {
-    let mut app = in_lab();
-    let mut seen = snapshot(&pendulum(), 2.0);
     let named = |name: &str| gauge(name, name, 1.0, Verdict::Exact(Growth::Level));
-    seen.gauges = vec![named("area"), named("longest of all names")].into();
-    app.update(AppEvent::Snapshot(Arc::new(seen)));
+    let gauges = ["area", "longest of all names"].map(named);
+    let app = in_lab_with(|seen| seen.gauges = gauges.into());
     let text = rows(&screen(&app, &rich(), (120, 40)));
     let row = |name: &str| text.iter().find(|row| row.contains(name)).unwrap();
     for name in [" area ", "longest of all names "] {
@@ -1087,13 +1041,9 @@ fn all_verdicts_are_short_where_the_name_of_one_gauge_is_long() {
 
 #[test]
 fn a_gauge_says_in_full_why_it_is_watched() {
-    let mut app = in_lab();
-    let why = "[G, H] + ∂G/∂t = 0, proved by the canonical bracket";
     let mut watched = gauge("area", "area", 1.0, Verdict::Bounded);
-    watched.reason = why.to_owned();
-    let mut seen = snapshot(&pendulum(), 2.0);
-    seen.gauges = vec![watched; 9].into();
-    app.update(AppEvent::Snapshot(Arc::new(seen)));
+    watched.reason = "[G, H] + ∂G/∂t = 0, proved by the canonical bracket".to_owned();
+    let mut app = in_lab_with(|seen| seen.gauges = vec![watched; 9].into());
     press(&mut app, "Tab Tab");
     for size in [(80, 24), (120, 40), (200, 60)] {
         let text = rows(&screen(&app, &rich(), size));
@@ -1120,13 +1070,7 @@ fn observed_quantities_have_their_units_on_axes() {
 
 #[test]
 fn where_a_heading_has_no_room_for_values_all_curves_are_named() {
-    let loaded = loaded("rolling-race", 1);
-    let seen = snapshot(&loaded, 1.0);
-    let (mut app, _) = App::new(crate::fixtures::catalog(), Some("rolling-race"));
-    app.update(AppEvent::Loaded(Ok(loaded)));
-    app.update(AppEvent::Snapshot(Arc::new(seen)));
-    let plain = RenderStyle { theme: Theme::dark(ColourDepth::None), glyphs: Glyphs::Ascii };
-    let text = rows(&screen(&app, &plain, (80, 24))).join("\n");
+    let text = rows(&screen(&lab("rolling-race", 1.0), &ascii(), (80, 24))).join("\n");
     // those for which the title has no room stand above the axes
     assert!(["--- x1", "+++ x2", "... x3"].iter().all(|curve| text.contains(curve)), "{text}");
 }
@@ -1141,11 +1085,7 @@ fn names_are_whole_or_not_there_and_cuts_are_marked() {
         assert!(cut.iter().all(|cut| !head.contains(cut)), "{width}: {head}");
     }
     // The longest meaning of a parameter, in fewer rows than it needs.
-    let loaded = loaded("heavy-top", 1);
-    let seen = snapshot(&loaded, 1.0);
-    let (mut app, _) = App::new(crate::fixtures::catalog(), Some("heavy-top"));
-    app.update(AppEvent::Loaded(Ok(loaded)));
-    app.update(AppEvent::Snapshot(Arc::new(seen)));
+    let app = lab("heavy-top", 1.0);
     for size in [(60, 20), (80, 24), (120, 40)] {
         let rows = rows(&screen(&app, &rich(), size));
         let row = rows.iter().position(|row| row.contains("  moment of inertia about"));
@@ -1158,15 +1098,13 @@ fn names_are_whole_or_not_there_and_cuts_are_marked() {
 /// A quantity that is exact between impulses, but changed by them, is marked differently from one that never changed.
 #[test]
 fn what_impulses_have_changed_is_marked() {
-    let mut seen = snapshot(&pendulum(), 2.0);
-    let gauge = Gauge { verdict: Verdict::Exact(Growth::Level), ..seen.gauges[0].clone() };
+    let gauge = gauge("energy", "E", 4.0, Verdict::Exact(Growth::Level));
     let after_impulse = Gauge { reference: gauge.initial + 0.25, ..gauge.clone() };
-    let ascii = RenderStyle { glyphs: Glyphs::Ascii, ..rich() };
+    let letters = RenderStyle { glyphs: Glyphs::Ascii, ..rich() };
     for (gauge, marked) in [(gauge, false), (after_impulse, true)] {
-        seen.gauges = [gauge].into();
-        let mut app = in_lab();
-        app.update(AppEvent::Snapshot(Arc::new(seen.clone())));
-        for (look, sign) in [(&rich(), "conserved between ◆"), (&ascii, "conserved between *")] {
+        let mut app = in_lab_with(|seen| seen.gauges = [gauge].into());
+        for (look, sign) in [(&rich(), "conserved between ◆"), (&letters, "conserved between *")]
+        {
             for size in [(80, 24), (120, 40)] {
                 let text = rows(&screen(&app, look, size)).join("\n");
                 assert_eq!(text.contains(sign), marked, "{text}");
