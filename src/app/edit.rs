@@ -278,8 +278,8 @@ impl App {
                 if warning != warned {
                     warned.iter().for_each(|text| self.notifications.withdraw(text));
                     // the editor shows it in its place
-                    let said = warning.filter(|_| !is_open).map(Notification::warning);
-                    said.into_iter().for_each(|warning| self.notifications.add(warning));
+                    let shown = warning.filter(|_| !is_open).map(Notification::warning);
+                    shown.into_iter().for_each(|warning| self.notifications.add(warning));
                 }
                 self.rebuilt(loaded)
             }

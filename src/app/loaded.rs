@@ -31,10 +31,11 @@ pub struct Loaded {
 }
 
 impl Loaded {
-    /// What the lab needs of a system that is ready, and the experiment, which is run elsewhere.
-    pub fn of(name: String, epoch: u64, ready: Prepared) -> (Loaded, Experiment) {
+    /// What the lab needs of a system that is ready. `start` takes the experiment, which is run elsewhere, and returns the
+    /// epoch of its snapshots.
+    pub fn of(name: String, ready: Prepared, start: impl FnOnce(Experiment) -> u64) -> Loaded {
         let Prepared { document, warnings, model, equations, system, experiment } = ready;
-        (Loaded { name, epoch, document, warnings, model, equations, system }, experiment)
+        Loaded { name, epoch: start(experiment), document, warnings, model, equations, system }
     }
 
     /// Returns what follows from its law as a fragment for LaTeX, as `phaselab derive --format latex` writes it.

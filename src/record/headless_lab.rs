@@ -202,11 +202,12 @@ impl HeadlessLab {
 
     fn begin(&mut self, name: String, ready: Prepared) -> Loaded {
         self.epoch += 1;
-        let (loaded, mut experiment) = Loaded::of(name, self.epoch, ready);
-        experiment.set_epoch(self.epoch);
-        self.base = (self.clock.frame(), experiment.clock(), experiment.speed());
-        self.experiment = Some(experiment);
-        loaded
+        Loaded::of(name, ready, |mut experiment| {
+            experiment.set_epoch(self.epoch);
+            self.base = (self.clock.frame(), experiment.clock(), experiment.speed());
+            self.experiment = Some(experiment);
+            self.epoch
+        })
     }
 
     /// Checks a text being edited; one without errors runs at once.

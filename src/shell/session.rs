@@ -258,11 +258,9 @@ impl Session {
 
     /// Starts a loaded system.
     fn begin(&mut self, name: String, ready: Prepared) -> Loaded {
-        let (mut loaded, experiment) = Loaded::of(name, 0, ready);
         // The background jobs belong to the previous system.
         self.sides.clear();
-        loaded.epoch = self.worker.load(experiment);
-        loaded
+        Loaded::of(name, ready, |experiment| self.worker.load(experiment))
     }
 }
 

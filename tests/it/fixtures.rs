@@ -195,11 +195,15 @@ pub(crate) fn key(word: &str) -> KeyEvent {
 /// waited for.
 pub(crate) fn begun(text: &str) -> App {
     let ready = Prepared::of(&Document::new("test", text)).unwrap_or_else(|why| panic!("{why}"));
-    let (loaded, mut experiment) = Loaded::of("test".to_owned(), 1, ready);
-    experiment.set_epoch(1);
+    let mut start = None;
+    let loaded = Loaded::of("test".to_owned(), ready, |mut experiment| {
+        experiment.set_epoch(1);
+        start = Some(experiment.snapshot());
+        1
+    });
     let (mut app, _) = App::new(catalog(), Some("test"));
     app.update(AppEvent::Loaded(Ok(loaded)));
-    app.update(AppEvent::Snapshot(Arc::new(experiment.snapshot())));
+    app.update(AppEvent::Snapshot(Arc::new(start.expect("an experiment"))));
     app
 }
 
@@ -242,7 +246,7 @@ fn answered(app: &mut App) -> (String, bool, Vec<Effect>) {
     let (ticket, title, text) = found.expect("a text to be checked");
     let name = app.lab.as_ref().unwrap().loaded.name.clone();
     let ready = Prepared::of(&Document::new(title.as_str(), text.as_str()));
-    let outcome = ready.map(|ready| Loaded::of(name, 2, ready).0).map_err(|why| why.diagnostics);
+    let outcome = ready.map(|ready| Loaded::of(name, ready, |_| 2)).map_err(|why| why.diagnostics);
     let (took, is_right) = (Some(Duration::from_millis(3)), outcome.is_ok());
     let effects = app.update(AppEvent::Checked(Box::new(CheckedText { ticket, outcome, took })));
     (text, is_right, effects)

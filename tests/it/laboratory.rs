@@ -16,13 +16,16 @@ pub(crate) fn prepared(text: &str) -> Prepared {
 
 /// The lab with a system whose motion it has not seen yet, and the motion.
 pub(crate) fn open(ready: Prepared) -> (App, Experiment) {
-    let (loaded, mut experiment) = Loaded::of("test".to_owned(), 1, ready);
-    experiment.set_epoch(1);
+    let mut begun = None;
+    let loaded = Loaded::of("test".to_owned(), ready, |experiment| {
+        begun.insert(experiment).set_epoch(1);
+        1
+    });
     let (mut app, _) = App::new(catalog(), Some("test"));
     app.jobs.in_background = true;
     let effects = app.update(AppEvent::Loaded(Ok(loaded)));
     finish(&mut app, effects);
-    (app, experiment)
+    (app, begun.expect("an experiment"))
 }
 
 /// Does all jobs that are asked for, and those that follow; the other effects are returned.

@@ -25,7 +25,7 @@ fn checked(app: &App, effect: &Effect) -> AppEvent {
     assert!(app.awaits(*ticket));
     let name = app.lab.as_ref().unwrap().loaded.name.clone();
     let ready = Prepared::of(&Document::new(title.as_str(), text.as_str()));
-    let outcome = ready.map(|ready| Loaded::of(name, 2, ready).0).map_err(|why| why.diagnostics);
+    let outcome = ready.map(|ready| Loaded::of(name, ready, |_| 2)).map_err(|why| why.diagnostics);
     let took = Some(Duration::from_millis(7));
     AppEvent::Checked(Box::new(CheckedText { ticket: *ticket, outcome, took }))
 }
@@ -285,7 +285,7 @@ fn a_name_that_is_taken_is_asked_for_again() {
 fn own_file() -> App {
     let text = &catalog().find("pendulum").unwrap().text;
     let ready = Prepared::of(&Document::new("./my.toml", text.as_str())).unwrap();
-    showing(Loaded::of("./my.toml".to_owned(), 1, ready).0, 2.0)
+    showing(Loaded::of("./my.toml".to_owned(), ready, |_| 1), 2.0)
 }
 
 fn file(text: &str) -> AppEvent {
