@@ -7,17 +7,25 @@ use ratatui::symbols::pixel::QUADRANTS;
 /// The dots of each quarter of a cell, as braille has them, in the order of [`QUADRANTS`].
 const QUARTERS: [u8; 4] = [0x03, 0x18, 0x44, 0xa0];
 
-/// The blocks of whole rows of dots: the last of the four, the last three, and the first, for which there is one of half its height.
-const ROWS: [(u8, char); 3] = [(0xc0, '▂'), (0xf6, '▆'), (0x09, '▔')];
+/// The blocks of whole rows of dots: the lower and the upper half, the last of the four rows, the last three, and the first, for
+/// which there is one of half its height.
+const ROWS: [(u8, char); 5] = [(0xe4, '▄'), (0x1b, '▀'), (0xc0, '▂'), (0xf6, '▆'), (0x09, '▔')];
 
-/// The block that differs from these dots by the fewest of them; `None` if that is the whole cell.
+/// The dots of the left half of a cell.
+const LEFT: u8 = 0x47;
+
+/// The block that differs from these dots by the fewest of them; `None` if that is the whole cell. Of those that differ by as many, a
+/// whole row comes first where both halves of the cell have dots: a flat edge is not notched.
 pub(super) fn nearest(dots: u8) -> Option<char> {
     let quadrants = (1..15).map(|set: usize| {
         let filled = (0..4).filter(|k| set >> k & 1 == 1).fold(0, |dots, k| dots | QUARTERS[k]);
         (filled, QUADRANTS[set])
     });
     let apart = |filled: u8| (filled ^ dots).count_ones();
-    let (filled, block) = quadrants.chain(ROWS).min_by_key(|(filled, _)| apart(*filled))?;
+    let is_wide = dots & LEFT != 0 && dots & !LEFT != 0;
+    let first = ROWS.into_iter().filter(|_| is_wide);
+    let (filled, block) =
+        first.chain(quadrants).chain(ROWS).min_by_key(|(filled, _)| apart(*filled))?;
     (apart(filled) < apart(u8::MAX)).then_some(block)
 }
 
@@ -33,5 +41,20 @@ mod tests {
         assert_eq!([0x47, 0xb8, 0x03, 0xe7].map(nearest), ['▌', '▐', '▘', '▙'].map(Some));
         // of a quarter one dot is enough, and of the whole cell one may be missing
         assert_eq!([0x01, 0x80, 0x7f, 0xf7].map(nearest), [Some('▘'), Some('▗'), None, None]);
+    }
+
+    /// Each of these columns of cells is as high as the dots in it, or higher: ▂▗▄ would have a notch.
+    #[test]
+    fn a_flat_edge_has_no_notches() {
+        let low = [0x40, 0x44, 0x46, 0x47];
+        let right = [0x80, 0xa0, 0xb0, 0xb8];
+        let of = |[left, on]: [usize; 2]| nearest(low[left - 1] | right[on - 1]);
+        let rising = [[1, 1], [1, 2], [2, 2], [2, 3], [3, 3], [3, 4]].map(of);
+        assert_eq!(rising, ['▂', '▄', '▄', '▄', '▆', ' '].map(|c| (c != ' ').then_some(c)));
+        let falling = [[3, 2], [2, 1], [1, 1]].map(of);
+        assert_eq!(falling, ['▄', '▄', '▂'].map(Some));
+        // the upper edge of what hangs down, and a steep one
+        assert_eq!([nearest(0x0b), nearest(0x19)], [Some('▀'), Some('▀')]);
+        assert_eq!([of([1, 4]), of([2, 4])], ['▐', '▟'].map(Some));
     }
 }

@@ -17,10 +17,6 @@ use crate::view::theme::{Theme, Tones};
 /// crosses the edge of a surface it yields to the block from this many on: a background would square the edge.
 const HALF: usize = 2;
 
-/// Where lines are the edges of a surface, a cell they cross has its background if it covers this many quarters: outside
-/// of them there should be none of it.
-const MOST: usize = 3;
-
 /// The same by the dots of braille.
 const HALF_OF_DOTS: u32 = 4;
 
@@ -46,8 +42,8 @@ pub(super) struct Shading {
     cells: Vec<[Quarter; 4]>,
     /// The covered dots of each cell, as braille has them; `None` where edges are blocks.
     braille: Option<Vec<u8>>,
-    /// The tones of each surface, and whether lines are its edges.
-    tones: Vec<(Tones, bool)>,
+    /// The tones of each surface.
+    tones: Vec<Tones>,
 }
 
 impl Shading {
@@ -69,9 +65,9 @@ impl Shading {
         self.dots.map(|dots| (dots as f64 / 2.0).max(1.0))
     }
 
-    /// Adds the tones of a surface, and whether lines are its edges; returns their number.
-    pub(super) fn add(&mut self, tones: Tones, lined: bool) -> usize {
-        self.tones.push((tones, lined));
+    /// Adds the tones of a surface; returns their number.
+    pub(super) fn add(&mut self, tones: Tones) -> usize {
+        self.tones.push(tones);
         self.tones.len() - 1
     }
 
@@ -144,16 +140,13 @@ impl Shading {
             let Some(cell) = buffer.cell_mut(at) else { continue };
             let colours = self.colours(quarters);
             let written = is_written(at.into());
-            let lined = |k: usize| self.tones[usize::from(quarters[k].tones)].1;
-            let lined = (0..4).filter(|&k| quarters[k].count > 0).all(lined);
-            if !written && self.draw_edge(index, cell, lined) {
+            if !written && self.draw_edge(index, cell) {
                 continue;
             }
             let covered = colours.iter().flatten().count();
-            let is_edge = !lined && (HALF..4).contains(&covered) && is_of_dots(cell.symbol());
+            let is_edge = (HALF..4).contains(&covered) && is_of_dots(cell.symbol());
             if written || cell.symbol() != " " && !is_edge {
-                let least = if lined { MOST } else { HALF };
-                if let Some(background) = most(&colours, None).filter(|_| covered >= least) {
+                if let Some(background) = most(&colours, None).filter(|_| covered >= HALF) {
                     let style = theme.legible(cell.style(), background);
                     cell.set_style(style.bg(background));
                 }
@@ -175,36 +168,20 @@ impl Shading {
         }
     }
 
-    /// Draws what surfaces cover of a cell that they cover in part: as a block, or as dots with those of a line that is their edge;
-    /// returns whether it did. Other lines yield to a surface that covers half of their cell, and marks stay.
-    fn draw_edge(&self, index: usize, cell: &mut Cell, lined: bool) -> bool {
+    /// Draws what surfaces cover of a cell that they cover in part as a block; returns whether the cell is done. Lines yield to a
+    /// surface that covers half of their cell, and marks stay.
+    fn draw_edge(&self, index: usize, cell: &mut Cell) -> bool {
         let Some(covered) = self.braille.as_ref().map(|dots| dots[index]) else { return false };
-        let quarters = &self.cells[index];
-        let symbol = cell.symbol().chars().next().unwrap_or(' ');
-        let blank = symbol == ' ';
-        let is_braille = matches!(symbol, '\u{2800}'..='\u{28ff}');
-        let block = edge_block::nearest(covered);
-        let is_whole = if lined { self.is_whole(quarters) } else { block.is_none() };
-        if is_whole || !blank && !is_braille {
-            return false;
+        let Some(block) = edge_block::nearest(covered) else { return false };
+        let is_braille = cell.symbol().chars().all(|c| matches!(c, '\u{2800}'..='\u{28ff}'));
+        match cell.symbol() {
+            " " => {}
+            _ if !is_braille => return false,
+            _ if covered.count_ones() < HALF_OF_DOTS => return true,
+            _ => {}
         }
-        let line = if blank { 0 } else { (u32::from(symbol) & 0xff) as u8 };
-        let yields = covered.count_ones() >= HALF_OF_DOTS;
-        if !blank && !lined && !yields {
-            return true;
-        }
-        if let Some(block) = block.filter(|_| !lined) {
-            let tone = self.tone(whole(quarters)).unwrap_or_default();
-            cell.set_char(block).set_style(Style::reset().fg(tone));
-            return true;
-        }
-        cell.set_char(char::from_u32(0x2800 + u32::from(covered | line)).unwrap_or(symbol));
-        let tones = quarters.iter().find(|quarter| quarter.count > 0).map(|quarter| quarter.tones);
-        let tones = tones.and_then(|tones| self.tones.get(usize::from(tones)));
-        // dots are sparser than a background, and brighter than it where they are as bright to the eye
-        if let Some(tone) = tones.and_then(|(tones, _)| tones.last()).filter(|_| blank) {
-            cell.set_style(Style::reset().fg(*tone));
-        }
+        let tone = self.tone(whole(&self.cells[index])).unwrap_or_default();
+        cell.set_char(block).set_style(Style::reset().fg(tone));
         true
     }
 
@@ -225,13 +202,13 @@ impl Shading {
 
     /// The colour of something with this light.
     fn tone(&self, quarter: Quarter) -> Option<Color> {
-        let (tones, _) = self.tones.get(usize::from(quarter.tones))?;
+        let tones = self.tones.get(usize::from(quarter.tones))?;
         tones.get(self.step(quarter)).copied()
     }
 
     /// The number of the tone of something with this light, or of the darkest where there is none.
     fn step(&self, quarter: Quarter) -> usize {
-        let Some((tones, _)) = self.tones.get(usize::from(quarter.tones)) else { return 0 };
+        let Some(tones) = self.tones.get(usize::from(quarter.tones)) else { return 0 };
         let (last, light) = (tones.len() - 1, quarter.light / f32::from(quarter.count.max(1)));
         ((light * last as f32).round() as usize).min(last)
     }
@@ -291,7 +268,7 @@ mod tests {
     fn row(whole: u16, half: u16, glyphs: Glyphs) -> Shading {
         let area = Rect::new(0, 0, whole + half, 1);
         let mut shading = Shading::new(area, glyphs);
-        let tones = shading.add([Color::Blue; 10], false);
+        let tones = shading.add([Color::Blue; 10]);
         for cell in 0..whole + half {
             for dot in 0..8 {
                 let (x, y) = (dot % 2, dot / 2);

@@ -105,7 +105,8 @@ impl ScenePainter<'_> {
             let solids = surfaces.flat_map(|surface| surface.occluders(|r| self.spacing(r)));
             let solids: Vec<_> =
                 solids.map(|solid| solid.moved(|point| projection.of(point))).collect();
-            let style = PieceStyle::seen(piece.extents, solid::least_width(&solids), column);
+            let width = || solid::least_width(&solids);
+            let style = PieceStyle::seen(piece.extents, width, column, self.q.style.glyphs);
             let is_thin = style == PieceStyle::Dots && !self.q.style.glyphs.is_ascii();
             let is_mass = !see_through && (is_thin || self.is_mass(piece.extents));
             let pen = if is_thin { self.dots(&pen) } else { pen };
@@ -124,7 +125,7 @@ impl ScenePainter<'_> {
                 let tones =
                     style.theme.tones(surface.pen.style).filter(|_| !style.glyphs.is_ascii());
                 let tones = tones.filter(|_| surface.style != PieceStyle::Dots)?;
-                Some(self.shading.add(*tones, surface.style == PieceStyle::Sheet))
+                Some(self.shading.add(*tones))
             })
             .collect();
         // What is thin leaves its dots, and the tones behind it, on the screen.
@@ -214,8 +215,8 @@ impl ScenePainter<'_> {
         let place = |line: &&[[f64; 3]]| {
             Occluder::Face(line.iter().map(|point| projection.of(*point)).collect())
         };
-        let width = solid::least_width(&lines.iter().map(place).collect::<Vec<_>>());
-        match PieceStyle::seen(extents, width, self.column()) {
+        let width = || solid::least_width(&lines.iter().map(place).collect::<Vec<_>>());
+        match PieceStyle::seen(extents, width, self.column(), self.q.style.glyphs) {
             PieceStyle::Dots => {
                 let theme = &self.q.style.theme;
                 let is_text = pen.style == theme[Role::Text];
@@ -228,7 +229,7 @@ impl ScenePainter<'_> {
                 draw(self, pen);
                 std::mem::swap(&mut self.raster, &mut self.edges);
             }
-            PieceStyle::Sheet | PieceStyle::Solid => draw(self, pen),
+            PieceStyle::Solid => draw(self, pen),
         }
     }
 
@@ -236,7 +237,7 @@ impl ScenePainter<'_> {
     /// beside a disc.
     pub(super) fn is_ball(&self, radius: f64) -> bool {
         let is_disc = |shape: &Shape| matches!(shape, Shape::Disc { .. });
-        let is_thick = PieceStyle::of([2.0 * radius; 2], self.column()) == PieceStyle::Solid;
+        let is_thick = PieceStyle::of(2.0 * radius, self.column()) == PieceStyle::Solid;
         let beside_disc =
             || is_thick && self.q.lab.shapes(self.eye).any(|(shape, _)| is_disc(shape));
         self.cells(radius).is_some() && (self.range.is_some() || beside_disc())
@@ -245,7 +246,7 @@ impl ScenePainter<'_> {
     /// Draws the outline of a sphere where it has no tones of its own: all of it if it is small, and otherwise what is seen through
     /// another sphere.
     pub(super) fn limb(&mut self, centre: [f64; 3], radius: f64, pen: &Pen) {
-        let is_small = PieceStyle::of([2.0 * radius; 2], self.column()) != PieceStyle::Solid;
+        let is_small = PieceStyle::of(2.0 * radius, self.column()) != PieceStyle::Solid;
         let is_dotted = is_small || self.range.is_none() || !self.shading.is_on();
         let towards = self.camera.towards();
         let out = radius * (1.0 - INSIDE * INSIDE).sqrt();
