@@ -40,6 +40,7 @@ mod batch_split_step;
 mod batch_states;
 mod batch_steps;
 mod batch_terms;
+mod batch_values;
 mod branch;
 mod channel;
 mod compilation;

@@ -81,8 +81,8 @@ impl Landscape {
         let grid = Grid { x: (GRID[0], window[0]), y: (GRID[1], window[1]), values: &values };
         Some(Self {
             window,
-            levels: levels(&values)?.into_iter().map(|e| grid.curves(e)).collect(),
-            separatrices: tops.into_iter().flat_map(|e| grid.curves(e)).collect(),
+            levels: grid.curves_of_all(&levels(&values)?),
+            separatrices: grid.curves_of_all(&tops).into_iter().flatten().collect(),
             saddles: saddles.into_iter().map(|s| s.at).collect(),
         })
     }

@@ -123,7 +123,7 @@ impl<const N: usize> Batch<N> {
     }
 
     fn each(self, f: impl Fn(f64) -> f64) -> Batch<N> {
-        Batch(self.0.map(f))
+        lanes!(i => f(self.0[i]))
     }
 
     fn with(self, other: Batch<N>, f: impl Fn(f64, f64) -> f64) -> Batch<N> {
@@ -131,8 +131,11 @@ impl<const N: usize> Batch<N> {
     }
 
     fn pairs(self, f: impl Fn(f64) -> (f64, f64)) -> (Batch<N>, Batch<N>) {
-        let pairs = self.0.map(f);
-        (Batch(pairs.map(|pair| pair.0)), Batch(pairs.map(|pair| pair.1)))
+        let (mut first, mut second) = ([0.0; N], [0.0; N]);
+        for lane in 0..N {
+            (first[lane], second[lane]) = f(self.0[lane]);
+        }
+        (Batch(first), Batch(second))
     }
 }
 

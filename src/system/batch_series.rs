@@ -294,11 +294,14 @@ impl Kernel for States<'_> {
         let States { series, after, moving, out } = self;
         let mask = mask_of(*moving);
         let mut x = BatchDouble::ZERO;
+        // mostly times are numbers of one part
+        let mut lows = 0.0;
         for lane in 0..BATCH {
             // a power of two
             let inverse = series.scale.0[lane].recip();
             (x.high.0[lane], x.low.0[lane]) =
                 (after[lane].high * inverse, after[lane].low * inverse);
+            lows += x.low.0[lane].abs();
         }
         for i in 0..series.len() {
             let tail = tails(&series.builder.series(i)[1..], x.high);
@@ -306,7 +309,7 @@ impl Kernel for States<'_> {
             let (high, low) = plus_origin::<FUSED>(tail, x.high, origin);
             out.high[i] = mask.where_equal(1.0, high, out.high[i]);
             out.low[i] = mask.where_equal(1.0, low, out.low[i]);
-            if x.low == Batch::ZERO {
+            if lows == 0.0 {
                 continue;
             }
             for lane in (0..BATCH).filter(|&lane| moving[lane] && x.low.0[lane] != 0.0) {

@@ -6,31 +6,24 @@
 
 use std::sync::Arc;
 
+use super::batch_values::BatchValues;
 use super::compiled::System;
-use super::operation::value_of;
-use super::program::{Op, Program};
 use super::state::Form;
 use super::term_watch::TermSums;
 use super::terms::{AtRest, OutputPlace};
-use super::value::Evaluator;
 use crate::num::{Analytic, BATCH, Batch, Kernel, vectorized};
 
 /// Evaluates the terms of several orbits.
 #[derive(Clone, Debug)]
 pub struct BatchTerms {
     system: System,
-    program: Arc<Program>,
+    values: BatchValues,
     places: Arc<[Option<OutputPlace>]>,
-    registers: Vec<Batch>,
-    /// What depends on the parameters of one lane alone is computed here.
-    single: Evaluator<f64>,
     /// The number of a state that each input of the program is, if any.
     numbers: Vec<Option<usize>>,
     /// The number of a state that is the work done, if states carry it, and its values.
     work_place: Option<usize>,
     work: Batch,
-    /// Whether no number of a lane leaves the range of `f64` unseen.
-    ordinary: [bool; BATCH],
 }
 
 impl System {
@@ -40,30 +33,20 @@ impl System {
         let terms = &self.shared.terms;
         let native = form == self.form();
         let program = if native { &terms.native } else { terms.canonical.as_ref()? };
-        let alone = |&r: &u32| {
-            let op = program.ops[r as usize];
-            matches!(op, Op::Solve(_) | Op::Select { .. } | Op::ParametricPower(..))
-        };
-        if program.body.iter().any(alone) || self.has_branches() {
+        if self.has_branches() {
             return None;
         }
+        let values = BatchValues::new(program)?;
         let [carries_action, _] = self.carries();
         let action = carries_action.then_some(self.driven_len());
         let numbers = (0..self.motion_len()).map(Some).chain([action]).collect();
-        let registers = vec![Batch::ZERO; program.ops.len()];
-        let single = Evaluator::new(Arc::clone(program));
-        let program = Arc::clone(program);
-        let places = Arc::clone(&terms.places);
         Some(BatchTerms {
             system: self.clone(),
-            program,
-            places,
-            registers,
-            single,
+            values,
+            places: Arc::clone(&terms.places),
             numbers,
             work_place: self.work_place(),
             work: Batch::ZERO,
-            ordinary: [false; BATCH],
         })
     }
 }
@@ -71,20 +54,14 @@ impl System {
 impl BatchTerms {
     /// Sets the parameters of a lane.
     pub fn set_parameters(&mut self, lane: usize, parameters: &[f64]) {
-        self.single.set_parameters(&self.system.inputs(parameters));
-        self.ordinary[lane] = self.single.is_ordinary();
-        for &r in &self.program.prologue {
-            self.registers[r as usize].0[lane] = self.single.register(r);
-        }
+        self.values.set_parameters(lane, &self.system.inputs(parameters));
     }
 
     /// Evaluates the states that have these numbers at these times, one in each lane.
     pub fn evaluate_numbers(&mut self, times: Batch, numbers: &[Batch]) {
-        for (&r, place) in self.program.inputs.iter().zip(&self.numbers) {
-            self.registers[r as usize] = place.map_or(Batch::ZERO, |place| numbers[place]);
-        }
+        let input = |place: &Option<usize>| place.map_or(Batch::ZERO, |place| numbers[place]);
+        self.values.evaluate(times, self.numbers.iter().map(input));
         self.work = self.work_place.map_or(Batch::ZERO, |place| numbers[place]);
-        vectorized(TermsKernel { terms: self, time: times });
     }
 
     /// Whether the terms of the first lanes need not be evaluated alone.
@@ -94,12 +71,7 @@ impl BatchTerms {
 
     /// The lanes whose terms need not be evaluated alone.
     pub fn regular_lanes(&self) -> [bool; BATCH] {
-        let mut finite = Batch::ZERO;
-        for &r in &self.program.outputs {
-            // zero times anything that is not finite is NaN
-            finite = finite + self.registers[r as usize] * 0.0;
-        }
-        std::array::from_fn(|lane| self.ordinary[lane] && finite.0[lane] == 0.0)
+        self.values.regular_lanes()
     }
 
     /// Whether a quantity (0 for the energy, then the conserved quantities in order) can be evaluated.
@@ -124,34 +96,6 @@ impl BatchTerms {
     }
 }
 
-struct TermsKernel<'a> {
-    terms: &'a mut BatchTerms,
-    time: Batch,
-}
-
-impl Kernel for TermsKernel<'_> {
-    type Output = ();
-    const OF_SEVERAL: bool = true;
-
-    #[inline(always)]
-    fn run<const FUSED: bool>(self) {
-        let BatchTerms { program, registers, .. } = self.terms;
-        for &r in &program.body {
-            let at = r as usize;
-            if let Op::Time = program.ops[at] {
-                registers[at] = self.time;
-            } else if let Some((value, companion)) =
-                value_of::<_, FUSED>(program, program.ops[at], |r| registers[r as usize])
-            {
-                registers[at] = value;
-                if let Some(companion) = companion {
-                    registers[at + 1] = companion;
-                }
-            }
-        }
-    }
-}
-
 struct SumsKernel<'a, W> {
     terms: &'a BatchTerms,
     quantity: usize,
@@ -172,8 +116,8 @@ impl<W: Fn(usize) -> Option<Batch>> Kernel for SumsKernel<'_, W> {
         let as_a_whole = place.is_some_and(|place| place.exchanges);
         let (mut all_beyond, mut changed_at_rest) = (Batch::ZERO, Batch::ZERO);
         let (first, rests) = place.map_or((0, &[][..]), |place| (place.first, &place.terms));
-        let mut outputs = terms.program.outputs.get(first..).unwrap_or_default().iter();
-        let mut next = || outputs.next().map(|&r| terms.registers[r as usize]);
+        let mut outputs = terms.values.outputs_from(first);
+        let mut next = || outputs.next();
         for (k, rest) in rests.iter().enumerate() {
             let Some(term) = next() else { break };
             let mut its_size = term.abs();

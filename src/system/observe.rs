@@ -1,11 +1,12 @@
 //! Evaluates the value of every channel at a state.
 
+use super::batch_values::BatchValues;
 use super::image::MapImage;
 use super::native_states::NativeStates;
 use super::value::Evaluator;
 use super::{Form, MotionError, State, System};
-use crate::num::{DoubleDouble, Real};
-use std::sync::Arc;
+use crate::num::{BATCH, Batch, DoubleDouble, Real};
+use std::sync::{Arc, OnceLock};
 
 /// Where a grid has this many points without an energy, no velocity is searched for far from the guess at the others: a
 /// search takes a hundred times as long as finding one.
@@ -18,6 +19,8 @@ pub struct Observer {
     precise: Evaluator<DoubleDouble>,
     drawn: Evaluator<f64>,
     energy: Evaluator<f64>,
+    /// The energies of several points at these parameters, once a grid was asked for; `None` where they are evaluated one by one.
+    energies: OnceLock<Option<BatchValues>>,
     native: NativeStates,
     inputs: Vec<DoubleDouble>,
     rounded: Vec<f64>,
@@ -33,6 +36,7 @@ impl Observer {
             precise: Evaluator::new(Arc::clone(&watch.precise)),
             drawn: Evaluator::new(Arc::clone(&watch.drawn)),
             energy: Evaluator::new(Arc::clone(&system.shared.energy)),
+            energies: OnceLock::new(),
             native: NativeStates::new(&system),
             inputs: vec![DoubleDouble::ZERO; inputs],
             rounded: vec![0.0; inputs],
@@ -49,6 +53,7 @@ impl Observer {
         self.precise.set_parameters(&inputs);
         self.drawn.set_parameters(&inputs);
         self.energy.set_parameters(&inputs);
+        self.energies = OnceLock::new();
         self.native.set_parameters(parameters, &inputs);
         for image in &mut self.images {
             image.set_parameters(&inputs);
@@ -126,26 +131,72 @@ impl Observer {
         rates: &[f64],
         out: &mut [f64],
     ) {
-        let mut empty = 0;
-        let linear: Option<Vec<_>> = self.is_linear(form).then(|| {
-            let exactly = |&x: &f64| (DoubleDouble::from(time), DoubleDouble::from(x));
-            positions.iter().map(|x| self.native.legendre.line(exactly(x))).collect()
+        let rows = out.chunks_exact_mut(positions.len().max(1)).zip(rates);
+        if form == self.system.form() {
+            for (row, &rate) in rows {
+                self.energies(time, positions, |_| rate, row);
+            }
+        } else if self.is_linear(form) {
+            let lines: Vec<(f64, f64)> = positions.iter().map(|&x| self.line(time, x)).collect();
+            for (row, &rate) in rows {
+                self.energies(time, positions, |i| (rate - lines[i].0) / lines[i].1, row);
+            }
+        } else {
+            let mut empty = 0;
+            for (row, &rate) in rows {
+                for (x, &position) in row.iter_mut().zip(positions) {
+                    let energy = self.energy_at(time, form, position, rate);
+                    empty += usize::from(energy.is_none());
+                    self.native.legendre.near_only = empty >= MOST_EMPTY;
+                    *x = energy.unwrap_or(f64::NAN);
+                }
+            }
+            self.native.legendre.near_only = false;
+        }
+    }
+
+    /// The other rate at a position where the native one is zero, and its slope; NaN where nothing follows from them.
+    fn line(&mut self, time: f64, position: f64) -> (f64, f64) {
+        let at = (DoubleDouble::from(time), DoubleDouble::from(position));
+        let line = self.native.legendre.line(at);
+        line.map_or((f64::NAN, f64::NAN), |(at_rest, slope)| (at_rest.high, slope.high))
+    }
+
+    /// Writes the energies at positions with native rates into `out`, several at once; NaN where there is none.
+    fn energies(
+        &mut self,
+        time: f64,
+        positions: &[f64],
+        rate: impl Fn(usize) -> f64,
+        out: &mut [f64],
+    ) {
+        self.energies.get_or_init(|| {
+            let mut energies = BatchValues::new(&self.system.shared.energy)?;
+            energies.set_parameters_of_all(&self.system.inputs(self.native.parameters()));
+            Some(energies)
         });
-        for (row, &rate) in out.chunks_exact_mut(positions.len().max(1)).zip(rates) {
-            for (i, (x, &position)) in row.iter_mut().zip(positions).enumerate() {
-                let energy = match &linear {
-                    Some(lines) => lines[i].and_then(|(at_rest, slope)| {
-                        let velocity = (DoubleDouble::from(rate) - at_rest) / slope;
-                        self.native_energy_at(time, position, velocity.high)
-                    }),
-                    None => self.energy_at(time, form, position, rate),
-                };
-                empty += usize::from(energy.is_none());
-                self.native.legendre.near_only = empty >= MOST_EMPTY;
-                *x = energy.unwrap_or(f64::NAN);
+        for (chunk, out) in out.chunks_mut(BATCH).enumerate() {
+            let (first, last) = (BATCH * chunk, BATCH * chunk + out.len() - 1);
+            let (mut q, mut v) = (Batch([0.0; BATCH]), Batch([0.0; BATCH]));
+            for lane in 0..BATCH {
+                // lanes beyond the end of the row repeat its last point
+                let place = (first + lane).min(last);
+                (q.0[lane], v.0[lane]) = (positions[place], rate(place));
+            }
+            let mut regular = [false; BATCH];
+            if let Some(Some(energies)) = self.energies.get_mut() {
+                energies.evaluate(Batch::splat(time), [q, v].into_iter());
+                regular = energies.regular_lanes();
+                if let Some(found) = energies.outputs_from(0).next() {
+                    out.copy_from_slice(&found.0[..out.len()]);
+                }
+            }
+            for (lane, out) in out.iter_mut().enumerate().filter(|(lane, _)| !regular[*lane]) {
+                let known = !v.0[lane].is_nan();
+                let energy = known.then(|| self.native_energy_at(time, q.0[lane], v.0[lane]));
+                *out = energy.flatten().unwrap_or(f64::NAN);
             }
         }
-        self.native.legendre.near_only = false;
     }
 
     fn energy_at(&mut self, time: f64, form: Form, position: f64, rate: f64) -> Option<f64> {

@@ -98,6 +98,11 @@ impl Series {
         self.code.has_grown()
     }
 
+    /// Says how many series are expected to follow the next one: many are worth machine code at once.
+    pub fn expect(&mut self, count: f64) {
+        self.code.expect(count);
+    }
+
     /// The length of a state.
     #[expect(clippy::len_without_is_empty, reason = "a state is never empty")]
     pub fn len(&self) -> usize {

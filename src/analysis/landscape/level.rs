@@ -22,54 +22,52 @@ pub struct Grid<'a> {
 /// A side of a grid cell: the point it starts at, and whether it is vertical.
 type CellSide = (usize, usize, bool);
 
+/// A segment of a curve inside a cell: the two sides that it crosses.
+type Segment = (CellSide, CellSide);
+
 impl Grid<'_> {
     /// Returns the curves on which the values are `level`. Closed ones end where they begin.
     pub fn curves(&self, level: f64) -> Vec<Vec<[f64; 2]>> {
-        join(&self.segments(level), self.x.0)
-            .into_iter()
-            .map(|sides| sides.into_iter().map(|side| self.crossing(side, level)).collect())
-            .collect()
+        self.curves_of_all(&[level]).pop().unwrap_or_default()
     }
 
-    /// The segments of the curve inside each grid cell, as pairs of crossed sides.
-    fn segments(&self, level: f64) -> Vec<(CellSide, CellSide)> {
-        let mut segments = Vec::new();
-        let highs = |row: &[f64]| row.iter().map(|v| u8::from(*v >= level)).collect::<Vec<u8>>();
+    /// The same for several levels at once, from the lowest to the highest.
+    pub fn curves_of_all(&self, levels: &[f64]) -> Vec<Vec<Vec<[f64; 2]>>> {
+        debug_assert!(levels.is_sorted(), "the ranks of values count the levels below them");
+        let mut table = SegmentTable::of(self.x.0, self.y.0);
+        let curve = |level: f64, sides: Vec<CellSide>| {
+            sides.into_iter().map(|side| self.crossing(side, level)).collect()
+        };
+        let segments = self.segments(levels);
+        let of_level = |(&level, segments): (&f64, Vec<Segment>)| {
+            table.join(&segments).into_iter().map(|sides| curve(level, sides)).collect()
+        };
+        levels.iter().zip(segments).map(of_level).collect()
+    }
+
+    /// The segments of the curves of each level inside each grid cell.
+    fn segments(&self, levels: &[f64]) -> Vec<Vec<Segment>> {
+        let mut segments = vec![Vec::new(); levels.len()];
         let mut above = self.row(0);
-        let mut highs_above = highs(&above);
+        let mut ranks_above = ranks(&above, levels);
         for row in 1..self.y.0 {
-            let (j, below, highs_below) = (row - 1, above, highs_above);
+            let (j, below, ranks_below) = (row - 1, above, ranks_above);
             above = self.row(row);
-            highs_above = highs(&above);
-            let pairs = highs_below.windows(2).zip(highs_above.windows(2));
-            for (i, (a, b)) in pairs.enumerate() {
-                // most cells are on one side
-                let count = a[0] + a[1] + b[0] + b[1];
-                if count == 0 || count == 4 {
+            ranks_above = ranks(&above, levels);
+            for i in 0..self.x.0.saturating_sub(1) {
+                let (a, b) = (ranks_below[i], ranks_below[i + 1]);
+                let (c, d) = (ranks_above[i], ranks_above[i + 1]);
+                // most cells are between two levels
+                if a == b && b == c && c == d {
                     continue;
                 }
+                let (least, most) = (a.min(b).min(c).min(d), a.max(b).max(c).max(d));
                 let corners = [below[i], below[i + 1], above[i + 1], above[i]];
                 if !corners.iter().all(|v| v.is_finite()) {
                     continue;
                 }
-                let high = corners.map(|v| v >= level);
-                // Below, right, above, left: the sides between one corner and the next.
-                let sides = [(i, j, false), (i + 1, j, true), (i, j + 1, false), (i, j, true)];
-                let crossed: Vec<CellSide> =
-                    (0..4).filter(|&k| high[k] != high[(k + 1) % 4]).map(|k| sides[k]).collect();
-                match crossed[..] {
-                    [a, b] => segments.push((a, b)),
-                    [below, right, above, left] => {
-                        let mean: f64 = corners.iter().map(|v| v / 4.0).sum();
-                        let joined = (mean >= level) == high[0];
-                        let pairs = if joined {
-                            [(below, right), (above, left)]
-                        } else {
-                            [(left, below), (right, above)]
-                        };
-                        segments.extend(pairs);
-                    }
-                    _ => {}
+                for k in least as usize..most as usize {
+                    add_segments((i, j), corners, levels[k], &mut segments[k]);
                 }
             }
         }
@@ -104,39 +102,98 @@ impl Grid<'_> {
     }
 }
 
+/// How many of the levels each value reaches. One that is undefined reaches none.
+fn ranks(values: &[f64], levels: &[f64]) -> Vec<u32> {
+    let mut ranks = vec![0; values.len()];
+    for level in levels {
+        for (rank, value) in ranks.iter_mut().zip(values) {
+            *rank += u32::from(value >= level);
+        }
+    }
+    ranks
+}
+
+/// Adds the segments inside a cell, given by its lower left point and by the values at its corners, counterclockwise from there.
+fn add_segments(
+    (i, j): (usize, usize),
+    corners: [f64; 4],
+    level: f64,
+    segments: &mut Vec<Segment>,
+) {
+    let [a, b, c, d] = corners;
+    let high = [a >= level, b >= level, c >= level, d >= level];
+    // below, right, above, left: the sides between one corner and the next
+    let sides = [(i, j, false), (i + 1, j, true), (i, j + 1, false), (i, j, true)];
+    let mut crossed = (0..4).filter(|&k| high[k] != high[(k + 1) % 4]).map(|k| sides[k]);
+    let (Some(first), Some(second)) = (crossed.next(), crossed.next()) else { return };
+    if crossed.next().is_none() {
+        segments.push((first, second));
+        return;
+    }
+    let [below, right, above, left] = sides;
+    let mean: f64 = corners.iter().map(|v| v / 4.0).sum();
+    let joined = (mean >= level) == high[0];
+    let pairs =
+        if joined { [(below, right), (above, left)] } else { [(left, below), (right, above)] };
+    segments.extend(pairs);
+}
+
 /// No segment.
 const NONE: u32 = u32::MAX;
 
-/// Joins segments on a grid of so many columns into curves: open ones first, from one end to the other, then the closed ones.
-fn join(segments: &[(CellSide, CellSide)], columns: usize) -> Vec<Vec<CellSide>> {
-    let place = |&(i, j, vertical): &CellSide| 2 * (j * columns + i) + usize::from(vertical);
-    let sides = || segments.iter().flat_map(|(a, b)| [a, b]);
-    // a side belongs to two cells, and has one segment in each
-    let count = sides().map(place).max().map_or(0, |last| last + 1);
-    let mut at = vec![[NONE; 2]; count];
-    for (index, side) in sides().enumerate() {
-        let own = &mut at[place(side)];
-        own[usize::from(own[0] != NONE)] = (index / 2) as u32;
+/// The segments at each side of a grid: a side belongs to two cells, and has at most one segment in each.
+struct SegmentTable {
+    columns: usize,
+    at: Vec<[u32; 2]>,
+}
+
+impl SegmentTable {
+    /// An empty table of a grid of so many columns and rows.
+    fn of(columns: usize, rows: usize) -> SegmentTable {
+        SegmentTable { columns, at: vec![[NONE; 2]; 2 * columns * rows] }
     }
-    let mut used = vec![false; segments.len()];
-    let mut curves = Vec::new();
-    let ends = sides().copied().filter(|side| at[place(side)][1] == NONE);
-    let all = segments.iter().map(|(a, _)| *a);
-    for start in ends.chain(all) {
-        let mut curve = vec![start];
-        let mut here = start;
-        while let Some(next) =
-            at[place(&here)].into_iter().find(|&index| index != NONE && !used[index as usize])
-        {
-            let next = next as usize;
-            used[next] = true;
-            let (a, b) = segments[next];
-            here = if a == here { b } else { a };
-            curve.push(here);
-        }
-        if curve.len() > 1 {
-            curves.push(curve);
-        }
+
+    fn place(&self, (i, j, vertical): CellSide) -> usize {
+        2 * (j * self.columns + i) + usize::from(vertical)
     }
-    curves
+
+    /// Joins segments into curves: open ones first, from one end to the other, then the closed ones. The table is empty before
+    /// and after it.
+    fn join(&mut self, segments: &[Segment]) -> Vec<Vec<CellSide>> {
+        let sides = || segments.iter().flat_map(|(a, b)| [*a, *b]);
+        for (index, side) in sides().enumerate() {
+            let place = self.place(side);
+            let own = &mut self.at[place];
+            own[usize::from(own[0] != NONE)] = (index / 2) as u32;
+        }
+        let mut used = vec![false; segments.len()];
+        let mut curves = Vec::new();
+        let ends = sides().filter(|&side| self.at[self.place(side)][1] == NONE);
+        let all = segments.iter().map(|(a, _)| *a);
+        for start in ends.chain(all) {
+            let mut curve = vec![start];
+            let mut here = start;
+            loop {
+                let [first, second] = self.at[self.place(here)];
+                let is_left = |index: u32| index != NONE && !used[index as usize];
+                let next = match (is_left(first), is_left(second)) {
+                    (true, _) => first as usize,
+                    (false, true) => second as usize,
+                    (false, false) => break,
+                };
+                used[next] = true;
+                let (a, b) = segments[next];
+                here = if a == here { b } else { a };
+                curve.push(here);
+            }
+            if curve.len() > 1 {
+                curves.push(curve);
+            }
+        }
+        for side in sides() {
+            let place = self.place(side);
+            self.at[place] = [NONE; 2];
+        }
+        curves
+    }
 }

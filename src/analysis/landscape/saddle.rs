@@ -51,11 +51,15 @@ fn is_saddle(values: &[f64], count: usize, i: usize, j: usize) -> bool {
     const RING: [(isize, isize); 8] =
         [(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1)];
     let here = values[j * count + i];
-    let around = RING.map(|(di, dj)| {
-        values[j.saturating_add_signed(dj) * count + i.saturating_add_signed(di)] - here
-    });
-    let changes = (0..8).filter(|&k| (around[k] > 0.0) != (around[(k + 1) % 8] > 0.0)).count();
-    around.iter().all(|v| v.is_finite()) && changes >= 4
+    let at = |(di, dj): (isize, isize)| {
+        values[j.saturating_add_signed(dj) * count + i.saturating_add_signed(di)]
+    };
+    let mut above = 0_u8;
+    for (k, &place) in RING.iter().enumerate() {
+        above |= u8::from(at(place) > here) << k;
+    }
+    let changes = (above ^ above.rotate_left(1)).count_ones();
+    changes >= 4 && RING.iter().all(|&place| (at(place) - here).is_finite())
 }
 
 /// Newton's method on a quadratic through nine points that converge. Returns `None` if it leads

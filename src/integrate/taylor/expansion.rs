@@ -10,9 +10,10 @@ use crate::system::{MotionError, MotionErrorKind};
 pub(super) const NEARBY_UNITS: (f64, f64) = (1e-4, 1e3);
 
 impl Taylor {
-    /// Points the series in the direction of `left`, the time to go.
+    /// Points the series in the direction of `left`, the time to go in steps of about the unit of the series.
     pub(super) fn aim(&mut self, left: f64) {
         self.series.set_scale(self.history.unit.next(self.series.scale(), left));
+        self.series.expect(left / self.series.scale());
     }
 
     /// Builds the series at the current state in a unit of time near the step it allows, and

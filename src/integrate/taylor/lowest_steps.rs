@@ -160,12 +160,14 @@ fn of_half<'a, L: FourLanes>(
         power[lane] = powers[order + 1 - LAST + of_place[lane]][lane];
     }
     let (own, by_four) = (&motion.factors, factors.as_chunks_mut::<LANES>().0);
-    let [a, b, c, d] = of_place.map(|place| &own[place][..]);
+    // one by one, since what is given to a map of an array is not always inlined
+    let [a, b, c, d] = of_place;
+    let (a, b, c, d) = (&own[a][..], &own[b][..], &own[c][..], &own[d][..]);
     let count = a.len().min(by_four.len());
     let (b, c, d) = (&b[..count], &c[..count], &d[..count]);
     for i in 0..count {
-        let rows = [a[i], b[i], c[i], d[i]];
-        let [a, b, c, d] = rows.map(|row| lanes.from_array(row));
+        let (a, b) = (lanes.from_array(a[i]), lanes.from_array(b[i]));
+        let (c, d) = (lanes.from_array(c[i]), lanes.from_array(d[i]));
         let [a, b, c, d] = lanes.transposed([a, b, c, d]);
         by_four[i] = [lanes.to_array(a), lanes.to_array(b), lanes.to_array(c), lanes.to_array(d)];
     }

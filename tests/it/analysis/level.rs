@@ -60,6 +60,78 @@ fn what_is_not_finite_is_left_out() {
     assert!(curves(5, &[f64::INFINITY; 25], 1.0).is_empty());
 }
 
+/// Curves of values in the corners of cells of side one, given row by row from the lowest.
+fn curves_of<const N: usize>(rows: &[[f64; N]], level: f64) -> Vec<Vec<[f64; 2]>> {
+    let ends = |count: usize| (count, [0.0, (count - 1) as f64]);
+    let values = rows.as_flattened();
+    Grid { x: ends(N), y: ends(rows.len()), values }.curves(level)
+}
+
+#[test]
+fn a_saddle_is_resolved_by_the_mean_of_its_corners() {
+    // the mean is 1/2: below it the low corners are cut off, above it the high ones
+    let cell = [[1.0, 0.0], [0.0, 1.0]];
+    let table = [
+        (0.25, [[[0.75, 0.0], [1.0, 0.25]], [[0.25, 1.0], [0.0, 0.75]]]),
+        (0.5, [[[0.5, 0.0], [1.0, 0.5]], [[0.5, 1.0], [0.0, 0.5]]]),
+        (0.75, [[[0.0, 0.25], [0.25, 0.0]], [[1.0, 0.75], [0.75, 1.0]]]),
+    ];
+    for (level, expected) in table {
+        assert_eq!(curves_of(&cell, level), expected, "{level}");
+        // turned by a right angle, the other corners are high
+        let turned = expected.map(|curve| curve.map(|[x, y]| [1.0 - x, y]));
+        let sorted = |mut curves: Vec<Vec<[f64; 2]>>| {
+            for curve in &mut curves {
+                curve.sort_by(|a, b| a[0].total_cmp(&b[0]));
+            }
+            curves.sort_by(|a, b| a[0][0].total_cmp(&b[0][0]));
+            curves
+        };
+        let turned = sorted(turned.iter().map(|curve| curve.to_vec()).collect());
+        assert_eq!(sorted(curves_of(&[[0.0, 1.0], [1.0, 0.0]], level)), turned, "{level}");
+    }
+}
+
+#[test]
+fn a_cell_with_a_corner_that_is_not_finite_has_no_curve() {
+    // the curve y = 1/2 without the cells that touch the corner
+    let line = |from: f64, to: f64| vec![vec![[from, 0.5], [to, 0.5]]];
+    for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        let table = [
+            ([[bad, 0.0, 0.0], [1.0, 1.0, 1.0]], line(2.0, 1.0)),
+            ([[0.0, 0.0, 0.0], [bad, 1.0, 1.0]], line(2.0, 1.0)),
+            ([[0.0, 0.0, bad], [1.0, 1.0, 1.0]], line(1.0, 0.0)),
+            ([[0.0, 0.0, 0.0], [1.0, 1.0, bad]], line(1.0, 0.0)),
+            ([[0.0, bad, 0.0], [1.0, 1.0, 1.0]], vec![]),
+            ([[0.0, 0.0, 0.0], [1.0, bad, 1.0]], vec![]),
+        ];
+        for (rows, expected) in table {
+            assert_eq!(curves_of(&rows, 0.5), expected, "{rows:?}");
+        }
+    }
+}
+
+#[test]
+fn several_levels_at_once_have_the_curves_of_each() {
+    let values =
+        sampled(
+            23,
+            |x, y| {
+                if x > 1.0 && y > 1.0 { f64::NAN } else { x.powi(3) - x + y * y * (1.0 - x) }
+            },
+        );
+    let range = (23, [-2.0, 2.0]);
+    let grid = Grid { x: range, y: range, values: &values };
+    let levels = [-7.0, -0.5, -0.5, 0.0, 0.1, 0.4, 3.0, 40.0];
+    let together = grid.curves_of_all(&levels);
+    assert_eq!(together.len(), levels.len());
+    for (level, curves) in levels.into_iter().zip(&together) {
+        assert_eq!(*curves, grid.curves(level), "{level}");
+    }
+    let points: Vec<usize> = together.iter().map(|curves| curves.concat().len()).collect();
+    assert!(points[1..7].iter().all(|&count| count > 10) && points[7] == 0, "{points:?}");
+}
+
 proptest! {
     #[test]
     fn any_values_give_points_inside_the_grid(

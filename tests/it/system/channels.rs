@@ -168,6 +168,41 @@ fn the_energy_on_a_grid_is_the_energy() {
     assert_eq!(grid[1], 0.25 / 4.0 - 2.0);
 }
 
+#[test]
+fn a_row_of_the_grid_has_the_energy_of_every_point() {
+    let (model, system) = compile(
+        r#"
+title = "A step that is smooth"
+[coordinates]
+x = { initial = 1.0 }
+[lagrangian]
+L = "1/2*(2 + cos(x))*x'^2 - exp(x)/(1 + exp(x)) + ln(x + 5)"
+"#,
+    );
+    let mut observer = system.observer(&parameters(&model));
+    // exp(800) leaves the range of numbers, ln(-1) has no value, and 19 is no multiple of anything
+    let positions: Vec<f64> =
+        (0..19).map(|i| if i == 3 { 800.0 } else { f64::from(i) - 6.0 }).collect();
+    for form in [Form::Velocity, Form::Momentum] {
+        let mut grid = [0.0; 38];
+        let rates = [0.3, -7.0];
+        observer.energy_on_grid(0.0, form, &positions, &rates, &mut grid);
+        for (k, energy) in grid.into_iter().enumerate() {
+            let (x, rate) = (positions[k % 19], rates[k / 19]);
+            let mass = 2.0 + x.cos();
+            let kinetic =
+                0.5 * rate * rate * if form == Form::Velocity { mass } else { 1.0 / mass };
+            let exact = kinetic + 1.0 / (1.0 + (-x).exp()) - (x + 5.0).ln();
+            let right = if x <= -5.0 {
+                !energy.is_finite()
+            } else {
+                (energy - exact).abs() < 1e-15 * (kinetic + 8.0)
+            };
+            assert!(right, "{energy} at {x}, and not {exact}");
+        }
+    }
+}
+
 /// Where L has a term linear in the velocity, and a mass that depends on the place and vanishes somewhere.
 #[test]
 fn the_energy_on_a_grid_follows_from_momenta_that_are_not_zero_at_rest() {

@@ -76,6 +76,24 @@ fn compare(system: &System, parameters: &[DoubleDouble], (order, exact): (usize,
 }
 
 #[test]
+fn code_is_written_at_once_where_many_series_are_expected() {
+    for (expected, at_once) in [(0.0, false), (100.0, false), (1000.0, true), (f64::INFINITY, true)]
+    {
+        let (model, system) = compile(&file(LAWS[0].0, LAWS[0].1));
+        let mut series = system.series(20, 0);
+        series.set_parameters(&system.inputs(&model.parameter_values()));
+        let state = State::new(0.3, system.form(), vec![0.1; system.state_len()]);
+        series.expect(expected);
+        series.build(&state).expect("regular");
+        assert_eq!(series.is_compiled(), at_once, "{expected}");
+        let mut interpreted = system.interpreted().series(20, 0);
+        interpreted.set_parameters(&system.inputs(&model.parameter_values()));
+        interpreted.build(&state).expect("regular");
+        assert_eq!(bits(&series), bits(&interpreted), "{expected}");
+    }
+}
+
+#[test]
 fn every_operation_has_the_bits_of_the_jet_at_all_orders() {
     for (i, (kinetic, potential)) in LAWS.iter().enumerate() {
         let (model, system) = compile(&file(kinetic, potential));

@@ -11,6 +11,9 @@ use crate::system::jet::JetPlan;
 /// takes as many instructions as the code then spares in 100 to 300 of them; values alone, whose code is far shorter, pay sooner.
 const COMPILE_THRESHOLD: usize = 192;
 
+/// Or as soon as so many are expected to follow; their number is not known better than by a factor of two.
+const EXPECTED_THRESHOLD: f64 = 300.0;
+
 /// The functions for one program; clones share them.
 #[derive(Clone, Debug, Default)]
 pub(in crate::system) struct CodeCache {
@@ -42,12 +45,14 @@ impl CodeCache {
         CodeCache::default()
     }
 
-    /// The function for a jet of this program, and for an exact one of its lowest orders, now that one more series is wanted.
+    /// The function for a jet of this program, and for an exact one of its lowest orders, now that one more series is wanted and
+    /// so many are expected to follow.
     pub(super) fn function(
         &self,
         plan: &JetPlan<'_>,
         exact: Option<&JetPlan<'_>>,
         extent: SeriesExtent,
+        expected: f64,
     ) -> Availability {
         let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
         let orders = [plan.stride, exact.map_or(0, |exact| exact.stride)];
@@ -58,7 +63,8 @@ impl CodeCache {
         });
         let entry = &mut known[place];
         entry.wanted += extent.orbits.numbers();
-        if matches!(entry.code, Availability::NotYet) && entry.wanted >= COMPILE_THRESHOLD {
+        let pays = entry.wanted >= COMPILE_THRESHOLD || expected >= EXPECTED_THRESHOLD;
+        if matches!(entry.code, Availability::NotYet) && pays {
             let compiled = compile(plan, exact, extent).map(Arc::new);
             entry.code = compiled.map_or(Availability::Never, Availability::Compiled);
         }

@@ -22,6 +22,8 @@ pub(in crate::system) struct CompiledGrowth {
     /// The functions, until it is decided whether there is one.
     cache: Option<CodeCache>,
     code: Option<CodeInUse>,
+    /// How many series are expected to follow the next one, as far as that is known.
+    expected: f64,
     /// Whether the last one was computed.
     has_grown: bool,
 }
@@ -38,7 +40,12 @@ struct CodeInUse {
 impl CompiledGrowth {
     /// That of a series of the program that a cache belongs to; without one, nothing is ever computed.
     pub(in crate::system) fn new(cache: Option<&CodeCache>) -> CompiledGrowth {
-        CompiledGrowth { cache: cache.cloned(), code: None, has_grown: false }
+        CompiledGrowth { cache: cache.cloned(), code: None, expected: 0.0, has_grown: false }
+    }
+
+    /// Says how many series are expected to follow the next one.
+    pub(in crate::system) fn expect(&mut self, count: f64) {
+        self.expected = count;
     }
 
     /// Whether the last series was computed by machine code.
@@ -55,11 +62,12 @@ impl CompiledGrowth {
         (time, scale): (DoubleDouble, f64),
     ) -> Result<bool, Singular> {
         self.has_grown = false;
+        let expected = self.expected;
         self.ask(|cache| {
             let extent =
                 SeriesExtent { orbits: Width::One, numbers: high.len(), inputs: high.inputs };
             let exact = low.as_ref().map(|low| low.jet.plan());
-            cache.function(&high.jet.plan(), exact.as_ref(), extent)
+            cache.function(&high.jet.plan(), exact.as_ref(), extent, expected)
         });
         if let Some(code) = &mut self.code {
             code.work.set(code.compiled.scale.offset, scale);
@@ -80,7 +88,7 @@ impl CompiledGrowth {
         self.ask(|cache| {
             let (numbers, inputs) = (builder.len(), builder.inputs);
             let extent = SeriesExtent { orbits: widest(), numbers, inputs };
-            cache.function(&builder.jet.plan(), None, extent)
+            cache.function(&builder.jet.plan(), None, extent, 0.0)
         });
         self.has_grown = false;
         if let Some(code) = &mut self.code {
