@@ -160,7 +160,7 @@ pub use stage_list::Composition;
 pub use state::{Form, InitialOverride, State};
 pub use steep_arguments::SteepArguments;
 pub use step_series::StepSeries;
-pub use steps_in_time::StepsInTime;
+pub use steps_in_time::{StepsInTime, instant_of};
 pub use surface::SurfaceRow;
 pub use term_watch::{TermSums, TermWatch};
 pub use value::Evaluator;

@@ -51,6 +51,7 @@ pub fn false_claims_followed(
             diagnostics.extend(own_method::diagnostic(model, &system));
             diagnostics.extend(false_steps(model, equations, &system));
             diagnostics.extend(uniqueness::diagnostic(model, &system));
+            diagnostics.extend(motion.unresolved_feature(model, equations));
             motion.follow((model, equations), claims, &mut diagnostics, follow);
         }
         Err(diagnostic) => diagnostics.push(diagnostic),

@@ -8,6 +8,7 @@ use super::observation::{self, Observation};
 use super::own_method::{self, LENGTH};
 use super::quantity_sizes::{QuantitySizes, tolerated_delay};
 use super::start;
+use super::unresolved::unresolved_feature;
 use crate::diagnostic::{Diagnostic, SourceRange};
 use crate::expr::Symbol;
 use crate::integrate::{self, Occurrence, Reached, Settings, method_named};
@@ -124,7 +125,7 @@ impl<'a> ClaimedMotion<'a> {
             system,
             course,
             observer: system.observer(&parameters),
-            values: vec![f64::NAN; system.channels().len()],
+            values: system.coordinates_of_start(&parameters, &[]),
             allowed,
             budget: allowed,
             occurrences: Vec::new(),
@@ -185,6 +186,16 @@ impl<'a> ClaimedMotion<'a> {
         let energy = self.seen(ChannelKind::Energy);
         let known = self.valuation(model, equations, model.run.start);
         start::diagnostic(model, equations, error, energy, &|symbol| known.at(symbol))
+    }
+
+    /// What it may pass unseen.
+    pub(super) fn unresolved_feature(
+        &self,
+        model: &Model,
+        equations: &Equations,
+    ) -> Option<Diagnostic> {
+        let law = (model, equations, self.system);
+        unresolved_feature(law, self.course.state(), &model.parameter_values())
     }
 
     /// The value of a channel at the last sample.

@@ -11,7 +11,7 @@ use crate::expr::{Expr, FunctionId, Node, Pool, Symbol};
 use crate::mechanics::{ConstraintRow, Equations, Flow};
 use crate::model::{Coordinate, Model};
 use crate::num::{Number, no_longer_than, short};
-use crate::system::{MotionError, MotionErrorKind, State};
+use crate::system::{InitialOverride, MotionError, MotionErrorKind, State};
 
 /// A term of the law longer than this is not reported.
 const LONGEST: u64 = 60;
@@ -29,24 +29,24 @@ const UNKNOWN: f64 = 0.1;
 const BESIDE_A_POLE: f64 = 1e8;
 const BESIDE: f64 = 1e-3;
 
-/// Why the motion cannot start at a state, which is empty if there is none: a coordinate has no inertia, or a term of the
-/// law no value there.
+/// Why the motion cannot start at a state, which is empty if there is none with the values that are given: a coordinate has no
+/// inertia, or a term of the law or of a constraint no value there.
 pub fn undefined_start(
     (model, equations, system): CompiledLaw<'_>,
     state: &State,
+    given: &[InitialOverride],
 ) -> Option<Diagnostic> {
     if model.constraints.is_empty()
         && let Some(cause) = without_mass(model, equations)
     {
         return Some(cause);
     }
-    if state.values.is_empty() {
-        return None;
-    }
     let parameters = model.parameter_values();
-    let mut values = vec![f64::NAN; system.channels().len()];
-    // also where not all of them are known, since the others give the reason
-    system.observer(&parameters).observe(state, &mut values).ok();
+    let mut values = system.coordinates_of_start(&parameters, given);
+    if !state.values.is_empty() {
+        // also where not all of them are known, since the others give the reason
+        system.observer(&parameters).observe(state, &mut values).ok();
+    }
     let known = system.valuation((model, equations), state.time, &parameters, &values);
     let at = |symbol| known.at(symbol);
     without_value(model, equations, &at).or_else(|| constant_singular_mass(model, equations, &at))
@@ -101,20 +101,28 @@ pub(super) fn diagnostic(
     }
 }
 
-/// A term of the law that has no value at the start.
+/// A term of the law or of a constraint, as it is or differentiated, that has no value at the start.
 fn without_value(
     model: &Model,
     equations: &Equations,
     at: &dyn Fn(Symbol) -> f64,
 ) -> Option<Diagnostic> {
     let pool = &equations.pool;
-    let mut roots = law_and_rates(equations).into_iter();
-    let Some(culprit) = roots.find_map(|roots| undefined(pool, &roots, at)) else {
-        return constraint_without_value(model, equations, at);
-    };
+    let law = law_and_rates(equations).into_iter().map(|roots| (None, roots));
+    let constraints = equations.constraints.iter().map(|constraint| {
+        let ConstraintRow { name, row, rate, bias, position, .. } = constraint;
+        (Some(name), position.iter().chain(row).chain([rate, bias]).copied().collect())
+    });
+    let (constraint, culprit) = law
+        .chain(constraints)
+        .find_map(|(constraint, roots)| Some((constraint, undefined(pool, &roots, at)?)))?;
     let (coordinate, cause) = describe(model, pool, culprit, at)?;
-    let place = coordinate.map_or(&model.law_place, |i| &model.coordinates[i].place);
-    let diagnostic = Diagnostic::error(place.clone(), format!("the motion cannot start: {cause}"));
+    let written = constraint.and_then(|name| model.constraints.iter().find(|c| c.name == *name));
+    let place = written.map(|constraint| &constraint.place);
+    let place = place.or_else(|| Some(&model.coordinates[coordinate?].place));
+    let within = constraint.map_or(String::new(), |name| format!(", in the constraint `{name}`"));
+    let message = format!("the motion cannot start: {cause}{within}");
+    let diagnostic = Diagnostic::error(place.unwrap_or(&model.law_place).clone(), message);
     let is_of_power = matches!(pool.node(culprit), Node::Call(FunctionId::Ln, _))
         && pool.symbols_of(culprit).is_empty();
     Some(if is_of_power {
@@ -123,24 +131,6 @@ fn without_value(
         )
     } else {
         diagnostic
-    })
-}
-
-/// A constraint, or its derivative, that has no value at the start.
-fn constraint_without_value(
-    model: &Model,
-    equations: &Equations,
-    at: &dyn Fn(Symbol) -> f64,
-) -> Option<Diagnostic> {
-    let pool = &equations.pool;
-    equations.constraints.iter().find_map(|constraint| {
-        let ConstraintRow { name, row, rate, bias, position, .. } = constraint;
-        let roots: Vec<Expr> = position.iter().chain(row).chain([rate, bias]).copied().collect();
-        let (_, cause) = describe(model, pool, undefined(pool, &roots, at)?, at)?;
-        let written = model.constraints.iter().find(|written| written.name == *name);
-        let place = written.map_or(&model.law_place, |written| &written.place).clone();
-        let message = format!("the motion cannot start: {cause}, in the constraint `{name}`");
-        Some(Diagnostic::error(place, message))
     })
 }
 

@@ -1,8 +1,9 @@
 //! Features of the energy that no number resolves: a barrier about x = 9 that is thinner than 1e-15 lies between two numbers, and every
 //! motion passes it unseen.
 //!
-//! In: the energy, a start. Out: a sentence. Never here: motions.
+//! In: the energy, a start. Out: a warning. Never here: motions.
 
+use crate::diagnostic::Diagnostic;
 use crate::expr::{Expr, Node, Symbol};
 use crate::mechanics::Equations;
 use crate::model::Model;
@@ -18,12 +19,12 @@ const BESIDE: [f64; 2] = [8.0, 64.0];
 /// What is linear in a coordinate is so to this part.
 const LINEAR: f64 = 1e-9;
 
-/// What a motion may pass unseen, in a sentence. Jumps of the law and what has no value are reported elsewhere.
+/// What a motion may pass unseen, at the coordinate in whose direction it lies. Jumps of the law and what has no value are reported elsewhere.
 pub fn unresolved_feature(
     (model, equations, system): (&Model, &Equations, &System),
     state: &State,
     parameters: &[f64],
-) -> Option<String> {
+) -> Option<Diagnostic> {
     if state.values.is_empty() || equations.has_impulses_at_steps() {
         return None;
     }
@@ -50,10 +51,11 @@ pub fn unresolved_feature(
         let mut places = sums.filter_map(|e| zero_of(|place| along(e, place)));
         let place = places.find(|&place| is_unresolved(|place| along(law, place), place))?;
         let (name, apart) = (&coordinate.name, short(spacing(place)));
-        Some(format!(
+        let message = format!(
             "the energy has a feature at {name} = {place} that is narrower than numbers there are apart ({apart}): a motion passes it \
              unseen"
-        ))
+        );
+        Some(Diagnostic::warning(coordinate.place.clone(), message))
     })
 }
 

@@ -184,10 +184,12 @@ pub(super) fn execute(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let begun = Arc::clone(&first);
     let adiabatic = adiabatic.map(|known| (known, first, system.clone()));
     let steps = STEPS_PER_CHECK;
-    let cannot_start =
-        || Some(claims::undefined_start((&model, &equations, &system), &begun)?.message);
-    let cannot_start = &cannot_start;
     let asked = experiment.snapshot().setup.clone();
+    let cannot_start = || {
+        let law = (&*model, &*equations, &system);
+        Some(claims::undefined_start(law, &begun, &asked.overrides)?.message)
+    };
+    let cannot_start = &cannot_start;
     let ends_before =
         |steps| overstepped::end_of_motion((&model, &equations, &system), &asked, steps);
     let ends_before: Option<&dyn Fn(u64) -> Option<String>> =

@@ -146,7 +146,7 @@ impl Experiment {
         if !self.is_backwards() {
             self.companions.expect(self.motion.time(), self.motion.values());
         }
-        self.compare_with_echo();
+        self.compare_with_echo(self.motion.time());
         let spacing = self.row_spacing.to_next(&self.setup, &self.motion);
         self.recorder.set_spacing(spacing);
         let dense = self.recorder.spacing() <= self.motion.step_size().abs();

@@ -16,7 +16,7 @@ use super::observed_motion::ObservedMotion;
 use super::{Companion, CompanionOrigin, Return, Trail};
 use crate::analysis::{CrossingLog, DistanceHistory, distance};
 use crate::integrate::{Preserves, Stepping};
-use crate::system::State;
+use crate::system::{State, instant_of};
 
 /// Half the distance between 1 and the next number.
 const ROUNDING: f64 = 1.110_223_024_625_156_5e-16;
@@ -36,6 +36,8 @@ pub(super) struct Echo {
     /// When its clock began to count.
     began: f64,
     pub(super) start: f64,
+    /// The time to which its first state is dated.
+    first: f64,
     distance: Option<f64>,
     error: Option<f64>,
     step_error: f64,
@@ -49,7 +51,7 @@ pub(super) struct Echo {
 impl Echo {
     /// The run that ends now, which has left this trail; `None` if none of it is known.
     pub(super) fn of(run: ObservedMotion, trail: Trail, variables: &[usize]) -> Option<Echo> {
-        let (start, turned) = (run.sign() * run.known_from()?, run.time());
+        let (first, turned) = (run.sign() * run.known_from()?, run.time());
         let greatest = |row: &[f64]| {
             variables.iter().map(|&i| row.get(1 + i).map_or(0.0, |x| x * x)).sum::<f64>()
         };
@@ -59,8 +61,9 @@ impl Echo {
             values: run.values().to_vec(),
             separation: Arc::default(),
             turned,
-            began: run.sign() * start,
-            start,
+            began: run.sign() * first,
+            start: instant_of(first),
+            first,
             distance: None,
             error: None,
             step: None,
@@ -111,7 +114,8 @@ impl Echo {
 
     /// Goes to where the run before was at a time. Returns whether it has been there.
     pub(super) fn scrub_to(&mut self, time: f64, horizon: f64) -> bool {
-        let there = self.covers(time) && self.run.go_back_to(time, horizon, self.began);
+        let dated = if time == self.start { self.first } else { time };
+        let there = self.covers(time) && self.run.go_back_to(dated, horizon, self.began);
         if there {
             self.at = time;
             self.values.copy_from_slice(self.run.values());
@@ -138,6 +142,11 @@ impl Echo {
         }
         let elapsed = (time - self.turned).abs();
         Arc::make_mut(&mut self.separation).add(elapsed, &then, &now, periods);
+    }
+
+    /// Whether the motion has come back to where the run before began.
+    pub(super) fn is_complete(&self) -> bool {
+        self.error.is_some()
     }
 
     pub(super) fn returned(&self) -> Return {

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use super::{Experiment, Setup};
 use crate::cancel::Cancel;
-use crate::claims::structure_diagnostics;
+use crate::claims::{structure_diagnostics, unresolved_feature};
 use crate::diagnostic::{Diagnostic, Document};
 use crate::mechanics::{self, Equations, NoClosedForm};
 use crate::model::{Model, WrittenExpr};
@@ -110,7 +110,7 @@ impl Prepared {
             report: document.report(&diagnostics, false),
             diagnostics,
         };
-        let Checked { model, warnings, .. } = read.map_err(&report)?;
+        let Checked { model, mut warnings, .. } = read.map_err(&report)?;
         let why = |what: &dyn Display| PrepareError {
             report: format!("{}: {what}", document.path),
             diagnostics: vec![Diagnostic::error(0..0, what.to_string())],
@@ -129,6 +129,8 @@ impl Prepared {
         let (model, equations) = (Arc::new(model), Arc::new(equations));
         let experiment = Experiment::new(&model, &equations, &system, Setup::of(&model));
         let experiment = experiment.map_err(|error| why(&error))?;
+        let (law, start) = ((&*model, &*equations, &system), experiment.snapshot());
+        warnings.extend(unresolved_feature(law, &start.state, &start.parameters));
         let document = Arc::new(document.clone());
         Ok(Prepared { document, warnings, model, equations, system: Arc::new(system), experiment })
     }

@@ -158,15 +158,15 @@ impl Experiment {
         variables.iter().map(|&i| system.period(i, parameters)).collect()
     }
 
-    /// Compares the motion with the run before, where that has been.
-    pub(super) fn compare_with_echo(&mut self) {
+    /// Compares the motion with the run before at a time, where that has been.
+    pub(super) fn compare_with_echo(&mut self, time: f64) {
         if self.reversal.echo.is_none() {
             return;
         }
         let variables = self.variables();
         let periods = self.periods(&variables);
         let Some(echo) = &mut self.reversal.echo else { return };
-        let now = (self.motion.time(), self.motion.values());
+        let now = (time, self.motion.values());
         echo.compare(now, HORIZON * self.setup.spacing, (&variables, &periods));
     }
 
@@ -179,8 +179,11 @@ impl Experiment {
     /// The motion is back where the run before began, and pauses.
     pub(super) fn finish_return(&mut self) -> AdvanceOutcome {
         self.run.running = false;
-        if self.recorder.due() > self.clock() {
-            self.compare_with_echo();
+        // beside a step in time the state may be dated otherwise
+        if let Some(start) =
+            self.reversal.echo.as_ref().filter(|echo| !echo.is_complete()).map(|echo| echo.start)
+        {
+            self.compare_with_echo(start);
         }
         let Some(echo) = &self.reversal.echo else { return AdvanceOutcome::Arrived };
         let returned = echo.returned();

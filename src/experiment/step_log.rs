@@ -102,10 +102,15 @@ impl StepLog {
         if self.off { u64::MAX } else { apart - steps % apart }
     }
 
-    /// Adds the state at the end of a step, from which steps of this size lead on if they are equal.
+    /// Adds the state at the end of a step, from which steps of this size lead on if they are equal. The end of a step that an
+    /// impulse or a step in time has cut short is no state of the motion.
     pub(super) fn push(&mut self, state: &State, steps: u64, step: f64) {
         if state.values.is_empty() || self.off {
             return;
+        }
+        let later = |known: &LoggedState| known.state.exact_time() - state.exact_time();
+        while self.known.back().is_some_and(|known| later(known).high > 0.0) {
+            self.known.pop_back();
         }
         let impulses = self.impulses;
         let numbers = self.numbers.unwrap_or(NUMBERS);

@@ -1,4 +1,5 @@
-//! Signs of quotients as signs of products: sign(1 − 1/t) = sign(t (t − 1)), sign(tan u) = sign(sin 2u).
+//! Signs of quotients as signs of products: sign(1 − 1/t) = sign(t (t − 1)), sign(tan u) = sign(sin 2u); and of functions and powers
+//! that have the sign of their argument: sign(sinh u) = sign(e^u − 1) = sign u, sign(p u³) = sign(p u).
 //!
 //! In: an expression. Out: one without poles that has the same sign wherever the first has a value. What only parameters are in stays as
 //! it is, and so does what depends on several variables or divides by high powers: of small numbers a product may leave the range in
@@ -34,8 +35,26 @@ impl Pool {
                 let factor = self.factor_with_the_sign_of((e, Number::ONE));
                 self.monomial(Number::ONE, &factor.into_iter().collect::<Vec<_>>())
             }
-            Node::Sum(..) => self.sum_over_divisors(e),
+            Node::Call(FunctionId::Sinh | FunctionId::Tanh | FunctionId::Atan, u) => {
+                self.with_the_sign_of(u[0])
+            }
+            Node::Sum(constant, terms) => match self.exponential_less_one(*constant, terms) {
+                Some(exponent) => {
+                    let bare = self.with_the_sign_of(exponent);
+                    self.scale(terms[0].0, bare)
+                }
+                None => self.sum_over_divisors(e),
+            },
             _ => e,
+        }
+    }
+
+    /// The u of c (e^u − 1).
+    fn exponential_less_one(&self, constant: Number, terms: &[(Number, Expr)]) -> Option<Expr> {
+        let &[(c, term)] = terms else { return None };
+        match self.node(term) {
+            Node::Call(FunctionId::Exp, u) if (constant + c).is_zero() => Some(u[0]),
+            _ => None,
         }
     }
 
@@ -48,9 +67,18 @@ impl Pool {
                 let twice = self.scale(Number::integer(2), u[0]);
                 Some((self.call(FunctionId::Sin, &[twice]), Number::ONE))
             }
+            Node::Call(FunctionId::Sinh | FunctionId::Tanh | FunctionId::Atan, _)
+                if n.as_integer().is_some() && is_odd =>
+            {
+                Some((self.with_the_sign_of(base), Number::ONE))
+            }
             Node::Sum(..) if n.is_one() => Some((self.with_the_sign_of(base), n)),
             _ if has_pole && is_odd => Some((self.with_the_sign_of(base), Number::ONE)),
             _ if has_pole && n.is_negative() => None,
+            // where the base passes zero its power leaves the range of numbers, or has a root with fewer digits
+            _ if n.as_integer().is_some_and(|n| n > 2) && self.rank_of(base) != Rank::Constant => {
+                Some((base, if is_odd { Number::ONE } else { Number::integer(2) }))
+            }
             _ => Some((base, n)),
         }
     }

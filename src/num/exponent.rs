@@ -16,7 +16,7 @@ pub(super) struct Exponent {
     /// Zero, or a whole number beyond what `near` holds; infinite beyond all range, and a NaN where it is not known.
     far: f64,
     /// How often 2⁵¹² is taken out of it: that of e^(e^u) is e^u.
-    scale: i64,
+    scale: i128,
 }
 
 /// 2⁵¹², and where it is taken out or put back.
@@ -25,7 +25,7 @@ const LARGEST: f64 = f64::from_bits((1023 + 1000) << 52);
 const SMALLEST: f64 = f64::from_bits((1023 + 300) << 52);
 
 /// A number in units of a power of 2⁵¹² that are farther apart than this is nothing beside another.
-const DIFFERENT: i64 = 2;
+const DIFFERENT: i128 = 2;
 
 /// Beyond this the large part of an exponent is stored in `far`.
 const FAR: i128 = 1 << 122;
@@ -64,12 +64,12 @@ impl Exponent {
     /// The number `x · 2^power`, where that is beyond the range of `f64`; infinite where the power is itself out of range.
     pub(super) fn beyond_range(x: f64, power: Exponent) -> Exponent {
         let moderate = power.moderate();
-        if power.far != 0.0 || moderate.abs() >= APART / 2 || moderate > i128::from(i64::MAX) {
+        if power.far != 0.0 || moderate.abs() >= APART / 2 {
             return Exponent { near: 0, far: f64::INFINITY.copysign(x), scale: 0 };
         }
         let scale = moderate.div_euclid(512);
         let rest = f64::from_bits(((1023 + moderate - 512 * scale) as u64) << 52);
-        Exponent { near: 0, far: x * rest, scale: scale as i64 }.settled()
+        Exponent { near: 0, far: x * rest, scale }.settled()
     }
 
     /// Zero, or an infinite number or a NaN where it is beyond all range or not known.
@@ -141,7 +141,7 @@ impl Exponent {
     /// Its value, to twice the digits of `f64`, in units of a power of two, and the exponent of that.
     pub(super) fn value(self) -> (DoubleDouble, Exponent) {
         if self.scale > 0 {
-            return (DoubleDouble::from(self.far), Exponent::of(512 * i128::from(self.scale)));
+            return (DoubleDouble::from(self.far), Exponent::of(512 * self.scale));
         }
         let high = self.near as f64;
         let low = (self.near - high as i128) as f64;
@@ -213,13 +213,17 @@ mod tests {
 
     #[test]
     fn exponents_beyond_the_range_of_numbers_are_sums_too() {
-        // 3 · 2^(10⁶), and half of it
+        // 3 · 2^(10⁶), and half of it, and 3 · 2^(2⁹⁸)
+        for power in [1_000_000, 1 << 98] {
+            let large = Exponent::beyond_range(3.0, Exponent::of(power));
+            let half = Exponent::beyond_range(1.5, Exponent::of(power));
+            assert_eq!((half.plus(half), large.beyond()), (large, 0.0));
+            assert_eq!(large.minus(half), half);
+            assert_eq!(large.halved(), (half, 0));
+            assert_eq!(large.minus(half).minus(half).moderate(), 0);
+        }
         let large = Exponent::beyond_range(3.0, Exponent::of(1_000_000));
         let half = Exponent::beyond_range(1.5, Exponent::of(1_000_000));
-        assert_eq!(half.plus(half), large);
-        assert_eq!(large.minus(half), half);
-        assert_eq!(large.halved(), (half, 0));
-        assert_eq!(large.minus(half).minus(half).moderate(), 0);
         // what is small beside it remains where it cancels
         let small = Exponent::of(12);
         assert_eq!(large.plus(small).minus(large).moderate(), 12);

@@ -10,7 +10,7 @@ use super::consistent_initial::KnownVelocity;
 use super::error::{MotionError, MotionErrorKind};
 use super::legendre::{Legendre, LegendreError};
 use super::value::Evaluator;
-use super::{Form, InitialOverride, State};
+use super::{Channel, ChannelKind, Form, InitialOverride, State};
 use crate::num::DoubleDouble;
 
 impl System {
@@ -24,6 +24,21 @@ impl System {
     pub fn initial_values(&self, parameters: &[f64]) -> Vec<f64> {
         let values = self.initial_program(&self.inputs(parameters));
         (0..self.moving()).map(|i| values.output(i).high).collect()
+    }
+
+    /// The values of all channels of which only the initial coordinates are known; `given` ones replace those of the file.
+    pub fn coordinates_of_start(&self, parameters: &[f64], given: &[InitialOverride]) -> Vec<f64> {
+        let mut initial = self.initial_values(parameters);
+        for &given in given {
+            if let InitialOverride::Position(i, x) = given {
+                initial[i] = x;
+            }
+        }
+        let coordinate = |channel: &Channel| match channel.kind {
+            ChannelKind::Position(i) => initial[i],
+            _ => f64::NAN,
+        };
+        self.channels().iter().map(coordinate).collect()
     }
 
     /// The initial value of an index in the order of [`System::initial_values`].

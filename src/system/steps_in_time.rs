@@ -12,6 +12,12 @@ const BESIDE: [f64; 4] = [1e-30, 1e-27, 1e-20, 1e-14];
 /// At the time zero, of which parts are nothing: numbers so small that nothing changes in so long a time in any unit.
 const BESIDE_ZERO: [f64; 4] = [1e-200, 1e-150, 1e-100, 1e-60];
 
+/// The instant that the date of a state stands for: one so shortly beside the time zero is 0.
+pub fn instant_of(date: f64) -> f64 {
+    let [.., farthest] = BESIDE_ZERO;
+    if date.abs() <= farthest { 0.0 } else { date }
+}
+
 /// How far beside an instant numbers of 53 bits are on its sides, as parts of the time: for a law that rounds little, and at most.
 const BESIDE_IN_F64: [f64; 2] = [4.0 * f64::EPSILON, 1e-12];
 

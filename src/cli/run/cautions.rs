@@ -61,9 +61,9 @@ pub(super) fn of_start(
 ) {
     let snapshot = experiment.snapshot();
     let start = (&*snapshot.state, &*snapshot.setup.parameters);
-    if let Some(sentence) = claims::unresolved_feature((model, equations, system), start.0, start.1)
+    if let Some(warning) = claims::unresolved_feature((model, equations, system), start.0, start.1)
     {
-        stderr::report(&sentence);
+        stderr::report(&warning.message);
     }
     if let Some(sentence) = claims::several_starts(model, system, start, by) {
         stderr::report(&sentence);

@@ -77,6 +77,14 @@ fn a_barrier_between_two_numbers_is_reported() {
         let done = run(0.0, "exp(-((x - 9)/1e-3)^2)", method);
         assert!(!done.stderr.contains("feature"), "{}", done.stderr);
     }
+    let text = law("x = { initial = 0, velocity = 1 }", "", "1/2*x'^2 - exp(-((x - 9)/1e-16)^2)");
+    let check = with_file(&text, &["check", "system.toml"]);
+    assert_eq!(check.code, 0, "{}", check.stderr);
+    assert!(
+        check.stderr.contains("warning: the energy has a feature at x = 9"),
+        "{}",
+        check.stderr
+    );
     // nearby, where numbers are closer to each other
     let done = run(-0.01, "exp(-(x/1e-16)^2)", "taylor");
     let row: Vec<&str> = done.stdout.lines().last().unwrap().split(',').collect();
@@ -92,11 +100,21 @@ fn a_constraint_without_a_value_is_named_with_its_part_and_place() {
         let more = format!("[[constraints]]\nname = \"roll\"\nexpression = \"{expression}\"\n");
         law(&coordinates, &more, "1/2*(x'^2 + y'^2) - y")
     };
-    let check = with_file(&constraint("x' - y'/t", "0.3"), &["check", "system.toml"]);
-    let said = check.stderr.clone();
-    check.fails(65, &["`-1/t` has no finite value at t = 0", "in the constraint `roll`"]);
-    assert!(!said.contains("singular"), "{said}");
-    assert!(said.contains("| expression = "), "{said}");
+    for (expression, x, cause) in [
+        ("x' - y'/t", "0.3", "`-1/t` has no finite value at t = 0"),
+        ("x'*ln(x) - y'", "0", "`ln(x)` has no finite value at x = 0"),
+        ("x'*x*ln(x) - y'", "0", "`ln(x)` has no finite value at x = 0"),
+        ("y' - sqrt(x - 1)*x'", "0", "sqrt(x - 1)` has no finite value at x = 0"),
+        ("y - 0.2 - sqrt(x)", "0", "has no finite value at x = 0"),
+    ] {
+        let said = refused(&constraint(expression, x), &[cause, "in the constraint `roll`"]);
+        assert!(!said.contains("singular"), "{expression}: {said}");
+        assert!(said.contains("| expression = "), "{expression}: {said}");
+    }
+    // a given coordinate counts for that of the file
+    let file = constraint("x'*ln(x) - y'", "0.3");
+    let run = with_file(&file, &["run", "system.toml", "--at", "1", "--init", "x=0"]);
+    run.fails(1, &["`ln(x)` has no finite value at x = 0, in the constraint `roll`"]);
     let singular = refused(&constraint("x^2 - (y - 0.2)^2", "0"), &["singular configuration"]);
     assert!(!singular.contains("no finite value"), "{singular}");
 }

@@ -196,7 +196,9 @@ fn a_force_that_jumps_with_the_mass_is_followed_or_it_says_that_it_is_not() {
 /// At a pole no function that can be evaluated shows the step: the velocities are kept, and that is reported.
 #[test]
 fn a_step_at_a_pole_keeps_the_velocities_and_says_so() {
-    for mass in ["(3 - sign(atan(1/(t - 1))))/2", "(3 - sign(atan(tan(t + 0.5))))/2"] {
+    for mass in
+        ["(3 - sign(atan(1/(t - 1)) + t/100))/2", "(3 - sign(atan(tan(t + 0.5)) + t/100))/2"]
+    {
         let text = format!(
             "title = \"T\"\n[coordinates]\nx = {{ initial = 0.3, velocity = 0.8 }}\n{}",
             law(mass, "0")
@@ -230,8 +232,14 @@ fn signs_of_quotients_are_located_at_their_zeros_and_at_their_poles() {
         ),
         ("(3 - sign(t/(t - 1)))/2", "(3 - sign(t - 1))/2"),
         ("(3 - sign(1e-300*(t - 1)))/2", "(3 - sign(t - 1))/2"),
+        ("(3 - sign(eps*(t - 1)^3))/2", "(3 - sign(t - 1))/2"),
+        ("(3 - sign(sinh(1/(t - 1))))/2", "(3 - sign(t - 1))/2"),
+        ("(3 - sign(eps*tanh(1/(t - 1))^3))/2", "(3 - sign(t - 1))/2"),
+        ("(3 + sign(1 - exp(1/(t - 1))))/2", "(3 - sign(t - 1))/2"),
     ] {
-        let [law, same] = [mass, same].map(|mass| law(mass, "1/2*x^2") + "\n[run]\nstart = 0.25");
+        let [law, same] = [mass, same].map(|mass| {
+            format!("[parameters]\neps = 1e-300\n{}\n[run]\nstart = 0.25", law(mass, "1/2*x^2"))
+        });
         for method in [&["taylor"], &["dop853"], &["leapfrog"]] {
             let times = "0.5,1,1.2,3";
             for (row, wanted) in
@@ -262,6 +270,38 @@ fn a_motion_reversed_at_the_instant_returns() {
         let distance = distance.split(' ').next().unwrap();
         let is_exact = distance == "the" || distance.parse::<f64>().unwrap() < 1e-15;
         assert!(is_exact, "{}", done.stdout);
+    }
+}
+
+/// So does one that begins at an instant, which may be t = 0; and the error of a step is that of one beside which the law does not jump.
+#[test]
+fn a_motion_that_begins_at_the_instant_returns_to_it() {
+    let reverse = |mass: &str, start: &str, until: &str, method: &str| {
+        let text = format!(
+            "title = \"T\"\n[coordinates]\nx = {{ initial = 0.3, velocity = 0.8 }}\n[parameters]\neps = 1e-150\n{}\n[run]\nstart = {start}\n",
+            law(mass, "1/2*x^2")
+        );
+        let arguments = ["reverse", "system.toml", "--until", until, "--method", method];
+        with_file(&text, &[&arguments[..], &["--format", "json"]].concat()).json()
+    };
+    let (often, once) = ("(3 - sign(sin(3*t)))/2", "(3 - sign(t - 1))/2");
+    for (mass, start, until) in [
+        // whose sign is lost at 1e-200
+        ("(3 - sign(eps*t))/2", "0", "0.5"),
+        (often, "0", "0.5"),
+        (often, "0", "2"),
+        (once, "1", "2"),
+        (once, "0", "1"),
+        (once, "0", "1.5"),
+    ] {
+        for (method, within) in [("taylor", 1e-15), ("dop853", 2e-11)] {
+            let found = reverse(mass, start, until, method);
+            let number =
+                |key: &str| found[key].as_f64().unwrap_or_else(|| panic!("{key} in {found}"));
+            let what = format!("{mass} from {start} to {until} by {method}: {found}");
+            assert_eq!(number("t").to_string(), start, "{what}");
+            assert!(number("return_error") < within && number("step_error") < within, "{what}");
+        }
     }
 }
 

@@ -11,6 +11,8 @@ fn functions_that_saturate_with_what_overflows_are_passed_for_ever() {
         ("tanh(sinh(x))", (-1.0, 1.0)),
         ("exp(exp(x))/(1 + exp(exp(x)))", (0.5, 1.0)),
         ("exp(-exp(2*x^3))", (1.0, 0.0)),
+        ("tanh(exp(x + x^3/1000))", (0.0, 1.0)),
+        ("tanh(exp(x^3))", (0.0, 1.0)),
     ] {
         let mut run = Run::new(&format!(
             "title = \"Far\"\n[coordinates]\nx = {{ initial = -50.0, velocity = 3.0 }}\n[lagrangian]\nL = \"1/2*x'^2 - {v}\"\n"
