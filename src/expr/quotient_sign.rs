@@ -38,10 +38,10 @@ impl Pool {
             Node::Call(FunctionId::Sinh | FunctionId::Tanh | FunctionId::Atan, u) => {
                 self.with_the_sign_of(u[0])
             }
-            Node::Sum(constant, terms) => match self.exponential_less_one(*constant, terms) {
-                Some(exponent) => {
-                    let bare = self.with_the_sign_of(exponent);
-                    self.scale(terms[0].0, bare)
+            Node::Sum(constant, terms) => match self.difference_of_exponents(*constant, terms) {
+                Some((c, difference)) => {
+                    let bare = self.with_the_sign_of(difference);
+                    self.scale(c, bare)
                 }
                 None => self.sum_over_divisors(e),
             },
@@ -49,11 +49,23 @@ impl Pool {
         }
     }
 
-    /// The u of c (e^u − 1).
-    fn exponential_less_one(&self, constant: Number, terms: &[(Number, Expr)]) -> Option<Expr> {
-        let &[(c, term)] = terms else { return None };
-        match self.node(term) {
-            Node::Call(FunctionId::Exp, u) if (constant + c).is_zero() => Some(u[0]),
+    /// The c and u − w of c (e^u − e^w), where w may be 0.
+    fn difference_of_exponents(
+        &mut self,
+        constant: Number,
+        terms: &[(Number, Expr)],
+    ) -> Option<(Number, Expr)> {
+        let exponent = |pool: &Pool, e: Expr| match pool.node(e) {
+            Node::Call(FunctionId::Exp, u) => Some(u[0]),
+            _ => None,
+        };
+        match *terms {
+            [(c, e)] if (constant + c).is_zero() => Some((c, exponent(self, e)?)),
+            [(c, e), (d, f)] if constant.is_zero() && (c + d).is_zero() => {
+                let (u, w) = (exponent(self, e)?, exponent(self, f)?);
+                let parts = [(Number::ONE, u), (Number::MINUS_ONE, w)];
+                Some((c, self.linear(Number::ZERO, &parts)))
+            }
             _ => None,
         }
     }
@@ -77,7 +89,8 @@ impl Pool {
             _ if has_pole && n.is_negative() => None,
             // where the base passes zero its power leaves the range of numbers, or has a root with fewer digits
             _ if n.as_integer().is_some_and(|n| n > 2) && self.rank_of(base) != Rank::Constant => {
-                Some((base, if is_odd { Number::ONE } else { Number::integer(2) }))
+                let order = if is_odd { Number::ONE } else { Number::integer(2) };
+                Some((if is_odd { self.with_the_sign_of(base) } else { base }, order))
             }
             _ => Some((base, n)),
         }

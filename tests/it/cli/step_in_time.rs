@@ -234,6 +234,8 @@ fn signs_of_quotients_are_located_at_their_zeros_and_at_their_poles() {
         ("(3 - sign(1e-300*(t - 1)))/2", "(3 - sign(t - 1))/2"),
         ("(3 - sign(eps*(t - 1)^3))/2", "(3 - sign(t - 1))/2"),
         ("(3 - sign(sinh(1/(t - 1))))/2", "(3 - sign(t - 1))/2"),
+        ("(3 - sign(atan(1/(t - 1))))/2", "(3 - sign(t - 1))/2"),
+        ("(3 - sign(eps*(exp(1/(t - 1)) - 1)^3))/2", "(3 - sign(t - 1))/2"),
         ("(3 - sign(eps*tanh(1/(t - 1))^3))/2", "(3 - sign(t - 1))/2"),
         ("(3 + sign(1 - exp(1/(t - 1))))/2", "(3 - sign(t - 1))/2"),
     ] {
