@@ -98,7 +98,7 @@ impl Series {
         self.code.has_grown()
     }
 
-    /// Says how many series are expected to follow the next one: many are worth machine code at once.
+    /// Says how many series are expected to follow the next one: many are worth machine code soon.
     pub fn expect(&mut self, count: f64) {
         self.code.expect(count);
     }

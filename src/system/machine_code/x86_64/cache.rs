@@ -14,6 +14,10 @@ const COMPILE_THRESHOLD: usize = 192;
 /// Or as soon as so many are expected to follow; their number is not known better than by a factor of two.
 const EXPECTED_THRESHOLD: f64 = 300.0;
 
+/// So many series are wanted before it is asked what is expected: the first steps of a motion may be short, and say nothing of
+/// those that follow.
+const FIRST_SERIES: usize = 8;
+
 /// The functions for one program; clones share them.
 #[derive(Clone, Debug, Default)]
 pub(in crate::system) struct CodeCache {
@@ -63,7 +67,8 @@ impl CodeCache {
         });
         let entry = &mut known[place];
         entry.wanted += extent.orbits.numbers();
-        let pays = entry.wanted >= COMPILE_THRESHOLD || expected >= EXPECTED_THRESHOLD;
+        let expected = entry.wanted > FIRST_SERIES && expected >= EXPECTED_THRESHOLD;
+        let pays = expected || entry.wanted >= COMPILE_THRESHOLD;
         if matches!(entry.code, Availability::NotYet) && pays {
             let compiled = compile(plan, exact, extent).map(Arc::new);
             entry.code = compiled.map_or(Availability::Never, Availability::Compiled);
