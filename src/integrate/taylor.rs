@@ -24,6 +24,7 @@ mod lowest_steps;
 mod onset;
 mod order_bounds;
 mod rough_logarithms;
+mod singular_work;
 mod start_slope;
 mod static_friction;
 mod step_end;

@@ -41,6 +41,8 @@ pub enum MotionErrorKind {
     OfComparison(Box<MotionErrorKind>),
     /// A pivot of the mass matrix vanishes.
     SingularMass,
+    /// The same within a step of fixed length, which may have left the motion.
+    SingularMassInStep,
     /// Under constraints, the momenta do not determine the velocities: a coordinate has no mass of its own.
     NoMass,
     /// The constraints are dependent, or singular together with the mass matrix. Contains how to
@@ -165,7 +167,7 @@ impl fmt::Display for MotionError {
         }
         match &self.kind {
             MotionErrorKind::Passable(..) | MotionErrorKind::OfComparison(_) => {}
-            MotionErrorKind::SingularMass => {
+            MotionErrorKind::SingularMass | MotionErrorKind::SingularMassInStep => {
                 write!(f, "the mass matrix is singular at t = {time}")?;
             }
             MotionErrorKind::NoMass => {
@@ -294,6 +296,9 @@ impl fmt::Display for MotionError {
         }
         f.write_str(match &self.kind {
             MotionErrorKind::SingularMass => ": a chart singularity or a degenerate Lagrangian",
+            MotionErrorKind::SingularMassInStep => {
+                ": try a smaller step, unless a chart singularity lies there"
+            }
             MotionErrorKind::NoMass => {
                 ": a coordinate that the constraints alone move has no mass of its own, and what works with momenta needs \
                  one for each; put its constraint into L by hand"

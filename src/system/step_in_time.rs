@@ -68,8 +68,11 @@ impl System {
         self.convert_near(&canonical, state, parameters)
     }
 
-    /// With the work that the change of the law does.
-    fn with_work(
+    /// The second state with the work that has changed the energy of the first one to its own.
+    ///
+    /// # Errors
+    /// Returns an error if they have no energy.
+    pub(crate) fn with_work(
         &self,
         (before, mut after): (&State, State),
         parameters: &[f64],

@@ -221,6 +221,9 @@ impl Propagator {
                 let kind = match error.kind {
                     MotionErrorKind::NotFinite(name) => MotionErrorKind::NotFiniteInStep(name),
                     MotionErrorKind::NoVelocities => MotionErrorKind::NoVelocitiesInStep,
+                    MotionErrorKind::SingularMass if error.time != self.stepper.time() => {
+                        MotionErrorKind::SingularMassInStep
+                    }
                     MotionErrorKind::ConstraintLost(name) => {
                         MotionErrorKind::ConstraintLostInStep(name)
                     }

@@ -223,6 +223,7 @@ impl Taylor {
             }
         }
         let Some(step) = found else { return Ok(false) };
+        self.take_work_of_departure(&from);
         self.kinks.begin(&mut self.series, &mut self.rates, &self.state)?;
         self.begin = from.time;
         self.course = StepCourse::Collocation(from, toward);

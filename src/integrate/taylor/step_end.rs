@@ -255,8 +255,12 @@ impl Taylor {
         let is_there =
             end.crossing.is_some() && end.after.high.abs() < TOUCHING * self.history.stride;
         if end.landed || end.vanishing || is_there {
+            let from = self.system.work_place().map(|_| self.state.clone());
             self.series.state_after(end.after, &mut self.state);
             self.clear(end.after.high / self.series.scale());
+            if let Some(from) = from {
+                self.take_work_of_arrival(&from)?;
+            }
         } else {
             let part = self.advance(end.after)?;
             if part < 1.0 {

@@ -1,5 +1,7 @@
 //! What a method cannot do, and how it reports that.
 
+use phaselab::diagnostic::Document;
+use phaselab::experiment::{Prepared, Status};
 use phaselab::integrate::{METHODS, Settings, Stepping};
 use phaselab::system::{Form, MotionErrorKind};
 
@@ -153,6 +155,23 @@ fn a_singular_mass_matrix_is_an_error() {
             method.name
         );
     }
+}
+
+/// A stage of a step that is too long lies far from the motion, where the mass underflows.
+#[test]
+fn a_mass_that_vanishes_within_a_fixed_step_is_blamed_on_the_step() {
+    let text = "title = \"Steep\"\n[coordinates]\nr = { initial = 0.992, velocity = -0.41 }\n\
+                [lagrangian]\nL = \"1/2*exp(0.819*r)*r'^2 - 3*exp(5*(r + 5))\"\n\
+                [run]\nmethod = \"rk4\"\nstep = 1.25\n";
+    let mut ready = Prepared::of(&Document::new("steep.toml", text.to_owned())).expect("a file");
+    ready.experiment.advance(5.0, u64::MAX);
+    let Status::Failed(error) = ready.experiment.status() else { panic!("it runs") };
+    assert!(
+        error.message.contains("t = 0.625")
+            && error.message.ends_with("try a smaller step, unless a chart singularity lies there"),
+        "{}",
+        error.message
+    );
 }
 
 #[test]

@@ -277,11 +277,30 @@ fn distance(a: &[f64], b: &[f64]) -> f64 {
     pairs.map(|(a, b)| (a - b).abs()).fold(0.0, |most, d| if d.is_nan() { d } else { d.max(most) })
 }
 
+/// Whether the method of a case chooses its steps.
+fn is_adaptive(case: &Case) -> bool {
+    ["auto", "taylor", "dop853"].contains(&case.method.as_str())
+}
+
 fn know(case: &Case, budget: Budget) -> Result<Known, Lost> {
     let arrival = follow(case, &case.start, 1e-13, budget.evaluations)?;
-    let coarse = follow(case, &case.start, 1e-10, budget.evaluations)?;
     let states = arrival.way.iter().map(|(_, state)| state);
     let scale = states.chain([&case.start]).flatten().fold(1e-3_f64, |most, x| most.max(x.abs()));
+    if case.keeps_energy() {
+        // a wall that a step of the judge has jumped into unseen
+        let (first, of_first) = energy(case, 0.0, &case.start);
+        let (last, of_last) = energy(case, arrival.time, &arrival.state);
+        let terms = arrival.way.iter().map(|(time, state)| energy(case, *time, state).1);
+        let terms = terms.filter(|terms| terms.is_finite()).fold(of_first.max(of_last), f64::max);
+        if (last - first).abs() > OWN_DRIFT * terms {
+            return Err(Lost::Inaccurate);
+        }
+    }
+    if !is_adaptive(case) {
+        // of equal steps only reports are judged, not digits: there is nothing more to know
+        return Ok(Known { arrival, scale, growth: f64::INFINITY, error: f64::INFINITY });
+    }
+    let coarse = follow(case, &case.start, 1e-10, budget.evaluations)?;
     // the same accuracy once more, for errors that do not follow the tolerance: rounding that the motion enlarges on its
     // way, where it is as sensitive as it is not at its start
     let again = follow(case, &case.start, 2e-13, budget.evaluations)?;
@@ -301,16 +320,6 @@ fn know(case: &Case, budget: Budget) -> Result<Known, Lost> {
     }
     let moved = distance(&arrival.state, &pushed.state) / scale;
     growth = growth.max((moved + (arrival.time - pushed.time).abs() / case.length) / 1e-9);
-    if case.keeps_energy() {
-        // a wall that a step of the judge has jumped into unseen
-        let (first, of_first) = energy(case, 0.0, &case.start);
-        let (last, of_last) = energy(case, arrival.time, &arrival.state);
-        let terms = arrival.way.iter().map(|(time, state)| energy(case, *time, state).1);
-        let terms = terms.filter(|terms| terms.is_finite()).fold(of_first.max(of_last), f64::max);
-        if (last - first).abs() > OWN_DRIFT * terms {
-            return Err(Lost::Inaccurate);
-        }
-    }
     let apart = distance(&arrival.state, &again.state) / scale;
     let apart = apart.max((arrival.time - again.time).abs() / case.length);
     // the coarse solution's error is a hundred times as large
@@ -347,9 +356,8 @@ fn judge(
         if message.contains("belongs to several starts") {
             return Outcome::Stopped;
         }
-        let fixed = !["auto", "taylor", "dop853"].contains(&case.method.as_str());
-        let says_what_helps =
-            message.contains("try a smaller step") || fixed && message.contains(" passes it");
+        let says_what_helps = message.contains("try a smaller step")
+            || !is_adaptive(case) && message.contains(" passes it");
         if reported.time == 0.0
             && reported.check.is_empty()
             && case.by_momentum.is_empty()
@@ -383,7 +391,7 @@ fn judge(
             };
         }
     };
-    let adaptive = ["auto", "taylor", "dop853"].contains(&case.method.as_str());
+    let adaptive = is_adaptive(case);
     let default = case.method == "auto";
     match &reported.end {
         End::Error(message) if default => {

@@ -483,6 +483,32 @@ fn the_energy_of_what_drags_a_block_at_rest_is_its_work() {
     }
 }
 
+/// A drive |t − t₀|^p does its work at a rate that grows without bound at t₀, and the balance has its digits whatever p. The motion
+/// is a sum of powers.
+#[test]
+fn the_energy_balance_holds_where_a_drive_has_a_vertical_tangent() {
+    for power in [0.9_f64, 0.5, 0.3, 0.25, 0.1, 0.05] {
+        for instant in [0.0_f64, 0.3, 1.25] {
+            let text = format!(
+                "title = \"Driven\"\n[coordinates]\nx = {{ initial = -0.4, velocity = 1.3 }}\n\
+                 [lagrangian]\nL = \"1/2*x'^2 - 0.5*abs(t - {instant})^{power}*x\"\n"
+            );
+            let mut ready = Prepared::of(&Document::new("driven.toml", text)).unwrap();
+            ready.experiment.advance(3.0, u64::MAX);
+            let snapshot = ready.experiment.snapshot();
+            let (n, left) = (power + 1.0, 3.0 - instant);
+            let v = 1.3 - 0.5 / n * (left.powf(n) + instant.powf(n));
+            let way = (left.powf(n + 1.0) - instant.powf(n + 1.0)) / (n + 1.0);
+            let x = -0.4 + 1.3 * 3.0 - 0.5 / n * (way + instant.powf(n) * 3.0);
+            near(&snapshot.values[..2], &[x, v], 1e-14);
+            let gauge = snapshot.gauges.iter().find(|g| g.name == "energy balance");
+            let (drift, word) = gauge.map(|g| (g.max_drift, g.verdict.word())).expect("a gauge");
+            assert!(drift < 1e-13, "|t - {instant}|^{power}: {drift:e}, {word}");
+            assert!(["exact", "bounded"].contains(&word), "|t - {instant}|^{power}: {word}");
+        }
+    }
+}
+
 /// Where the motion between kinks is a polynomial no step is too long, and a step may be asked for that is any number of
 /// times longer than the way to the kink. A wedge from rest at 20 is passed at √40 with this velocity, and then at every
 /// 2 √40.
