@@ -71,7 +71,8 @@ impl Landscape {
         let period = plane.period;
         let [x, y] = search_region(motion, period);
         let saddles = saddles(&mut energy, [x, y], SEARCH);
-        let mut tops: Vec<f64> = saddles.iter().map(|s| s.energy).collect();
+        let tops = saddles.iter().map(|s| s.energy).filter(|energy| energy.is_finite());
+        let mut tops: Vec<f64> = tops.collect();
         tops.sort_by(f64::total_cmp);
         tops.dedup_by(|a, b| (*a - *b).abs() <= 1e-6 * (a.abs() + b.abs()));
         let orbit = orbit::extent(&mut energy, into_period(at, period), [x, y], period.is_some());

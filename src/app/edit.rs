@@ -276,10 +276,13 @@ impl App {
                 }
                 let warning = loaded.warning();
                 if warning != warned {
-                    warned.iter().for_each(|text| self.notifications.withdraw(text));
+                    if let Some(text) = &warned {
+                        self.notifications.withdraw(text);
+                    }
                     // the editor shows it in its place
-                    let shown = warning.filter(|_| !is_open).map(Notification::warning);
-                    shown.into_iter().for_each(|warning| self.notifications.add(warning));
+                    if let Some(text) = warning.filter(|_| !is_open) {
+                        self.notifications.add(Notification::warning(text));
+                    }
                 }
                 self.rebuilt(loaded)
             }

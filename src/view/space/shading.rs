@@ -173,7 +173,8 @@ impl Shading {
     fn draw_edge(&self, index: usize, cell: &mut Cell) -> bool {
         let Some(covered) = self.braille.as_ref().map(|dots| dots[index]) else { return false };
         let Some(block) = edge_block::nearest(covered) else { return false };
-        let is_braille = cell.symbol().chars().all(|c| matches!(c, '\u{2800}'..='\u{28ff}'));
+        let first = cell.symbol().chars().next();
+        let is_braille = matches!(first, Some('\u{2800}'..='\u{28ff}'));
         match cell.symbol() {
             " " => {}
             _ if !is_braille => return false,

@@ -238,6 +238,8 @@ fn signs_of_quotients_are_located_at_their_zeros_and_at_their_poles() {
         ("(3 - sign(eps*(exp(1/(t - 1)) - 1)^3))/2", "(3 - sign(t - 1))/2"),
         ("(3 - sign(eps*tanh(1/(t - 1))^3))/2", "(3 - sign(t - 1))/2"),
         ("(3 + sign(1 - exp(1/(t - 1))))/2", "(3 - sign(t - 1))/2"),
+        ("(3 - sign(exp(1/(t - 1)) - exp(-1/(t - 1))))/2", "(3 - sign(t - 1))/2"),
+        ("(3 - sign(atan(tan(t + 0.5))))/2", "(3 - sign(sin(2*t + 1)))/2"),
     ] {
         let [law, same] = [mass, same].map(|mass| {
             format!("[parameters]\neps = 1e-300\n{}\n[run]\nstart = 0.25", law(mass, "1/2*x^2"))
