@@ -59,6 +59,8 @@ pub struct SourceBuffer {
     pub(super) searched: String,
     /// Whether it was saved before it was checked; errors found later are then reported.
     pub(super) unchecked: bool,
+    /// A warning of the running text that has first been found while the editor showed it in its place.
+    pub(super) untold: Option<String>,
 }
 
 #[derive(Clone, Debug)]
@@ -185,6 +187,7 @@ impl SourceBuffer {
             overwrites: false,
             searched: String::new(),
             unchecked: false,
+            untold: None,
         }
     }
 

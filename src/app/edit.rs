@@ -153,6 +153,14 @@ impl App {
         Vec::new()
     }
 
+    /// Shows the warning of the running text that has not been shown outside the editor, after what is shown now.
+    fn tell_warning(&mut self) {
+        let untold = self.workbench.top_mut().and_then(|buffer| buffer.untold.take());
+        if let Some(text) = untold {
+            self.notifications.add(Notification::warning(text));
+        }
+    }
+
     /// Handles Esc: closes the prompt, or else the editor; the text stays. A long check is stopped.
     pub(super) fn leave_buffer(&mut self) -> Vec<Effect> {
         let Some(buffer) = self.workbench.top_mut() else {
@@ -168,17 +176,20 @@ impl App {
             buffer.leave();
         }
         let message = match (stopped, buffer.is_modified()) {
-            (true, _) => format!("{} is no longer being checked; E resumes.", buffer.title),
+            (true, _) => Some(format!("{} is no longer being checked; E resumes.", buffer.title)),
             (false, true) => {
                 let key = if self.lab.is_some() { "E" } else { "Enter" };
                 // the frame of the editor had the whole path
                 let name = buffer.title.rsplit('/').next().unwrap_or(&buffer.title);
-                format!("{name} has unsaved changes; {key} returns to it.")
+                Some(format!("{name} has unsaved changes; {key} returns to it."))
             }
             (false, false) if self.lab.is_none() => return self.leave_unchanged(),
-            (false, false) => return Vec::new(),
+            (false, false) => None,
         };
-        self.notifications.show(Notification::info(message));
+        if let Some(message) = message {
+            self.notifications.show(Notification::info(message));
+        }
+        self.tell_warning();
         let mut effects = if stopped { vec![Effect::StopCheck] } else { Vec::new() };
         if stopped {
             // a motion that waits for this text runs on without it
@@ -262,6 +273,11 @@ impl App {
                     buffer.note(&loaded.warnings);
                     buffer.state = BufferState::Rebuilt(took);
                 }
+                let warning = loaded.warning();
+                let is_new = warning != warned;
+                if is_new {
+                    buffer.untold.clone_from(&warning);
+                }
                 let waits = |lab: &Lab| lab.restoration.checkpoint().is_some();
                 let resumes = self.lab.as_ref().is_some_and(waits);
                 // a quantity typed for an axis or a section is no change of the text
@@ -274,15 +290,12 @@ impl App {
                     let message = format!("{title}: rebuilt{time}; the motion continues.");
                     self.notifications.show(Notification::info(message));
                 }
-                let warning = loaded.warning();
-                if warning != warned {
-                    if let Some(text) = &warned {
-                        self.notifications.withdraw(text);
-                    }
-                    // the editor shows it in its place
-                    if let Some(text) = warning.filter(|_| !is_open) {
-                        self.notifications.add(Notification::warning(text));
-                    }
+                if let Some(text) = warned.filter(|_| is_new) {
+                    self.notifications.withdraw(&text);
+                }
+                // the editor shows it in its place
+                if !is_open {
+                    self.tell_warning();
                 }
                 self.rebuilt(loaded)
             }

@@ -97,9 +97,9 @@ impl Session {
             return self.report(Ok(copied));
         }
         let why = if self.clipboard.is_there {
-            "This is too long for the clipboard"
+            "because this is too long for the clipboard"
         } else {
-            "This terminal is not known to have a clipboard"
+            "because this terminal is not known to have a clipboard"
         };
         let stem = self.stem();
         self.write_file(move || {
@@ -108,7 +108,8 @@ impl Session {
                 let written = put(&stem, ending, format!("{text}\n").as_bytes())?;
                 return Ok(format!("{}: {text}", written.trim_end_matches('.')));
             }
-            Ok(format!("{why}: {}", put(&stem, ending, text.as_bytes())?))
+            let written = put(&stem, ending, text.as_bytes())?;
+            Ok(format!("{}, {why}.", written.trim_end_matches('.')))
         });
     }
 

@@ -648,3 +648,32 @@ fn a_warning_of_a_watched_file_comes_and_goes() {
     app.update(AppEvent::Tick(Duration::from_secs(2)));
     assert!(!left(&app), "{:?}", reported(&app));
 }
+
+/// While the editor is open it shows a warning in its place; the lab says it once the editor is closed, and only once.
+#[test]
+fn a_warning_of_an_edited_text_is_told_when_the_editor_is_closed() {
+    let mut app = own_file();
+    let reported = |app: &App| app.notifications.shown.clone().map(|notice| notice.text);
+    press(&mut app, "E");
+    replace(&mut app, "\"rad\"", "\"degree\"");
+    rest(&mut app);
+    assert_eq!(reported(&app), None);
+    press(&mut app, "Esc");
+    let unsaved = reported(&app).unwrap_or_default();
+    assert!(unsaved.contains("unsaved changes"), "{unsaved}");
+    app.update(AppEvent::Tick(Duration::from_secs(2)));
+    let warning = reported(&app).unwrap_or_default();
+    assert!(warning.starts_with("Warning, line "), "{warning}");
+    app.update(AppEvent::Tick(Duration::from_secs(10)));
+    press(&mut app, "E Esc");
+    app.update(AppEvent::Tick(Duration::from_secs(2)));
+    let again = reported(&app);
+    assert!(again.is_none_or(|text| text.contains("unsaved changes")));
+    // a warning that was mended before the editor was closed is not told
+    press(&mut app, "E");
+    replace(&mut app, "\"degree\"", "\"rad\"");
+    rest(&mut app);
+    press(&mut app, "Esc");
+    app.update(AppEvent::Tick(Duration::from_secs(6)));
+    assert_eq!(reported(&app), None);
+}

@@ -335,7 +335,7 @@ fn equations_that_are_not_copied_are_written_into_a_named_file() {
     lab.press("2");
     lab.shows("Equations");
     lab.press("y");
-    lab.shows("not known to have a clipboard");
+    lab.shows("because this terminal is not known to have a clipboard.");
     let name = folder.path().file_name().expect("a name").to_string_lossy().into_owned();
     lab.shows(&name);
     lab.shows("Saved pendulum.tex in");
