@@ -6,11 +6,13 @@
 
 mod blocks;
 mod light;
+mod nearest;
 
 use super::scale::PlotFrame;
 use crate::num::math;
 use blocks::Blocks;
 use light::lit;
+use nearest::{Covered, Nearest};
 
 /// How far behind a surface a point still counts as lying on it, relative to the picture.
 const TOLERANCE: f64 = 0.03;
@@ -18,19 +20,6 @@ const TOLERANCE: f64 = 0.03;
 /// The length of the pieces, in dots, that are visible or hidden as a whole, and the most of them in a segment.
 const PIECE: f64 = 2.0;
 const MOST_PIECES: f64 = 512.0;
-
-/// A dot that a surface covers.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Covered {
-    /// How near the surface is to the eye.
-    pub near: f64,
-    /// The number of the surface.
-    pub surface: usize,
-    /// How brightly it is lit, 0 to 1.
-    pub light: f64,
-    /// Whether a veil is in front of it.
-    pub veiled: bool,
-}
 
 /// How a dot of something is seen among the surfaces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,30 +43,6 @@ pub struct DepthBuffer {
     veil: Nearest,
 }
 
-/// The nearest surface of a kind at each dot.
-#[derive(Clone, Debug, Default)]
-struct Nearest {
-    /// How near it is, row by row; −∞ where there is none. Empty as long as there is no surface.
-    nears: Vec<f64>,
-    /// Which surface that is, and how brightly it is lit.
-    surfaces: Vec<(u32, f32)>,
-    /// The dots from the first to the last that is covered.
-    range: std::ops::Range<usize>,
-}
-
-impl Nearest {
-    fn near(&self, place: usize) -> f64 {
-        self.nears.get(place).copied().unwrap_or(f64::NEG_INFINITY)
-    }
-
-    fn covered(&self, place: usize, veiled: bool) -> Option<Covered> {
-        let &(surface, light) = self.surfaces.get(place)?;
-        let near = self.near(place);
-        let covered = Covered { near, surface: surface as usize, light: f64::from(light), veiled };
-        (near > f64::NEG_INFINITY).then_some(covered)
-    }
-}
-
 impl DepthBuffer {
     /// Creates a buffer without surfaces over a raster of this many dots.
     pub fn new(frame: &PlotFrame, size: [i32; 2]) -> Self {
@@ -93,7 +58,7 @@ impl DepthBuffer {
 
     /// Whether there is no surface.
     pub fn is_empty(&self) -> bool {
-        self.opaque.nears.is_empty() && self.veil.nears.is_empty()
+        self.opaque.is_empty() && self.veil.is_empty()
     }
 
     /// The covered dots: the nearest surface of each, or the one behind a veil.
@@ -129,11 +94,12 @@ impl DepthBuffer {
         let ([a, b, c], whole) = (chosen.map(|k| dots[k]), twice(chosen));
         let nearness = chosen.map(|k| corners[k][2]);
         let near = |dot: [f64; 2]| {
-            let shares = [side([b, c, dot]), side([c, a, dot]), side([a, b, dot])];
-            (0..3).map(|k| shares[k] / whole * nearness[k]).sum::<f64>()
+            let [p, q, r] = [side([b, c, dot]), side([c, a, dot]), side([a, b, dot])];
+            p / whole * nearness[0] + q / whole * nearness[1] + r / whole * nearness[2]
         };
         // A face is flat: along a row its nearness grows by the same with each dot.
         let growth = near([1.0, 0.0]) - near([0.0, 0.0]);
+        self.opaque.prepare(self.size);
         for row in rows {
             let middle = |column: i32| [f64::from(column) + 0.5, f64::from(row) + 0.5];
             // How far right of the first column each edge lets the row begin and end.
@@ -163,12 +129,14 @@ impl DepthBuffer {
                 continue;
             }
             let (from, to) = (from as i32, to as i32);
-            let first = near(middle(from));
-            for column in from..to {
-                let near = first + growth * f64::from(column - from);
-                let covered = Covered { near, surface, light, veiled: false };
-                cover(&mut self.opaque, self.size, [column, row], covered);
+            if from >= to {
+                continue;
             }
+            let first = near(middle(from));
+            let nears = (0..to - from).map(|right| first + growth * f64::from(right));
+            let start = row * self.size[0];
+            let places = (start + from) as usize..(start + to) as usize;
+            self.opaque.cover(places, (surface, light), nears);
         }
     }
 
@@ -191,6 +159,7 @@ impl DepthBuffer {
         let high = self.frame.dot([x + radius, y - radius], self.size);
         let [low, high] = self.blocks.map_or([low, high], |blocks| blocks.around(low, high));
         let Some([columns, rows]) = self.box_of(&[low, high]) else { return };
+        nearest.prepare(self.size);
         let off = |dot: i32, k: usize| {
             (f64::from(dot) + 0.5 - f64::midpoint(low[k], high[k])) * 2.0 / (high[k] - low[k])
         };
@@ -199,10 +168,10 @@ impl DepthBuffer {
                 let (right, up) = (off(column, 0), -off(row, 1));
                 let rest = 1.0 - right * right - up * up;
                 if rest >= 0.0 {
-                    let out = rest.sqrt();
-                    let (near, light) = (near + radius * out, lit([right, up, out]));
-                    let covered = Covered { near, surface, light, veiled: false };
-                    cover(nearest, self.size, [column, row], covered);
+                    let (out, place) = (rest.sqrt(), (row * self.size[0] + column) as usize);
+                    let light = lit([right, up, out]);
+                    let nears = std::iter::once(near + radius * out);
+                    nearest.cover(place..place + 1, (surface, light), nears);
                 }
             }
         }
@@ -235,9 +204,8 @@ impl DepthBuffer {
             return Visibility::Clear;
         }
         let dot = self.frame.dot([x, y], self.size);
-        let finite = dot.iter().all(|v| v.is_finite());
-        if finite {
-            self.sight(dot.map(|v| whole_below(v) as i32), near)
+        if dot[0].is_finite() && dot[1].is_finite() {
+            self.sight([whole_below(dot[0]) as i32, whole_below(dot[1]) as i32], near)
         } else {
             Visibility::Clear
         }
@@ -246,14 +214,19 @@ impl DepthBuffer {
     /// A line through points in short pieces, each end with whether a veil is in front of the piece that leads there; a
     /// point without a position (NaN) stands for what is hidden.
     pub fn visible(&self, points: &[[f64; 3]]) -> Vec<([f64; 3], bool)> {
-        let mut seen = Vec::new();
+        let mut seen = Vec::with_capacity(2 * points.len());
         let mut at = None;
+        let dot = |[x, y, _]: [f64; 3]| self.frame.dot([x, y], self.size);
+        let mut end = points.first().map_or([f64::NAN; 2], |first| dot(*first));
         for pair in points.windows(2) {
             let (a, b) = (pair[0], pair[1]);
-            let ends = [a, b].map(|[x, y, _]| self.frame.dot([x, y], self.size));
-            let length = math::hypot(ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]);
+            let begin = std::mem::replace(&mut end, dot(b));
+            let length = math::hypot(end[0] - begin[0], end[1] - begin[1]);
             let count = (length / PIECE).ceil().clamp(1.0, MOST_PIECES);
-            let place = |share: f64| [0, 1, 2].map(|k| a[k] + share * (b[k] - a[k]));
+            let place = |share: f64| {
+                let along = |k: usize| a[k] + share * (b[k] - a[k]);
+                [along(0), along(1), along(2)]
+            };
             let mut begins = place(0.0);
             for piece in 0..count as u32 {
                 let share = |more: f64| (f64::from(piece) + more) / count;
@@ -287,28 +260,6 @@ impl DepthBuffer {
                 low.floor() as i32..high.ceil() as i32
             })
         })
-    }
-}
-
-/// Covers a dot, unless something nearer does.
-fn cover(nearest: &mut Nearest, [wide, high]: [i32; 2], [x, y]: [i32; 2], new: Covered) {
-    if nearest.nears.is_empty() {
-        let count = (wide * high) as usize;
-        nearest.nears = vec![f64::NEG_INFINITY; count];
-        nearest.surfaces = vec![(0, 0.0); count];
-    }
-    let place = (y * wide + x) as usize;
-    if let (Some(near), Some(surface)) =
-        (nearest.nears.get_mut(place), nearest.surfaces.get_mut(place))
-        && *near < new.near
-    {
-        (*near, *surface) = (new.near, (new.surface as u32, new.light as f32));
-        let range = &mut nearest.range;
-        *range = if range.start >= range.end {
-            place..place + 1
-        } else {
-            range.start.min(place)..range.end.max(place + 1)
-        };
     }
 }
 

@@ -114,6 +114,8 @@ struct Cell {
 pub struct Raster {
     area: Rect,
     glyphs: Glyphs,
+    /// The number of dots: columns, rows.
+    size: [i32; 2],
     cells: Vec<Cell>,
 }
 
@@ -123,7 +125,10 @@ impl Raster {
         let area =
             Rect { width: area.width.min(MOST_CELLS), height: area.height.min(MOST_CELLS), ..area };
         let count = usize::from(area.width) * usize::from(area.height);
-        Self { area, glyphs, cells: vec![Cell::default(); count] }
+        let (wide, high) = glyphs.dots();
+        let size =
+            [i32::from(area.width) * i32::from(wide), i32::from(area.height) * i32::from(high)];
+        Self { area, glyphs, size, cells: vec![Cell::default(); count] }
     }
 
     /// The number of dots set.
@@ -166,11 +171,7 @@ impl Raster {
 
     /// The number of dots: columns, rows.
     pub fn size(&self) -> [i32; 2] {
-        let (wide, high) = self.glyphs.dots();
-        [
-            i32::from(self.area.width) * i32::from(wide),
-            i32::from(self.area.height) * i32::from(high),
-        ]
+        self.size
     }
 
     /// Sets one dot; a dot outside the raster is ignored.
@@ -273,9 +274,11 @@ impl Raster {
                 + usize::from(shown.x - self.area.x);
             let from = buffer.index_of(shown.x, y);
             let there = &mut buffer.content[from..from + usize::from(shown.width)];
-            for (index, place) in (first..).zip(there).filter(|(index, place)| shows(*index, place))
-            {
-                self.show(index, covered.get(index).copied().unwrap_or(0), place);
+            for (index, place) in (first..).zip(there) {
+                let cell = &self.cells[index];
+                if (cell.upper != 0 || cell.sign.is_some()) && shows(index, place) {
+                    self.show(index, covered.get(index).copied().unwrap_or(0), place);
+                }
             }
         }
     }
@@ -302,10 +305,12 @@ impl Raster {
 
     fn ink(&mut self, dot: [i32; 2], pen: &Pen, sign: Option<char>) {
         let Some((index, bit)) = self.place(dot) else { return };
-        // A character in ASCII is drawn whole or not at all; its parts are not thinned.
-        let [wide, high] = if self.glyphs.is_ascii() { self.cell() } else { [1, 1] };
-        if pen.coverage < 1.0 && noise([dot[0] / wide, dot[1] / high]) >= pen.coverage {
-            return;
+        if pen.coverage < 1.0 {
+            // A character in ASCII is drawn whole or not at all; its parts are not thinned.
+            let [wide, high] = if self.glyphs.is_ascii() { self.cell() } else { [1, 1] };
+            if noise([dot[0] / wide, dot[1] / high]) >= pen.coverage {
+                return;
+            }
         }
         self.set((index, bit), pen, sign);
     }
@@ -359,15 +364,21 @@ impl Raster {
 
     /// The index of a dot's cell, and the bit of the dot.
     fn place(&self, [x, y]: [i32; 2]) -> Option<(usize, u8)> {
-        let [wide, high] = self.size();
+        let [wide, high] = self.size;
         if !(0..wide).contains(&x) || !(0..high).contains(&y) {
             return None;
         }
-        let (columns, rows) = self.glyphs.dots();
-        let (columns, rows) = (usize::from(columns), usize::from(rows));
-        let (x, y) = (x as usize, y as usize);
-        let cell = y / rows * usize::from(self.area.width) + x / columns;
-        Some((cell, 1 << (y % rows * columns + x % columns)))
+        let (x, y, across) = (x as u32, y as u32, u32::from(self.area.width));
+        let place = |columns: u32, rows: u32| {
+            let cell = y / rows * across + x / columns;
+            (cell as usize, 1 << (y % rows * columns + x % columns))
+        };
+        // a division by a known number is a shift or a product
+        Some(match self.glyphs.dots() {
+            (2, 4) => place(2, 4),
+            (2, 3) => place(2, 3),
+            (columns, rows) => place(columns.into(), rows.into()),
+        })
     }
 }
 

@@ -62,9 +62,8 @@ impl<Ink: Copy> Tip<Ink> {
         let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
         // Sampled at the middle of each step, where a line through the corners of dots is unambiguous.
         let mut sample = |t: f64| {
-            let place = [a[0] + t * dx, a[1] + t * dy];
-            let next = std::array::from_fn(|i| (place[i] as i32).clamp(0, last[i]));
-            self.touch(next, ink, &mut dot);
+            let (x, y) = ((a[0] + t * dx) as i32, (a[1] + t * dy) as i32);
+            self.touch([x.clamp(0, last[0]), y.clamp(0, last[1])], ink, &mut dot);
         };
         let length = dx.abs().max(dy.abs());
         if length <= 1.0 {

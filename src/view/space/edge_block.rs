@@ -2,6 +2,8 @@
 //!
 //! In: covered dots, as braille has them. Out: a block. Never here: colours.
 
+use std::sync::LazyLock;
+
 use ratatui::symbols::pixel::QUADRANTS;
 
 /// The dots of each quarter of a cell, as braille has them, in the order of [`QUADRANTS`].
@@ -17,6 +19,14 @@ const LEFT: u8 = 0x47;
 /// The block that differs from these dots by the fewest of them; `None` if that is the whole cell. Of those that differ by as many, a
 /// whole row comes first where both halves of the cell have dots: a flat edge is not notched.
 pub(super) fn nearest(dots: u8) -> Option<char> {
+    NEAREST[usize::from(dots)]
+}
+
+/// The block of each set of dots.
+static NEAREST: LazyLock<Vec<Option<char>>> =
+    LazyLock::new(|| (0..=u8::MAX).map(least_apart).collect());
+
+fn least_apart(dots: u8) -> Option<char> {
     let quadrants = (1..15).map(|set: usize| {
         let filled = (0..4).filter(|k| set >> k & 1 == 1).fold(0, |dots, k| dots | QUARTERS[k]);
         (filled, QUADRANTS[set])

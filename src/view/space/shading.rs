@@ -138,11 +138,11 @@ impl Shading {
                 (index % usize::from(self.area.width), index / usize::from(self.area.width));
             let at = (self.area.x + column as u16, self.area.y + row as u16);
             let Some(cell) = buffer.cell_mut(at) else { continue };
-            let colours = self.colours(quarters);
             let written = is_written(at.into());
             if !written && self.draw_edge(index, cell) {
                 continue;
             }
+            let colours = self.colours(quarters);
             let covered = colours.iter().flatten().count();
             let is_edge = (HALF..4).contains(&covered) && is_of_dots(cell.symbol());
             if written || cell.symbol() != " " && !is_edge {

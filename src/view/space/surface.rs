@@ -143,6 +143,9 @@ impl ScenePainter<'_> {
                 }
             }
         }
+        if (0..tones.len()).all(has_tones) {
+            return;
+        }
         let pens: Vec<_> = surfaces.iter().map(|s| [s.pen, self.dim(&s.pen)]).collect();
         for (dot, covered) in self.depth.dots().filter(|(_, covered)| !has_tones(covered.surface)) {
             let pen = pens[covered.surface][usize::from(covered.veiled)];

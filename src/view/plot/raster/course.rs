@@ -18,7 +18,8 @@ pub(super) struct Inked<Ink> {
 
 impl<Ink> Inked<Ink> {
     pub(super) fn centre(&self, dot: [i32; 2]) -> [i32; 2] {
-        [0, 1].map(|i| dot[i] * self.grid[i] + self.grid[i] / 2)
+        let ([x, y], [wide, high]) = (dot, self.grid);
+        [x * wide + wide / 2, y * high + high / 2]
     }
 }
 
@@ -97,14 +98,15 @@ impl<Ink: Copy> Course<Ink> {
         ink: Inked<Ink>,
         put: &mut impl FnMut([i32; 2], Inked<Ink>),
     ) {
-        let grid = ink.grid;
-        let count = [0, 1].map(|i| self.size[i] / grid[i]);
+        let [wide, high] = ink.grid;
+        let count = [self.size[0] / wide, self.size[1] / high];
         let inside = clip(from, next, self.size.map(f64::from));
         let Some((a, b)) = inside.filter(|_| !count.contains(&0)) else {
             return self.tip.lift(put);
         };
-        let (last, whole) = (count.map(|n| n - 1), b == next);
-        let [a, b] = [a, b].map(|point| [0, 1].map(|i| point[i] / f64::from(grid[i])));
+        let (last, whole) = ([count[0] - 1, count[1] - 1], b[0] == next[0] && b[1] == next[1]);
+        let on_grid = |[x, y]: [f64; 2]| [x / f64::from(wide), y / f64::from(high)];
+        let (a, b) = (on_grid(a), on_grid(b));
         let along = usize::from((b[1] - a[1]).abs() > (b[0] - a[0]).abs());
         self.tip.follow((a, b), last, Inked { along, ..ink }, &mut *put);
         if !whole {
