@@ -37,16 +37,25 @@ impl Jet {
         self.bend[index(i, j)]
     }
 
-    pub(crate) fn plus(&self, other: &Jet) -> Jet {
-        let mut sum = *self;
-        sum.value += other.value;
+    pub(crate) fn add(&mut self, other: &Jet) {
+        self.value += other.value;
         for i in 0..self.count {
-            sum.slope[i] += other.slope[i];
+            self.slope[i] += other.slope[i];
         }
         for k in 0..index(self.count, 0) {
-            sum.bend[k] += other.bend[k];
+            self.bend[k] += other.bend[k];
         }
+    }
+
+    pub(crate) fn plus(&self, other: &Jet) -> Jet {
+        let mut sum = *self;
+        sum.add(other);
         sum
+    }
+
+    /// The product with a number.
+    pub(crate) fn scaled(&self, factor: f64) -> Jet {
+        self.chain([factor * self.value, factor, 0.0])
     }
 
     pub(crate) fn times(&self, other: &Jet) -> Jet {

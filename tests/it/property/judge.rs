@@ -266,11 +266,18 @@ struct Known {
     arrival: Arrival,
     /// The magnitude of its components.
     scale: f64,
+}
+
+/// How far a motion can be known. A result within what is allowed to every motion needs no more than the motion itself.
+struct Sensitivity {
     /// The growth of a small change of the start.
     growth: f64,
     /// The judge's own error, relative to the scale.
     error: f64,
 }
+
+/// That of the steadiest motion: what it is allowed is the least that any is.
+const INSENSITIVE: Sensitivity = Sensitivity { growth: 1.0, error: 0.0 };
 
 fn distance(a: &[f64], b: &[f64]) -> f64 {
     let pairs = a.iter().zip(b);
@@ -296,10 +303,12 @@ fn know(case: &Case, budget: Budget) -> Result<Known, Lost> {
             return Err(Lost::Inaccurate);
         }
     }
-    if !is_adaptive(case) {
-        // of equal steps only reports are judged, not digits: there is nothing more to know
-        return Ok(Known { arrival, scale, growth: f64::INFINITY, error: f64::INFINITY });
-    }
+    Ok(Known { arrival, scale })
+}
+
+/// Follows the motion three times more: it is asked only where a result differs by more than every motion is allowed.
+fn sensitivity(case: &Case, known: &Known, budget: Budget) -> Result<Sensitivity, Lost> {
+    let Known { arrival, scale } = known;
     let coarse = follow(case, &case.start, 1e-10, budget.evaluations)?;
     // the same accuracy once more, for errors that do not follow the tolerance: rounding that the motion enlarges on its
     // way, where it is as sensitive as it is not at its start
@@ -324,7 +333,7 @@ fn know(case: &Case, budget: Budget) -> Result<Known, Lost> {
     let apart = apart.max((arrival.time - again.time).abs() / case.length);
     // the coarse solution's error is a hundred times as large
     let error = (0.01 * error).max(apart) + 1e-14 * growth;
-    Ok(Known { arrival, scale, growth, error })
+    Ok(Sensitivity { growth, error })
 }
 
 /// A drift that `run` reports.
@@ -343,7 +352,9 @@ fn judge(
     budget: Budget,
     cancel: &Cancel,
 ) -> Outcome {
-    let reported = match run(as_run, budget, cancel) {
+    // what takes the judge too long is not compared: only a failure can say something, and most come early
+    let steps = if matches!(known, Err(Lost::TooLong)) { budget.steps / 10 } else { budget.steps };
+    let reported = match run(as_run, Budget { steps, ..budget }, cancel) {
         Ok(reported) => reported,
         Err(outcome) => return outcome,
     };
@@ -381,16 +392,39 @@ fn judge(
                 _ => failed(Kind::Wrong, "it runs from where nothing is finite"),
             };
         }
-        Err(why) => {
-            return match (reported.end, why) {
-                (End::Error(_), _) => Outcome::Stopped,
-                (_, Lost::NotFinite) => Outcome::Undecided("a pole"),
-                (_, Lost::TooLong) => Outcome::Undecided("too long"),
-                (_, Lost::Inaccurate) => Outcome::Undecided("the judge's own energy"),
-                (_, _) => Outcome::Undecided("a kink that holds"),
-            };
-        }
+        Err(why) => return unknown(&reported, why),
     };
+    let run = (as_run, &reported);
+    let outcome = compare(case, &known, &INSENSITIVE, run, budget, cancel);
+    if outcome == Outcome::Accurate || !is_adaptive(case) {
+        return outcome;
+    }
+    match sensitivity(case, &known, budget) {
+        Ok(sensitivity) => compare(case, &known, &sensitivity, run, budget, cancel),
+        Err(why) => unknown(&reported, why),
+    }
+}
+
+/// The outcome of a run where there is no motion for comparison.
+fn unknown(reported: &RunReport, why: Lost) -> Outcome {
+    match (&reported.end, why) {
+        (End::Error(_), _) => Outcome::Stopped,
+        (_, Lost::NotFinite) => Outcome::Undecided("a pole"),
+        (_, Lost::TooLong) => Outcome::Undecided("too long"),
+        (_, Lost::Inaccurate) => Outcome::Undecided("the judge's own energy"),
+        (_, _) => Outcome::Undecided("a kink that holds"),
+    }
+}
+
+/// Compares a run, and that in natural units, with the motion.
+fn compare(
+    case: &Case,
+    known: &Known,
+    sensitivity: &Sensitivity,
+    (as_run, reported): (&Case, &RunReport),
+    budget: Budget,
+    cancel: &Cancel,
+) -> Outcome {
     let adaptive = is_adaptive(case);
     let default = case.method == "auto";
     match &reported.end {
@@ -413,10 +447,10 @@ fn judge(
     if !reported.check.is_empty() {
         return failed(Kind::CheckRefuses, reported.check.join("; "));
     }
-    if let Some(failure) = energy_failure(case, &known, &reported) {
+    if let Some(failure) = energy_failure(case, known, reported) {
         return Outcome::Failed(failure);
     }
-    if let Some(failure) = form_failure(case, &reported) {
+    if let Some(failure) = form_failure(case, reported) {
         return Outcome::Failed(failure);
     }
     if !adaptive {
@@ -426,7 +460,7 @@ fn judge(
     let asked = case.tolerance.unwrap_or(least).max(least);
     let room = if case.method == "dop853" { 30.0 } else { 100.0 };
     let steps = (10 + reported.steps) as f64;
-    let allowed = 1e-11 + room * steps * asked * known.growth + 10.0 * known.error;
+    let allowed = 1e-11 + room * steps * asked * sensitivity.growth + 10.0 * sensitivity.error;
     if allowed.is_nan() || allowed > UNREPORTED {
         return Outcome::Undecided("too sensitive");
     }
@@ -445,7 +479,7 @@ fn judge(
     if off.is_nan() || off > allowed {
         let message = format!(
             "off by {off:.1e} where {allowed:.1e} is allowed (growth {:.1e}, {} steps): {:?} in place of {:?}",
-            known.growth, reported.steps, reported.state, known.arrival.state
+            sensitivity.growth, reported.steps, reported.state, known.arrival.state
         );
         return failed(Kind::Wrong, message);
     }
@@ -471,7 +505,7 @@ fn judge(
     let allowed = allowed * known.scale;
     // a verdict may be open only on a motion that has hardly come back, or that something drives
     let is_short = turns(&known.arrival.way) <= FEW_TURNS || !case.keeps_energy();
-    let failure = twin_failure(as_run, &reported, (allowed, is_short), budget, cancel);
+    let failure = twin_failure(as_run, reported, (allowed, is_short), budget, cancel);
     failure.map_or(Outcome::Accurate, Outcome::Failed)
 }
 

@@ -198,15 +198,29 @@ impl Tree {
         match self {
             Tree::Number(value) => Jet::constant(count, *value),
             Tree::Variable(i) => Jet::variable(count, *i, point[*i]),
-            Tree::Sum(terms) => terms.iter().fold(Jet::constant(count, 0.0), |sum, term| {
-                let term = term.jet(point, branches);
-                sum.plus(&term)
-            }),
+            Tree::Sum(terms) => {
+                let mut sum = Jet::constant(count, 0.0);
+                for term in terms {
+                    match term {
+                        Tree::Number(value) => sum.value += value,
+                        term => sum.add(&term.jet(point, branches)),
+                    }
+                }
+                sum
+            }
             Tree::Product(factors) => {
-                factors.iter().fold(Jet::constant(count, 1.0), |product, factor| {
-                    let factor = factor.jet(point, branches);
-                    product.times(&factor)
-                })
+                let mut scale = 1.0;
+                let mut product: Option<Jet> = None;
+                for factor in factors {
+                    match factor {
+                        Tree::Number(value) => scale *= value,
+                        factor => {
+                            let factor = factor.jet(point, branches);
+                            product = Some(product.map_or(factor, |p| p.times(&factor)));
+                        }
+                    }
+                }
+                product.map_or(Jet::constant(count, scale), |product| product.scaled(scale))
             }
             Tree::Quotient(above, below) => {
                 let above = above.jet(point, branches);
