@@ -197,7 +197,8 @@ fn reach(
 /// Energies whose curves are about evenly spaced, as around a quadratic minimum. Returns `None` if
 /// the energy is constant or nowhere finite.
 fn levels(values: &[f64]) -> Option<Vec<f64>> {
-    let mut finite: Vec<f64> = values.iter().copied().filter(|v| v.is_finite()).collect();
+    let mut finite = values.to_vec();
+    finite.retain(|v| v.is_finite());
     let low = finite.iter().copied().reduce(f64::min)?;
     // A wall of a few points must not take all levels.
     let most = (finite.len() - 1) * 19 / 20;

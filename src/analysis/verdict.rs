@@ -148,6 +148,7 @@ const FEWEST: usize = 17;
 
 /// The relative drift that rounding alone explains after this many steps: a random walk of a few
 /// units in the last place, four standard deviations wide.
+#[inline]
 pub fn rounding_floor(steps: u64) -> f64 {
     f64::EPSILON * (16.0 + 4.0 * (steps as f64).sqrt())
 }

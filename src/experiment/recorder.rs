@@ -192,6 +192,11 @@ impl Recorder {
         Recorder { hulls, ..self }
     }
 
+    /// Keeps no hulls from now on.
+    pub(super) fn forget_hulls(&mut self) {
+        self.hulls = Hulls::default();
+    }
+
     /// Widens the bounds and the hulls to include these values.
     pub(super) fn widen(&mut self, values: &[f64]) {
         self.hulls.widen(values);

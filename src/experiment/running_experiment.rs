@@ -172,9 +172,10 @@ impl Experiment {
         self.only_ends = true;
     }
 
-    /// Only the gauges see the recorded rows from now on, of which there are then fewer.
+    /// Only the gauges see the recorded rows from now on, of which there are then fewer, and no picture is fitted to them.
     pub fn record_for_gauges_only(&mut self) {
         self.row_spacing.see_gauges_only();
+        self.recorder.forget_hulls();
     }
 
     /// Remembers no states between steps from now on: the motion cannot be carried back.

@@ -125,6 +125,7 @@ impl BatchPropagator {
     }
 
     /// The status of a lane.
+    #[inline]
     pub fn status(&self, lane: usize) -> LaneStatus {
         of_stepper!(&self.stepper, stepper => stepper.status(lane))
     }
@@ -173,6 +174,7 @@ impl BatchPropagator {
     }
 
     /// The time of that state.
+    #[inline]
     pub fn time(&self, lane: usize) -> f64 {
         of_stepper!(&self.stepper, stepper => stepper.time(lane))
     }

@@ -90,6 +90,7 @@ impl BatchSeries {
     }
 
     /// Chooses the unit of time of a lane: the power of two below `step`, negative for a step back.
+    #[inline]
     pub fn set_scale(&mut self, lane: usize, step: f64) {
         self.scale.0[lane] = unit_below(step);
     }

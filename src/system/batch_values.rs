@@ -64,7 +64,17 @@ impl BatchValues {
         for (&r, input) in self.program.inputs.iter().zip(inputs) {
             self.registers[r as usize] = input;
         }
-        vectorized(ValuesKernel { values: self, times });
+        let program = Arc::clone(&self.program);
+        vectorized(ValuesKernel { values: self, times, body: &program.body });
+    }
+
+    /// Evaluates once more with another number for one input: the operations of [`Program::body_of_input`] for it.
+    pub(super) fn evaluate_with(&mut self, (input, x): (usize, Batch), body: &[Register]) {
+        if let Some(&r) = self.program.inputs.get(input) {
+            self.registers[r as usize] = x;
+        }
+        // none of these is the time
+        vectorized(ValuesKernel { values: self, times: Batch::ZERO, body });
     }
 
     /// The lanes whose values need not be evaluated alone.
@@ -74,6 +84,15 @@ impl BatchValues {
             regular[lane] &= self.finite.0[lane] == 0.0;
         }
         regular
+    }
+
+    /// Whether no lane has to be evaluated alone.
+    pub(super) fn is_regular(&self) -> bool {
+        let mut sum = 0.0;
+        for lane in 0..BATCH {
+            sum += self.finite.0[lane];
+        }
+        sum == 0.0 && self.ordinary == [true; BATCH]
     }
 
     /// The values of the outputs from one on.
@@ -86,6 +105,8 @@ impl BatchValues {
 struct ValuesKernel<'a> {
     values: &'a mut BatchValues,
     times: Batch,
+    /// What is evaluated.
+    body: &'a [Register],
 }
 
 impl Kernel for ValuesKernel<'_> {
@@ -95,7 +116,7 @@ impl Kernel for ValuesKernel<'_> {
     #[inline(always)]
     fn run<const FUSED: bool>(self) {
         let BatchValues { program, registers, finite, .. } = self.values;
-        for &r in &program.body {
+        for &r in self.body {
             let at = r as usize;
             if let Op::Time = program.ops[at] {
                 registers[at] = self.times;

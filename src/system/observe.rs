@@ -3,14 +3,18 @@
 use super::batch_values::BatchValues;
 use super::image::MapImage;
 use super::native_states::NativeStates;
+use super::program::Register;
 use super::value::Evaluator;
 use super::{Form, MotionError, State, System};
 use crate::num::{BATCH, Batch, DoubleDouble, Real};
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 /// Where a grid has this many points without an energy, no velocity is searched for far from the guess at the others: a
 /// search takes a hundred times as long as finding one.
 const MOST_EMPTY: usize = 64;
+
+/// The input of the energy that is the rate, of one degree of freedom.
+const RATE: usize = 1;
 
 /// Evaluates the channels of one system at one set of parameters. It owns its registers.
 #[derive(Clone, Debug)]
@@ -19,12 +23,21 @@ pub struct Observer {
     precise: Evaluator<DoubleDouble>,
     drawn: Evaluator<f64>,
     energy: Evaluator<f64>,
-    /// The energies of several points at these parameters, once a grid was asked for; `None` where they are evaluated one by one.
-    energies: OnceLock<Option<BatchValues>>,
+    /// The energies of several points at these parameters, once a grid was asked for.
+    energies: Option<Box<Energies>>,
     native: NativeStates,
     inputs: Vec<DoubleDouble>,
     rounded: Vec<f64>,
     images: Vec<MapImage>,
+}
+
+/// What evaluates the energy at several points.
+#[derive(Clone, Debug)]
+struct Energies {
+    /// `None` where they are evaluated one by one.
+    values: Option<BatchValues>,
+    /// The operations that depend on the rate.
+    of_rate: Vec<Register>,
 }
 
 impl Observer {
@@ -36,7 +49,7 @@ impl Observer {
             precise: Evaluator::new(Arc::clone(&watch.precise)),
             drawn: Evaluator::new(Arc::clone(&watch.drawn)),
             energy: Evaluator::new(Arc::clone(&system.shared.energy)),
-            energies: OnceLock::new(),
+            energies: None,
             native: NativeStates::new(&system),
             inputs: vec![DoubleDouble::ZERO; inputs],
             rounded: vec![0.0; inputs],
@@ -53,7 +66,7 @@ impl Observer {
         self.precise.set_parameters(&inputs);
         self.drawn.set_parameters(&inputs);
         self.energy.set_parameters(&inputs);
-        self.energies = OnceLock::new();
+        self.energies = None;
         self.native.set_parameters(parameters, &inputs);
         for image in &mut self.images {
             image.set_parameters(&inputs);
@@ -131,17 +144,13 @@ impl Observer {
         rates: &[f64],
         out: &mut [f64],
     ) {
-        let rows = out.chunks_exact_mut(positions.len().max(1)).zip(rates);
         if form == self.system.form() {
-            for (row, &rate) in rows {
-                self.energies(time, positions, |_| rate, row);
-            }
+            self.energies(time, positions, None, rates, out);
         } else if self.is_linear(form) {
             let lines: Vec<(f64, f64)> = positions.iter().map(|&x| self.line(time, x)).collect();
-            for (row, &rate) in rows {
-                self.energies(time, positions, |i| (rate - lines[i].0) / lines[i].1, row);
-            }
+            self.energies(time, positions, Some(&lines), rates, out);
         } else {
+            let rows = out.chunks_exact_mut(positions.len().max(1)).zip(rates);
             let mut empty = 0;
             for (row, &rate) in rows {
                 for (x, &position) in row.iter_mut().zip(positions) {
@@ -162,41 +171,60 @@ impl Observer {
         line.map_or((f64::NAN, f64::NAN), |(at_rest, slope)| (at_rest.high, slope.high))
     }
 
-    /// Writes the energies at positions with native rates into `out`, several at once; NaN where there is none.
+    /// Writes the energies on a grid into `out`, those of several positions at once; NaN where there is none. The rates are native
+    /// ones, or those of which the native one is 0 and the slope at each position are given. What depends on a position alone is
+    /// evaluated once for all rates.
     fn energies(
         &mut self,
         time: f64,
         positions: &[f64],
-        rate: impl Fn(usize) -> f64,
+        lines: Option<&[(f64, f64)]>,
+        rates: &[f64],
         out: &mut [f64],
     ) {
-        self.energies.get_or_init(|| {
-            let mut energies = BatchValues::new(&self.system.shared.energy)?;
-            energies.set_parameters_of_all(&self.system.inputs(self.native.parameters()));
-            Some(energies)
-        });
-        for (chunk, out) in out.chunks_mut(BATCH).enumerate() {
-            let (first, last) = (BATCH * chunk, BATCH * chunk + out.len() - 1);
-            let (mut q, mut v) = (Batch([0.0; BATCH]), Batch([0.0; BATCH]));
-            for lane in 0..BATCH {
-                // lanes beyond the end of the row repeat its last point
-                let place = (first + lane).min(last);
-                (q.0[lane], v.0[lane]) = (positions[place], rate(place));
+        let mut energies = self.energies.take().unwrap_or_else(|| {
+            let program = &self.system.shared.energy;
+            let mut values = BatchValues::new(program);
+            if let Some(values) = &mut values {
+                values.set_parameters_of_all(&self.system.inputs(self.native.parameters()));
             }
-            let mut regular = [false; BATCH];
-            if let Some(Some(energies)) = self.energies.get_mut() {
-                energies.evaluate(Batch::splat(time), [q, v].into_iter());
-                regular = energies.regular_lanes();
-                if let Some(found) = energies.outputs_from(0).next() {
-                    out.copy_from_slice(&found.0[..out.len()]);
+            Box::new(Energies { values, of_rate: program.body_of_input(RATE) })
+        });
+        let Energies { values, of_rate } = &mut *energies;
+        for first in (0..positions.len()).step_by(BATCH) {
+            let count = BATCH.min(positions.len() - first);
+            // lanes beyond the end of the row repeat its last point
+            let place = |lane: usize| first + lane.min(count - 1);
+            let q = Batch(std::array::from_fn(|lane| positions[place(lane)]));
+            let line = |lane: usize| lines.map_or((0.0, 1.0), |lines| lines[place(lane)]);
+            let at_rest = Batch(std::array::from_fn(|lane| line(lane).0));
+            let slope = Batch(std::array::from_fn(|lane| line(lane).1));
+            for (j, &rate) in rates.iter().enumerate() {
+                let given = Batch::splat(rate);
+                let v = if lines.is_some() { (given - at_rest) / slope } else { given };
+                let out = &mut out[j * positions.len() + first..][..count];
+                let mut regular = [false; BATCH];
+                if let Some(values) = values {
+                    match j {
+                        0 => values.evaluate(Batch::splat(time), [q, v].into_iter()),
+                        _ => values.evaluate_with((RATE, v), of_rate),
+                    }
+                    if let Some(found) = values.outputs_from(0).next() {
+                        out.copy_from_slice(&found.0[..count]);
+                    }
+                    if values.is_regular() {
+                        continue;
+                    }
+                    regular = values.regular_lanes();
+                }
+                for (lane, out) in out.iter_mut().enumerate().filter(|(lane, _)| !regular[*lane]) {
+                    let known = !v.0[lane].is_nan();
+                    let energy = known.then(|| self.native_energy_at(time, q.0[lane], v.0[lane]));
+                    *out = energy.flatten().unwrap_or(f64::NAN);
                 }
             }
-            for (lane, out) in out.iter_mut().enumerate().filter(|(lane, _)| !regular[*lane]) {
-                let known = !v.0[lane].is_nan();
-                let energy = known.then(|| self.native_energy_at(time, q.0[lane], v.0[lane]));
-                *out = energy.flatten().unwrap_or(f64::NAN);
-            }
         }
+        self.energies = Some(energies);
     }
 
     fn energy_at(&mut self, time: f64, form: Form, position: f64, rate: f64) -> Option<f64> {

@@ -195,6 +195,19 @@ impl Program {
         self.outputs.iter().any(|&r| timed[r as usize])
     }
 
+    /// The operations of the body that depend on an input, in order, but for the input itself.
+    pub(super) fn body_of_input(&self, input: usize) -> Vec<Register> {
+        let Some(&own) = self.inputs.get(input) else { return Vec::new() };
+        let mut depends = vec![false; self.ops.len()];
+        depends[own as usize] = true;
+        for r in 0..self.ops.len() {
+            let mut reads = depends[r];
+            self.each_operand(r as Register, &mut |operand| reads |= depends[operand as usize]);
+            depends[r] = reads;
+        }
+        self.body.iter().copied().filter(|&r| depends[r as usize] && r != own).collect()
+    }
+
     /// Whether a switch depends on an input, and not on the time and the parameters alone.
     pub(super) fn has_switches_of_inputs(&self) -> bool {
         let mut of_inputs = vec![false; self.ops.len()];

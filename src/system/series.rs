@@ -330,6 +330,7 @@ impl StepSeries for Series {
 
 /// The power of two below the size of a step, with its sign; at least 2⁻⁹³⁰, whose inverse has all its
 /// digits in double-double.
+#[inline]
 pub(super) fn unit_below(step: f64) -> f64 {
     let exponent = (step.abs().to_bits() >> 52).clamp(93, 2023);
     f64::from_bits(exponent << 52).copysign(step)

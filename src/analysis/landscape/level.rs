@@ -102,12 +102,13 @@ impl Grid<'_> {
     }
 }
 
-/// How many of the levels each value reaches. One that is undefined reaches none.
-fn ranks(values: &[f64], levels: &[f64]) -> Vec<u32> {
+/// How many of the levels each value reaches. One that is undefined reaches none. Ranks are as wide as values, so that vector
+/// instructions count several at once.
+fn ranks(values: &[f64], levels: &[f64]) -> Vec<u64> {
     let mut ranks = vec![0; values.len()];
     for level in levels {
         for (rank, value) in ranks.iter_mut().zip(values) {
-            *rank += u32::from(value >= level);
+            *rank += u64::from(value >= level);
         }
     }
     ranks
@@ -170,25 +171,23 @@ impl SegmentTable {
         let mut curves = Vec::new();
         let ends = sides().filter(|&side| self.at[self.place(side)][1] == NONE);
         let all = segments.iter().map(|(a, _)| *a);
+        let unused = |here: CellSide, used: &[bool]| {
+            let own = self.at[self.place(here)];
+            own.into_iter()
+                .map(|index| index as usize)
+                .find(|&index| used.get(index) == Some(&false))
+        };
         for start in ends.chain(all) {
-            let mut curve = vec![start];
-            let mut here = start;
-            loop {
-                let [first, second] = self.at[self.place(here)];
-                let is_left = |index: u32| index != NONE && !used[index as usize];
-                let next = match (is_left(first), is_left(second)) {
-                    (true, _) => first as usize,
-                    (false, true) => second as usize,
-                    (false, false) => break,
-                };
-                used[next] = true;
-                let (a, b) = segments[next];
+            let Some(first) = unused(start, &used) else { continue };
+            let (mut curve, mut here, mut next) = (vec![start], start, Some(first));
+            while let Some(index) = next {
+                used[index] = true;
+                let (a, b) = segments[index];
                 here = if a == here { b } else { a };
                 curve.push(here);
+                next = unused(here, &used);
             }
-            if curve.len() > 1 {
-                curves.push(curve);
-            }
+            curves.push(curve);
         }
         for side in sides() {
             let place = self.place(side);

@@ -44,6 +44,7 @@ impl DriftRecord {
     }
 
     /// Records how much moves at a time.
+    #[inline]
     pub(super) fn see_moving(&mut self, moving: f64) {
         if moving.is_finite() {
             self.most_moving = self.most_moving.max(moving);
@@ -51,6 +52,7 @@ impl DriftRecord {
     }
 
     /// Adds what moves at a time to its mean. What moves of a motion that is lost is no measure of it.
+    #[inline]
     pub(super) fn note_moving(&mut self, time: f64, distance: f64, moving: f64) {
         let mean = self.moving.value();
         let is_lost = self.worst > LOST || distance.abs() > LOST * moving.max(mean);
@@ -61,6 +63,7 @@ impl DriftRecord {
 
     /// Begins anew where so much moves that the motion had not begun before: the noise of a rest is no drift of what follows.
     /// Returns whether it does.
+    #[inline]
     pub(super) fn begin_if_at_rest(&mut self, time: f64, distance: f64, moving: f64) -> bool {
         let is_noise = distance.abs() <= LEFT * moving;
         let begins = self.worst > LEFT && is_noise && is_beginning(moving, self.worst_scale);

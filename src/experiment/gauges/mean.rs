@@ -26,6 +26,7 @@ impl Mean {
         Mean { time, value, weight }
     }
 
+    #[inline]
     pub(super) fn note(&mut self, time: f64, value: f64) {
         if value.is_finite() {
             let weight = (time - self.time).abs();
@@ -39,6 +40,7 @@ impl Mean {
         }
     }
 
+    #[inline]
     pub(super) fn value(&self) -> f64 {
         self.value
     }

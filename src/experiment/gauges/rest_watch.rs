@@ -13,6 +13,7 @@ const DIGITS: f64 = 8.0;
 const MOVING: f64 = 64.0;
 
 /// Whether the energy of motion is that of rounding errors, given the sums over the terms of the energy.
+#[inline]
 pub(super) fn is_slow(energy: &TermSums) -> bool {
     let digits = MOVING * f64::EPSILON;
     energy.beyond <= digits * digits * energy.size

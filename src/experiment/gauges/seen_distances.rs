@@ -46,6 +46,7 @@ impl SeenDistances {
     }
 
     /// Records a distance, with what made it, if it is no more than rounding of the state; `change` is that of the value.
+    #[inline]
     pub(super) fn note_if_rounding(
         &mut self,
         (time, distance): (f64, f64),

@@ -32,6 +32,8 @@ pub(in crate::integrate) struct TaylorBatch {
     system: System,
     series: BatchSeries,
     rule: BatchStepSize,
+    /// Whether the law has poles that a series may not show.
+    has_poles: bool,
     states: BatchStates,
     lanes: [TaylorLane; BATCH],
     /// The state that was asked for last.
@@ -60,6 +62,7 @@ impl TaylorBatch {
         let state = State::new(0.0, system.form(), vec![0.0; system.state_len()]);
         Some(TaylorBatch {
             system: system.clone(),
+            has_poles: series.divisors().next().is_some() || series.tangents().next().is_some(),
             series,
             rule: BatchStepSize::new(tolerance, orders),
             states: BatchStates::new(system.form(), system.state_len()),
@@ -92,6 +95,7 @@ impl TaylorBatch {
         self.lanes[lane].status = LaneStatus::Empty;
     }
 
+    #[inline]
     pub(in crate::integrate) fn status(&self, lane: usize) -> LaneStatus {
         self.lanes[lane].status
     }
@@ -101,6 +105,7 @@ impl TaylorBatch {
         &self.shown
     }
 
+    #[inline]
     pub(in crate::integrate) fn time(&self, lane: usize) -> f64 {
         self.states.time(lane).high
     }
@@ -126,16 +131,16 @@ impl TaylorBatch {
         }
         self.series.set_states(&self.states, &going);
         let Some(steps) = self.expand(going, &left) else { return false };
+        let hides = |lane: usize, after: DoubleDouble, scale: f64| {
+            self.has_poles && may_hide_in_lane(&self.series, lane, (after.high / scale).abs())
+        };
         let mut after = [DoubleDouble::ZERO; BATCH];
         let mut moving = [false; BATCH];
         for (i, lane) in self.lanes.iter_mut().enumerate() {
             if going[i] {
                 let scale = self.series.scale().0[i].abs();
                 match lane.choose(steps[i], scale, (self.states.time(i).high, left[i])) {
-                    Some(chosen)
-                        if self.series.keeps_digits(i)
-                            && !may_hide_in_lane(&self.series, i, (chosen.high / scale).abs()) =>
-                    {
+                    Some(chosen) if self.series.keeps_digits(i) && !hides(i, chosen, scale) => {
                         (after[i], moving[i]) = (chosen, true);
                     }
                     _ => lane.status = LaneStatus::Irregular,
@@ -165,7 +170,7 @@ impl TaylorBatch {
         going: [bool; BATCH],
         left: &[DoubleDouble; BATCH],
     ) -> Option<[f64; BATCH]> {
-        let mut units = [(); BATCH].map(|()| UnitTrials::default());
+        let mut units = [const { UnitTrials::NONE }; BATCH];
         let mut steps = [f64::NAN; BATCH];
         let mut searching = going;
         loop {
@@ -236,6 +241,7 @@ impl TaylorBatch {
 impl TaylorLane {
     /// The time to step from a time with so much `left`, where the series allows `step` in its unit `scale`; `None` where that is
     /// out of the ordinary.
+    #[inline]
     fn choose(
         &mut self,
         step: f64,

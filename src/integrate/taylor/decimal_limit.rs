@@ -15,6 +15,7 @@ impl DecimalLimit {
     pub(super) const NONE: DecimalLimit =
         DecimalLimit { rounded: f64::NAN, exact: DoubleDouble::ZERO };
 
+    #[inline]
     pub(super) fn exact(&mut self, limit: f64) -> DoubleDouble {
         if self.rounded != limit {
             *self = DecimalLimit { rounded: limit, exact: DoubleDouble::from_decimal(limit) };

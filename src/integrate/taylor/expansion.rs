@@ -20,7 +20,7 @@ impl Taylor {
     /// returns the size of that step, which may be longer than `left`.
     pub(super) fn expand(&mut self, left: f64) -> Result<f64, MotionError> {
         let (size, direction) = (left.abs(), left.signum());
-        let mut units = UnitTrials::default();
+        let mut units = UnitTrials::NONE;
         let mut known = Vec::new();
         loop {
             self.series.build(&self.state)?;
@@ -100,14 +100,12 @@ pub(super) enum UnitTrial {
 /// The number of units taken as the series suggests; after that the interval is bisected.
 const ASKED_FOR: u32 = 12;
 
-impl Default for UnitTrials {
-    fn default() -> UnitTrials {
-        UnitTrials { short: 0.0, long: f64::INFINITY, tried: 0 }
-    }
-}
-
 impl UnitTrials {
+    /// Nothing is tried yet.
+    pub(super) const NONE: UnitTrials = UnitTrials { short: 0.0, long: f64::INFINITY, tried: 0 };
+
     /// Judges a unit in which the series allows a step, with this much to go.
+    #[inline]
     pub(super) fn judge(&mut self, step: f64, left: f64, unit: f64) -> UnitTrial {
         let wanted = step.min(left);
         if (unit * NEARBY_UNITS.0..=unit * NEARBY_UNITS.1).contains(&wanted) {

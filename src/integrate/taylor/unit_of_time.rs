@@ -13,6 +13,7 @@ pub(super) struct UnitOfTime {
 
 impl UnitOfTime {
     /// The scale of the next series, with `left` to go, after one of this scale.
+    #[inline]
     pub(super) fn next(&mut self, scale: f64, left: f64) -> f64 {
         let scale = if self.is_known { scale } else { left };
         let step = self.taken.take().unwrap_or(scale).abs();
@@ -21,6 +22,7 @@ impl UnitOfTime {
     }
 
     /// Takes the unit from a step of this size, where the series allowed `allowed` of the time that was `left`.
+    #[inline]
     pub(super) fn take(&mut self, size: f64, allowed: f64, left: f64) {
         self.taken = Some(allowed.min(left.abs()).min(4.0 * size));
     }

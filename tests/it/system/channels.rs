@@ -203,6 +203,35 @@ L = "1/2*(2 + cos(x))*x'^2 - exp(x)/(1 + exp(x)) + ln(x + 5)"
     }
 }
 
+/// What depends on the place alone is evaluated once for all rates.
+#[test]
+fn a_grid_has_the_bits_of_its_points() {
+    let (model, system) = compile(
+        r#"
+title = "A well with an edge"
+[coordinates]
+x = { initial = 1.0 }
+[lagrangian]
+L = "1/2*(2 + cos(x))*x'^2 + sin(x)*x' - sqrt(x + 2)"
+"#,
+    );
+    let mut observer = system.observer(&parameters(&model));
+    let positions: Vec<f64> = (0..21).map(|i| 0.37 * f64::from(i) - 4.0).collect();
+    let rates = [-1.3, 0.0, 0.7, 1e200, 4.0];
+    for form in [Form::Velocity, Form::Momentum] {
+        let mut grid = vec![0.0; positions.len() * rates.len()];
+        observer.energy_on_grid(0.0, form, &positions, &rates, &mut grid);
+        assert_eq!(grid.iter().filter(|energy| energy.is_nan()).count(), 6 * rates.len());
+        for (k, energy) in grid.into_iter().enumerate() {
+            let (x, rate) = (positions[k % 21], rates[k / 21]);
+            let mut alone = [0.0];
+            observer.energy_on_grid(0.0, form, &[x], &[rate], &mut alone);
+            let same = alone[0].to_bits() == energy.to_bits() || alone[0].is_nan() && energy.is_nan();
+            assert!(same, "{energy} at {x}, {rate}, alone {}", alone[0]);
+        }
+    }
+}
+
 /// Where L has a term linear in the velocity, and a mass that depends on the place and vanishes somewhere.
 #[test]
 fn the_energy_on_a_grid_follows_from_momenta_that_are_not_zero_at_rest() {
