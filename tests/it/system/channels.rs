@@ -226,7 +226,8 @@ L = "1/2*(2 + cos(x))*x'^2 + sin(x)*x' - sqrt(x + 2)"
             let (x, rate) = (positions[k % 21], rates[k / 21]);
             let mut alone = [0.0];
             observer.energy_on_grid(0.0, form, &[x], &[rate], &mut alone);
-            let same = alone[0].to_bits() == energy.to_bits() || alone[0].is_nan() && energy.is_nan();
+            let same =
+                alone[0].to_bits() == energy.to_bits() || alone[0].is_nan() && energy.is_nan();
             assert!(same, "{energy} at {x}, {rate}, alone {}", alone[0]);
         }
     }
