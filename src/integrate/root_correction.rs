@@ -26,6 +26,11 @@ const CONVERGES: f64 = 1e-3;
 /// A correction below this part of the piece is none.
 const NOTHING: f64 = 1e-20;
 
+/// A root is simple where the slope times the piece is this part of the function's terms: it has ten digits there and more. A
+/// correction below the second part of the piece that is not much less than the one before is then rounding of the function.
+const SIMPLE: f64 = 1e-3;
+const ROUNDING: f64 = 1e-14;
+
 /// The first distance of a bracket from the root of the series, as a part of the piece, and how often it is doubled: up
 /// to a tenth of the piece.
 const NEAREST: f64 = 1e-16;
@@ -63,21 +68,10 @@ impl RootCorrection<'_> {
         x: f64,
         side: f64,
     ) -> Result<Option<DoubleDouble>, MotionError> {
-        let (slope, length) = (self.polynomial.slope(x), self.piece.length);
-        let (mut root, mut before) = (DoubleDouble::from(x), f64::INFINITY);
-        for _ in 0..CORRECTIONS {
-            let correction = self.value(root)? / slope;
-            let size = correction.high.abs();
-            if size.is_nan() || size >= SMALL * length || size > CONVERGES * before {
-                return self.bracketed(x, side);
-            }
-            root = root - correction;
-            if size <= NOTHING * length {
-                break;
-            }
-            before = size;
+        match newton(self.polynomial, x, |x| self.value(x))? {
+            Some(root) => Ok(Some(self.time(root))),
+            None => self.bracketed(x, side),
         }
-        Ok(Some(self.time(root)))
     }
 
     /// The root between two points on both sides of `x` where the function has both signs, the nearest such points.
@@ -113,6 +107,9 @@ impl RootCorrection<'_> {
     ) -> Result<DoubleDouble, MotionError> {
         for _ in 0..HALVINGS {
             let middle = (low + high) * 0.5;
+            if middle == low || middle == high {
+                break;
+            }
             let value = self.value(middle)?.high;
             if value == 0.0 {
                 return Ok(middle);
@@ -124,5 +121,75 @@ impl RootCorrection<'_> {
             }
         }
         Ok((low + high) * 0.5)
+    }
+}
+
+/// The root of a function near `x`, as exact as its values, by its series' slope there; none where that does not converge, as about a
+/// root of a higher order.
+fn newton(
+    series: &StepPolynomial,
+    x: f64,
+    mut value: impl FnMut(DoubleDouble) -> Result<DoubleDouble, MotionError>,
+) -> Result<Option<DoubleDouble>, MotionError> {
+    let (slope, length) = (series.slope(x), series.length);
+    let (mut root, mut before) = (DoubleDouble::from(x), f64::INFINITY);
+    for _ in 0..CORRECTIONS {
+        let correction = value(root)? / slope;
+        let size = correction.high.abs();
+        if size.is_nan() || size >= SMALL * length {
+            return Ok(None);
+        }
+        if size > CONVERGES * before {
+            let is_simple = slope.abs() * length >= SIMPLE * series.size();
+            return Ok((is_simple && size <= ROUNDING * length).then_some(root));
+        }
+        root = root - correction;
+        if size <= NOTHING * length {
+            break;
+        }
+        before = size;
+    }
+    Ok(Some(root))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What Newton's iteration from `x` finds of a function whose values have errors of this size.
+    fn found(coefficients: &[f64], x: f64, error: f64) -> Option<DoubleDouble> {
+        let series =
+            StepPolynomial { coefficients: coefficients.to_vec(), length: 1.0, soonest: 0.0 };
+        let mut errors = [1.0, -0.8, 0.7].map(|part| error * part).into_iter();
+        let root = newton(&series, x, |x| {
+            let terms = coefficients.iter().rev().map(|&c| DoubleDouble::from(c));
+            let exact = terms.fold(DoubleDouble::ZERO, |sum, c| sum * x + c);
+            Ok(exact + DoubleDouble::from(errors.next().expect("three are enough")))
+        });
+        root.expect("it has values")
+    }
+
+    #[test]
+    fn a_simple_root_is_as_exact_as_the_values_of_the_function() {
+        // (x − 1/4) (x + 2)
+        let simple = [-0.5, 1.75, 1.0];
+        for error in [0.0, 1e-19, 1e-17, 1e-16, 1e-15] {
+            let root = found(&simple, 0.25 + 1e-15, error).expect("the root is simple");
+            let off = (root - DoubleDouble::from(0.25)).high;
+            assert!(off.abs() <= 2.0 * error / 2.25 + 1e-30, "{error:e}: {off:e}");
+        }
+        // errors as large as those of another function
+        assert_eq!(found(&simple, 0.25, 1e-12), None);
+    }
+
+    #[test]
+    fn a_root_of_a_higher_order_is_none_that_the_slope_finds() {
+        // (x − 1/4)² and (x − 1/4)³
+        let (double, triple) = ([0.0625, -0.5, 1.0], [-0.015625, 0.1875, -0.75, 1.0]);
+        for (coefficients, off) in [(&double[..], 1e-8), (&triple[..], 1e-6)] {
+            for error in [0.0, 1e-17] {
+                assert_eq!(found(coefficients, 0.25 + off, error), None, "{coefficients:?}");
+            }
+        }
     }
 }
