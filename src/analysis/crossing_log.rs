@@ -103,7 +103,11 @@ impl CrossingLog {
 
     /// The stored crossings of a surface by a motion with this many channels, the oldest first: `row[0]` is the time,
     /// `row[1 + channel]` a channel's value.
-    pub fn rows(&self, surface: usize, channels: usize) -> impl DoubleEndedIterator<Item = &[f64]> {
+    pub fn rows(
+        &self,
+        surface: usize,
+        channels: usize,
+    ) -> impl DoubleEndedIterator<Item = &[f64]> + Clone {
         let crossed = self.surfaces.get(surface).into_iter();
         let chunks = crossed.flat_map(|c| c.sealed.iter().chain(std::iter::once(&c.open)));
         chunks.flat_map(move |chunk| chunk.chunks_exact(channels + 1))

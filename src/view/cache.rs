@@ -1,8 +1,10 @@
-//! A cache between frames, of what is drawn until what it shows changes: drawn trails, level curves, lines of pictures and the text of
-//! the law.
+//! A cache between frames, of what is drawn until what it shows changes: drawn trails and crossings, level curves, lines of pictures,
+//! the text of the law.
 //!
 //! In: the recorded motion, and what decides how it is drawn. Out: the same picture as without it, at the cost of what
 //! is new. Never here: anything that is not a pure function of the application and the render style.
+
+mod crossings;
 
 use std::sync::Arc;
 
@@ -17,6 +19,8 @@ use crate::analysis::Landscape;
 use crate::experiment::Trail;
 use crate::instrument::{Layer, Level, PlaneField};
 use crate::mechanics::Equations;
+pub(super) use crossings::CrossingsKey;
+use crossings::{DrawnCrossings, same};
 
 /// The widths at which the text of the law is kept.
 const LAWS: usize = 2;
@@ -32,6 +36,7 @@ pub(super) struct FrameCache {
     levels: Vec<CachedEntry<LevelsKey, Raster>>,
     fields: Vec<CachedEntry<FieldKey, Raster>>,
     lines: Vec<CachedEntry<LinesKey, Raster>>,
+    crossings: Vec<CachedEntry<CrossingsKey, DrawnCrossings>>,
     /// The law as laid out for a pane, and for its first line alone.
     law: Vec<(LawKey, Vec<Row>)>,
     /// How many rows of trails have been stroked.
@@ -130,6 +135,7 @@ impl FrameCache {
         self.levels.iter_mut().for_each(|entry| entry.used = false);
         self.fields.iter_mut().for_each(|entry| entry.used = false);
         self.lines.iter_mut().for_each(|entry| entry.used = false);
+        self.crossings.iter_mut().for_each(|entry| entry.used = false);
     }
 
     /// Ends a frame: what it did not need is dropped.
@@ -138,6 +144,7 @@ impl FrameCache {
         self.levels.retain(|entry| entry.used);
         self.fields.retain(|entry| entry.used);
         self.lines.retain(|entry| entry.used);
+        self.crossings.retain(|entry| entry.used);
     }
 
     /// The trail of a motion, carried on to its newest row; `locate` gives the point of a row: right, up, towards the
@@ -235,6 +242,23 @@ impl FrameCache {
         &self.lines[index].value
     }
 
+    /// The raster of where a motion has crossed a surface, with what is new of it. A row of crossings begins with their time.
+    pub(super) fn crossings<'a>(
+        &mut self,
+        key: CrossingsKey,
+        glyphs: Glyphs,
+        rows: impl DoubleEndedIterator<Item = &'a [f64]> + Clone,
+    ) -> &Raster {
+        let index = self.crossings.iter().position(|entry| entry.key == key).unwrap_or_else(|| {
+            let value = DrawnCrossings::empty(&key, glyphs);
+            self.crossings.push(CachedEntry { key, value, used: true });
+            self.crossings.len() - 1
+        });
+        let CachedEntry { key, value, used } = &mut self.crossings[index];
+        *used = true;
+        value.carry_on(key, glyphs, rows)
+    }
+
     /// The rows of the law's text at a width, made where they are not known yet.
     pub(super) fn law(
         &mut self,
@@ -324,11 +348,6 @@ fn same_line((level, layer): &(Level, Layer), (other_level, other): &(Level, Lay
         }
         _ => false,
     }
-}
-
-/// Whether two rows are the same bit by bit.
-fn same(a: &[f64], b: &[f64]) -> bool {
-    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits())
 }
 
 /// The times from which the rows of a trail have each age, for its rows and the current state after them.

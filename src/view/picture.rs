@@ -5,7 +5,7 @@
 
 use ratatui::layout::Rect;
 
-use super::cache::{self, Track, TrailKey};
+use super::cache::{self, CrossingsKey, Track, TrailKey};
 use super::canvas::{Canvas, StyledText, row, wide};
 use super::ink::{colourless_mark, marker, pen};
 use super::marks::Marks;
@@ -347,7 +347,12 @@ fn draw_layer(
         }
         Layer::Field(found) => field::draw(canvas, frame, found),
         Layer::Crossings { section, channels, ink } => {
-            raster.points(frame, crossings(q, *section, *channels), &pen(canvas, *ink, level));
+            let (section, channels) = (*section, *channels);
+            let pen = pen(canvas, *ink, level);
+            let epoch = q.snapshot.epoch;
+            let key = CrossingsKey { epoch, section, channels, frame: *frame, pen };
+            let rows = q.snapshot.crossings.rows(section, q.snapshot.values.len());
+            raster.lay_points(canvas.cache.crossings(key, style.glyphs, rows));
         }
         Layer::LastCrossing { section, channels, shape } => {
             if let Some(at) = crossings(q, *section, *channels).next_back() {

@@ -348,6 +348,18 @@ impl Raster {
         }
     }
 
+    /// Adds everything on a raster of points. In ASCII a cell shows them together with those of the same rank in it.
+    pub fn lay_points(&mut self, other: &Self) {
+        self.lay(other);
+        if self.glyphs.is_ascii() {
+            for (cell, other) in self.cells.iter_mut().zip(&other.cells) {
+                if other.dots != 0 && cell.rank == other.rank {
+                    cell.sign = Some(points(cell.upper));
+                }
+            }
+        }
+    }
+
     /// The number of dots in a cell: columns, rows.
     fn cell(&self) -> [i32; 2] {
         let (wide, high) = self.glyphs.dots();
