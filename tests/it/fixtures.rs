@@ -1,6 +1,7 @@
 //! Test data for `app` and `view`: loaded systems, snapshots made without an integrator, and keys written as words.
 
 use std::collections::HashMap;
+use std::hash::Hash;
 use std::sync::{Arc, LazyLock, Mutex, OnceLock, PoisonError};
 use std::time::Duration;
 
@@ -19,16 +20,23 @@ pub(crate) fn catalog() -> &'static Catalog {
     CATALOG.get_or_init(|| Catalog::with_folder(None))
 }
 
+/// What several tests share, by its key.
+type Shelf<K, T> = Mutex<HashMap<K, Arc<OnceLock<T>>>>;
+
+/// Makes a value the first time it is wanted; the others wait for that.
+fn once<K: Eq + Hash, T: Clone>(shelf: &Shelf<K, T>, key: K, make: impl FnOnce() -> T) -> T {
+    let place = {
+        let mut shelf = shelf.lock().unwrap_or_else(PoisonError::into_inner);
+        Arc::clone(shelf.entry(key).or_default())
+    };
+    place.get_or_init(make).clone()
+}
+
 /// A shipped preset, lowered; it is cached for the whole process.
 pub(crate) fn loaded(name: &str, epoch: u64) -> Loaded {
-    type Shelf = Mutex<HashMap<String, Arc<OnceLock<Loaded>>>>;
-    static SHELF: LazyLock<Shelf> = LazyLock::new(Shelf::default);
-    let place = {
-        let mut shelf = SHELF.lock().unwrap_or_else(PoisonError::into_inner);
-        Arc::clone(shelf.entry(name.to_owned()).or_default())
-    };
-    let loaded = place.get_or_init(|| lower(name, 1, catalog().find(name).unwrap()));
-    Loaded { epoch, ..loaded.clone() }
+    static SHELF: LazyLock<Shelf<String, Loaded>> = LazyLock::new(Shelf::default);
+    let make = || lower(name, 1, catalog().find(name).unwrap());
+    Loaded { epoch, ..once(&SHELF, name.to_owned(), make) }
 }
 
 /// A shipped preset, compiled anew: no other test has begun its machine code.
@@ -136,9 +144,11 @@ pub(crate) fn in_lab() -> App {
     LAB.clone()
 }
 
-/// The application with a shipped preset in the lab and a snapshot at `time`.
+/// The application with a shipped preset in the lab and a snapshot at `time`; with the answers of its jobs, some of which take
+/// a minute, it is cached for the whole process.
 pub(crate) fn lab(name: &str, time: f64) -> App {
-    showing(loaded(name, 1), time)
+    static SHELF: LazyLock<Shelf<(String, u64), App>> = LazyLock::new(Shelf::default);
+    once(&SHELF, (name.to_owned(), time.to_bits()), || showing(loaded(name, 1), time))
 }
 
 /// The application with a system in the lab and a snapshot at `time`.

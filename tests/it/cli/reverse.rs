@@ -28,8 +28,8 @@ fn a_regular_motion_returns_to_rounding() {
 #[test]
 fn a_chaotic_motion_returns_to_the_error_of_a_step_times_its_growth() {
     let start = ["--init=x=0", "--init=y=-0.18", "--init=p_x=0.46", "--init=p_y=0.01"];
-    for (tolerance, until) in [("1e-9", "100"), ("1e-12", "120")] {
-        let words = [&["henon-heiles", "--until", until, "--tolerance", tolerance], &start[..]];
+    for tolerance in ["1e-9", "1e-12"] {
+        let words = [&["henon-heiles", "--until", "60", "--tolerance", tolerance], &start[..]];
         let words = [&words.concat()[..], &["--method", "dop853"]].concat();
         let found = reverse(&words);
         let (error, expected) = (number(&found, "return_error"), number(&found, "expected"));
