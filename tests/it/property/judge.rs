@@ -276,7 +276,7 @@ struct Sensitivity {
     error: f64,
 }
 
-/// That of the steadiest motion: what it is allowed is the least that any is.
+/// The sensitivity of the steadiest motion, which is allowed the least.
 const INSENSITIVE: Sensitivity = Sensitivity { growth: 1.0, error: 0.0 };
 
 fn distance(a: &[f64], b: &[f64]) -> f64 {
@@ -352,9 +352,7 @@ fn judge(
     budget: Budget,
     cancel: &Cancel,
 ) -> Outcome {
-    // what takes the judge too long is not compared: only a failure can say something, and most come early
-    let steps = if matches!(known, Err(Lost::TooLong)) { budget.steps / 10 } else { budget.steps };
-    let reported = match run(as_run, Budget { steps, ..budget }, cancel) {
+    let reported = match run(as_run, budget, cancel) {
         Ok(reported) => reported,
         Err(outcome) => return outcome,
     };
