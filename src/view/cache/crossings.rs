@@ -76,6 +76,7 @@ mod tests {
     use ratatui::style::Style;
 
     use super::*;
+    use crate::num::math;
     use crate::view::plot::Scale;
 
     fn shown(raster: &Raster, area: Rect) -> Buffer {
@@ -94,7 +95,7 @@ mod tests {
         let key = CrossingsKey { epoch: 1, section: 0, channels: [0, 1], frame, pen };
         let row = |k: usize, way: f64| {
             let angle = way * k as f64;
-            vec![k as f64, angle.sin(), (1.7 * angle).cos()]
+            vec![k as f64, math::sin(angle), math::cos(1.7 * angle)]
         };
         let all = |range: std::ops::Range<usize>, way: f64| range.map(|k| row(k, way)).collect();
         let logs: [Vec<Vec<f64>>; 9] = [
