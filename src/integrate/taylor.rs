@@ -9,6 +9,7 @@
 //! high-order Taylor methods", Experimental Mathematics 14 (2005) 99; F. Biscani, D. Izzo, Monthly
 //! Notices of the Royal Astronomical Society 504 (2021) 2614.
 
+mod approach;
 mod argument_step;
 mod batch;
 mod batch_step_size;
@@ -37,6 +38,7 @@ mod trial_velocities;
 mod unit_of_time;
 mod verification;
 
+use approach::Approach;
 pub(super) use batch::TaylorBatch;
 use collocation_step::CollocationStep;
 use decimal_limit::DecimalLimit;
@@ -96,6 +98,8 @@ pub(super) struct Taylor {
     course: StepCourse,
     parameters: Vec<f64>,
     limit: DecimalLimit,
+    /// The approach to a singularity that the last steps were short for.
+    approach: Option<Approach>,
 }
 
 /// What the last step followed, which its dense output follows too.
@@ -140,6 +144,7 @@ impl Taylor {
             course: StepCourse::Series,
             parameters: Vec::new(),
             limit: DecimalLimit::NONE,
+            approach: None,
         })
     }
 
@@ -277,6 +282,7 @@ impl Stepper for Taylor {
         self.state = state;
         self.begin = self.state.time;
         (self.history, self.course) = (StepHistory::default(), StepCourse::Series);
+        self.approach = None;
         self.parameters = parameters.to_vec();
         let parameters = self.system.inputs(parameters);
         self.series.set_parameters(&parameters);
@@ -291,10 +297,11 @@ impl Stepper for Taylor {
         match self.step_to(limit) {
             Err(error) if self.wants_digits(&error) => {
                 self.begin_passage()?;
-                self.step_to(limit)
+                self.step_to(limit)?;
             }
-            outcome => outcome,
+            outcome => outcome?,
         }
+        self.watch_approach(limit)
     }
 
     fn replace_state(&mut self, state: &State) {

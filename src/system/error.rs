@@ -99,6 +99,9 @@ pub enum MotionErrorKind {
     StepUnderflow(f64),
     /// The same where forces have grown without bound and velocities have not, as on the way to x = 0 with the potential |x|^0.1.
     ForceUnbounded(f64),
+    /// Ever shorter steps come ever nearer to an instant and do not reach it, as that of sin(1/(1 − t)). Contains the instant and the
+    /// step size.
+    Unreachable(f64, f64),
     /// Tangent vectors cannot be carried on, while the motion itself continues.
     NoDerivative,
     /// The time has too few digits for the next step or impulse. Contains the spacing of
@@ -243,6 +246,11 @@ impl fmt::Display for MotionError {
             MotionErrorKind::StepUnderflow(_) | MotionErrorKind::ForceUnbounded(_) => {
                 write!(f, "the step became too small to move the clock at t = {time}")?;
             }
+            MotionErrorKind::Unreachable(instant, step) => write!(
+                f,
+                "no number of steps reaches t = {}: they have come to {step:.1e} at t = {time}",
+                printable::number(*instant)
+            )?,
             MotionErrorKind::NoDerivative => {
                 write!(f, "the tangent vectors have no limit at t = {time}")?;
             }
@@ -368,6 +376,9 @@ impl fmt::Display for MotionError {
                  digit of the time is more than can be neglected"
             }
             MotionErrorKind::StepUnderflow(_) => ": a collision or another singularity lies ahead",
+            MotionErrorKind::Unreachable(..) => {
+                ": the law has an essential singularity there; end the motion before it"
+            }
             MotionErrorKind::NoDerivative => {
                 ": the motion itself continues, so that no collision lies there, but a pole of the coordinates or another place at \
                  which motions have no derivative by their start; other coordinates may have one"

@@ -1024,3 +1024,22 @@ fn a_singular_configuration_of_the_comparison_motion_is_called_its_own() {
     assert!((error_time(&message) - (std::f64::consts::FRAC_PI_2 - 0.3) / 1.1).abs() < 1e-9);
     assert!(!message.contains("comparison"), "{message}");
 }
+
+/// At an essential singularity of the law every number of steps ends before it, which is known after 16,384 of them. What lies
+/// before it is computed, and a pole that is no such singularity is named as ever.
+#[test]
+fn an_essential_singularity_is_reported_where_steps_never_arrive() {
+    let driven = |drive: &str| {
+        format!(
+            "[coordinates]\nx = {{ initial = 0.3, velocity = 0.1 }}\n[lagrangian]\nL = \"1/2*x'^2 - x*{drive}\"\n"
+        )
+    };
+    for drive in ["sin(1/(1 - t))", "sin(exp(1/(1 - t)))"] {
+        let message = error(file(&driven(drive)), 2.0);
+        assert!(message.starts_with("no number of steps reaches t = 1:"), "{drive}: {message}");
+        assert!(message.contains("essential singularity"), "{drive}: {message}");
+        run(&mut file(&driven(drive)), 0.9);
+    }
+    let message = error(file(&driven("1/(1 - t)")), 2.0);
+    assert!(!message.contains("essential"), "{message}");
+}

@@ -5,7 +5,8 @@
 
 use crate::system::{ChannelKind, Form, System, TermSums};
 
-/// What changes by no more than so many of its last digits, in units of ε, is at rest.
+/// What changes by no more than so many of its last digits, in units of ε, is at rest. Under constraints those of the largest coordinate
+/// count: a state is moved back onto them, and what is zero with it, by the rounding of others.
 const DIGITS: f64 = 8.0;
 
 /// The energy of motion at rest is at most that of a change by so many last digits: the square of this part of the energy's terms. The
@@ -29,6 +30,7 @@ struct Watched {
 #[derive(Clone, Debug)]
 pub(super) struct RestWatch {
     watched: Vec<Watched>,
+    is_constrained: bool,
     has_moved: bool,
 }
 
@@ -38,7 +40,8 @@ impl RestWatch {
         let positions = channels.filter(|(_, one)| matches!(one.kind, ChannelKind::Position(_)));
         let watched = positions.map(|(channel, _)| Watched { channel, start: f64::NAN }).collect();
         // variables of brackets have no energy of motion
-        RestWatch { watched, has_moved: system.form() == Form::Variables }
+        let has_moved = system.form() == Form::Variables;
+        RestWatch { watched, is_constrained: system.constraints() > 0, has_moved }
     }
 
     /// Takes the current place as that of rest.
@@ -48,9 +51,11 @@ impl RestWatch {
     }
 
     pub(super) fn observe(&mut self, values: &[f64]) {
+        let size = |one: &Watched| one.start.abs().max(values[one.channel].abs());
+        let largest = self.watched.iter().map(size).fold(0.0, f64::max);
         let is_there = |one: &Watched| {
             let now = values[one.channel];
-            let digit = f64::EPSILON * one.start.abs().max(now.abs());
+            let digit = f64::EPSILON * if self.is_constrained { largest } else { size(one) };
             (now - one.start).abs() <= DIGITS * digit
         };
         self.has_moved |= !self.watched.iter().all(is_there);
@@ -71,11 +76,22 @@ mod tests {
         let unit = f64::EPSILON;
         let is_in_place = |off: f64| {
             let watched = vec![Watched { channel: 0, start: 1.0 }];
-            let mut watch = RestWatch { watched, has_moved: false };
+            let mut watch = RestWatch { watched, is_constrained: false, has_moved: false };
             watch.observe(&[1.0 - unit * off]);
             watch.observe(&[1.0]);
             watch.is_in_place()
         };
+        let is_in_place_beside = |is_constrained: bool| {
+            let watched = [0.0, 1.0].iter().enumerate();
+            let watched = watched.map(|(channel, &start)| Watched { channel, start }).collect();
+            let mut watch = RestWatch { watched, is_constrained, has_moved: false };
+            watch.observe(&[7.5 * unit, 1.0]);
+            let is_in_place = watch.is_in_place();
+            watch.observe(&[8.5 * unit, 1.0]);
+            (is_in_place, watch.is_in_place())
+        };
+        assert_eq!(is_in_place_beside(true), (true, false));
+        assert_eq!(is_in_place_beside(false), (false, false));
         assert!(is_in_place(8.0) && !is_in_place(8.5) && !is_in_place(f64::NAN));
         let is_slow = |moving: f64| {
             let beyond = 3.0 * moving * unit * unit;

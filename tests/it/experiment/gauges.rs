@@ -316,6 +316,21 @@ fn no_shipped_motion_loses_what_it_conserves() {
     }
 }
 
+/// A body that hangs at rest at 3π/2, where x is zero to the rounding of its constraints: at rest, not too slow to be resolved.
+#[test]
+fn a_constrained_body_at_rest_beside_zero_is_at_rest() {
+    let text = "title = 'a test'\n[coordinates]\nx = { initial = \"cos(3*pi/2)\", velocity = 0 }\n\
+                y = { initial = \"sin(3*pi/2)\", velocity = 0 }\ntheta = { initial = \"3*pi/2\", velocity = 0 }\n\
+                [lagrangian]\nL = \"1/2*(x'^2 + y'^2) - 9.81*y\"\n\
+                [[constraints]]\nname = \"a\"\nexpression = \"x - cos(theta)\"\n\
+                [[constraints]]\nname = \"b\"\nexpression = \"y - sin(theta)\"\n";
+    let mut experiment = build(text, |_| ());
+    run(&mut experiment, 20.0);
+    let energy = gauge(&experiment.snapshot(), "energy");
+    assert!(matches!(energy.verdict, Verdict::Exact(_)), "{energy:?}");
+    assert!(energy.reason.ends_with("at rest"), "{energy:?}");
+}
+
 /// Carries an experiment to a time with this many steps at once.
 fn carried(experiment: &mut Experiment, time: f64, budget: u64) {
     while experiment.advance(time, budget) == AdvanceOutcome::Underway {}
