@@ -8,7 +8,7 @@ use phaselab::instrument::{Across, Layer, Need, Picture, Plot, SavedVariations, 
 use phaselab::job::{Progress, Share};
 use phaselab::model::Variation;
 
-use crate::fixtures::{begun, catalog, press};
+use crate::fixtures::{begun, lab, press};
 use crate::laboratory::{layers, measure};
 
 /// A driven oscillator with friction, x″ + x′/2 + 2 x = A cos t.
@@ -124,8 +124,7 @@ fn a_diagram_has_the_slope_of_its_points() {
 /// The ramps of the preset: ΔJ ∝ ε and ε² are slopes of −1 and −2 for each doubling of the time.
 #[test]
 fn three_ramps_measure_their_slopes() {
-    let text = catalog().find("three-ramps").unwrap().text.clone();
-    let app = begun(&text);
+    let app = lab("three-ramps", 1.0);
     let plots: Vec<Plot> = app
         .lab
         .as_ref()
