@@ -154,7 +154,7 @@ impl App {
     }
 
     /// Shows the warning of the running text that has not been shown outside the editor, after what is shown now.
-    fn tell_warning(&mut self) {
+    fn show_warning(&mut self) {
         let untold = self.workbench.top_mut().and_then(|buffer| buffer.untold.take());
         if let Some(text) = untold {
             self.notifications.add(Notification::warning(text));
@@ -189,7 +189,7 @@ impl App {
         if let Some(message) = message {
             self.notifications.show(Notification::info(message));
         }
-        self.tell_warning();
+        self.show_warning();
         let mut effects = if stopped { vec![Effect::StopCheck] } else { Vec::new() };
         if stopped {
             // a motion that waits for this text runs on without it
@@ -295,7 +295,7 @@ impl App {
                 }
                 // the editor shows it in its place
                 if !is_open {
-                    self.tell_warning();
+                    self.show_warning();
                 }
                 self.rebuilt(loaded)
             }

@@ -25,7 +25,7 @@ const SHORTEST: f64 = 1e-4;
 const FAR: f64 = 1e150;
 
 /// Over a longer time than this, in the shortest times in which velocity and acceleration at the start change
-/// anything, a velocity on a kink is nothing beside what forces do there.
+/// anything, a velocity on a kink is nothing beside what forces do there; and in the longest of these times, no step is as long.
 const SOON: f64 = 1e6;
 
 /// Over longer times than the first of these the squares of what a parabola covers between two kinks are no numbers;
@@ -57,15 +57,12 @@ pub(super) fn of(system: &System, state: &State, parameters: &[f64]) -> f64 {
     }
 }
 
-/// The limits of the first step and of the later ones. With kinks they follow from what the numbers
-/// of the motion do at the start on either side of all of them.
+/// The limits of the first step and of the later ones. They follow from what the numbers of the motion do at the start, with
+/// kinks on either side of all of them; without kinks the first one only says in which unit of time to begin, far beyond the
+/// step: in the longest that there is, series leave the range of numbers, and are computed in a wider one over and over.
 fn limits(system: &System, state: &State, parameters: &[f64]) -> (f64, f64) {
-    let whole = (FAR, FAR);
-    let Ok(state) = system.convert(state, system.form(), parameters) else { return whole };
+    let Ok(state) = system.convert(state, system.form(), parameters) else { return (FAR, FAR) };
     let mut series = system.series(ORDER, 0);
-    if series.switches() == 0 {
-        return whole;
-    }
     series.set_parameters(&system.inputs(parameters));
     let (mut shortest, mut longest) = (FAR, 0.0_f64);
     for side in [Side::Positive, Side::Negative] {
@@ -85,6 +82,9 @@ fn limits(system: &System, state: &State, parameters: &[f64]) -> (f64, f64) {
         }
     }
     let after = |time: f64| (state.time + time).min(FAR);
+    if series.switches() == 0 {
+        return (if longest > 0.0 { after(SOON * longest) } else { FAR }, FAR);
+    }
     (after(SOON * shortest), after((LATE.0 * shortest).max(LATE.1 * longest)))
 }
 

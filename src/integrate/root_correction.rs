@@ -141,7 +141,7 @@ fn newton(
         }
         if size > CONVERGES * before {
             let is_simple = slope.abs() * length >= SIMPLE * series.size();
-            return Ok((is_simple && size <= ROUNDING * length).then_some(root));
+            return Ok((is_simple && size <= ROUNDING * length).then(|| root - correction));
         }
         root = root - correction;
         if size <= NOTHING * length {

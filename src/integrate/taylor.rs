@@ -10,6 +10,7 @@
 //! Notices of the Royal Astronomical Society 504 (2021) 2614.
 
 mod approach;
+mod approach_watch;
 mod argument_step;
 mod batch;
 mod batch_step_size;

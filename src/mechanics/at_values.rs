@@ -134,11 +134,43 @@ fn may_vanish(pool: &Pool, rate: Expr, values: &Valuation) -> bool {
         }
         seen += u64::from(value.is_finite());
     }
-    seen > 0
+    seen > 0 && !has_value_beyond_kinks(pool, rate, values)
+}
+
+/// Whether a rate surely has a value somewhere, as that of a ramp which begins later than at these points.
+fn has_value_beyond_kinks(pool: &Pool, rate: Expr, values: &Valuation) -> bool {
+    let mut here = pool.clone();
+    let (rate, switches) = here.switches(rate);
+    let mut moving = here.symbols_of(rate);
+    moving.retain(|&s| !values.at(s).is_finite());
+    here.has_value_beyond_kinks(rate, &switches, &moving, &|s| values.at(s))
 }
 
 /// An expression at these values.
 fn at(pool: &mut Pool, e: Expr, values: &HashMap<Symbol, Number>) -> Expr {
     let values = values.iter().map(|(&s, &n)| (s, pool.number(n))).collect();
     pool.substitute(e, &values)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::expr::FunctionId;
+
+    /// A rate c (min(max(t, 3), 4) − 3), which is zero until t = 3: no proof that it vanishes is tried, but at c = 0.
+    #[test]
+    fn a_rate_that_begins_late_does_not_vanish() {
+        let mut pool = Pool::new();
+        let [t, c] = ["t", "c"].map(|name| pool.symbol(name));
+        let [time, factor] = [t, c].map(|s| pool.variable(s));
+        let [three, four] = [3, 4].map(|n| pool.integer(n));
+        let begun = pool.call(FunctionId::Max, &[time, three]);
+        let ended = pool.call(FunctionId::Min, &[begun, four]);
+        let late = pool.sub(ended, three);
+        let rate = pool.mul(factor, late);
+        let at = |value: f64| Valuation::default().with([(c, value)]);
+        assert!(!may_vanish(&pool, rate, &at(1.0)));
+        assert!(may_vanish(&pool, rate, &at(0.0)));
+        assert_eq!(vanishing_at(&pool, &[rate], &at(0.0)), Some(vec![c]));
+    }
 }

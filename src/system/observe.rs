@@ -24,7 +24,7 @@ pub struct Observer {
     drawn: Evaluator<f64>,
     energy: Evaluator<f64>,
     /// The energies of several points at these parameters, once a grid was asked for.
-    energies: Option<Box<Energies>>,
+    energies: Option<Box<GridEnergies>>,
     native: NativeStates,
     inputs: Vec<DoubleDouble>,
     rounded: Vec<f64>,
@@ -33,7 +33,7 @@ pub struct Observer {
 
 /// What evaluates the energy at several points.
 #[derive(Clone, Debug)]
-struct Energies {
+struct GridEnergies {
     /// `None` where they are evaluated one by one.
     values: Option<BatchValues>,
     /// The operations that depend on the rate.
@@ -188,9 +188,9 @@ impl Observer {
             if let Some(values) = &mut values {
                 values.set_parameters_of_all(&self.system.inputs(self.native.parameters()));
             }
-            Box::new(Energies { values, of_rate: program.body_of_input(RATE) })
+            Box::new(GridEnergies { values, of_rate: program.body_of_input(RATE) })
         });
-        let Energies { values, of_rate } = &mut *energies;
+        let GridEnergies { values, of_rate } = &mut *energies;
         for first in (0..positions.len()).step_by(BATCH) {
             let count = BATCH.min(positions.len() - first);
             // lanes beyond the end of the row repeat its last point

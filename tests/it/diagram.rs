@@ -8,7 +8,7 @@ use phaselab::instrument::{Across, Layer, Need, Picture, Plot, SavedVariations, 
 use phaselab::job::{Progress, Share};
 use phaselab::model::Variation;
 
-use crate::fixtures::{begun, lab, press};
+use crate::fixtures::{begun, catalog, lab, press};
 use crate::laboratory::{layers, measure};
 
 /// A driven oscillator with friction, x″ + x′/2 + 2 x = A cos t.

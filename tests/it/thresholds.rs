@@ -356,6 +356,39 @@ fn a_constant_is_left_out_of_a_drift_from_a_thousand_times_what_varies() {
     assert_eq!(word(510), "secular");
 }
 
+/// The step that rk4 chooses for the motion of a file.
+fn step_of_rk4(text: &str) -> f64 {
+    let rk4 = METHODS.iter().find(|method| method.name == "rk4").expect("a method");
+    let Run { system, parameters, .. } = Run::new(text);
+    let state = system.initial(0.0, &parameters, &[]).expect("regular");
+    let settings = Settings { step: None, tolerance: None };
+    let mut stepper = (rk4.make)(&system, &settings).expect("it fits every system");
+    stepper.start(&state, &parameters).expect("regular");
+    stepper.step(f64::INFINITY).expect("regular");
+    stepper.step_size()
+}
+
+/// A motion's own time is the same part of its period in all units of length and time, from rest and from the middle.
+#[test]
+fn a_time_scale_goes_with_the_units() {
+    let step = |rate: f64, size: f64, from_rest: bool| {
+        let (at, velocity) = if from_rest { (size, 0.0) } else { (0.0, 1.2 * rate * size) };
+        step_of_rk4(&format!(
+            "title = \"An oscillator\"\n[coordinates]\nx = {{ initial = {at:e}, velocity = {velocity:e} }}\n\
+             [parameters]\nw = {rate:e}\nl = {size:e}\n[lagrangian]\n\
+             L = \"1/2*(x'/l)^2 - 1/2*w^2*((x/l)^2 + (x/l)^4/4)\"\n"
+        ))
+    };
+    for from_rest in [true, false] {
+        let whole = step(1.0, 1.0, from_rest);
+        assert!(0.01 < whole && whole < 0.3, "{whole}");
+        for (rate, size) in [(1e-60, 1.0), (1e-9, 1e18), (1e9, 1e-18), (1e60, 1e30)] {
+            let part = rate * step(rate, size, from_rest) / whole;
+            assert!((part - 1.0).abs() < 1e-6, "{rate:e} {size:e}: {part}");
+        }
+    }
+}
+
 /// A motion's own time is that which three in four of 48 steps exceed: where a quarter of them lie behind a switch to fifty
 /// times the frequency, it is that of the fast motion.
 #[test]
@@ -374,16 +407,7 @@ fn a_time_scale_is_that_of_forty_eight_steps() {
             slow.stepper.time()
         })
         .collect();
-    let step = |switch: f64| {
-        let rk4 = METHODS.iter().find(|method| method.name == "rk4").expect("a method");
-        let Run { system, parameters, .. } = Run::new(&text(switch));
-        let state = system.initial(0.0, &parameters, &[]).expect("regular");
-        let settings = Settings { step: None, tolerance: None };
-        let mut stepper = (rk4.make)(&system, &settings).expect("it fits every system");
-        stepper.start(&state, &parameters).expect("regular");
-        stepper.step(f64::INFINITY).expect("regular");
-        stepper.step_size()
-    };
+    let step = |switch: f64| step_of_rk4(&text(switch));
     let whole = step(1e6);
     assert!(step(ends[32]) < 0.1 * whole, "{} {whole}", step(ends[32]));
     assert!(step(ends[38]) > 0.5 * whole, "{} {whole}", step(ends[38]));

@@ -4,12 +4,8 @@
 //! In: the series of what the law divides by, the steps. Out: the instant that is never reached. Never here: singularities that a
 //! finite number of steps comes to.
 
-use super::{StepCourse, Taylor};
-use crate::num;
-use crate::system::{MotionError, MotionErrorKind};
-
-/// An approach is known after so many short steps.
-const KNOWN_AFTER: u32 = 1 << 14;
+/// An approach is known after so many short steps: what lies before the instant, an event or a row, is within reach of fewer.
+const KNOWN_AFTER: u32 = 1 << 17;
 
 /// From one power of two of their number to the next the distance grows by this factor at least, counted in steps; it doubles where the
 /// argument of a function runs off at an even pace, and it would fall if the steps arrived.
@@ -23,9 +19,6 @@ const FALLEN: f64 = 0.5;
 
 /// From one power of two to the next the instant moves by no more than this part of the distance.
 const STEADY: f64 = 1e-2;
-
-/// The digits of the instant that are said.
-const SHOWN: usize = 9;
 
 /// Corrections of a zero.
 const CORRECTIONS: u32 = 6;
@@ -78,31 +71,6 @@ impl Approach {
     pub(super) fn unreachable(&self, distance: f64) -> Option<f64> {
         let is_known = self.steps >= KNOWN_AFTER && distance <= FALLEN * self.first;
         is_known.then_some(self.instant)
-    }
-}
-
-impl Taylor {
-    /// Looks at the last step, which may be one of an approach that never comes to a limit.
-    ///
-    /// # Errors
-    /// Returns an error if that is known.
-    pub(super) fn watch_approach(&mut self, limit: f64) -> Result<(), MotionError> {
-        if self.history.is_long() || !matches!(self.course, StepCourse::Series) {
-            self.approach = None;
-            return Ok(());
-        }
-        let (begin, scale) = (self.series.time().high, self.series.scale());
-        let after = nearest_zero(self.series.divisors()) * scale;
-        let size = self.state.time - begin;
-        self.approach = Approach::after(self.approach, (begin + after, after.abs()), size.abs());
-        let known = self.approach.and_then(|approach| approach.unreachable(after.abs()));
-        match known.filter(|instant| (limit - instant) * scale >= 0.0) {
-            Some(instant) => {
-                let kind = MotionErrorKind::Unreachable(num::rounded(instant, SHOWN), size.abs());
-                Err(self.system.error(kind, self.state.time, &self.state.values))
-            }
-            None => Ok(()),
-        }
     }
 }
 

@@ -115,12 +115,12 @@ mod tests {
                 let rows = log.iter().map(Vec::as_slice);
                 // others of the same rank are there already
                 let others = (0..50).map(|k| [0.3 * f64::from(k % 7) - 1.0, 0.04 * f64::from(k)]);
-                let mut kept = Raster::new(area, glyphs);
-                kept.points(&frame, others, &pen);
-                let mut anew = kept.clone();
-                kept.lay_points(drawn.carry_on(&key, glyphs, rows.clone()));
+                let mut both = Raster::new(area, glyphs);
+                both.points(&frame, others, &pen);
+                let mut anew = both.clone();
+                both.lay_points(drawn.carry_on(&key, glyphs, rows.clone()));
                 anew.points(&frame, rows.map(|row| [row[1], row[2]]), &pen);
-                assert_eq!(shown(&kept, area), shown(&anew, area), "{glyphs:?} {index}");
+                assert_eq!(shown(&both, area), shown(&anew, area), "{glyphs:?} {index}");
             }
         }
     }
